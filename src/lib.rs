@@ -1,0 +1,15 @@
+//! orthoframe: an embedded knowledge base and logic engine for robots that work inside buildings.
+
+pub mod corridor;
+pub mod draw;
+pub mod exchange;
+pub mod facts;
+pub mod geometry;
+pub mod graphplan;
+pub mod language;
+pub mod map;
+pub mod robot;
+pub mod semantics;
+pub mod store;
+pub mod strips;
+pub mod units;

@@ -1,0 +1,3 @@
+//! `ortho`: the command line of orthoframe.
+
+fn main() {}

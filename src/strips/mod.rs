@@ -1,0 +1,1 @@
+//! (stands empty until its chapter is written)

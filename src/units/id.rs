@@ -1,0 +1,33 @@
+//! Ids of the paper's tables (paper 2). Each table has a type of its own, so that none is taken for another.
+
+use serde::{Deserialize, Serialize};
+
+macro_rules! ids {
+    ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+        #[serde(transparent)]
+        pub struct $name(pub u32);
+    )+};
+}
+
+ids! {
+    /// `OrFr.ID`
+    OrFrId,
+    /// `Object.ID`: a kind of chair.
+    ObjectId,
+    /// `AreaObjects.ReplID`: one placed chair; unique over all Areas.
+    ReplicaId,
+    /// `Area.ID`
+    AreaId,
+    /// A named place to stand; beyond the paper's tables.
+    PlaceId,
+    /// `Map.ID`
+    MapId,
+    /// `Domain.ID`
+    DomainId,
+    /// `Door.ID`
+    DoorId,
+    /// `ID` of one of the …TypeList tables.
+    TypeId,
+}

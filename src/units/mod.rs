@@ -1,0 +1,23 @@
+//! Lengths, angles, frames, ids, names and places in a text: the words that every other folder speaks.
+//!
+//! Lengths are centimetres, angles degrees counter-clockwise from +x (SPEC M1). Outside numbers are
+//! checked once, where they become a [`Cm`] or a [`Deg`]; past that edge they are finite.
+//!
+//! ```
+//! use orthoframe::units::{Deg, Frame, Point};
+//!
+//! let door = Frame::new(300.0, 0.0, 0.0, Deg::new(90.0).unwrap());
+//! assert_eq!(door.apply(Point::new(10.0, 0.0)), Point::new(300.0, 10.0)); // exact, no 1e-15 left over
+//! ```
+
+mod frame;
+mod id;
+mod name;
+mod quantity;
+mod source;
+
+pub use frame::{Frame, Point, Pose, Vector};
+pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
+pub use name::{name_key, nearest_name};
+pub use quantity::{Cm, Deg, QuantityError};
+pub use source::Source;
