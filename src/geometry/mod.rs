@@ -1,1 +1,7 @@
-//! (stands empty until its chapter is written)
+//! What can be measured on a Map: prisms, distances, free floor, Passframes, routes, views.
+
+mod polygon;
+mod scene;
+
+pub use polygon::{Bounds, Polygon, nearest_on_segment};
+pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};

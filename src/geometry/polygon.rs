@@ -1,0 +1,177 @@
+//! Simple polygons of a floor plan, counter-clockwise, in cm.
+
+use crate::units::{Point, Vector};
+
+/// A closed chain of corners; the edge from the last to the first is implied. Counter-clockwise unless said otherwise.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Polygon {
+    pub corners: Vec<Point>,
+}
+
+/// An axis-parallel box.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bounds {
+    pub min: Point,
+    pub max: Point,
+}
+
+impl Bounds {
+    /// The box that holds nothing; any point grows it.
+    pub const EMPTY: Self = Self {
+        min: Point::new(f64::INFINITY, f64::INFINITY),
+        max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    #[must_use]
+    pub fn of(points: impl IntoIterator<Item = Point>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self {
+            min: Point::new(b.min.x.min(p.x), b.min.y.min(p.y)),
+            max: Point::new(b.max.x.max(p.x), b.max.y.max(p.y)),
+        })
+    }
+
+    #[must_use]
+    pub fn grown(&self, by: f64) -> Self {
+        Self { min: self.min - Vector::new(by, by), max: self.max + Vector::new(by, by) }
+    }
+
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+    }
+
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
+    }
+
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        Self::of([self.min, self.max, other.min, other.max])
+    }
+}
+
+impl Polygon {
+    #[must_use]
+    pub fn new(corners: Vec<Point>) -> Self {
+        Self { corners }
+    }
+
+    /// Edges in order; edge `i` starts at corner `i`.
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = (Point, Point)> + '_ {
+        let n = self.corners.len();
+        (0..n).map(move |i| (self.corners[i], self.corners[(i + 1) % n]))
+    }
+
+    /// Positive when counter-clockwise (shoelace formula, about the first corner to keep precision far from the origin).
+    #[must_use]
+    pub fn signed_area(&self) -> f64 {
+        let Some(&o) = self.corners.first() else { return 0.0 };
+        self.edges().map(|(a, b)| (a - o).perp(&(b - o))).sum::<f64>() / 2.0
+    }
+
+    /// Centre of the area; of the corners where the area is zero.
+    #[must_use]
+    pub fn centroid(&self) -> Point {
+        let Some(&o) = self.corners.first() else { return Point::origin() };
+        let mut doubled_area = 0.0;
+        let mut sum = Vector::zeros();
+        for (a, b) in self.edges() {
+            let (u, v) = (a - o, b - o);
+            let cross = u.perp(&v);
+            doubled_area += cross;
+            sum += (u + v) * cross;
+        }
+        if doubled_area.abs() < 1e-9 {
+            let n = self.corners.len() as f64;
+            return o + self.corners.iter().map(|p| p - o).sum::<Vector>() / n;
+        }
+        o + sum / (3.0 * doubled_area)
+    }
+
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.corners.iter().copied())
+    }
+
+    /// Inside or on the border, the border within `tolerance` cm.
+    #[must_use]
+    pub fn contains(&self, p: Point, tolerance: f64) -> bool {
+        self.border_distance(p) <= tolerance || self.winds_around(p)
+    }
+
+    /// Distance from a point to the nearest edge, in cm; infinite for an empty polygon.
+    #[must_use]
+    pub fn border_distance(&self, p: Point) -> f64 {
+        self.edges()
+            .map(|(a, b)| (p - nearest_on_segment(p, a, b)).norm())
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Even-odd rule: a ray to +x crosses the border an odd number of times.
+    fn winds_around(&self, p: Point) -> bool {
+        let crossings = self
+            .edges()
+            .filter(|(a, b)| {
+                (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
+            })
+            .count();
+        crossings % 2 == 1
+    }
+
+    /// Every corner turns left or runs straight, within `tolerance` on the sine of the turn.
+    #[must_use]
+    pub fn is_convex(&self, tolerance: f64) -> bool {
+        let n = self.corners.len();
+        n >= 3
+            && (0..n).all(|i| {
+                let u = self.corners[(i + 1) % n] - self.corners[i];
+                let v = self.corners[(i + 2) % n] - self.corners[(i + 1) % n];
+                u.perp(&v) >= -tolerance * u.norm() * v.norm()
+            })
+    }
+}
+
+/// The point of a segment that lies nearest to `p`.
+#[must_use]
+pub fn nearest_on_segment(p: Point, a: Point, b: Point) -> Point {
+    let along = b - a;
+    let square = along.norm_squared();
+    if square <= 0.0 {
+        return a;
+    }
+    a + along * ((p - a).dot(&along) / square).clamp(0.0, 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ell() -> Polygon {
+        // +---+
+        // |   |
+        // |   +---+
+        // |       |
+        // +-------+
+        let p = |x, y| Point::new(x, y);
+        Polygon::new(vec![p(0., 0.), p(20., 0.), p(20., 10.), p(10., 10.), p(10., 20.), p(0., 20.)])
+    }
+
+    #[test]
+    fn area_and_centroid_of_an_ell() {
+        assert_eq!(ell().signed_area(), 300.0);
+        let c = ell().centroid();
+        assert!((c - Point::new(25.0 / 3.0, 25.0 / 3.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn the_notch_is_outside() {
+        assert!(ell().contains(Point::new(5.0, 15.0), 0.0));
+        assert!(!ell().contains(Point::new(15.0, 15.0), 0.1));
+        assert!(ell().contains(Point::new(20.05, 5.0), 0.1));
+        assert!(!ell().is_convex(1e-9));
+    }
+}

@@ -1,0 +1,165 @@
+//! A Map with every Orthoframe brought into the Map's own frame: what all measuring starts from.
+
+use std::collections::BTreeMap;
+
+use crate::map::{Item, Permeability, World};
+use crate::units::{AreaId, Frame, MapId, OrFrId, Point, ReplicaId};
+
+use super::{Bounds, Polygon};
+
+/// Whose part a prism is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Owner {
+    Area(AreaId),
+    Replica(ReplicaId),
+}
+
+/// A side of a placed prism; it stands on the polygon's edge of the same index.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PrismSide {
+    /// Id of the base vector within its Orthoframe.
+    pub id: String,
+    pub permeability: Permeability,
+}
+
+/// A placed Orthoframe: `polygon` × `[bottom, top]` in the Map's frame, cm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Prism {
+    pub owner: Owner,
+    /// Which item of the owner's Object or Area.
+    pub item: usize,
+    pub orthoframe: OrFrId,
+    pub polygon: Polygon,
+    pub bounds: Bounds,
+    pub bottom: f64,
+    pub top: f64,
+    /// See [`crate::map::Orthoframe::roof_scale`].
+    pub roof_scale: f64,
+    pub sides: Vec<PrismSide>,
+    pub base_permeability: Permeability,
+    pub roof_permeability: Permeability,
+}
+
+/// An Area as it stands in its Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedArea {
+    pub id: AreaId,
+    /// Area → Map.
+    pub frame: Frame,
+    /// In the order of the Area's items.
+    pub prisms: Vec<Prism>,
+}
+
+/// A replica as it stands in its Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PlacedReplica {
+    pub id: ReplicaId,
+    pub area: AreaId,
+    /// Object → Map.
+    pub frame: Frame,
+    /// In the order of the Object's items.
+    pub prisms: Vec<Prism>,
+    pub bounds: Bounds,
+    pub bottom: f64,
+    pub top: f64,
+}
+
+/// All prisms of one Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Scene {
+    pub map: MapId,
+    pub areas: BTreeMap<AreaId, PlacedArea>,
+    pub replicas: BTreeMap<ReplicaId, PlacedReplica>,
+}
+
+impl Scene {
+    /// Places every Area of a Map and every replica of its Fragments.
+    ///
+    /// # Panics
+    /// When the map is not of this world.
+    #[must_use]
+    pub fn of(world: &World, map: MapId) -> Self {
+        let areas: BTreeMap<_, _> = world.maps[&map]
+            .items
+            .iter()
+            .map(|item| (item.area, PlacedArea::new(world, item.area, item.frame)))
+            .collect();
+        let replicas = world
+            .replicas
+            .values()
+            .filter_map(|r| {
+                let frame = areas.get(&r.area)?.frame.compose(&r.frame);
+                Some((r.id, PlacedReplica::new(world, r.id, frame)))
+            })
+            .collect();
+        Self { map, areas, replicas }
+    }
+
+    /// The replicas that stand in an Area.
+    pub fn replicas_in(&self, area: AreaId) -> impl Iterator<Item = &PlacedReplica> + '_ {
+        self.replicas.values().filter(move |r| r.area == area)
+    }
+
+    /// The Area that holds a point of the floor; the lowest id where borders meet.
+    #[must_use]
+    pub fn area_at(&self, p: Point) -> Option<AreaId> {
+        self.areas
+            .values()
+            .find(|a| {
+                a.prisms
+                    .iter()
+                    .any(|f| f.bounds.grown(1e-6).contains(p) && f.polygon.contains(p, 1e-6))
+            })
+            .map(|a| a.id)
+    }
+}
+
+impl PlacedArea {
+    fn new(world: &World, id: AreaId, frame: Frame) -> Self {
+        Self { id, frame, prisms: prisms(world, Owner::Area(id), &world.areas[&id].items, &frame) }
+    }
+}
+
+impl PlacedReplica {
+    /// A replica whose Object frame stands at `frame` of the Map.
+    ///
+    /// # Panics
+    /// When the replica is not of this world.
+    #[must_use]
+    pub fn new(world: &World, id: ReplicaId, frame: Frame) -> Self {
+        let replica = &world.replicas[&id];
+        let prisms =
+            prisms(world, Owner::Replica(id), &world.objects[&replica.object].items, &frame);
+        let bounds = prisms.iter().fold(Bounds::EMPTY, |b, f| b.union(&f.bounds));
+        let bottom = prisms.iter().map(|f| f.bottom).fold(f64::INFINITY, f64::min);
+        let top = prisms.iter().map(|f| f.top).fold(f64::NEG_INFINITY, f64::max);
+        Self { id, area: replica.area, frame, prisms, bounds, bottom, top }
+    }
+}
+
+fn prisms(world: &World, owner: Owner, items: &[Item], frame: &Frame) -> Vec<Prism> {
+    let place = |(index, item): (usize, &Item)| {
+        let orthoframe = world.orthoframe_of(item);
+        let placed = frame.compose(&item.frame);
+        let polygon = Polygon::new(orthoframe.corners().map(|p| placed.apply(p)).collect());
+        let bottom = placed.z.get();
+        Prism {
+            owner,
+            item: index,
+            orthoframe: orthoframe.id,
+            bounds: polygon.bounds(),
+            polygon,
+            bottom,
+            top: bottom + orthoframe.height.get(),
+            roof_scale: orthoframe.roof_scale,
+            sides: orthoframe
+                .base
+                .iter()
+                .map(|v| PrismSide { id: v.id.clone(), permeability: v.permeability })
+                .collect(),
+            base_permeability: orthoframe.base_permeability,
+            roof_permeability: orthoframe.roof_permeability,
+        }
+    };
+    items.iter().enumerate().map(place).collect()
+}

@@ -1,0 +1,229 @@
+//! Fragment, Map, Domain (paper 1 §4; paper 2 §§5-6), and the [`World`] that holds them all.
+
+use std::collections::BTreeMap;
+
+use crate::units::{
+    AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
+    TypeId, name_key,
+};
+
+use super::{
+    Area, Door, DoorState, Forms, Item, Object, Orthoframe, Properties, SideRef, TypeLists,
+};
+
+/// One placed copy of an Object (table AreaObjects). An Area with its replicas is a Fragment.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Replica {
+    pub id: ReplicaId,
+    pub area: AreaId,
+    pub object: ObjectId,
+    /// Handle and display name, unique in the world: «Стул-1».
+    pub name: String,
+    pub name_en: String,
+    /// X, Y, Z, Ang of the Object's frame within the Area's.
+    pub frame: Frame,
+    /// 0 never moves, 100 may be anywhere. 0 makes the replica static, all else semi-static (M8).
+    pub move_prob: u8,
+    /// Over and above the Object's: this chair is the red one.
+    pub properties: Properties,
+    /// States of the Object's doors on this replica, where they differ from the door's own.
+    pub door_states: BTreeMap<DoorId, DoorState>,
+    pub forms: Forms,
+}
+
+/// A named place to stand: «Точка-А» (paper 1 §8).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Place {
+    pub id: PlaceId,
+    pub area: AreaId,
+    pub name: String,
+    pub name_en: String,
+    /// Within the Area's frame.
+    pub at: Point,
+    pub heading: Option<Deg>,
+    /// The replica that is served from here: the bedside table of «Точка-К».
+    pub serves: Option<ReplicaId>,
+    pub forms: Forms,
+}
+
+/// An Area placed in a Map (table MapItems). Each Area stands in exactly one Map, once.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapItem {
+    pub area: AreaId,
+    pub frame: Frame,
+    pub is_base: bool,
+}
+
+/// Sides of two Areas bound together (table MapItemLinks). Offsets as in [`super::ItemLink`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct MapLink {
+    pub area: AreaId,
+    pub side: SideRef,
+    pub to_area: AreaId,
+    pub to_side: SideRef,
+    pub rel_x: Cm,
+    pub rel_y: Cm,
+    pub rel_z: Cm,
+    pub rel_a: Deg,
+}
+
+/// One floor or flat.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    pub id: MapId,
+    pub key: String,
+    pub name: String,
+    pub name_en: String,
+    pub description: String,
+    pub map_type: Option<TypeId>,
+    pub items: Vec<MapItem>,
+    pub links: Vec<MapLink>,
+}
+
+/// A Map placed in its Domain (table DomainMaps).
+#[derive(Debug, Clone, PartialEq)]
+pub struct DomainMap {
+    pub map: MapId,
+    pub frame: Frame,
+    pub is_base: bool,
+}
+
+/// One stop of a lift or one end of a flight of stairs: an Area of a Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LiftStop {
+    pub area: AreaId,
+}
+
+/// A building: Maps in one frame.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Domain {
+    pub id: DomainId,
+    pub key: String,
+    pub name: String,
+    pub name_en: String,
+    pub description: String,
+    pub maps: Vec<DomainMap>,
+    /// Lifts and stairs (M6): each links the Areas of its stops, which lie on different Maps.
+    pub lifts: Vec<(String, Vec<LiftStop>)>,
+}
+
+/// The robot that works here. Lengths in cm.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RobotProfile {
+    /// Of the disc that covers the footprint.
+    pub radius: Cm,
+    pub height: Cm,
+    /// The highest step that it climbs or drives over.
+    pub step: Cm,
+    /// Kept free around the footprint beyond its radius.
+    pub clearance: Cm,
+    /// cm/s
+    pub speed: f64,
+    /// degrees/s
+    pub turn_rate: f64,
+    /// Where it stands when nothing else is known.
+    pub start: Option<PlaceId>,
+}
+
+impl Default for RobotProfile {
+    /// A robot of Care-O-bot's size, RB-2's like.
+    fn default() -> Self {
+        Self {
+            radius: Cm::of(25.0),
+            height: Cm::of(120.0),
+            step: Cm::of(2.0),
+            clearance: Cm::of(2.0),
+            speed: 60.0,
+            turn_rate: 90.0,
+            start: None,
+        }
+    }
+}
+
+/// What a name can mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Entity {
+    Map(MapId),
+    Area(AreaId),
+    Door(DoorId),
+    Replica(ReplicaId),
+    Place(PlaceId),
+}
+
+/// The whole model of an operating environment: a Domain with everything in it.
+///
+/// Records are keyed by their ids; ids are never reused, so holes are normal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct World {
+    pub domain: Domain,
+    pub maps: BTreeMap<MapId, Map>,
+    pub areas: BTreeMap<AreaId, Area>,
+    pub objects: BTreeMap<ObjectId, Object>,
+    pub orthoframes: BTreeMap<OrFrId, Orthoframe>,
+    pub doors: BTreeMap<DoorId, Door>,
+    pub replicas: BTreeMap<ReplicaId, Replica>,
+    pub places: BTreeMap<PlaceId, Place>,
+    pub types: TypeLists,
+    pub robot: RobotProfile,
+}
+
+impl World {
+    /// The Map in which an Area stands, and the Area's frame within it.
+    #[must_use]
+    pub fn placement(&self, area: AreaId) -> Option<(MapId, Frame)> {
+        self.maps.values().find_map(|map| {
+            map.items.iter().find(|item| item.area == area).map(|item| (map.id, item.frame))
+        })
+    }
+
+    /// The replicas of a Fragment, in the order of their ids.
+    pub fn replicas_in(&self, area: AreaId) -> impl Iterator<Item = &Replica> + '_ {
+        self.replicas.values().filter(move |r| r.area == area)
+    }
+
+    /// The Orthoframe of an item.
+    ///
+    /// # Panics
+    /// When the item is not of this world.
+    #[must_use]
+    pub fn orthoframe_of(&self, item: &Item) -> &Orthoframe {
+        self.orthoframes
+            .get(&item.orthoframe)
+            .expect("a checked world has every Orthoframe its items name")
+    }
+
+    /// Everything that bears this name, in either language, in the order of [`Entity`].
+    #[must_use]
+    pub fn find(&self, name: &str) -> Vec<Entity> {
+        let key = name_key(name);
+        self.names().filter(|(_, n)| name_key(n) == key).map(|(e, _)| e).collect()
+    }
+
+    /// Every name of every entity that a person can speak of, Russian and English.
+    pub fn names(&self) -> impl Iterator<Item = (Entity, &str)> + '_ {
+        let maps = self.maps.values().map(|m| (Entity::Map(m.id), [&m.name, &m.name_en]));
+        let areas = self.areas.values().map(|a| (Entity::Area(a.id), [&a.name, &a.name_en]));
+        let doors = self.doors.values().map(|d| (Entity::Door(d.id), [&d.name, &d.name_en]));
+        let replicas =
+            self.replicas.values().map(|r| (Entity::Replica(r.id), [&r.name, &r.name_en]));
+        let places = self.places.values().map(|p| (Entity::Place(p.id), [&p.name, &p.name_en]));
+        maps.chain(areas).chain(doors).chain(replicas).chain(places).flat_map(|(e, names)| {
+            names.into_iter().filter(|n| !n.is_empty()).map(move |n| (e, n.as_str()))
+        })
+    }
+
+    /// The display name of an entity.
+    ///
+    /// # Panics
+    /// When the entity is not of this world.
+    #[must_use]
+    pub fn name(&self, entity: Entity) -> &str {
+        match entity {
+            Entity::Map(id) => &self.maps[&id].name,
+            Entity::Area(id) => &self.areas[&id].name,
+            Entity::Door(id) => &self.doors[&id].name,
+            Entity::Replica(id) => &self.replicas[&id].name,
+            Entity::Place(id) => &self.places[&id].name,
+        }
+    }
+}
