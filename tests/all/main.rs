@@ -1,4 +1,5 @@
 //! Tests of whole capabilities, one module each.
 
+mod floor_properties;
 mod floors;
 mod routes;
