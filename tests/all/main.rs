@@ -1,0 +1,3 @@
+//! Whole capabilities, one module each; a single binary links faster than one a file.
+
+mod planning;
