@@ -1,0 +1,3 @@
+//! Tests of whole capabilities, one binary.
+
+mod words;
