@@ -1,1 +1,3 @@
-//! (stands empty until its chapter is written)
+//! Talk.
+pub mod words;
+pub use words::*;
