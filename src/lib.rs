@@ -11,7 +11,7 @@ pub mod geometry;
 pub mod graphplan;
 pub mod language;
 pub mod map;
-pub mod robot;
+// pub mod robot;
 pub mod semantics;
 pub mod store;
 pub mod strips;

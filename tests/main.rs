@@ -1,3 +1,5 @@
 //! Integration tests: one binary, one file a capability.
 
 mod architecture;
+mod planning;
+mod words;
