@@ -1,0 +1,4 @@
+//! Tests of whole capabilities, one module each.
+
+mod floors;
+mod routes;
