@@ -6,6 +6,7 @@
 
 mod check;
 mod door;
+mod doorway;
 mod fault;
 mod file;
 mod object;
@@ -15,6 +16,7 @@ mod world;
 
 pub use check::check;
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
+pub use doorway::Doorway;
 pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{Format, Reading, json_schema, read};
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};

@@ -19,15 +19,16 @@ use crate::units::nearest_name;
 /// Faults of one table after which its reading ends.
 const MOST_FAULTS: usize = 50;
 
-/// Reads one table; notes its faults and gives what could be read.
+/// Reads one table; notes its faults and gives what could be read. Adds to `left_out` the places of what could not.
 pub(super) fn decode<'n, T: Deserialize<'n>>(
     node: &'n Node,
     name_span: &Span,
+    left_out: &mut HashSet<Span>,
     faults: &mut Vec<Misprint>,
 ) -> Option<T> {
-    let mut left_out = HashSet::new();
+    let most_left_out = left_out.len() + MOST_FAULTS;
     loop {
-        let mut fault = match T::deserialize(Reader { node, left_out: &left_out }) {
+        let mut fault = match T::deserialize(Reader { node, left_out }) {
             Ok(value) => return Some(value),
             Err(fault) => fault,
         };
@@ -39,7 +40,7 @@ pub(super) fn decode<'n, T: Deserialize<'n>>(
         if !fault.follows {
             faults.push(Misprint { error: *fault.error, span: fault.span });
         }
-        if !culprit.is_some_and(|span| left_out.insert(span)) || left_out.len() > MOST_FAULTS {
+        if !culprit.is_some_and(|span| left_out.insert(span)) || left_out.len() > most_left_out {
             return None;
         }
     }

@@ -10,6 +10,7 @@ mod schema;
 mod text;
 mod write;
 
+use std::collections::HashSet;
 use std::path::Path;
 
 use miette::SourceSpan;
@@ -79,12 +80,12 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }
-    let Draft { world, mut faults, origins } = read::build(&root);
+    let Draft { world, mut faults, origins, left_out } = read::build(&root);
     faults.extend(super::check(&world));
     for fault in &mut faults {
         let places = fault.spots.iter().filter_map(|spot| {
             let origin = origins.get(&spot.record)?;
-            Some(SourceSpan::from(place(origin, spot)))
+            Some(SourceSpan::from(place(origin, spot, &left_out)))
         });
         let places: Vec<_> = places.collect();
         fault.spans.extend(places);
@@ -94,7 +95,7 @@ pub fn read(source: &Source, format: Format) -> Reading {
 }
 
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
-fn place(origin: &Origin<'_>, spot: &Spot) -> Span {
+fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
     let mut node: &Node = origin.node;
     let mut span = &origin.name;
     let mut steps = spot.steps.iter().peekable();
@@ -105,7 +106,9 @@ fn place(origin: &Origin<'_>, spot: &Spot) -> Span {
                 .iter()
                 .find_map(|way| node.entry(way).map(|entry| &entry.node)),
             Step::Field(name) => node.entry(name).map(|entry| &entry.node),
-            Step::Index(index) => node.elements().get(*index),
+            Step::Index(index) => {
+                node.elements().iter().filter(|e| !left_out.contains(&e.span)).nth(*index)
+            }
         };
         let Some(inner) = inner else { break };
         if let (Value::Table(_), None) = (&inner.value, steps.peek())

@@ -132,7 +132,9 @@ fn toml_value(value: DeValue<'_>) -> Value {
 /// YAML, and JSON as its subset.
 fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
     let name = if format == Format::Json { "JSON" } else { "YAML" };
-    let root: Spanned<Tree> = serde_saphyr::from_str(text).map_err(|e| {
+    // A room may be named «Y» or «No»: only true and false are truth values.
+    let options = serde_saphyr::options! { strict_booleans: true };
+    let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
         Misprint {
             error: MapError::Syntax { format: name, message: e.to_string() },

@@ -30,6 +30,8 @@ pub(super) struct Draft<'n> {
     pub(super) world: World,
     pub(super) faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Entries and lines that could not be read.
+    pub(super) left_out: HashSet<Span>,
 }
 
 /// Where a record stands in the text.
@@ -42,16 +44,22 @@ pub(super) struct Origin<'n> {
 
 /// Builds the world that a tree describes.
 pub(super) fn build(root: &Node) -> Draft<'_> {
-    let mut reader =
-        Reader { root, faults: Vec::new(), origins: BTreeMap::new(), names: Names::default() };
+    let mut reader = Reader {
+        root,
+        faults: Vec::new(),
+        origins: BTreeMap::new(),
+        left_out: HashSet::new(),
+        names: Names::default(),
+    };
     let world = reader.world();
-    Draft { world, faults: reader.faults, origins: reader.origins }
+    Draft { world, faults: reader.faults, origins: reader.origins, left_out: reader.left_out }
 }
 
 struct Reader<'n> {
     root: &'n Node,
     faults: Vec<Fault>,
     origins: BTreeMap<Record, Origin<'n>>,
+    left_out: HashSet<Span>,
     names: Names,
 }
 
@@ -207,7 +215,7 @@ impl<'n> Reader<'n> {
 
     fn decode<T: Deserialize<'n>>(&mut self, node: &'n Node, name: &Span) -> Option<T> {
         let mut misprints = Vec::new();
-        let value = decode(node, name, &mut misprints);
+        let value = decode(node, name, &mut self.left_out, &mut misprints);
         self.misprints(misprints);
         value
     }
@@ -233,7 +241,8 @@ impl<'n> Reader<'n> {
                 span: Some(0..0),
             }),
             Some(entry) => {
-                if let Some(format) = decode::<u32>(&entry.node, &entry.key_span, &mut misprints)
+                if let Some(format) =
+                    decode::<u32>(&entry.node, &entry.key_span, &mut self.left_out, &mut misprints)
                     && format != FORMAT
                 {
                     misprints.push(Misprint {
@@ -431,21 +440,17 @@ impl<'n> Reader<'n> {
             let name_of =
                 |node: &Node| node.entry("name").and_then(|n| n.node.text()).map(name_key);
             index.broken.extend(nodes.iter().filter_map(name_of));
-            let mut nodes = nodes.iter();
-            for line in list {
-                // A line that could not be read has no place in `list`: pass over its node.
-                let key = name_key(line.names()[0]);
-                let node = nodes.find(|node| name_of(node).as_ref() == Some(&key));
+            // Lines that could not be read have no place in `list`.
+            let read: Vec<_> =
+                nodes.iter().filter(|node| !self.left_out.contains(&node.span)).collect();
+            for (line, node) in list.into_iter().zip(read) {
                 let number = ids.next().expect("every line was numbered");
                 if !seen.insert(number) {
                     let error = MapError::DuplicateId { what, id: number };
-                    self.misprints(vec![Misprint { error, span: node.map(|n| n.span.clone()) }]);
+                    self.misprints(vec![Misprint { error, span: Some(node.span.clone()) }]);
                     continue;
                 }
-                if let Some(node) = node {
-                    self.origins
-                        .insert(record(id(number)), Origin { node, name: node.span.clone() });
-                }
+                self.origins.insert(record(id(number)), Origin { node, name: node.span.clone() });
                 let [name, name_en] = line.names();
                 index.add(id(number), name, &[name_en]);
                 lines.push((area, id(number), line));
