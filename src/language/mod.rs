@@ -9,6 +9,7 @@
 //! assert_eq!(format!("{} – {}", russian::whence(&room), russian::whither(&room)), "из Комнаты-В – в Комнату-В");
 //! ```
 
+pub mod report;
 pub mod words;
 
 pub use words::{

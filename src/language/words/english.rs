@@ -12,10 +12,21 @@ use super::adjective::Adjective;
 use super::letters::{cyrillic_twin, runs};
 use super::lexicon;
 
-/// The name with "the" where English wants it: "the kitchen", but "Room-B", "Office 12", "Anna's desk".
+/// The name inside a sentence, with "the" where English wants it: "the kitchen" for Kitchen, but "Room-B", "Office 12",
+/// "Anna's desk". A plain capital at the start is dropped, since a thing's name is no proper name.
 #[must_use]
 pub fn with_article(name: &str) -> String {
-    if is_proper(name) { name.to_owned() } else { format!("the {name}") }
+    if is_proper(name) {
+        return name.to_owned();
+    }
+    let mut letters = name.chars();
+    let Some(first) = letters.next() else { return String::new() };
+    let plain = letters.as_str().chars().take_while(|c| c.is_alphabetic()).all(char::is_lowercase);
+    if plain {
+        format!("the {}{}", first.to_lowercase(), letters.as_str())
+    } else {
+        format!("the {name}")
+    }
 }
 
 /// The noun with "a" or "an", by its sound.
@@ -116,16 +127,39 @@ pub fn name_of(name: &str) -> Option<String> {
         let letters = russian.chars().count();
         rest = name.char_indices().nth(letters).map_or("", |(at, _)| &name[at..]);
     }
-    for run in runs(rest) {
-        if !run.is_word {
-            english.push_str(run.text);
-        } else if let Some(word) = word_of(run.text) {
-            english.push_str(&word);
-        } else {
-            return None;
+    let runs = runs(rest);
+    let mut at = 0;
+    while let Some(run) = runs.get(at) {
+        if let [digits, hyphen, ending] = &runs[at..runs.len().min(at + 3)]
+            && hyphen.is_hyphen()
+            && let Some(ordinal) = ordinal(digits.text, ending.text)
+        {
+            english.push_str(&ordinal);
+            at += 3;
+            continue;
         }
+        match run.is_word {
+            // "Bedside table 1": a hyphen would bind the number to the last word alone.
+            false if run.is_hyphen() && english.contains(' ') => english.push(' '),
+            false => english.push_str(run.text),
+            true => english.push_str(&word_of(run.text)?),
+        }
+        at += 1;
     }
     Some(english)
+}
+
+/// «2-й» is "2nd".
+fn ordinal(digits: &str, ending: &str) -> Option<String> {
+    let number: u64 = digits.parse().ok()?;
+    let suffix = match (number % 10, number % 100) {
+        (_, 11..=13) => "th",
+        (1, _) => "st",
+        (2, _) => "nd",
+        (3, _) => "rd",
+        _ => "th",
+    };
+    ["й", "я", "е", "ый", "ая", "ое"].contains(&ending).then(|| format!("{number}{suffix}"))
 }
 
 /// All English words for a Russian noun, the usual one first: «диван» – sofa.
@@ -320,7 +354,9 @@ mod tests {
             assert_eq!(a(noun), expected);
         }
         for (name, expected) in [
-            ("Bookcase", "the Bookcase"),
+            ("Bookcase", "the bookcase"),
+            ("IKEA desk", "the IKEA desk"),
+            ("", ""),
             ("Office 12", "Office 12"),
             ("Door-BZ", "Door-BZ"),
             ("Anna's desk", "Anna's desk"),
@@ -358,7 +394,8 @@ mod tests {
             ("Точка-К", Some("Point-K")),
             ("Красная чашка", Some("Red cup")),
             ("Стул 2", Some("Chair 2")),
-            ("Тумбочка-1", Some("Bedside table-1")),
+            ("Тумбочка-1", Some("Bedside table 1")),
+            ("2-й этаж", Some("2nd floor")),
             ("Кабинет директора", None),
             ("Room-Z", Some("Room-Z")),
             ("Шкаф-бар", Some("Bar cabinet")),

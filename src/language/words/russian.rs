@@ -9,8 +9,8 @@
 //! assert_eq!(russian::count(5, &name("дверь")), "5 дверей");
 //! ```
 
-use super::adjective::is_vowel;
-use super::grammar::{Case, PlaceSense};
+use super::adjective::{Adjective, is_vowel};
+use super::grammar::{Animacy, Case, Gender, Number, PlaceSense};
 use super::letters::is_acronym;
 use super::phrase::NounPhrase;
 
@@ -158,6 +158,15 @@ fn inside_or_upon(place: &NounPhrase) -> Preposition {
         PlaceSense::Inside => Preposition::V,
         PlaceSense::Upon => Preposition::Na,
     }
+}
+
+/// An adjective or participle, given in the masculine, as it agrees with an inanimate noun: «ведущей», «ведущих».
+#[must_use]
+pub fn agreeing(adjective: &str, case: Case, number: Number, gender: Gender) -> String {
+    Adjective::read(adjective).map_or_else(
+        || adjective.to_owned(),
+        |read| read.form(case, number, gender, Animacy::Inanimate),
+    )
 }
 
 /// Number and name in the nominative: «1 дверь», «2 двери», «5 дверей», «21 дверь».
