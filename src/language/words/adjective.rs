@@ -36,10 +36,44 @@ pub(crate) struct Adjective {
 const STRESSED_SIBILANT: [&str; 3] = ["больш", "небольш", "чуж"];
 /// Adjectives with -ой in the masculine that do not end in a sibilant: вторая – второй.
 const STRESSED: &[&str] = &[
-    "втор", "шест", "седьм", "восьм", "голуб", "золот", "запасн", "дорог", "друг", "пуст", "прост",
-    "цветн", "резн", "складн", "жил", "нежил", "входн", "выходн", "основн", "боков", "углов", "душев",
-    "больн", "ночн", "дневн", "ручн", "лесн", "стальн", "молод", "сух", "сыр", "мясн", "речн", "морск",
-    "городск", "мужск", "глух", "плох",
+    "втор",
+    "шест",
+    "седьм",
+    "восьм",
+    "голуб",
+    "золот",
+    "запасн",
+    "дорог",
+    "друг",
+    "пуст",
+    "прост",
+    "цветн",
+    "резн",
+    "складн",
+    "жил",
+    "нежил",
+    "входн",
+    "выходн",
+    "основн",
+    "боков",
+    "углов",
+    "душев",
+    "больн",
+    "ночн",
+    "дневн",
+    "ручн",
+    "лесн",
+    "стальн",
+    "молод",
+    "сух",
+    "сыр",
+    "мясн",
+    "речн",
+    "морск",
+    "городск",
+    "мужск",
+    "глух",
+    "плох",
 ];
 const POSSESSIVE: [&str; 1] = ["трет"];
 
@@ -56,12 +90,22 @@ impl Adjective {
         let ending = &word[stem.len()..];
         if let Some(possessive) = POSSESSIVE.iter().find(|p| stem.trim_end_matches('ь') == **p) {
             let kind = Stem::Possessive;
-            return Some(Self { stem: (*possessive).into(), kind, stressed: false, number, gender });
+            return Some(Self {
+                stem: (*possessive).into(),
+                kind,
+                stressed: false,
+                number,
+                gender,
+            });
         }
         let stressed = ending == "ой" || STRESSED.contains(&stem.as_str());
         let kind = match last {
             'к' | 'г' | 'х' => Stem::Velar,
-            'ж' | 'ш' | 'ч' | 'щ' if STRESSED_SIBILANT.contains(&stem.as_str()) || ending == "ой" => Stem::Velar,
+            'ж' | 'ш' | 'ч' | 'щ'
+                if STRESSED_SIBILANT.contains(&stem.as_str()) || ending == "ой" =>
+            {
+                Stem::Velar
+            }
             'ж' | 'ш' | 'ч' | 'щ' => Stem::Sibilant,
             'ц' => Stem::Hard,
             _ if matches!(ending, "ий" | "яя" | "ее" | "ие") => Stem::Soft,
@@ -71,7 +115,8 @@ impl Adjective {
         if kind == Stem::Soft && !is_soft_stem(&stem) {
             return None;
         }
-        let stressed = stressed || (kind == Stem::Velar && STRESSED_SIBILANT.contains(&stem.as_str()));
+        let stressed =
+            stressed || (kind == Stem::Velar && STRESSED_SIBILANT.contains(&stem.as_str()));
         Some(Self { stem, kind, stressed, number, gender })
     }
 
@@ -86,7 +131,13 @@ impl Adjective {
         };
         let stem = if cut == 0 { word } else { drop_last(word, 1) };
         let fits = ["ин", "ын", "ов", "ев"].iter().any(|e| stem.ends_with(e));
-        fits.then(|| Self { stem: stem.into(), kind: Stem::Personal, stressed: false, number, gender })
+        fits.then(|| Self {
+            stem: stem.into(),
+            kind: Stem::Personal,
+            stressed: false,
+            number,
+            gender,
+        })
     }
 
     /// The nominative of the masculine, which dictionaries list.
@@ -105,13 +156,21 @@ impl Adjective {
     }
 
     /// The form that agrees with a noun of this gender and animacy.
-    pub(crate) fn form(&self, case: Case, number: Number, gender: Gender, animacy: Animacy) -> String {
+    pub(crate) fn form(
+        &self,
+        case: Case,
+        number: Number,
+        gender: Gender,
+        animacy: Animacy,
+    ) -> String {
         let case = match case {
             Case::Locative => Case::Prepositional,
-            Case::Accusative if number == Number::Plural || gender == Gender::Masculine => match animacy {
-                Animacy::Animate => Case::Genitive,
-                Animacy::Inanimate => Case::Nominative,
-            },
+            Case::Accusative if number == Number::Plural || gender == Gender::Masculine => {
+                match animacy {
+                    Animacy::Animate => Case::Genitive,
+                    Animacy::Inanimate => Case::Nominative,
+                }
+            }
             Case::Accusative if gender == Gender::Neuter => Case::Nominative,
             other => other,
         };
@@ -130,7 +189,9 @@ impl Adjective {
             (_, Gender::Feminine, Accusative) => ["ую", "ую", "ую", "юю", "ью", "у"],
             (_, Gender::Feminine, _) => ["ой", "ой", "ей", "ей", "ьей", "ой"],
             (_, Gender::Neuter, Nominative) => ["ое", "ое", "ее", "ее", "ье", "о"],
-            (_, Gender::Masculine, Nominative) if self.stressed => ["ой", "ой", "ой", "ий", "ий", ""],
+            (_, Gender::Masculine, Nominative) if self.stressed => {
+                ["ой", "ой", "ой", "ий", "ий", ""]
+            }
             (_, Gender::Masculine, Nominative) => ["ый", "ий", "ий", "ий", "ий", ""],
             (_, _, Genitive) => ["ого", "ого", "его", "его", "ьего", "ого"],
             (_, _, Dative) => ["ому", "ому", "ему", "ему", "ьему", "ому"],
@@ -164,7 +225,9 @@ fn nominative_ending(word: &str) -> Option<(Number, Gender, usize)> {
 }
 
 fn is_soft_stem(stem: &str) -> bool {
-    stem == "син" || stem == "кар" || (stem.ends_with('н') && !drop_last(stem, 1).ends_with(is_vowel))
+    stem == "син"
+        || stem == "кар"
+        || (stem.ends_with('н') && !drop_last(stem, 1).ends_with(is_vowel))
 }
 
 pub(crate) fn is_vowel(letter: char) -> bool {
@@ -204,8 +267,12 @@ mod tests {
     #[test]
     fn a_living_thing_takes_the_genitive() {
         let new = Adjective::read("новый").unwrap();
-        let form = |animacy| new.form(Case::Accusative, Number::Singular, Gender::Masculine, animacy);
-        assert_eq!((form(Animacy::Animate), form(Animacy::Inanimate)), ("нового".into(), "новый".into()));
+        let form =
+            |animacy| new.form(Case::Accusative, Number::Singular, Gender::Masculine, animacy);
+        assert_eq!(
+            (form(Animacy::Animate), form(Animacy::Inanimate)),
+            ("нового".into(), "новый".into())
+        );
     }
 
     #[test]

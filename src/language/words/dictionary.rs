@@ -44,8 +44,8 @@ mod source {
 
     use rumorph::{Analysis, Dictionary, Source, UdTag};
 
-    use super::super::lexicon;
     use super::super::grammar::{Animacy, Case, Evidence, Gender, Number};
+    use super::super::lexicon;
     use super::super::noun::Paradigm;
     use super::{Known, Noun, Readings};
 
@@ -125,12 +125,18 @@ mod source {
         let gender = gender_of(tag);
         matches!(tag.pos(), "NOUN" | "PROPN")
             && tag.feat("Case") == Some("Nom")
-            && number_of(tag).is_some_and(|number| known.number.is_none_or(|wanted| wanted == number))
+            && number_of(tag)
+                .is_some_and(|number| known.number.is_none_or(|wanted| wanted == number))
             && (known.gender.is_none() || gender.is_none() || gender == known.gender)
     }
 
     /// A common noun in the singular, or that has no singular, comes first; then the likelier reading.
-    fn rank(analysis: &Analysis, tag: UdTag<'_>, known: Known, word: &str) -> (bool, bool, bool, u64) {
+    fn rank(
+        analysis: &Analysis,
+        tag: UdTag<'_>,
+        known: Known,
+        word: &str,
+    ) -> (bool, bool, bool, u64) {
         let common = tag.pos() == "NOUN" && tag.feat("Abbr").is_none();
         let own_number = analysis.lemma == word || tag.feat("Number") == Some("Sing");
         let animate = tag.feat("Animacy") == Some("Anim");
@@ -146,7 +152,9 @@ mod source {
         forms: &[(Analysis, Number, Case)],
     ) -> Option<Paradigm> {
         let is_rare = |form: &Analysis| {
-            dictionary.ud_tag(form.ud).is_some_and(|tag| tag.labels().any(|label| label != "loc2" && is_mark_of_rarity(label)))
+            dictionary.ud_tag(form.ud).is_some_and(|tag| {
+                tag.labels().any(|label| label != "loc2" && is_mark_of_rarity(label))
+            })
         };
         let best = |number: Number, case: Case| {
             let suiting = forms.iter().filter(|(_, n, c)| (*n, *c) == (number, case));
@@ -167,7 +175,8 @@ mod source {
         let missing = |number: Number| Case::ALL.iter().all(|case| form(number, *case).is_none());
         let other = if own == Number::Singular { Number::Plural } else { Number::Singular };
         // A word without the other number says everything in its own.
-        let number_for = |number: Number| if number == other && missing(other) { own } else { number };
+        let number_for =
+            |number: Number| if number == other && missing(other) { own } else { number };
         if Case::SIX.iter().any(|case| form(own, *case).is_none()) {
             return None;
         }
@@ -183,7 +192,8 @@ mod source {
     }
 
     fn is_mark_of_rarity(label: &str) -> bool {
-        matches!(label, "Infr" | "Arch" | "Erro" | "Dist" | "Slng" | "loc1" | "gen2" | "acc2") || label.starts_with("V-")
+        matches!(label, "Infr" | "Arch" | "Erro" | "Dist" | "Slng" | "loc1" | "gen2" | "acc2")
+            || label.starts_with("V-")
     }
 
     fn case_of(tag: UdTag<'_>) -> Option<Case> {

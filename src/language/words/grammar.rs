@@ -197,6 +197,9 @@ mod tests {
         assert_eq!(Gender::named("neuter"), Some(Gender::Neuter));
         assert_eq!(Number::named("мн"), Some(Number::Plural));
         assert_eq!(Animacy::named("одуш"), Some(Animacy::Animate));
-        assert_eq!((Gender::named(""), Case::named("."), Number::named("двойственное")), (None, None, None));
+        assert_eq!(
+            (Gender::named(""), Case::named("."), Number::named("двойственное")),
+            (None, None, None)
+        );
     }
 }

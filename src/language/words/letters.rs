@@ -53,7 +53,9 @@ pub(crate) fn recase(written: &str, form: &str) -> String {
         match model {
             Some(model) if same => cased.push(model),
             _ if all_upper => cased.extend(c.to_uppercase()),
-            Some(model) if cased.is_empty() && model.is_uppercase() => cased.extend(c.to_uppercase()),
+            Some(model) if cased.is_empty() && model.is_uppercase() => {
+                cased.extend(c.to_uppercase())
+            }
             _ => cased.push(c),
         }
     }

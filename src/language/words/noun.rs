@@ -57,7 +57,8 @@ impl Noun {
     pub(crate) fn is_adjectival(&self) -> bool {
         let genitive = self.paradigm.form(Number::Plural, Case::Genitive);
         let nominative = self.paradigm.form(Number::Plural, Case::Nominative);
-        (genitive.ends_with("ых") || genitive.ends_with("их")) && (nominative.ends_with("ые") || nominative.ends_with("ие"))
+        (genitive.ends_with("ых") || genitive.ends_with("их"))
+            && (nominative.ends_with("ые") || nominative.ends_with("ие"))
     }
 
     /// The noun by the word list, if it is there, and by its ending otherwise.
@@ -104,16 +105,23 @@ impl Parts {
     /// Principal parts as the ending suggests them.
     fn by_ending(word: &str, known: Known, entry: Option<&lexicon::Entry>) -> Self {
         let gender = known.gender.or_else(|| entry.and_then(|entry| entry.gender));
-        let plural = known.number == Some(Number::Plural) || entry.is_some_and(|entry| entry.plural_only);
+        let plural =
+            known.number == Some(Number::Plural) || entry.is_some_and(|entry| entry.plural_only);
         let mut parts = match () {
             () if entry.is_some_and(|entry| entry.indeclinable) => Self::unchanging(word),
             () if entry.is_some_and(|entry| entry.adjectival) => Self::adjectival(word),
             () if plural => Self::plural(word),
             () if entry.is_none() && is_unchanging(word) => Self::unchanging(word),
             () if entry.is_none() && looks_adjectival(word) => Self::adjectival(word),
-            () if entry.is_none() && looks_plural(word) && known.number.is_none() => Self::plural(word),
+            () if entry.is_none() && looks_plural(word) && known.number.is_none() => {
+                Self::plural(word)
+            }
             () => match (word.chars().last(), gender) {
-                (Some('а' | 'я'), _) if word.ends_with("мя") && gender != Some(Gender::Feminine) => Self::in_mya(word),
+                (Some('а' | 'я'), _)
+                    if word.ends_with("мя") && gender != Some(Gender::Feminine) =>
+                {
+                    Self::in_mya(word)
+                }
                 (Some('а' | 'я'), _) => Self::first(word),
                 (Some('о' | 'е' | 'ё'), _) => Self::neuter(word),
                 (Some('ь'), Some(Gender::Masculine)) => Self::masculine_soft(word),
@@ -129,7 +137,9 @@ impl Parts {
         if plural {
             parts.number = Number::Plural;
         }
-        if let Some(animacy) = known.animacy.or(entry.filter(|e| e.animate).map(|_| Animacy::Animate)) {
+        if let Some(animacy) =
+            known.animacy.or(entry.filter(|e| e.animate).map(|_| Animacy::Animate))
+        {
             parts.animacy = animacy;
         }
         parts
@@ -198,7 +208,11 @@ impl Parts {
 
     fn unchanging(word: &str) -> Self {
         let mut parts = Self::new(word, Kind::Unchanging, Gender::Neuter);
-        parts.evidence = if word.chars().any(|c| c.is_ascii_alphanumeric()) { Evidence::Rule } else { Evidence::Guess };
+        parts.evidence = if word.chars().any(|c| c.is_ascii_alphanumeric()) {
+            Evidence::Rule
+        } else {
+            Evidence::Guess
+        };
         parts
     }
 
@@ -222,7 +236,9 @@ impl Parts {
         parts.genitive_plural = match word.chars().last() {
             Some('ы') if stem.ends_with('ц') => format!("{stem}ев"),
             Some('ы') => format!("{stem}ов"),
-            Some('и') if stem.ends_with(['к', 'г', 'х']) && ends_in_two_consonants(stem) => zero_ending(stem, false),
+            Some('и') if stem.ends_with(['к', 'г', 'х']) && ends_in_two_consonants(stem) => {
+                zero_ending(stem, false)
+            }
             Some('и') if stem.ends_with(['к', 'г', 'х']) => format!("{stem}ов"),
             Some('и') if stem.ends_with(is_vowel) => format!("{stem}й"),
             Some('и') => format!("{stem}ей"),
@@ -247,7 +263,11 @@ impl Parts {
         parts.instrumental = format!("{stem}{}", if e { "ей" } else { "ой" });
         parts.genitive_plural = match stem.chars().last() {
             Some('ь') => format!("{}ий", drop_last(stem, 1)),
-            Some('ж' | 'ш' | 'ч' | 'щ') if ends_in_two_consonants(stem) && !stem.ends_with("рж") => format!("{stem}ей"),
+            Some('ж' | 'ш' | 'ч' | 'щ')
+                if ends_in_two_consonants(stem) && !stem.ends_with("рж") =>
+            {
+                format!("{stem}ей")
+            }
             _ => zero_ending(stem, soft),
         };
         const SURE: [&str; 9] = ["ция", "ика", "ница", "чка", "шка", "ура", "отека", "ина", "ота"];
@@ -275,11 +295,15 @@ impl Parts {
         parts.instrumental = format!("{word}м");
         parts.nominative_plural = match () {
             // окошко – окошки, личико – личики; «войско» and «облако» stand in the word list.
-            () if ["шко", "чко", "жко", "ико"].iter().any(|e| word.ends_with(e)) => format!("{stem}и"),
+            () if ["шко", "чко", "жко", "ико"].iter().any(|e| word.ends_with(e)) => {
+                format!("{stem}и")
+            }
             () => parts.genitive.clone(),
         };
         parts.genitive_plural = match () {
-            () if word.ends_with("ье") || word.ends_with("ьё") => format!("{}ий", drop_last(stem, 1)),
+            () if word.ends_with("ье") || word.ends_with("ьё") => {
+                format!("{}ий", drop_last(stem, 1))
+            }
             () if stem.ends_with('и') => format!("{stem}й"),
             () if hard => zero_ending(stem, false),
             () => format!("{stem}ей"),
@@ -296,7 +320,8 @@ impl Parts {
         parts.instrumental = format!("{word}ю");
         parts.nominative_plural = format!("{stem}и");
         parts.genitive_plural = format!("{stem}ей");
-        parts.evidence = sure_if(["ость", "есть", "ечь", "ночь", "вь"].iter().any(|e| word.ends_with(e)));
+        parts.evidence =
+            sure_if(["ость", "есть", "ечь", "ночь", "вь"].iter().any(|e| word.ends_with(e)));
         parts
     }
 
@@ -333,7 +358,9 @@ impl Parts {
             parts.nominative_plural = format!("{}е", drop_last(word, 2));
             parts.genitive_plural = drop_last(word, 2).into();
         }
-        let young = word.strip_suffix("ёнок").or_else(|| word.strip_suffix("онок").filter(|stem| stem.ends_with(['ч', 'ж', 'ш'])));
+        let young = word
+            .strip_suffix("ёнок")
+            .or_else(|| word.strip_suffix("онок").filter(|stem| stem.ends_with(['ч', 'ж', 'ш'])));
         if let Some(stem) = young {
             let hushed = word.ends_with("онок");
             parts.animacy = Animacy::Animate;
@@ -385,9 +412,13 @@ impl Parts {
             (Case::Nominative, _) => self.word.clone(),
             (Case::Genitive, _) => self.genitive.clone(),
             (Case::Instrumental, _) => self.instrumental.clone(),
-            (Case::Locative, _) if self.locative.is_some() => self.locative.clone().unwrap_or_default(),
+            (Case::Locative, _) if self.locative.is_some() => {
+                self.locative.clone().unwrap_or_default()
+            }
             // путь, дверь, время: one form for genitive, dative and prepositional
-            (Case::Dative | Case::Prepositional | Case::Locative, _) if self.is_third_like() => self.genitive.clone(),
+            (Case::Dative | Case::Prepositional | Case::Locative, _) if self.is_third_like() => {
+                self.genitive.clone()
+            }
             (Case::Dative | Case::Prepositional | Case::Locative, Kind::First) => {
                 let stem = drop_last(&self.word, 1);
                 format!("{stem}{}", if stem.ends_with('и') { "и" } else { "е" })
@@ -466,7 +497,11 @@ fn zero_ending(stem: &str, soft: bool) -> String {
         Some(l) if is_vowel(l) => format!("{stem}й"),
         Some('к') if clustered => broken(if hush { 'е' } else { 'о' }),
         Some('н') if soft && clustered => broken('е'),
-        Some('н') if clustered && before != Some('н') && before != Some('л') && before != Some('й') => broken('е'),
+        Some('н')
+            if clustered && before != Some('н') && before != Some('л') && before != Some('й') =>
+        {
+            broken('е')
+        }
         Some('л') if soft && clustered => format!("{}ь", broken('е')),
         Some('л') if clustered && before != Some('л') => broken('е'),
         Some('ц') if clustered => broken('е'),
@@ -490,20 +525,40 @@ fn masculine_stem(word: &str) -> (String, bool, bool) {
     }
     let before = word.chars().rev().nth(2);
     const KEEP_OK: [&str; 16] = [
-        "урок", "срок", "поток", "приток", "исток", "восток", "сток", "водосток", "пророк", "игрок", "порок", "зарок",
-        "электрошок", "волок", "подток", "водоток",
+        "урок",
+        "срок",
+        "поток",
+        "приток",
+        "исток",
+        "восток",
+        "сток",
+        "водосток",
+        "пророк",
+        "игрок",
+        "порок",
+        "зарок",
+        "электрошок",
+        "волок",
+        "подток",
+        "водоток",
     ];
     match () {
-        () if word.ends_with("ок") && !KEEP_OK.contains(&word) && !word.ends_with("блок") => cut(2, "к"),
+        () if word.ends_with("ок") && !KEEP_OK.contains(&word) && !word.ends_with("блок") => {
+            cut(2, "к")
+        }
         () if word.ends_with("ёк") || word.ends_with("лек") => match before {
             Some(l) if is_vowel(l) => cut(2, "йк"),
             _ => cut(2, "ьк"),
         },
-        () if ["чек", "шек", "жек"].iter().any(|e| word.ends_with(e)) && letters > 4 => cut(2, "к"),
+        () if ["чек", "шек", "жек"].iter().any(|e| word.ends_with(e)) && letters > 4 => {
+            cut(2, "к")
+        }
         () if word.ends_with("ец") && letters > 3 => match before {
             Some('л') => cut(2, "ьц"),
             Some(l) if is_vowel(l) => cut(2, "йц"),
-            _ if ends_in_two_consonants(drop_last(word, 2)) && !word.ends_with("нец") => (word.into(), false, false),
+            _ if ends_in_two_consonants(drop_last(word, 2)) && !word.ends_with("нец") => {
+                (word.into(), false, false)
+            }
             _ => cut(2, "ц"),
         },
         () => (word.into(), false, false),
@@ -512,7 +567,8 @@ fn masculine_stem(word: &str) -> (String, bool, bool) {
 
 /// -ец under stress takes -цом; -анец, -овец, -лец and the like mostly do not have it.
 fn has_stressed_ets(word: &str) -> bool {
-    let unstressed = ["анец", "янец", "енец", "инец", "овец", "евец", "мец", "лидец", "ерец", "ндец", "ц"];
+    let unstressed =
+        ["анец", "янец", "енец", "инец", "овец", "евец", "мец", "лидец", "ерец", "ндец", "ц"];
     word.ends_with("ец") && !unstressed[..10].iter().any(|e| word.ends_with(e))
 }
 
@@ -521,8 +577,15 @@ fn has_stressed_husher(word: &str) -> bool {
     let short = word.chars().filter(|c| is_vowel(*c)).count() == 1;
     match word.chars().last() {
         Some('ж') => short || word.ends_with("аж") || word.ends_with("ёж"),
-        Some('ч') => (short || word.ends_with("ач") || word.ends_with("ич") || word.ends_with("юч")) && !word.ends_with("вич"),
-        Some('ш') => word.ends_with("ыш") && !short && !word.ends_with("игрыш") || word.ends_with("даш") || word.ends_with("иш"),
+        Some('ч') => {
+            (short || word.ends_with("ач") || word.ends_with("ич") || word.ends_with("юч"))
+                && !word.ends_with("вич")
+        }
+        Some('ш') => {
+            word.ends_with("ыш") && !short && !word.ends_with("игрыш")
+                || word.ends_with("даш")
+                || word.ends_with("иш")
+        }
         Some('щ') => short || word.ends_with("ющ"),
         _ => false,
     }
@@ -531,11 +594,37 @@ fn has_stressed_husher(word: &str) -> bool {
 /// Nouns in -ь that are masculine by their ending; the others stand in the word list.
 fn is_masculine_soft(word: &str) -> bool {
     const MASCULINE: [&str; 16] = [
-        "тель", "арь", "ырь", "ень", "оль", "иль", "уль", "абль", "обль", "убль", "ель", "ошь-", "оготь", "окоть",
-        "орь", "юль",
+        "тель",
+        "арь",
+        "ырь",
+        "ень",
+        "оль",
+        "иль",
+        "уль",
+        "абль",
+        "обль",
+        "убль",
+        "ель",
+        "ошь-",
+        "оготь",
+        "окоть",
+        "орь",
+        "юль",
     ];
     const FEMININE: [&str; 14] = [
-        "бель", "ышень", "упень", "епень", "ирень", "дель", "нель", "тень", "пель", "рель", "соль", "роль", "боль",
+        "бель",
+        "ышень",
+        "упень",
+        "епень",
+        "ирень",
+        "дель",
+        "нель",
+        "тень",
+        "пель",
+        "рель",
+        "соль",
+        "роль",
+        "боль",
         "моль",
     ];
     MASCULINE.iter().any(|e| word.ends_with(e)) && !FEMININE.iter().any(|e| word.ends_with(e))
@@ -549,7 +638,15 @@ fn is_unchanging(word: &str) -> bool {
         'у' | 'ю' | 'э' => true,
         'и' => before.is_some_and(|b| matches!(b, 'б' | 'п' | 'ф')) && word.chars().count() < 7,
         'о' => before.is_some_and(is_vowel),
-        'е' | 'ё' => !before.is_some_and(|b| matches!(b, 'и' | 'ь' | 'ц' | 'щ' | 'ж')) && !word.ends_with("ое") && !word.ends_with("ее") && !word.ends_with("ле") && !word.ends_with("ые") && !word.ends_with("ане") && !word.ends_with("яне"),
+        'е' | 'ё' => {
+            !before.is_some_and(|b| matches!(b, 'и' | 'ь' | 'ц' | 'щ' | 'ж'))
+                && !word.ends_with("ое")
+                && !word.ends_with("ее")
+                && !word.ends_with("ле")
+                && !word.ends_with("ые")
+                && !word.ends_with("ане")
+                && !word.ends_with("яне")
+        }
         'а' => before.is_some_and(|b| matches!(b, 'у' | 'о')),
         _ => !last.is_alphabetic() || last.is_ascii(),
     }
@@ -560,15 +657,170 @@ fn looks_adjectival(word: &str) -> bool {
     let Some(adjective) = Adjective::read(word) else { return false };
     match adjective.number() {
         _ if word.ends_with("ый") || word.ends_with("ые") => true,
-        Number::Plural => !word.ends_with("ие") || word.ends_with("кие") || word.ends_with("щие") || word.ends_with("шие"),
+        Number::Plural => {
+            !word.ends_with("ие")
+                || word.ends_with("кие")
+                || word.ends_with("щие")
+                || word.ends_with("шие")
+        }
         Number::Singular if word.ends_with("ой") => false,
-        Number::Singular if word.ends_with("ий") => ["кий", "щий", "ший", "чий", "жний", "дний"].iter().any(|e| word.ends_with(e)),
+        Number::Singular if word.ends_with("ий") => {
+            ["кий", "щий", "ший", "чий", "жний", "дний"].iter().any(|e| word.ends_with(e))
+        }
         Number::Singular => !["стая", "свая", "майя"].iter().any(|e| word.ends_with(e)),
     }
 }
 
 /// Plural by its ending: -ы, -и after a consonant, -ане.
 fn looks_plural(word: &str) -> bool {
-    word.ends_with('ы') || word.ends_with("ане") || word.ends_with("яне")
+    word.ends_with('ы')
+        || word.ends_with("ане")
+        || word.ends_with("яне")
         || (word.ends_with('и') && !drop_last(word, 1).is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(word: &str, expected: &str) {
+        let noun = Noun::by_rules(word, Known::default());
+        let all =
+            |number| Case::SIX.map(|case| noun.paradigm.form(number, case).to_owned()).join(" ");
+        let singular = if noun.number == Number::Plural {
+            String::new()
+        } else {
+            format!("{} / ", all(Number::Singular))
+        };
+        assert_eq!(format!("{singular}{}", all(Number::Plural)), expected);
+    }
+
+    #[test]
+    fn endings_alone_decline_what_no_list_holds() {
+        check(
+            "ступица",
+            "ступица ступицы ступице ступицу ступицей ступице / ступицы ступиц ступицам ступицы ступицами ступицах",
+        );
+        check(
+            "станция",
+            "станция станции станции станцию станцией станции / станции станций станциям станции станциями станциях",
+        );
+        check(
+            "задвижка",
+            "задвижка задвижки задвижке задвижку задвижкой задвижке / задвижки задвижек задвижкам задвижки задвижками задвижках",
+        );
+        check(
+            "черепок",
+            "черепок черепка черепку черепок черепком черепке / черепки черепков черепкам черепки черепками черепках",
+        );
+        check(
+            "обогреватель",
+            "обогреватель обогревателя обогревателю обогреватель обогревателем обогревателе / обогреватели обогревателей обогревателям обогреватели обогревателями обогревателях",
+        );
+        check(
+            "хранилище",
+            "хранилище хранилища хранилищу хранилище хранилищем хранилище / хранилища хранилищ хранилищам хранилища хранилищами хранилищах",
+        );
+        check(
+            "санаторий",
+            "санаторий санатория санаторию санаторий санаторием санатории / санатории санаториев санаториям санатории санаториями санаториях",
+        );
+        check(
+            "пристань",
+            "пристань пристани пристани пристань пристанью пристани / пристани пристаней пристаням пристани пристанями пристанях",
+        );
+        check(
+            "патио",
+            &["патио"; 12].join(" ").replacen(
+                "патио патио патио патио патио патио ",
+                "патио патио патио патио патио патио / ",
+                1,
+            ),
+        );
+        check(
+            "мойка",
+            "мойка мойки мойке мойку мойкой мойке / мойки моек мойкам мойки мойками мойках",
+        );
+    }
+
+    /// Household nouns that the word list does not hold: what the endings do with words never seen.
+    #[cfg(feature = "rumorph")]
+    const UNSEEN: &str = "абажур альбом баллон барабан башня билет блюдо блюдце бочка брелок брошюра будильник бутыль \
+        вазон вентилятор верёвка витрина водонагреватель выдвижение газета гардероб гвоздика гирлянда гитара глобус \
+        горшок градусник графин гребёнка громкость губка датчик держатель диск документ домофон досуг жакет жалоба \
+        желоб живопись зажигалка зонт игла изголовье икона инструмент кабина календарь калькулятор камера канистра \
+        карниз кассета кафель клапан клетка клеёнка книжка ковёрчик кожух козырёк колонка колонна комбайн конверт \
+        кондиционер консервы контейнер копилка копирка корыто косметичка кофеварка кофта крем крестовина крышка куртка \
+        лейка лекция линейка линолеум лоток лупа мангал манекен маска матрас машина мебелька мельница микроскоп миксер \
+        модем молоток морозилка мотор мыло мыльница набор накидка насос наволочка нитка ноутбук обогрев обувница огонёк \
+        ограда окошко опора отвёртка отделение отопление павильон пакет палитра палка пальма панно пар паркет пылесос \
+        пепельница перегородка перчатка печенье пила пинцет платок плафон плед плитка поднос подпорка подсвечник \
+        подставка покрывало портрет посуда почта предохранитель прибор провод прожектор простыня пряжа пуговица пузырёк \
+        радиатор рама расчёска ремешок решётка рисунок рукомойник рулон рюкзак самовар сахарница свёрток сервер \
+        сигнализация сито скобка скульптура совок солонка статуэтка стенд стойло стремянка ступенька сумка сундук \
+        сушилка счётчик тапка термометр термос терминал ткань тряпка труба туфля угольник удлинитель украшение урок \
+        утюг фартук фен фильтр флакон фляга фонарик форма форточка холст хранение цветочница цифра чехол чайничек \
+        чемодан черепица чернила шкатулка шланг шпатель щётка щипчики этажерка этикетка юбка юла якорь ящичек";
+
+    #[cfg(feature = "rumorph")]
+    #[test]
+    fn endings_alone_are_right_on_unseen_nouns() {
+        let (mut good, mut all) = (0, 0);
+        let mut wrong = String::new();
+        for word in UNSEEN.split_whitespace().filter(|word| lexicon::find(word).is_none()) {
+            let Some(truth) = super::super::dictionary::noun(word, Known::default()) else {
+                continue;
+            };
+            let (right, of) = agreement(&truth, &Noun::by_rules(word, Known::default()));
+            if right < of {
+                wrong.push_str(word);
+                wrong.push(' ');
+            }
+            good += right;
+            all += of;
+        }
+        assert!(all > 2000, "only {all} forms compared");
+        assert!(good * 100 >= all * 97, "{good} of {all} forms; wrong: {wrong}");
+    }
+
+    #[cfg(feature = "rumorph")]
+    #[test]
+    fn the_word_list_agrees_with_the_dictionary() {
+        let (mut good, mut all) = (0, 0);
+        for (word, entry) in lexicon::all().filter(|(_, entry)| !entry.plural_only) {
+            let Some(truth) = super::super::dictionary::noun(
+                word,
+                Known { gender: entry.gender, ..Known::default() },
+            ) else {
+                continue;
+            };
+            let (right, of) = agreement(
+                &truth,
+                &Noun::by_rules(word, Known { animacy: Some(truth.animacy), ..Known::default() }),
+            );
+            good += right;
+            all += of;
+        }
+        assert!(good * 100 >= all * 98, "{good} of {all} forms agree");
+    }
+
+    /// Forms on which two readings of a noun agree, and forms compared. A missing plural is no disagreement.
+    #[cfg(feature = "rumorph")]
+    fn agreement(truth: &Noun, ours: &Noun) -> (usize, usize) {
+        let yo = |form: &str| form.replace('ё', "е");
+        let has_plural = truth.paradigm.form(Number::Plural, Case::Dative)
+            != truth.paradigm.form(Number::Singular, Case::Dative);
+        let numbers = if has_plural { &Number::BOTH[..] } else { &Number::BOTH[..1] };
+        let pairs = numbers.iter().flat_map(|number| Case::SIX.map(|case| (*number, case)));
+        let right = pairs.clone().filter(|(number, case)| {
+            let form = yo(ours.paradigm.form(*number, *case));
+            let rarer = truth
+                .paradigm
+                .variants
+                .iter()
+                .any(|(n, c, v)| (n, c) == (number, case) && yo(v) == form);
+            rarer || yo(truth.paradigm.form(*number, *case)) == form
+        });
+        (right.count(), pairs.count())
+    }
 }

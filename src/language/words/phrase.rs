@@ -44,10 +44,19 @@ pub struct NounPhrase {
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Piece {
     Fixed(String),
-    Noun { written: String, noun: Box<Noun> },
-    Agreeing { written: String, adjective: Adjective },
+    Noun {
+        written: String,
+        noun: Box<Noun>,
+    },
+    Agreeing {
+        written: String,
+        adjective: Adjective,
+    },
     /// «2-й»: the digits stay, the ending agrees.
-    Ordinal { digits: String, ending: Adjective },
+    Ordinal {
+        digits: String,
+        ending: Adjective,
+    },
 }
 
 impl NounPhrase {
@@ -96,9 +105,12 @@ impl NounPhrase {
             Counted::Few if !self.given.is_empty() => self.form(Case::Genitive, Number::Singular),
             Counted::Few => {
                 // An adjective after 2, 3, 4 stands in the plural: «2 гостиные», «2 больших стола».
-                let case = if self.gender == Gender::Feminine { Case::Nominative } else { Case::Genitive };
-                let of = |piece| match piece {
-                    &Piece::Noun { ref noun, .. } if !noun.is_adjectival() => self.piece(piece, Case::Genitive, Number::Singular),
+                let case =
+                    if self.gender == Gender::Feminine { Case::Nominative } else { Case::Genitive };
+                let of = |piece: &Piece| match piece {
+                    Piece::Noun { noun, .. } if !noun.is_adjectival() => {
+                        self.piece(piece, Case::Genitive, Number::Singular)
+                    }
                     _ => self.piece(piece, case, Number::Plural),
                 };
                 self.pieces.iter().map(of).collect()
@@ -120,10 +132,11 @@ impl NounPhrase {
         for (at, piece) in self.pieces.iter().enumerate() {
             let Piece::Noun { written, noun } = piece else { continue };
             for (number, case, variant) in &noun.paradigm.variants {
-                let whole = self.pieces.iter().enumerate().map(|(other, piece)| match other == at {
-                    true => recase(written, variant),
-                    false => self.piece(piece, *case, *number),
-                });
+                let whole =
+                    self.pieces.iter().enumerate().map(|(other, piece)| match other == at {
+                        true => recase(written, variant),
+                        false => self.piece(piece, *case, *number),
+                    });
                 forms.push((*number, *case, whole.collect()));
             }
         }
@@ -161,7 +174,11 @@ impl NounPhrase {
     /// Whether no word was declined by a mere guess from its ending.
     #[must_use]
     pub fn is_certain(&self) -> bool {
-        let six = |number| Case::SIX.iter().all(|case| self.given.contains_key(&(number, *case)) || *case == Case::Nominative);
+        let six = |number| {
+            Case::SIX
+                .iter()
+                .all(|case| self.given.contains_key(&(number, *case)) || *case == Case::Nominative)
+        };
         self.evidence < Evidence::Guess || six(self.number)
     }
 
@@ -176,7 +193,8 @@ impl NounPhrase {
         given(case).or_else(|| match case {
             Case::Locative => given(Case::Prepositional),
             Case::Accusative => match (self.animacy, number, self.gender) {
-                (Animacy::Animate, Number::Plural, _) | (Animacy::Animate, _, Gender::Masculine) => given(Case::Genitive),
+                (Animacy::Animate, Number::Plural, _)
+                | (Animacy::Animate, _, Gender::Masculine) => given(Case::Genitive),
                 _ => None,
             },
             _ => None,
@@ -204,7 +222,12 @@ impl NounPhrase {
 /// «-я», «-го»: the last letter of the ordinal, or the last two after a vowel and consonant, as it is written.
 fn ordinal_suffix(form: &str) -> String {
     let letters: Vec<char> = form.chars().collect();
-    let keep = if form.ends_with("ого") || form.ends_with("его") || form.ends_with("ому") || form.ends_with("ему") || form.ends_with("ыми") {
+    let keep = if form.ends_with("ого")
+        || form.ends_with("его")
+        || form.ends_with("ому")
+        || form.ends_with("ему")
+        || form.ends_with("ыми")
+    {
         2
     } else {
         1
@@ -214,15 +237,64 @@ fn ordinal_suffix(form: &str) -> String {
 
 /// Words after which a tail begins.
 const PREPOSITIONS: [&str; 24] = [
-    "у", "в", "во", "на", "с", "со", "для", "из", "под", "над", "при", "к", "ко", "о", "об", "от", "до", "за", "по", "без",
-    "около", "возле", "рядом", "между",
+    "у",
+    "в",
+    "во",
+    "на",
+    "с",
+    "со",
+    "для",
+    "из",
+    "под",
+    "над",
+    "при",
+    "к",
+    "ко",
+    "о",
+    "об",
+    "от",
+    "до",
+    "за",
+    "по",
+    "без",
+    "около",
+    "возле",
+    "рядом",
+    "между",
 ];
 
 /// First parts of compounds that never decline.
 const FIXED_FIRST: [&str; 30] = [
-    "мини", "макси", "супер", "веб", "видео", "аудио", "фото", "арт", "бизнес", "конференц", "пресс", "интернет", "онлайн",
-    "лаунж", "спа", "фитнес", "вип", "евро", "экс", "вице", "тест", "блок", "зип", "офис", "чил", "смарт", "робот", "нью",
-    "медиа", "кофе",
+    "мини",
+    "макси",
+    "супер",
+    "веб",
+    "видео",
+    "аудио",
+    "фото",
+    "арт",
+    "бизнес",
+    "конференц",
+    "пресс",
+    "интернет",
+    "онлайн",
+    "лаунж",
+    "спа",
+    "фитнес",
+    "вип",
+    "евро",
+    "экс",
+    "вице",
+    "тест",
+    "блок",
+    "зип",
+    "офис",
+    "чил",
+    "смарт",
+    "робот",
+    "нью",
+    "медиа",
+    "кофе",
 ];
 
 struct Parser<'a> {
@@ -245,7 +317,15 @@ struct Group {
 impl<'a> Parser<'a> {
     fn new(name: &'a str, hints: &'a WordHints) -> Self {
         let (runs, pieces) = (runs(name), Vec::new());
-        Self { name, hints, runs, pieces, head: None, evidence: Evidence::Given, coordinated: false }
+        Self {
+            name,
+            hints,
+            runs,
+            pieces,
+            head: None,
+            evidence: Evidence::Given,
+            coordinated: false,
+        }
     }
 
     fn parse(mut self) -> NounPhrase {
@@ -259,11 +339,19 @@ impl<'a> Parser<'a> {
             next_run = group.to;
             let word = self.text(*group);
             let joins = |text: &str| text.contains('/') || text.contains('+') || text.contains('&');
-            if !at_head && !tail && (word == "и" || joins(gap)) && self.may_restart(&groups[index..]) {
+            if !at_head
+                && !tail
+                && (word == "и" || joins(gap))
+                && self.may_restart(&groups[index..])
+            {
                 at_head = true;
                 self.coordinated = true;
             }
-            if tail || word == "и" || PREPOSITIONS.contains(&word) || gap.contains(['(', '"', '«', '“']) && !at_head {
+            if tail
+                || word == "и"
+                || PREPOSITIONS.contains(&word)
+                || gap.contains(['(', '"', '«', '“']) && !at_head
+            {
                 tail |= word != "и";
                 self.fixed(*group);
             } else if at_head && self.is_modifier(*group, &groups[index + 1..]) {
@@ -296,7 +384,11 @@ impl<'a> Parser<'a> {
             animacy: self.hints.animacy.or(noun.map(|n| n.animacy)).unwrap_or_default(),
             number: own,
             place: self.hints.place.or(entry.map(lexicon::Entry::place)).unwrap_or_default(),
-            evidence: if noun.is_none() && self.name.chars().any(is_cyrillic_lower) { Evidence::Guess } else { self.evidence },
+            evidence: if noun.is_none() && self.name.chars().any(is_cyrillic_lower) {
+                Evidence::Guess
+            } else {
+                self.evidence
+            },
             given: self.hints.forms.clone(),
             head: self.head.map(|(head, _)| head),
             pieces: self.pieces,
@@ -307,7 +399,11 @@ impl<'a> Parser<'a> {
         let mut groups: Vec<Group> = Vec::new();
         for (at, run) in self.runs.iter().enumerate().filter(|(_, run)| run.is_word) {
             match groups.last_mut() {
-                Some(group) if group.to + 1 == at && self.runs[group.to].is_hyphen() && !run.text.is_empty() => {
+                Some(group)
+                    if group.to + 1 == at
+                        && self.runs[group.to].is_hyphen()
+                        && !run.text.is_empty() =>
+                {
                     group.to = at + 1;
                 }
                 _ => groups.push(Group { from: at, to: at + 1 }),
@@ -346,47 +442,57 @@ impl<'a> Parser<'a> {
         let mut words = self.words(group).collect::<Vec<_>>();
         let last = words.pop()?;
         let lower = to_cyrillic(last.text).to_lowercase();
-        if let [digits] = words[..] && digits.text.chars().all(|c| c.is_ascii_digit()) {
+        if let [digits] = words[..]
+            && digits.text.chars().all(|c| c.is_ascii_digit())
+        {
             return ordinal(&lower).map(|ending| (String::new(), ending));
         }
-        if !is_declinable(last.text) || !words.iter().all(|word| word.text.to_lowercase().ends_with(['о', 'е'])) {
+        if !is_declinable(last.text)
+            || !words.iter().all(|word| word.text.to_lowercase().ends_with(['о', 'е']))
+        {
             return None;
         }
         let readings = dictionary::readings(&lower);
-        if readings.adjective && let Some(possessive) = Adjective::read_possessive(&lower) {
+        if readings.adjective
+            && let Some(possessive) = Adjective::read_possessive(&lower)
+        {
             return Some((lower, possessive));
         }
         Adjective::read(&lower)
-            .filter(|_| !readings.known || readings.adjective || lexicon::find(&lower).is_some_and(|e| e.adjectival))
+            .filter(|_| {
+                !readings.known
+                    || readings.adjective
+                    || lexicon::find(&lower).is_some_and(|e| e.adjectival)
+            })
             .map(|adjective| (lower, adjective))
     }
 
     /// Whether the group is an adjective before the head: «Большой» of «Большой зал», not «Приёмная» of «Приёмная директора».
     fn is_modifier(&self, group: Group, after: &[Group]) -> bool {
         let Some((_, adjective)) = self.adjective(group) else { return false };
-        for next in after {
-            let Some(last) = self.words(*next).next() else { return false };
-            let word = to_cyrillic(last.text).to_lowercase();
-            if PREPOSITIONS.contains(&word.as_str()) || !is_declinable(last.text) {
-                return false;
-            }
-            let another = self.adjective(*next);
-            if another.as_ref().is_some_and(|(_, a)| a.number() == adjective.number() && a.gender() == adjective.gender()) {
-                return true;
-            }
-            if another.is_some() || !is_nominative(&word) {
-                return false;
-            }
-            let noun = resolve(&word, Known { number: None, ..Known::default() });
-            return noun.number == adjective.number() && (noun.number == Number::Plural || noun.gender == adjective.gender());
+        let Some(next) = after.first() else { return false };
+        let Some(first) = self.words(*next).next() else { return false };
+        let word = to_cyrillic(first.text).to_lowercase();
+        if PREPOSITIONS.contains(&word.as_str()) || !is_declinable(first.text) {
+            return false;
         }
-        false
+        if let Some((_, another)) = self.adjective(*next) {
+            return another.number() == adjective.number()
+                && another.gender() == adjective.gender();
+        }
+        if !is_nominative(&word) {
+            return false;
+        }
+        let noun = resolve(&word, Known::default());
+        noun.number == adjective.number()
+            && (noun.number == Number::Plural || noun.gender == adjective.gender())
     }
 
     fn agrees_with_head(&self, group: Group) -> bool {
         match (self.adjective(group), &self.head) {
             (Some((_, adjective)), Some((_, head))) => {
-                adjective.number() == head.number && (head.number == Number::Plural || adjective.gender() == head.gender)
+                adjective.number() == head.number
+                    && (head.number == Number::Plural || adjective.gender() == head.gender)
             }
             _ => false,
         }
@@ -400,7 +506,8 @@ impl<'a> Parser<'a> {
             self.pieces.push(Piece::Ordinal { digits, ending: adjective });
         } else {
             self.pieces.push(Piece::Fixed(self.gap(group.from, last).to_owned()));
-            self.pieces.push(Piece::Agreeing { written: self.runs[last].text.to_owned(), adjective });
+            self.pieces
+                .push(Piece::Agreeing { written: self.runs[last].text.to_owned(), adjective });
         }
     }
 
@@ -410,16 +517,24 @@ impl<'a> Parser<'a> {
         let next = groups.get(usize::from(conjunction));
         next.and_then(|group| self.words(*group).next()).is_some_and(|run| {
             let lower = to_cyrillic(run.text).to_lowercase();
-            is_declinable(run.text) && (is_nominative(&lower) || dictionary::readings(&lower).adjective)
+            is_declinable(run.text)
+                && (is_nominative(&lower) || dictionary::readings(&lower).adjective)
         })
     }
 
     /// Declines the group as the head. False when nothing in it declines, so that the head is still to come.
     fn noun(&mut self, group: Group) -> bool {
-        let known = Known { gender: self.hints.gender, animacy: self.hints.animacy, number: self.hints.number };
+        let known = Known {
+            gender: self.hints.gender,
+            animacy: self.hints.animacy,
+            number: self.hints.number,
+        };
         let whole = to_cyrillic(self.text(group)).to_lowercase();
         let parts = self.words(group).count();
-        if parts > 1 && self.words(group).all(|run| is_declinable(run.text)) && let Some(noun) = dictionary::noun(&whole, known) {
+        if parts > 1
+            && self.words(group).all(|run| is_declinable(run.text))
+            && let Some(noun) = dictionary::noun(&whole, known)
+        {
             self.take(self.text(group), &whole, noun);
             return true;
         }
@@ -471,13 +586,17 @@ fn is_nominative(word: &str) -> bool {
 /// Words that decline: Cyrillic, at least two letters, no digits, no abbreviation.
 fn is_declinable(word: &str) -> bool {
     let cyrillic = to_cyrillic(word);
-    let all = cyrillic.chars().all(|c| ('а'..='я').contains(&c.to_lowercase().next().unwrap_or(c)) || matches!(c, 'ё' | 'Ё'));
+    let all = cyrillic.chars().all(|c| {
+        ('а'..='я').contains(&c.to_lowercase().next().unwrap_or(c)) || matches!(c, 'ё' | 'Ё')
+    });
     if !all || cyrillic.chars().count() < 2 {
         return false;
     }
     !is_acronym(&cyrillic) || {
         let lower = cyrillic.to_lowercase();
-        let known = lexicon::find(&lower).is_some() || dictionary::noun(&lower, Known::default()).is_some() || dictionary::readings(&lower).adjective;
+        let known = lexicon::find(&lower).is_some()
+            || dictionary::noun(&lower, Known::default()).is_some()
+            || dictionary::readings(&lower).adjective;
         known || (cyrillic.chars().count() > 5 && lower.chars().any(super::adjective::is_vowel))
     }
 }

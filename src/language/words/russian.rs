@@ -9,8 +9,8 @@
 //! assert_eq!(russian::count(5, &name("дверь")), "5 дверей");
 //! ```
 
-use super::adjective::is_vowel;
-use super::grammar::{Case, PlaceSense};
+use super::adjective::{Adjective, is_vowel};
+use super::grammar::{Animacy, Case, Gender, Number, PlaceSense};
 use super::letters::is_acronym;
 use super::phrase::NounPhrase;
 
@@ -49,16 +49,70 @@ pub fn preposition(preposition: Preposition, next: &str) -> &'static str {
     let word = Word::first(next);
     let full = word.wants_vowel(preposition);
     match preposition {
-        Preposition::V => if full { "во" } else { "в" },
-        Preposition::S => if full { "со" } else { "с" },
-        Preposition::K => if full { "ко" } else { "к" },
+        Preposition::V => {
+            if full {
+                "во"
+            } else {
+                "в"
+            }
+        }
+        Preposition::S => {
+            if full {
+                "со"
+            } else {
+                "с"
+            }
+        }
+        Preposition::K => {
+            if full {
+                "ко"
+            } else {
+                "к"
+            }
+        }
         Preposition::O if full => "обо",
-        Preposition::O => if word.starts_with_vowel_sound() { "об" } else { "о" },
-        Preposition::Iz => if full { "изо" } else { "из" },
-        Preposition::Ot => if full { "ото" } else { "от" },
-        Preposition::Pod => if full { "подо" } else { "под" },
-        Preposition::Nad => if full { "надо" } else { "над" },
-        Preposition::Pered => if full { "передо" } else { "перед" },
+        Preposition::O => {
+            if word.starts_with_vowel_sound() {
+                "об"
+            } else {
+                "о"
+            }
+        }
+        Preposition::Iz => {
+            if full {
+                "изо"
+            } else {
+                "из"
+            }
+        }
+        Preposition::Ot => {
+            if full {
+                "ото"
+            } else {
+                "от"
+            }
+        }
+        Preposition::Pod => {
+            if full {
+                "подо"
+            } else {
+                "под"
+            }
+        }
+        Preposition::Nad => {
+            if full {
+                "надо"
+            } else {
+                "над"
+            }
+        }
+        Preposition::Pered => {
+            if full {
+                "передо"
+            } else {
+                "перед"
+            }
+        }
         Preposition::Na => "на",
         Preposition::Do => "до",
         Preposition::U => "у",
@@ -104,6 +158,15 @@ fn inside_or_upon(place: &NounPhrase) -> Preposition {
         PlaceSense::Inside => Preposition::V,
         PlaceSense::Upon => Preposition::Na,
     }
+}
+
+/// An adjective or participle, given in the masculine, as it agrees with an inanimate noun: «ведущей», «ведущих».
+#[must_use]
+pub fn agreeing(adjective: &str, case: Case, number: Number, gender: Gender) -> String {
+    Adjective::read(adjective).map_or_else(
+        || adjective.to_owned(),
+        |read| read.form(case, number, gender, Animacy::Inanimate),
+    )
 }
 
 /// Number and name in the nominative: «1 дверь», «2 двери», «5 дверей», «21 дверь».
@@ -153,7 +216,9 @@ impl Word {
             || (is_acronym(word) && is_spelled_out(&lower));
         let sound = match lower.chars().next() {
             Some(letter) if letter.is_ascii_digit() => digit_sound(whole).to_owned(),
-            Some(letter) if spelled || letter.is_ascii_alphabetic() => letter_name(letter, spelled).to_owned(),
+            Some(letter) if spelled || letter.is_ascii_alphabetic() => {
+                letter_name(letter, spelled).to_owned()
+            }
             _ => lower,
         };
         Self { sound }
@@ -171,16 +236,70 @@ impl Word {
         let second = starts(&["второ", "втори", "вторы", "вторн", "вторую", "вторая"]);
         let cluster = |first: &[char]| {
             let mut letters = sound.chars();
-            letters.next().is_some_and(|c| first.contains(&c)) && letters.next().is_some_and(|c| !is_vowel(c) && c.is_alphabetic() && c != 'ь')
+            letters.next().is_some_and(|c| first.contains(&c))
+                && letters.next().is_some_and(|c| !is_vowel(c) && c.is_alphabetic() && c != 'ь')
         };
-        let short = ["льду", "льда", "льдом", "льде", "лба", "лбу", "лбом", "рту", "рта", "ртом", "сна", "сне", "сну", "мху", "мха", "дня", "дну", "дню", "льве", "львове"];
+        let short = [
+            "льду",
+            "льда",
+            "льдом",
+            "льде",
+            "лба",
+            "лбу",
+            "лбом",
+            "рту",
+            "рта",
+            "ртом",
+            "сна",
+            "сне",
+            "сну",
+            "мху",
+            "мха",
+            "дня",
+            "дну",
+            "дню",
+            "льве",
+            "львове",
+        ];
         match before {
-            Preposition::V => cluster(&['в', 'ф']) || all || ["дворе", "двор", "льду", "льдах", "лбу", "рту", "сне", "мху", "мне", "мраке", "многих"].contains(&sound),
-            Preposition::S => cluster(&['с', 'з', 'ш', 'ж']) || sound.starts_with('щ') || all || second || PRONOUNS.contains(&sound) || ["двора", "дна", "льда", "лба"].contains(&sound),
-            Preposition::K => all || second || sound == "мне" || ["двору", "дну", "дню", "льду", "лбу", "рту", "сну"].contains(&sound),
+            Preposition::V => {
+                cluster(&['в', 'ф'])
+                    || all
+                    || [
+                        "дворе",
+                        "двор",
+                        "льду",
+                        "льдах",
+                        "лбу",
+                        "рту",
+                        "сне",
+                        "мху",
+                        "мне",
+                        "мраке",
+                        "многих",
+                    ]
+                    .contains(&sound)
+            }
+            Preposition::S => {
+                cluster(&['с', 'з', 'ш', 'ж'])
+                    || sound.starts_with('щ')
+                    || all
+                    || second
+                    || PRONOUNS.contains(&sound)
+                    || ["двора", "дна", "льда", "лба"].contains(&sound)
+            }
+            Preposition::K => {
+                all || second
+                    || sound == "мне"
+                    || ["двору", "дну", "дню", "льду", "лбу", "рту", "сну"].contains(&sound)
+            }
             Preposition::O => sound == "мне" || all,
-            Preposition::Iz | Preposition::Ot => all || short[..10].contains(&sound) && sound != "льдом",
-            Preposition::Pod | Preposition::Nad | Preposition::Pered => PRONOUNS.contains(&sound) || all || ["льдом", "лбом", "ртом"].contains(&sound),
+            Preposition::Iz | Preposition::Ot => {
+                all || short[..10].contains(&sound) && sound != "льдом"
+            }
+            Preposition::Pod | Preposition::Nad | Preposition::Pered => {
+                PRONOUNS.contains(&sound) || all || ["льдом", "лбом", "ртом"].contains(&sound)
+            }
             _ => false,
         }
     }
@@ -209,7 +328,13 @@ fn digit_sound(whole: &str) -> &'static str {
     let ordinal = whole.len() > digits.len();
     match digits.as_str() {
         "2" if ordinal => "второй",
-        "1" => if ordinal { "первый" } else { "один" },
+        "1" => {
+            if ordinal {
+                "первый"
+            } else {
+                "один"
+            }
+        }
         "11" => "одиннадцать",
         _ if digits.starts_with("8") && matches!(digits.len(), 1 | 2) => "восемь",
         _ => "три",
