@@ -1,10 +1,10 @@
 //! orthoframe: an embedded knowledge base and logic engine for robots that work inside buildings.
 
-#[cfg(feature = "cli")]
-pub mod cli;
+// #[cfg(feature = "cli")]
+// pub mod cli;
 pub mod corridor;
 pub mod draw;
-pub mod engine;
+// pub mod engine;
 pub mod exchange;
 pub mod facts;
 pub mod geometry;

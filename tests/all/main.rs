@@ -1,4 +1,0 @@
-//! Tests of whole capabilities, one module each.
-
-mod floors;
-mod routes;
