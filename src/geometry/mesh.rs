@@ -155,7 +155,7 @@ impl Mesh {
                 continue;
             }
             let (da, db) = (along.perp(&(a - u)) / length, along.perp(&(b - u)) / length);
-            const TOUCH: f64 = 1e-6;
+            const TOUCH: f64 = 1e-4;
             if da < -TOUCH && db < -TOUCH {
                 return None;
             }

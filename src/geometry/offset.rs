@@ -73,7 +73,8 @@ fn shrink_joint(_at: Point, start: Vector, end: Vector, turn: f64) -> Vec<Vector
     if turn > 0.0 {
         return vec![start, Vector::zeros(), end];
     }
-    let steps = (turn.abs() / ARC_STEP).ceil().max(1.0);
+    // Rounding must not cost a right angle one tangent more.
+    let steps = (turn.abs() / ARC_STEP - 1e-4).ceil().max(1.0);
     let half = turn / steps / 2.0;
     let tangent = |k: usize| rotated(start, half * (2 * k + 1) as f64) / half.cos();
     std::iter::once(start).chain((0..steps as usize).map(tangent)).chain([end]).collect()
