@@ -14,6 +14,8 @@ mod simulator;
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station};
 pub use directive::{Deed, Directive, Effect};
 pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
-pub use mission::{Ending, Event, GoalFact, Leg, Mission, Planned, Surprise, starting_pose};
+pub use mission::{
+    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
+};
 pub use placing::spot_on;
 pub use simulator::{Moment, Simulator};
