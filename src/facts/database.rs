@@ -29,7 +29,7 @@ pub enum FactError {
 }
 
 /// A relation by its id or by one of its names.
-pub trait RelationKey {
+pub trait RelationKey: Copy {
     #[doc(hidden)]
     fn find(&self, schema: &Schema) -> Result<RelationId, FactError>;
 }
