@@ -1,0 +1,4 @@
+//! One binary for the tests of whole capabilities.
+
+mod store;
+mod store_world;
