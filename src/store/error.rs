@@ -86,6 +86,16 @@ pub enum StoreError {
     #[diagnostic(code(store::id_reused), help("возьмите новый номер: Store::next_id"))]
     IdReused { table: &'static str, id: u32, was: String, is: String },
 
+    /// A number that is none.
+    #[error("таблица {table}, запись {key}: поле {column} — не число, а {value}")]
+    #[diagnostic(code(store::not_finite), help("исправьте карту: числа должны быть конечными"))]
+    NotFinite { table: &'static str, key: String, column: &'static str, value: f64 },
+
+    /// Something is said of a replica that is not in the map.
+    #[error("экземпляра с номером {id} нет на карте")]
+    #[diagnostic(code(store::unknown_replica), help("список экземпляров: ortho relations"))]
+    UnknownReplica { id: u32 },
+
     /// A derived table was to be edited.
     #[error("таблица {table} вычисляется по другим таблицам, её нельзя править")]
     #[diagnostic(code(store::derived_table), help("правьте исходные таблицы"))]

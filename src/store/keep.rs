@@ -10,7 +10,7 @@ use std::sync::Arc;
 use crate::map::{Replica, World};
 use crate::units::AreaId;
 
-use super::cell::{Key, Row};
+use super::cell::{Cell, Key, Row};
 use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
 use super::frame::Op;
@@ -382,6 +382,9 @@ impl Store {
             if !table.is_stored() {
                 return Err(StoreError::DerivedTable { table: table.name() });
             }
+            if let Some(row) = row {
+                check_numbers(*table, row)?;
+            }
             let old = self.vault.get(table.code(), key.as_bytes())?;
             let was =
                 old.as_ref().map(|b| Version::decode(*table, key.as_bytes(), b)).transpose()?;
@@ -445,10 +448,11 @@ impl Store {
         record: &T,
         stamp: &Stamp,
     ) -> Result<()> {
+        let row = record.to_row();
+        check_numbers(T::TABLE, &row)?;
         let key = key_of_record(record).as_bytes().to_vec();
         let old = self.vault.get(T::TABLE.code(), &key)?;
-        let version = Version { stamp: stamp.clone(), row: record.to_row() };
-        let bytes = version.encode(T::TABLE, &key);
+        let bytes = Version { stamp: stamp.clone(), row }.encode(T::TABLE, &key);
         draft.put(T::TABLE.code(), key, bytes, old);
         Ok(())
     }
@@ -485,6 +489,19 @@ impl Draft {
         }
         ImportReport { revision, counts, by_table: std::mem::take(&mut self.by_table) }
     }
+}
+
+/// What is not finite could be written, but not read.
+fn check_numbers(table: Table, row: &Row) -> Result<()> {
+    for (column, cell) in table.columns().iter().zip(row) {
+        if let Cell::Real(value) = cell
+            && !value.is_finite()
+        {
+            let (key, column) = (describe_key(table, row), column.name);
+            return Err(StoreError::NotFinite { table: table.name(), key, column, value: *value });
+        }
+    }
+    Ok(())
 }
 
 /// A deleted record may come back as itself, but not as something else.

@@ -22,11 +22,13 @@
 //! [`World`]: crate::map::World
 
 mod cell;
+mod derived;
 mod disk;
 mod error;
 mod frame;
 mod ids;
 mod keep;
+mod observe;
 mod open;
 mod read;
 mod reader;
@@ -43,6 +45,7 @@ mod write;
 pub use cell::{Cell, Key, Kind, Row};
 pub use error::StoreError;
 pub use keep::{Change, Counts, Edits, ImportReport, Revision, RevisionKind, Store};
+pub use observe::{Belief, Observation, Proposal, Seen};
 pub use reader::Reader;
 pub use schema::{Column, Origin, Record};
 pub use sheet::Sheet;

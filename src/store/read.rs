@@ -1,6 +1,6 @@
 //! Records → World: the inverse of [`super::write`].
 //!
-//! Numbers are checked once more on the way in ([`Cm`], [`Deg`]), since an import from SQL ends here too.
+//! Codes, words and numbers are checked once more on the way in, since an import from SQL ends here too.
 
 use std::collections::BTreeMap;
 
@@ -53,8 +53,9 @@ impl<V> OrBad<V> for Option<V> {
     }
 }
 
+/// Any finite number: what was computed may exceed the limit for what a person types, and must come back.
 fn cm(value: f64) -> Option<Cm> {
-    Cm::new(value).ok()
+    value.is_finite().then(|| Cm::of(value))
 }
 
 fn deg(value: f64) -> Option<Deg> {

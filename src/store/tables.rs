@@ -519,6 +519,13 @@ tables! {
         key kind: String = "Kind",
         col last_id: u32 = "LastID",
     }
+    /// What a person said of the observations up to a moment: that they are wrong.
+    Log Verdicts = 64 {
+        key repl_id: u32 = "ReplID",
+        key at: i64 = "At",
+        col verdict: String = "Verdict",
+        col reason: String = "Reason",
+    }
 }
 
 impl Table {
@@ -632,7 +639,7 @@ mod tests {
     #[test]
     fn codes_stay_what_they_are() {
         let codes: Vec<u8> = Table::ALL.iter().map(|t| t.code()).collect();
-        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=63).collect();
+        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=64).collect();
         assert_eq!(codes, expected);
         assert!(Table::ALL.iter().all(|t| Table::from_code(t.code()) == Some(*t)));
     }

@@ -482,6 +482,10 @@ impl Vault {
         if self.state.digests.contains_key(&tree) { self.trees.get(tree, key) } else { Ok(None) }
     }
 
+    pub(crate) fn disk(&self) -> &dyn Disk {
+        &*self.disk
+    }
+
     pub(crate) fn lsn(&self) -> u64 {
         self.state.lsn
     }
