@@ -117,10 +117,11 @@ impl Doorway {
     }
 
     /// What the leaves occupy outside of their pockets in the wall: the obstacles that they are.
-    pub(super) fn leaf_obstacles(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
+    #[must_use]
+    pub fn leaf_obstacles(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
         let leaves = self.leaves(door, state);
         match door.kind {
-            DoorKind::Hinged => leaves,
+            DoorKind::Hinged | DoorKind::Passage => leaves,
             DoorKind::Sliding => {
                 leaves.iter().filter_map(|leaf| self.between_jambs(leaf)).collect()
             }
@@ -221,7 +222,9 @@ impl Bay {
                 let swing = self.swing(leaf, share, opens_to);
                 swing.leaf_at((leaf.max_open * opening).to_radians(), leaf.thickness.get())
             }
-            DoorKind::Sliding => self.slid(leaf, share, leaf.max_open / 100.0 * opening),
+            DoorKind::Sliding | DoorKind::Passage => {
+                self.slid(leaf, share, leaf.max_open / 100.0 * opening)
+            }
         }
         .counter_clockwise()
     }
@@ -254,7 +257,7 @@ impl Bay {
             DoorKind::Hinged => self
                 .swing(leaf, share, opens_to)
                 .sector(leaf.max_open.to_radians(), leaf.thickness.get()),
-            DoorKind::Sliding => self.slid(leaf, share, 0.0),
+            DoorKind::Sliding | DoorKind::Passage => self.slid(leaf, share, 0.0),
         }
         .counter_clockwise()
     }

@@ -1,5 +1,9 @@
-//! Tests of whole capabilities, one module each.
+mod facts;
+mod facts_naive;
+//! One binary for the tests of whole capabilities.
 
 mod floor_properties;
 mod floors;
 mod routes;
+mod store;
+mod store_world;
