@@ -1,5 +1,6 @@
 //! What can be measured on a Map: prisms, distances, free floor, Passframes, routes, views.
 
+pub mod contact;
 mod polygon;
 mod scene;
 
