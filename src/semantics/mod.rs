@@ -1,1 +1,7 @@
-//! (stands empty until its chapter is written)
+//! What the geometry of a Map means (paper 1 §5).
+
+mod body;
+mod grid;
+mod measure;
+mod names;
+mod openings;
