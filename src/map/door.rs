@@ -1,4 +1,7 @@
 //! Doors (M7; paper 1 §2, paper 2 §7): leaves, the way they open, and how far they stand open now.
+//!
+//! Beyond the papers a plain passage can be a [`Door`] too, of kind [`DoorKind::Passage`] and without leaves, so that
+//! plans and reports can call it by its name.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,6 +15,8 @@ pub enum DoorKind {
     Hinged,
     /// Leaves run along the wall.
     Sliding,
+    /// No leaf at all: an opening with a name, mounted on permeable sides and always open.
+    Passage,
 }
 
 /// Where a leaf's hinges are, seen from the Area into which the door's side faces (paper 2: 0 right, 1 left).
@@ -80,7 +85,7 @@ pub enum OpensTo {
     Outside,
 }
 
-/// A door bound to a conditional side (tables AreaDoors, ObjectDoors).
+/// A door bound to a conditional side (tables AreaDoors, ObjectDoors), a passage to a permeable one.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct DoorMount {
     pub item: String,

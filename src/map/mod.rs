@@ -4,16 +4,22 @@
 //! Domain with everything in it. A `World` that came out of [`World::load`](World) or of an edit has passed
 //! every check of this folder; what is built by hand must pass [`check`] before it is stored.
 
+mod check;
 mod door;
+mod fault;
+mod file;
 mod object;
 mod orthoframe;
 mod types;
 mod world;
 
+pub use check::check;
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
+pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
+pub use file::{Format, Reading, json_schema, read};
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};
-pub use types::{Case, Forms, Gender, TypeEntry, TypeList, TypeLists};
+pub use types::{Case, Forms, Gender, TypeEntry, TypeKind, TypeList, TypeLists};
 pub use world::{
     Domain, DomainMap, Entity, LiftStop, Map, MapItem, MapLink, Place, Replica, RobotProfile, World,
 };

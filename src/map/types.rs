@@ -98,3 +98,68 @@ pub struct TypeLists {
     /// DoorTypeList
     pub door: TypeList,
 }
+
+/// Which of the type lists.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum TypeKind {
+    Orthoframe,
+    Shape,
+    Side,
+    Object,
+    Area,
+    Map,
+    Door,
+}
+
+impl TypeKind {
+    pub const ALL: [Self; 7] = [
+        Self::Orthoframe,
+        Self::Shape,
+        Self::Side,
+        Self::Object,
+        Self::Area,
+        Self::Map,
+        Self::Door,
+    ];
+
+    /// The list's name in a map file, under `type`.
+    #[must_use]
+    pub fn field(self) -> &'static str {
+        match self {
+            Self::Orthoframe => "orthoframe",
+            Self::Shape => "shape",
+            Self::Side => "side",
+            Self::Object => "object",
+            Self::Area => "area",
+            Self::Map => "map",
+            Self::Door => "door",
+        }
+    }
+}
+
+impl TypeLists {
+    #[must_use]
+    pub fn list(&self, kind: TypeKind) -> &TypeList {
+        match kind {
+            TypeKind::Orthoframe => &self.orthoframe,
+            TypeKind::Shape => &self.shape,
+            TypeKind::Side => &self.side,
+            TypeKind::Object => &self.object,
+            TypeKind::Area => &self.area,
+            TypeKind::Map => &self.map,
+            TypeKind::Door => &self.door,
+        }
+    }
+
+    pub fn list_mut(&mut self, kind: TypeKind) -> &mut TypeList {
+        match kind {
+            TypeKind::Orthoframe => &mut self.orthoframe,
+            TypeKind::Shape => &mut self.shape,
+            TypeKind::Side => &mut self.side,
+            TypeKind::Object => &mut self.object,
+            TypeKind::Area => &mut self.area,
+            TypeKind::Map => &mut self.map,
+            TypeKind::Door => &mut self.door,
+        }
+    }
+}

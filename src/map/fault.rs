@@ -1,0 +1,563 @@
+//! What can be wrong with a map, and where: [`MapError`], the [`Spot`] in the model, and [`MapErrors`], all of a file.
+//!
+//! A fault knows its place as a path into the model; the reader of a file turns that into a place in the text.
+
+use std::fmt;
+
+use miette::{Diagnostic, LabeledSpan, Severity, SourceCode, SourceSpan};
+use thiserror::Error;
+
+use crate::units::{
+    AreaId, Cm, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, Source, TypeId,
+};
+
+use super::TypeKind;
+
+/// A map that cannot be read, or that contradicts itself. Points are `(x, y)` in cm.
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum MapError {
+    /// The file cannot be opened or is no text.
+    #[error("файл «{path}» не читается: {message}")]
+    #[diagnostic(
+        code(map::unreadable),
+        help("проверьте путь к файлу; карта - текст в кодировке UTF-8")
+    )]
+    Unreadable { path: String, message: String },
+    /// Larger than any building needs.
+    #[error("файл карты слишком велик: {bytes} байт при пределе {limit}")]
+    #[diagnostic(code(map::too_large), help("разделите карту на несколько файлов"))]
+    TooLarge { bytes: u64, limit: u64 },
+    /// Nothing but blanks and comments.
+    #[error("файл карты пуст")]
+    #[diagnostic(
+        code(map::empty),
+        help("карта начинается строкой `format = 1`; образец - maps/rb2.toml")
+    )]
+    Empty,
+    /// The notation itself is broken.
+    #[error("ошибка записи {format}: {message}")]
+    #[diagnostic(code(map::syntax), help("исправьте запись в этом месте; образец - maps/rb2.toml"))]
+    Syntax { format: &'static str, message: String },
+    /// Written for another version.
+    #[error("неизвестная версия формата: {found}")]
+    #[diagnostic(code(map::format), help("эта программа читает карты версии 1: `format = 1`"))]
+    Format { found: String },
+    /// A key that the format does not have.
+    #[error("неизвестное поле «{field}»{}", perhaps(.nearest))]
+    #[diagnostic(code(map::unknown_field), help("здесь могут стоять поля: {expected}"))]
+    UnknownField { field: String, nearest: Option<String>, expected: String },
+    /// A key that the format requires.
+    #[error("не хватает поля «{field}»")]
+    #[diagnostic(code(map::missing_field), help("добавьте поле «{field}»"))]
+    MissingField { field: &'static str },
+    /// A text where a number belongs, and the like.
+    #[error("{found} вместо ожидаемого: {expected}")]
+    #[diagnostic(code(map::wrong_kind), help("замените значение: здесь нужно {expected}"))]
+    WrongKind { found: String, expected: String },
+    /// None of the words that may stand here.
+    #[error("неизвестное слово «{word}»{}", perhaps(.nearest))]
+    #[diagnostic(code(map::unknown_word), help("здесь может стоять одно из слов: {expected}"))]
+    UnknownWord { word: String, nearest: Option<String>, expected: String },
+    /// A value of the right kind that makes no sense.
+    #[error("негодное значение: {message}")]
+    #[diagnostic(code(map::bad_value), help("исправьте значение"))]
+    BadValue { message: String },
+    /// A number out of its range.
+    #[error("{what}: {value} вне пределов {range}")]
+    #[diagnostic(code(map::out_of_range), help("задайте {what} в пределах {range}"))]
+    OutOfRange { what: &'static str, value: f64, range: &'static str },
+    /// A name that nothing bears.
+    #[error("{what} «{name}» не существует{}", perhaps(.nearest))]
+    #[diagnostic(code(map::unknown_reference), help("исправьте имя или опишите: {what} «{name}»"))]
+    UnknownReference { what: &'static str, name: String, nearest: Option<String> },
+    /// "A.roof" and its like, misspelt.
+    #[error("ссылка «{text}» непонятна")]
+    #[diagnostic(code(map::bad_reference), help("запишите ссылку как {wanted}"))]
+    BadReference { text: String, wanted: &'static str },
+    /// Two records of one kind with one id.
+    #[error("{what}: номер {id} дан дважды")]
+    #[diagnostic(code(map::duplicate_id), help("уберите поле id или дайте другой номер"))]
+    DuplicateId { what: &'static str, id: u32 },
+    /// An id from another world.
+    #[error("{owner}: ссылка на {what} с номером {id}, которого нет")]
+    #[diagnostic(code(map::dangling_id), help("добавьте недостающую запись или уберите ссылку"))]
+    DanglingId { owner: String, what: &'static str, id: u32 },
+    /// One name for two things.
+    #[error("имя «{name}» носят двое: {first} и {second}")]
+    #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{name}-2»"))]
+    DuplicateName { name: String, first: String, second: String },
+    /// A record without a name.
+    #[error("{what} без имени")]
+    #[diagnostic(code(map::no_name), help("дайте имя в поле name"))]
+    NoName { what: &'static str },
+    /// A handle that references could not tell from something else.
+    #[error("{owner}: негодное обозначение «{id}»")]
+    #[diagnostic(
+        code(map::bad_id),
+        help("обозначение не пусто, не содержит точки и не равно base, roof, база, потолок")
+    )]
+    BadId { owner: String, id: String },
+    /// Two parts or sides with one id.
+    #[error("{owner}: обозначение «{id}» дано дважды")]
+    #[diagnostic(code(map::duplicate_part), help("обозначения частей и сторон не повторяются"))]
+    DuplicatePart { owner: String, id: String },
+
+    /// None or several of the ways to give a base.
+    #[error("Ортофрейм «{name}»: База задана {count} способами вместо одного")]
+    #[diagnostic(code(map::base_form), help("оставьте одно из полей rect, regular, points, sides"))]
+    BaseForm { name: String, count: usize },
+    /// Fewer than three vectors.
+    #[error("Ортофрейм «{name}»: векторов Базы {count}, а нужно не меньше трёх")]
+    #[diagnostic(
+        code(map::base_too_short),
+        help("опишите замкнутый многоугольник хотя бы из трёх сторон")
+    )]
+    BaseTooShort { name: String, count: usize },
+    /// A vector of no length.
+    #[error("Ортофрейм «{name}»: вектор {side} нулевой длины в точке {at}")]
+    #[diagnostic(
+        code(map::base_zero_length),
+        help("уберите вектор {side} или раздвиньте его концы")
+    )]
+    BaseZeroLength { name: String, side: String, at: String },
+    /// A vector does not begin where the one before it ends.
+    #[error(
+        "Ортофрейм «{name}»: База не связна: вектор {side} кончается в {end}, а следующий за ним {next} начинается в {start}"
+    )]
+    #[diagnostic(code(map::base_not_connected), help("начните вектор {next} в точке {end}"))]
+    BaseNotConnected { name: String, side: String, end: String, next: String, start: String },
+    /// The last vector does not return to the first.
+    #[error(
+        "Ортофрейм «{name}»: База не замкнута: последний вектор {side} кончается в {end}, а первый вектор {next} начинается в {start}"
+    )]
+    #[diagnostic(code(map::base_not_closed), help("кончите вектор {side} в точке {start}"))]
+    BaseNotClosed { name: String, side: String, end: String, next: String, start: String },
+    /// Two vectors cross or touch.
+    #[error(
+        "Ортофрейм «{name}»: База пересекает сама себя: векторы {side} и {other} встречаются в {at}"
+    )]
+    #[diagnostic(
+        code(map::base_crosses_itself),
+        help("переставьте углы так, чтобы стороны не встречались")
+    )]
+    BaseCrossesItself { name: String, side: String, other: String, at: String },
+    /// Clockwise.
+    #[error("Ортофрейм «{name}»: векторы Базы идут по часовой стрелке")]
+    #[diagnostic(
+        code(map::base_clockwise),
+        help("запишите углы против часовой стрелки или добавьте `reverse = true`")
+    )]
+    BaseClockwise { name: String },
+    /// All corners on one line.
+    #[error("Ортофрейм «{name}»: площадь Базы равна нулю")]
+    #[diagnostic(code(map::base_no_area), help("углы Базы лежат на одной прямой: раздвиньте их"))]
+    BaseNoArea { name: String },
+    /// Below the ground.
+    #[error("Ортофрейм «{name}»: высота {height} отрицательна")]
+    #[diagnostic(
+        code(map::negative_height),
+        help("высота - расстояние от Базы до Потолка, 0 или больше")
+    )]
+    NegativeHeight { name: String, height: Cm },
+
+    /// Nothing in it.
+    #[error("{owner}: нет ни одной части")]
+    #[diagnostic(code(map::no_items), help("перечислите части в поле items"))]
+    NoItems { owner: String },
+    /// None or several base items.
+    #[error("{owner}: базовых частей {count}, а нужна одна")]
+    #[diagnostic(code(map::base_item_count), help("отметьте `base = true` ровно одну часть"))]
+    BaseItemCount { owner: String, count: usize },
+    /// The base item stands off the origin.
+    #[error(
+        "{owner}: ни один угол базовой части «{item}» не стоит в начале координат; ближайший - {nearest}"
+    )]
+    #[diagnostic(
+        code(map::base_item_off_origin),
+        help("сдвиньте часть так, чтобы её угол попал в [0, 0]")
+    )]
+    BaseItemOffOrigin { owner: String, item: String, nearest: String },
+    /// An id of an item that the group does not have.
+    #[error("{owner}: части «{item}» нет")]
+    #[diagnostic(code(map::unknown_item), help("есть части: {known}"))]
+    UnknownItem { owner: String, item: String, known: String },
+    /// An id of a side that the Orthoframe does not have.
+    #[error("{owner}: у части «{item}» нет стороны «{side}»")]
+    #[diagnostic(code(map::unknown_side), help("есть стороны: {known}"))]
+    UnknownSide { owner: String, item: String, side: String, known: String },
+    /// A horizontal face bound to a vertical one.
+    #[error("{owner}: связь {link} соединяет горизонтальную грань с боковой")]
+    #[diagnostic(code(map::link_faces), help("связывают Потолок с Базой или сторону со стороной"))]
+    LinkFaces { owner: String, link: String },
+    /// A link and the positions say different things.
+    #[error(
+        "{owner}: связь {link} и положения противоречат: по связи {claimed}, по положениям {found}"
+    )]
+    #[diagnostic(
+        code(map::link_contradicts),
+        help("исправьте положение (at, angle) одной из частей или смещение (rel, angle) связи")
+    )]
+    LinkContradicts { owner: String, link: String, claimed: String, found: String },
+    /// A passage bound to a narrower one.
+    #[error("{owner}: связь {link} соединяет проёмы разной ширины: {length} и {other}")]
+    #[diagnostic(
+        code(map::link_length),
+        help("проницаемые и условно проницаемые стороны равны по длине")
+    )]
+    LinkLength { owner: String, link: String, length: Cm, other: Cm },
+    /// A door bound to a wall.
+    #[error("{owner}: связь {link} соединяет грани разной проницаемости")]
+    #[diagnostic(
+        code(map::link_permeability),
+        help("сделайте обе стороны проницаемыми или обе непроницаемыми")
+    )]
+    LinkPermeability { owner: String, link: String },
+    /// A passage that does not lie on the passage that it is bound to.
+    #[error("{owner}: проёмы связи {link} не совпадают: между ними {distance}")]
+    #[diagnostic(
+        code(map::link_apart),
+        help("совместите стороны: их концы должны лежать в одних точках")
+    )]
+    LinkApart { owner: String, link: String, distance: Cm },
+    /// Two parts of an Area lie on one another.
+    #[error("{owner}: части «{item}» и «{other}» накладываются, например в точке {at}")]
+    #[diagnostic(
+        code(map::items_overlap),
+        help("раздвиньте части: они могут только соприкасаться")
+    )]
+    ItemsOverlap { owner: String, item: String, other: String, at: String },
+    /// A part that nothing holds.
+    #[error("{owner}: часть «{item}» не связана с остальными")]
+    #[diagnostic(
+        code(map::items_apart),
+        help("добавьте связь в links или придвиньте часть вплотную")
+    )]
+    ItemsApart { owner: String, item: String },
+
+    /// Two rooms in one place.
+    #[error("{map}: помещения «{area}» и «{other}» накладываются, например в точке {at}")]
+    #[diagnostic(code(map::areas_overlap), help("сдвиньте одно из помещений"))]
+    AreasOverlap { map: String, area: String, other: String, at: String },
+    /// A room bound to no other.
+    #[error("{map}: помещение «{area}» не связано с остальными")]
+    #[diagnostic(
+        code(map::areas_apart),
+        help("свяжите одну из его сторон с соседней в поле links карты")
+    )]
+    AreasApart { map: String, area: String },
+    /// A room that stands in two places.
+    #[error("помещение «{area}» поставлено на карты дважды")]
+    #[diagnostic(code(map::area_twice), help("каждое помещение стоит на одной карте, один раз"))]
+    AreaTwice { area: String },
+    /// A room that stands nowhere.
+    #[error("помещение «{area}» не стоит ни на одной карте")]
+    #[diagnostic(code(map::area_nowhere), severity(Warning), help("добавьте его в items карты"))]
+    AreaNowhere { area: String },
+    /// A floor that the building does not hold, or holds twice.
+    #[error("карта «{map}» стоит в домейне {count} раз, а нужно один")]
+    #[diagnostic(
+        code(map::domain_maps),
+        help("перечислите каждую карту один раз в поле maps домейна")
+    )]
+    DomainMaps { map: String, count: usize },
+    /// A lift within one floor.
+    #[error("лифт «{lift}» не соединяет помещений разных карт")]
+    #[diagnostic(code(map::lift_stops), help("перечислите в stops помещения хотя бы двух карт"))]
+    LiftStops { lift: String },
+
+    /// A door in a solid wall, or leaves in an open passage.
+    #[error(
+        "{owner}: дверь «{door}» навешена на сторону {side}, которая для неё не годится: {why}"
+    )]
+    #[diagnostic(
+        code(map::door_on_wrong_side),
+        help(
+            "дверь вешают на условно проницаемую сторону (permeability = \"conditional\"), проход - на проницаемую"
+        )
+    )]
+    DoorOnWrongSide { owner: String, door: String, side: String, why: &'static str },
+    /// A doorway in which no door hangs.
+    #[error("{owner}: на условно проницаемой стороне {side} нет двери")]
+    #[diagnostic(
+        code(map::side_without_door),
+        help("навесьте дверь в поле doors или измените permeability")
+    )]
+    SideWithoutDoor { owner: String, side: String },
+    /// Two doors in one doorway.
+    #[error("{owner}: на стороне {side} две двери")]
+    #[diagnostic(code(map::side_two_doors), help("оставьте на стороне одну дверь"))]
+    SideTwoDoors { owner: String, side: String },
+    /// A door that does not fit.
+    #[error("{owner}: дверь «{door}» шириной {width} не входит в сторону {side} длиной {length}")]
+    #[diagnostic(code(map::door_too_wide), help("сделайте дверь не шире стороны"))]
+    DoorTooWide { owner: String, door: String, width: Cm, side: String, length: Cm },
+    /// A door higher than its wall.
+    #[error("{owner}: дверь «{door}» высотой {height} выше стороны {side} высотой {wall}")]
+    #[diagnostic(code(map::door_too_high), help("сделайте дверь не выше помещения"))]
+    DoorTooHigh { owner: String, door: String, height: Cm, side: String, wall: Cm },
+    /// A door that hangs nowhere.
+    #[error("дверь «{door}» нигде не навешена")]
+    #[diagnostic(
+        code(map::door_unused),
+        severity(Warning),
+        help("укажите её в поле doors помещения или объекта")
+    )]
+    DoorUnused { door: String },
+    /// A door between three rooms.
+    #[error("дверь «{door}» навешена {count} раза; дверь соединяет не больше двух помещений")]
+    #[diagnostic(code(map::door_mounts), help("заведите для каждого проёма свою дверь"))]
+    DoorMounts { door: String, count: usize },
+    /// The two sides of a door lie apart.
+    #[error(
+        "дверь «{door}»: стороны {side} и {other}, на которых она навешена, не совпадают на карте"
+    )]
+    #[diagnostic(
+        code(map::door_apart),
+        help("дверь соединяет стороны, которые связаны в links карты")
+    )]
+    DoorApart { door: String, side: String, other: String },
+    /// Leaves that open into both rooms, or into none.
+    #[error("дверь «{door}»: оба помещения говорят, что она открывается {way}")]
+    #[diagnostic(
+        code(map::door_direction),
+        help("для одного помещения opens = \"inside\", для другого \"outside\"")
+    )]
+    DoorDirection { door: String, way: &'static str },
+    /// No leaves, or leaves in a passage.
+    #[error("дверь «{door}»: {why}")]
+    #[diagnostic(
+        code(map::door_leaves),
+        help("двери нужна хотя бы одна створка в leaves, проходу - ни одной")
+    )]
+    DoorLeaves { door: String, why: &'static str },
+    /// Leaves that do not fill the door.
+    #[error("дверь «{door}»: доли створок в сумме дают {sum}, а не 1")]
+    #[diagnostic(code(map::leaf_shares), help("доли (share) всех створок в сумме равны 1"))]
+    LeafShares { door: String, sum: f64 },
+    /// A passage that is closed, a closed door that stands open.
+    #[error("дверь «{door}»: раскрытие {opening} % не вяжется с состоянием «{status}»")]
+    #[diagnostic(
+        code(map::door_state),
+        help("у закрытой и запертой двери раскрытие 0, у проёма без створок - 100")
+    )]
+    DoorState { door: String, opening: f64, status: &'static str },
+
+    /// A thing that stands in another room.
+    #[error("«{replica}» стоит вне своего помещения «{area}»: его середина в точке {at}")]
+    #[diagnostic(
+        code(map::replica_outside),
+        help("исправьте at или перенесите экземпляр в другое помещение")
+    )]
+    ReplicaOutside { replica: String, area: String, at: String },
+    /// A thing that sticks through a wall.
+    #[error("«{replica}» выступает за стены помещения «{area}» на {by}, до точки {at}")]
+    #[diagnostic(
+        code(map::replica_through_wall),
+        severity(Warning),
+        help("отодвиньте экземпляр от стены")
+    )]
+    ReplicaThroughWall { replica: String, area: String, by: Cm, at: String },
+    /// A thing above the ceiling or below the floor.
+    #[error(
+        "«{replica}» занимает высоты от {bottom} до {top}, а помещение «{area}» - от {floor} до {ceiling}"
+    )]
+    #[diagnostic(
+        code(map::replica_height),
+        severity(Warning),
+        help("исправьте третью координату at")
+    )]
+    ReplicaHeight { replica: String, area: String, bottom: Cm, top: Cm, floor: Cm, ceiling: Cm },
+    /// A place in another room.
+    #[error("место «{place}» лежит вне своего помещения «{area}»")]
+    #[diagnostic(
+        code(map::place_outside),
+        help("исправьте at или перенесите место в другое помещение")
+    )]
+    PlaceOutside { place: String, area: String },
+
+    /// More faults than anyone reads.
+    #[error("и ещё ошибок: {count}")]
+    #[diagnostic(code(map::more), help("исправьте показанные и проверьте карту снова"))]
+    More { count: usize },
+}
+
+fn perhaps(nearest: &Option<String>) -> String {
+    nearest.as_ref().map(|name| format!("; может быть, «{name}»?")).unwrap_or_default()
+}
+
+/// A record of a [`World`](super::World).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Record {
+    Domain,
+    Robot,
+    Type(TypeKind, TypeId),
+    Orthoframe(OrFrId),
+    Object(ObjectId),
+    Door(DoorId),
+    Area(AreaId),
+    Replica(ReplicaId),
+    Place(PlaceId),
+    Map(MapId),
+}
+
+/// One step from a record to what lies within it, in the words of the map file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Step {
+    Field(&'static str),
+    Index(usize),
+}
+
+/// A place in the model.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Spot {
+    pub record: Record,
+    pub steps: Vec<Step>,
+}
+
+impl Spot {
+    #[must_use]
+    pub fn of(record: Record) -> Self {
+        Self { record, steps: Vec::new() }
+    }
+
+    #[must_use]
+    pub fn field(mut self, name: &'static str) -> Self {
+        self.steps.push(Step::Field(name));
+        self
+    }
+
+    #[must_use]
+    pub fn index(mut self, index: usize) -> Self {
+        self.steps.push(Step::Index(index));
+        self
+    }
+}
+
+impl fmt::Display for Spot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.record {
+            Record::Domain => write!(f, "domain")?,
+            Record::Robot => write!(f, "robot")?,
+            Record::Type(kind, id) => write!(f, "type.{}[{}]", kind.field(), id.0)?,
+            Record::Orthoframe(id) => write!(f, "orthoframe[{}]", id.0)?,
+            Record::Object(id) => write!(f, "object[{}]", id.0)?,
+            Record::Door(id) => write!(f, "door[{}]", id.0)?,
+            Record::Area(id) => write!(f, "area[{}]", id.0)?,
+            Record::Replica(id) => write!(f, "replica[{}]", id.0)?,
+            Record::Place(id) => write!(f, "place[{}]", id.0)?,
+            Record::Map(id) => write!(f, "map[{}]", id.0)?,
+        }
+        self.steps.iter().try_for_each(|step| match step {
+            Step::Field(name) => write!(f, ".{name}"),
+            Step::Index(index) => write!(f, "[{index}]"),
+        })
+    }
+}
+
+/// One fault with its places: in the model, and in the text when it was read from one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fault {
+    pub error: MapError,
+    /// The first is where to look; a contradiction names a second.
+    pub spots: Vec<Spot>,
+    /// Bytes of the text, likewise.
+    pub spans: Vec<SourceSpan>,
+}
+
+impl Fault {
+    pub(super) fn new(error: MapError, spots: Vec<Spot>) -> Self {
+        Self { error, spots, spans: Vec::new() }
+    }
+
+    /// A warning lets the map be used.
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        self.error.severity() == Some(Severity::Warning)
+    }
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl std::error::Error for Fault {}
+
+impl Diagnostic for Fault {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.code()
+    }
+    fn severity(&self) -> Option<Severity> {
+        self.error.severity()
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.help()
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = |(i, span): (usize, &SourceSpan)| {
+            let words = if i == 0 { "здесь" } else { "и здесь" };
+            LabeledSpan::new_with_span(Some(words.to_owned()), *span)
+        };
+        (!self.spans.is_empty()).then(|| Box::new(self.spans.iter().enumerate().map(label)) as _)
+    }
+}
+
+/// Every fault of a map file, with the file.
+#[derive(Debug, Clone)]
+pub struct MapErrors {
+    pub source: Option<Source>,
+    /// Errors and warnings, in the order of the text.
+    pub faults: Vec<Fault>,
+}
+
+impl MapErrors {
+    pub(super) fn of(error: MapError) -> Self {
+        Self { source: None, faults: vec![Fault::new(error, Vec::new())] }
+    }
+
+    pub fn errors(&self) -> impl Iterator<Item = &Fault> + '_ {
+        self.faults.iter().filter(|fault| !fault.is_warning())
+    }
+
+    pub fn warnings(&self) -> impl Iterator<Item = &Fault> + '_ {
+        self.faults.iter().filter(|fault| fault.is_warning())
+    }
+
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.errors().next().is_some()
+    }
+
+    /// Line and character column of a fault's first place, from 1.
+    #[must_use]
+    pub fn position(&self, fault: &Fault) -> Option<(usize, usize)> {
+        Some(self.source.as_ref()?.position(fault.spans.first()?.offset()))
+    }
+}
+
+impl fmt::Display for MapErrors {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (errors, warnings) = (self.errors().count(), self.warnings().count());
+        match &self.source {
+            Some(source) => write!(f, "карта «{}»: ", source.name())?,
+            None => write!(f, "карта: ")?,
+        }
+        write!(f, "ошибок {errors}, предупреждений {warnings}")
+    }
+}
+
+impl std::error::Error for MapErrors {}
+
+impl Diagnostic for MapErrors {
+    fn severity(&self) -> Option<Severity> {
+        Some(if self.has_errors() { Severity::Error } else { Severity::Warning })
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as _)
+    }
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.faults.iter().map(|fault| fault as _)))
+    }
+}

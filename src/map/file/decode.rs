@@ -1,0 +1,324 @@
+//! From a tree of values to the types of the file, with every fault in its place.
+//!
+//! serde gives up at the first fault. Here the entry or list element in which a fault lies is noted and left out, and
+//! the table is read again without it, until nothing is left to complain of.
+
+use std::collections::HashSet;
+use std::fmt;
+
+use serde::Deserialize;
+use serde::de::value::StrDeserializer;
+use serde::de::{
+    self, DeserializeSeed, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor,
+};
+
+use super::node::{Entry, Misprint, Node, Span, Value};
+use crate::map::fault::MapError;
+use crate::units::nearest_name;
+
+/// Faults of one table after which its reading ends.
+const MOST_FAULTS: usize = 50;
+
+/// Reads one table; notes its faults and gives what could be read.
+pub(super) fn decode<'n, T: Deserialize<'n>>(
+    node: &'n Node,
+    name_span: &Span,
+    faults: &mut Vec<Misprint>,
+) -> Option<T> {
+    let mut left_out = HashSet::new();
+    loop {
+        let mut fault = match T::deserialize(Reader { node, left_out: &left_out }) {
+            Ok(value) => return Some(value),
+            Err(fault) => fault,
+        };
+        // A table under a header has no place of its own that a person would look at: its name has.
+        if fault.span.as_ref().is_none_or(|span| *span == node.span) {
+            fault.span = Some(name_span.clone());
+        }
+        let culprit = fault.culprit.take();
+        if !fault.follows {
+            faults.push(Misprint { error: *fault.error, span: fault.span });
+        }
+        if !culprit.is_some_and(|span| left_out.insert(span)) || left_out.len() > MOST_FAULTS {
+            return None;
+        }
+    }
+}
+
+/// A fault on its way up; the innermost value sets the place.
+#[derive(Debug)]
+pub(super) struct DecodeError {
+    error: Box<MapError>,
+    span: Option<Span>,
+    /// The smallest entry or element without which the reading may go on.
+    culprit: Option<Span>,
+    /// Only a field is missed that was left out for its own fault.
+    follows: bool,
+}
+
+impl DecodeError {
+    fn new(error: MapError) -> Self {
+        Self { error: Box::new(error), span: None, culprit: None, follows: false }
+    }
+
+    fn without(mut self, culprit: &Span) -> Self {
+        self.culprit.get_or_insert_with(|| culprit.clone());
+        self
+    }
+
+    fn at(mut self, span: &Span) -> Self {
+        self.span.get_or_insert_with(|| span.clone());
+        self
+    }
+}
+
+impl fmt::Display for DecodeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.error.fmt(f)
+    }
+}
+
+impl std::error::Error for DecodeError {}
+
+impl de::Error for DecodeError {
+    fn custom<T: fmt::Display>(message: T) -> Self {
+        Self::new(MapError::BadValue { message: message.to_string() })
+    }
+
+    fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::new(MapError::WrongKind {
+            found: found_words(found),
+            expected: expected_words(&expected.to_string()),
+        })
+    }
+
+    fn invalid_value(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
+        Self::invalid_type(found, expected)
+    }
+
+    fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
+        Self::new(MapError::WrongKind {
+            found: format!("список из {length} значений"),
+            expected: expected_words(&expected.to_string()),
+        })
+    }
+
+    fn unknown_variant(word: &str, expected: &'static [&'static str]) -> Self {
+        Self::new(MapError::UnknownWord {
+            word: word.to_owned(),
+            nearest: nearest_name(word, expected.iter().copied()).map(str::to_owned),
+            expected: expected.join(", "),
+        })
+    }
+
+    fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
+        Self::new(MapError::UnknownField {
+            field: field.to_owned(),
+            nearest: nearest_name(field, expected.iter().copied()).map(str::to_owned),
+            expected: expected.join(", "),
+        })
+    }
+
+    fn missing_field(field: &'static str) -> Self {
+        Self::new(MapError::MissingField { field })
+    }
+
+    fn duplicate_field(field: &'static str) -> Self {
+        Self::new(MapError::BadValue {
+            message: format!("поле «{field}» дано дважды")
+        })
+    }
+}
+
+fn found_words(found: Unexpected<'_>) -> String {
+    match found {
+        Unexpected::Bool(b) => format!("«{b}»"),
+        Unexpected::Unsigned(n) => format!("число {n}"),
+        Unexpected::Signed(n) => format!("число {n}"),
+        Unexpected::Float(x) => format!("число {x}"),
+        Unexpected::Str(text) => format!("текст «{}»", shortened(text)),
+        Unexpected::Seq => "список".to_owned(),
+        Unexpected::Map => "таблица".to_owned(),
+        Unexpected::Unit | Unexpected::Option => "пустое значение".to_owned(),
+        other => other.to_string(),
+    }
+}
+
+/// serde's own words for what it wants, in Russian.
+fn expected_words(expected: &str) -> String {
+    let words = match expected {
+        "a string" | "a borrowed string" => "текст",
+        "f64" => "число",
+        "u32" | "u8" | "u64" | "i64" => "целое число не меньше нуля",
+        "a boolean" => "true или false",
+        "a sequence" => "список",
+        "a map" => "таблица",
+        "an array of length 2" => "два числа [x, y]",
+        _ if expected.starts_with("struct ") => "таблица",
+        _ if expected.contains("enum ") => "слово",
+        _ => expected,
+    };
+    words.to_owned()
+}
+
+/// A text fit for a message.
+fn shortened(text: &str) -> String {
+    const LIMIT: usize = 40;
+    if text.chars().count() <= LIMIT {
+        text.to_owned()
+    } else {
+        text.chars().take(LIMIT).chain(['…']).collect()
+    }
+}
+
+/// A value, and what is left out of it.
+#[derive(Clone, Copy)]
+struct Reader<'n, 'o> {
+    node: &'n Node,
+    left_out: &'o HashSet<Span>,
+}
+
+impl<'n, 'o> Reader<'n, 'o> {
+    fn inner(&self, node: &'n Node) -> Self {
+        Self { node, left_out: self.left_out }
+    }
+
+    fn elements(self) -> Elements<'n, 'o> {
+        Elements { reader: self, rest: self.node.elements().iter() }
+    }
+
+    fn fields(self) -> Fields<'n, 'o> {
+        Fields { reader: self, rest: self.node.entries().iter(), current: None }
+    }
+
+    /// Gives a fault its place, unless a value within has done so.
+    fn placed(self, mut fault: DecodeError) -> DecodeError {
+        if let (MapError::MissingField { field }, None) = (&*fault.error, &fault.span) {
+            fault.follows = self.node.entry(field).is_some();
+        }
+        fault.at(&self.node.span)
+    }
+}
+
+impl<'de> Deserializer<'de> for Reader<'de, '_> {
+    type Error = DecodeError;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+        match &self.node.value {
+            Value::Nothing => visitor.visit_unit(),
+            Value::Bool(b) => visitor.visit_bool(*b),
+            Value::Integer(n) => visitor.visit_i64(*n),
+            Value::Float(x) => visitor.visit_f64(*x),
+            Value::Text(text) => visitor.visit_borrowed_str(text),
+            Value::List(_) => visitor.visit_seq(self.elements()),
+            Value::Table(_) => visitor.visit_map(self.fields()),
+        }
+        .map_err(|fault| self.placed(fault))
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, DecodeError> {
+        match self.node.value {
+            Value::Nothing => visitor.visit_none(),
+            _ => visitor.visit_some(self),
+        }
+    }
+
+    /// A list of fixed length: none may be left over.
+    fn deserialize_tuple<V: Visitor<'de>>(
+        self,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
+        match &self.node.value {
+            Value::List(elements) if elements.len() != length => {
+                let fault: DecodeError = de::Error::invalid_length(elements.len(), &visitor);
+                Err(self.placed(fault))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
+        visitor.visit_newtype_struct(self).map_err(|fault| self.placed(fault))
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
+        match &self.node.value {
+            Value::Text(word) => {
+                let word: StrDeserializer<'_, DecodeError> = word.as_str().into_deserializer();
+                visitor.visit_enum(word).map_err(|fault| self.placed(fault))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
+        unit unit_struct seq tuple_struct map struct identifier ignored_any
+    }
+}
+
+/// Elements of a list.
+struct Elements<'n, 'o> {
+    reader: Reader<'n, 'o>,
+    rest: std::slice::Iter<'n, Node>,
+}
+
+impl<'n> de::SeqAccess<'n> for Elements<'n, '_> {
+    type Error = DecodeError;
+
+    fn next_element_seed<T: DeserializeSeed<'n>>(
+        &mut self,
+        seed: T,
+    ) -> Result<Option<T::Value>, DecodeError> {
+        let left_out = self.reader.left_out;
+        let Some(node) = self.rest.find(|node| !left_out.contains(&node.span)) else {
+            return Ok(None);
+        };
+        // A coordinate cannot be left out of a point, a line can be left out of a list.
+        let is_line = matches!(node.value, Value::Table(_));
+        let read = seed.deserialize(self.reader.inner(node)).map(Some);
+        read.map_err(|fault| if is_line { fault.without(&node.span) } else { fault })
+    }
+}
+
+/// Entries of a table.
+struct Fields<'n, 'o> {
+    reader: Reader<'n, 'o>,
+    rest: std::slice::Iter<'n, Entry>,
+    current: Option<&'n Entry>,
+}
+
+impl<'n> de::MapAccess<'n> for Fields<'n, '_> {
+    type Error = DecodeError;
+
+    fn next_key_seed<K: DeserializeSeed<'n>>(
+        &mut self,
+        seed: K,
+    ) -> Result<Option<K::Value>, DecodeError> {
+        let left_out = self.reader.left_out;
+        self.current = self.rest.find(|entry| !left_out.contains(&entry.key_span));
+        let Some(entry) = self.current else { return Ok(None) };
+        let key: StrDeserializer<'_, DecodeError> = entry.key.as_str().into_deserializer();
+        let key = seed.deserialize(key).map(Some);
+        key.map_err(|fault| fault.at(&entry.key_span).without(&entry.key_span))
+    }
+
+    fn next_value_seed<V: DeserializeSeed<'n>>(
+        &mut self,
+        seed: V,
+    ) -> Result<V::Value, DecodeError> {
+        let entry = self.current.take().expect("serde asks for a value after its key");
+        let value = seed.deserialize(self.reader.inner(&entry.node));
+        value.map_err(|fault| fault.without(&entry.key_span))
+    }
+}

@@ -1,0 +1,197 @@
+//! The map file: [`World`] from and to a text that a person writes (TOML; YAML and JSON through the same types).
+//!
+//! Reading reports all faults at once, each at its line and character column. Writing loses nothing: what is
+//! written reads as the same [`World`], ids included.
+
+mod decode;
+mod node;
+mod read;
+mod schema;
+mod text;
+mod write;
+
+use std::path::Path;
+
+use miette::SourceSpan;
+
+use self::node::{Node, Span, Value};
+use self::read::{Draft, Origin};
+use super::World;
+use super::fault::{Fault, MapError, MapErrors, Spot, Step};
+use crate::units::Source;
+
+pub use schema::json_schema;
+
+/// A text larger than this is no map: forty thousand replicas take some five megabytes.
+const LIMIT: u64 = 64 << 20;
+/// Faults reported before the rest is only counted.
+const MOST_FAULTS: usize = 200;
+
+/// The notation of a map file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    Toml,
+    Yaml,
+    Json,
+}
+
+impl Format {
+    /// By the ending of the file's name; TOML when it says nothing.
+    #[must_use]
+    pub fn of(path: &Path) -> Self {
+        match path.extension().and_then(|e| e.to_str()).map(str::to_lowercase).as_deref() {
+            Some("yaml" | "yml") => Self::Yaml,
+            Some("json") => Self::Json,
+            _ => Self::Toml,
+        }
+    }
+}
+
+/// What came of reading a map: the world when nothing forbids its use, and every fault.
+#[derive(Debug, Clone)]
+pub struct Reading {
+    /// Absent when there are errors; warnings do not hinder.
+    pub world: Option<World>,
+    pub faults: MapErrors,
+}
+
+/// Reads a map with all its faults, warnings included.
+#[must_use]
+pub fn read(source: &Source, format: Format) -> Reading {
+    let text = source.text();
+    let fail = |faults: Vec<Fault>| Reading { world: None, faults: report(source, faults) };
+    if text.len() as u64 > LIMIT {
+        let error = MapError::TooLarge { bytes: text.len() as u64, limit: LIMIT };
+        return Reading { world: None, faults: MapErrors::of(error) };
+    }
+    let root = match node::parse(text, format) {
+        Ok(root) => root,
+        Err(misprints) => return fail(misprints.into_iter().map(Fault::from).collect()),
+    };
+    match &root.value {
+        Value::Table(entries) if !entries.is_empty() => {}
+        Value::Table(_) | Value::Nothing => {
+            return fail(vec![Fault::new(MapError::Empty, Vec::new())]);
+        }
+        _ => {
+            let expected = "таблица с полем format".to_owned();
+            let error = MapError::WrongKind { found: "значение".to_owned(), expected };
+            return fail(vec![Fault::new(error, Vec::new())]);
+        }
+    }
+    let Draft { world, mut faults, origins } = read::build(&root);
+    faults.extend(super::check(&world));
+    for fault in &mut faults {
+        let places = fault.spots.iter().filter_map(|spot| {
+            let origin = origins.get(&spot.record)?;
+            Some(SourceSpan::from(place(origin, spot)))
+        });
+        let places: Vec<_> = places.collect();
+        fault.spans.extend(places);
+    }
+    let faults = report(source, faults);
+    Reading { world: (!faults.has_errors()).then_some(world), faults }
+}
+
+/// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
+fn place(origin: &Origin<'_>, spot: &Spot) -> Span {
+    let mut node: &Node = origin.node;
+    let mut span = &origin.name;
+    let mut steps = spot.steps.iter().peekable();
+    while let Some(step) = steps.next() {
+        let inner = match step {
+            // A base is written in one of several ways.
+            Step::Field("base_vectors") => ["sides", "points", "rect", "regular"]
+                .iter()
+                .find_map(|way| node.entry(way).map(|entry| &entry.node)),
+            Step::Field(name) => node.entry(name).map(|entry| &entry.node),
+            Step::Index(index) => node.elements().get(*index),
+        };
+        let Some(inner) = inner else { break };
+        if let (Value::Table(_), None) = (&inner.value, steps.peek())
+            && let Step::Field(name) = step
+            && let Some(entry) = node.entry(name)
+        {
+            // The name of a table says where it is; its extent may be pages.
+            span = &entry.key_span;
+        } else {
+            span = &inner.span;
+        }
+        node = inner;
+    }
+    span.clone()
+}
+
+/// In the order of the text, without repetitions, at most [`MOST_FAULTS`].
+fn report(source: &Source, mut faults: Vec<Fault>) -> MapErrors {
+    faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+    faults.dedup();
+    if faults.len() > MOST_FAULTS {
+        let count = faults.len() - MOST_FAULTS;
+        // Errors are kept before warnings, else a map could fail without a reason given.
+        faults.sort_by_key(Fault::is_warning);
+        let hides_errors = !faults[MOST_FAULTS].is_warning();
+        faults.truncate(MOST_FAULTS);
+        if hides_errors {
+            faults.push(Fault::new(MapError::More { count }, Vec::new()));
+        }
+    }
+    MapErrors { source: Some(source.clone()), faults }
+}
+
+impl World {
+    /// Reads a map file; its notation follows from its name.
+    ///
+    /// # Errors
+    /// [`MapErrors`] with every fault of the file. Warnings alone are no error; [`read`] shows them.
+    pub fn load(path: impl AsRef<Path>) -> Result<Self, MapErrors> {
+        let path = path.as_ref();
+        let unreadable = |e: std::io::Error| {
+            let path = path.to_string_lossy().into_owned();
+            MapErrors::of(MapError::Unreadable { path, message: e.to_string() })
+        };
+        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
+        if bytes > LIMIT {
+            return Err(MapErrors::of(MapError::TooLarge { bytes, limit: LIMIT }));
+        }
+        let source = Source::read(path).map_err(unreadable)?;
+        Self::parse(&source, Format::of(path))
+    }
+
+    /// Reads a map from a text.
+    ///
+    /// # Errors
+    /// [`MapErrors`] with every fault of the text. Warnings alone are no error; [`read`] shows them.
+    pub fn parse(source: &Source, format: Format) -> Result<Self, MapErrors> {
+        let reading = read(source, format);
+        reading.world.ok_or(reading.faults)
+    }
+
+    /// The map file of this world. Reading it gives the same world.
+    ///
+    /// # Panics
+    /// When the world refers to what it does not hold; a checked world does not.
+    #[must_use]
+    pub fn to_toml(&self) -> String {
+        write::to_toml(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_worked_examples_read_and_write_without_loss() {
+        for name in ["rb2", "box", "room"] {
+            let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+            let world =
+                World::load(&path).unwrap_or_else(|e| panic!("{:#?}", miette::Report::new(e)));
+            let text = world.to_toml();
+            let again = World::parse(&Source::new("copy.toml", &text), Format::Toml);
+            let again = again.unwrap_or_else(|e| panic!("{e:#?}\n{text}"));
+            assert_eq!(again, world, "{text}");
+            assert_eq!(again.to_toml(), text);
+        }
+    }
+}

@@ -1,0 +1,603 @@
+//! The map file as serde types: one struct per kind of table, the same for TOML, YAML and JSON.
+//!
+//! The types are the one source of the format: reading refuses what they do not name, writing prints them in the
+//! order of their fields, and [`json_schema`] is made from them. What they mean is decided in `read` and `write`.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+use std::fmt;
+use std::marker::PhantomData;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::{MapAccess, Visitor};
+use serde::ser::SerializeMap;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::text::{Lines, Printed, line};
+use crate::map::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability};
+use crate::units::{Cm, QuantityError};
+
+/// The only format that this version reads and writes.
+pub(super) const FORMAT: u32 = 1;
+
+/// The JSON Schema of a map file, for editors that complete and check.
+///
+/// # Panics
+/// Never: the schema is made from types, not from data.
+#[must_use]
+pub fn json_schema() -> String {
+    format!("{:#}", schemars::schema_for!(MapFile).as_value())
+}
+
+/// A finite number of modest size: a length in cm or an angle in degrees. Whole numbers are written without a point.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(try_from = "f64")]
+pub(super) struct Number(pub(super) f64);
+
+impl TryFrom<f64> for Number {
+    type Error = QuantityError;
+    fn try_from(value: f64) -> Result<Self, Self::Error> {
+        Cm::new(value).map(|cm| Self(cm.get()))
+    }
+}
+
+impl Serialize for Number {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.0.fract() == 0.0 && self.0.abs() <= Cm::LIMIT {
+            serializer.serialize_i64(self.0 as i64)
+        } else {
+            serializer.serialize_f64(self.0)
+        }
+    }
+}
+
+impl JsonSchema for Number {
+    fn schema_name() -> Cow<'static, str> {
+        "Number".into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({ "type": "number", "minimum": -Cm::LIMIT, "maximum": Cm::LIMIT })
+    }
+}
+
+/// Keyed tables in the order of the file, which is the order of their ids.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Table<T>(pub(super) Vec<(String, T)>);
+
+impl<T> Default for Table<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T> FromIterator<(String, T)> for Table<T> {
+    fn from_iter<I: IntoIterator<Item = (String, T)>>(entries: I) -> Self {
+        Self(entries.into_iter().collect())
+    }
+}
+
+impl<T: Serialize> Serialize for Table<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (key, value) in &self.0 {
+            map.serialize_entry(key, value)?;
+        }
+        map.end()
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Entries<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for Entries<T> {
+            type Value = Table<T>;
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a map")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Table<T>, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Table(entries))
+            }
+        }
+        deserializer.deserialize_map(Entries(PhantomData))
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for Table<T> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("Table_of_{}", T::schema_name()).into()
+    }
+    fn inline_schema() -> bool {
+        true
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        BTreeMap::<String, T>::json_schema(generator)
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// Declares a table of the file: fields without `=` are required, fields with `=` may be left out.
+macro_rules! tables {
+    ($(
+        $(#[$doc:meta])*
+        $name:ident {
+            $( $(#[$req_doc:meta])* $req:ident: $req_ty:ty; )*
+            ..
+            $( $(#[$opt_doc:meta])* $opt:ident: $opt_ty:ty; )*
+        }
+    )+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, PartialEq, Serialize, Deserialize, JsonSchema)]
+        #[serde(deny_unknown_fields)]
+        pub(super) struct $name {
+            $( $(#[$req_doc])* pub(super) $req: $req_ty, )*
+            $(
+                $(#[$opt_doc])*
+                #[serde(default, skip_serializing_if = "is_default")]
+                pub(super) $opt: $opt_ty,
+            )*
+        }
+
+        impl Printed for $name {
+            const IS_TABLE: bool = true;
+        }
+
+        impl Lines for $name {
+            fn lines(&self) -> String {
+                let mut lines = String::new();
+                $( lines.push_str(&line(stringify!($req), &self.$req)); )*
+                $( if !is_default(&self.$opt) {
+                    lines.push_str(&line(stringify!($opt), &self.$opt));
+                } )*
+                lines
+            }
+        }
+    )+};
+}
+
+/// Name-value pairs.
+pub(super) type Pairs = BTreeMap<String, String>;
+/// Word forms by grammatical case.
+pub(super) type FormsFile = BTreeMap<Case, String>;
+
+tables! {
+    /// A map file of orthoframe: a building, its rooms, what stands in them, and the robot.
+    MapFile {
+        /// Version of the format: 1.
+        format: u32;
+        ..
+        /// The building.
+        domain: DomainFile;
+        /// The robot that works here.
+        robot: RobotFile;
+        /// Type lists: what the languages and the rules know of each kind of thing.
+        r#type: TypesFile;
+        /// Orthoframes: vertical prisms from which everything is built.
+        orthoframe: Table<OrthoframeFile>;
+        /// Doors, of rooms and of furniture.
+        door: Table<DoorFile>;
+        /// Kinds of things.
+        object: Table<ObjectFile>;
+        /// Rooms, corridors, halls, with the replicas that stand in them.
+        area: Table<AreaFile>;
+        /// Floors or flats: Areas placed and bound together.
+        map: Table<PlanFile>;
+    }
+
+    /// The building.
+    #[derive(Default)]
+    DomainFile {
+        ..
+        /// Handle of the building; "domain" if left out.
+        key: String;
+        /// Its number in the store; 1 if left out.
+        id: Option<u32>;
+        name: String;
+        name_en: String;
+        description: String;
+        /// Where each Map stands in the building; may be left out when there is only one.
+        maps: Vec<DomainMapFile>;
+        /// Lifts and stairs, each with the Areas in which it stops.
+        lifts: Vec<LiftFile>;
+    }
+
+    /// A Map placed in its building.
+    DomainMapFile {
+        /// Key of the Map.
+        map: String;
+        ..
+        /// [x, y] or [x, y, z] in cm.
+        at: At;
+        /// Degrees counter-clockwise.
+        angle: Option<Number>;
+        /// The Map whose frame is that of the building; the first one if none says so.
+        base: bool;
+    }
+
+    /// A lift or a flight of stairs.
+    LiftFile {
+        name: String;
+        /// Keys of the Areas in which it stops, on different Maps.
+        stops: Vec<String>;
+        ..
+    }
+
+    /// The robot. Lengths in cm.
+    #[derive(Default)]
+    RobotFile {
+        ..
+        /// Of the disc that covers the footprint.
+        radius: Option<Number>;
+        height: Option<Number>;
+        /// The highest step that it climbs or drives over.
+        step: Option<Number>;
+        /// Kept free around the footprint.
+        clearance: Option<Number>;
+        /// cm/s
+        speed: Option<Number>;
+        /// degrees/s
+        turn_rate: Option<Number>;
+        /// Name of the place where it stands when nothing else is known.
+        start: Option<String>;
+    }
+
+    /// The type lists.
+    #[derive(Default)]
+    TypesFile {
+        ..
+        orthoframe: Vec<TypeFile>;
+        shape: Vec<TypeFile>;
+        side: Vec<TypeFile>;
+        object: Vec<TypeFile>;
+        area: Vec<TypeFile>;
+        map: Vec<TypeFile>;
+        door: Vec<TypeFile>;
+    }
+
+    /// One type: a kind of room, of furniture, of wall.
+    TypeFile {
+        name: String;
+        ..
+        id: Option<u32>;
+        name_en: String;
+        description: String;
+        /// Grammatical gender: m, f, n.
+        gender: Option<Gender>;
+        animate: bool;
+        /// Other words for it, in either language.
+        synonyms: Vec<String>;
+        /// What the rules may know of it: container, portable, seat, support, corridor …
+        traits: Vec<String>;
+        /// Singular word forms where the rules of the language would go wrong.
+        forms: FormsFile;
+    }
+
+    /// A vertical prism. Its base is given by exactly one of `rect`, `regular`, `points`, `sides`.
+    OrthoframeFile {
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        description: String;
+        /// Name of an entry of `type.orthoframe`.
+        r#type: Option<String>;
+        /// Name of an entry of `type.shape`.
+        shape: Option<String>;
+        /// [width, depth]: side A runs along +x from the origin, then B, C, D counter-clockwise.
+        rect: Option<[Number; 2]>;
+        /// A regular polygon whose first side A runs along +x from the origin.
+        regular: Option<RegularFile>;
+        /// Corners counter-clockwise; the sides are A, B, C …
+        points: Vec<[Number; 2]>;
+        /// Every base vector in full.
+        sides: Vec<SideFile>;
+        /// Accept a clockwise base and turn it round.
+        reverse: bool;
+        /// Base to roof, cm; 0 is a flat shelf.
+        height: Option<Number>;
+        /// Permeability of the base.
+        base: PermeabilityFile;
+        /// Permeability of the roof.
+        roof: PermeabilityFile;
+        /// Size of the roof over the size of the base (Uniframe); 1 if left out.
+        roof_scale: Option<Number>;
+        properties: Pairs;
+        /// What differs from side to side, by the id of the side.
+        side: Table<SideTraitsFile>;
+    }
+
+    /// A regular polygon.
+    RegularFile {
+        /// At least three.
+        corners: u32;
+        /// Centre to corner, cm.
+        radius: Number;
+        ..
+    }
+
+    /// One base vector in full.
+    SideFile {
+        /// Unique in its Orthoframe.
+        id: String;
+        from: [Number; 2];
+        to: [Number; 2];
+        ..
+        r#type: Option<String>;
+        permeability: PermeabilityFile;
+        names: Vec<String>;
+        properties: Pairs;
+    }
+
+    /// What a side has beyond its base vector.
+    SideTraitsFile {
+        ..
+        /// Name of an entry of `type.side`.
+        r#type: Option<String>;
+        permeability: PermeabilityFile;
+        /// What people call this side.
+        names: Vec<String>;
+        properties: Pairs;
+    }
+
+    /// A door, or a passage with a name.
+    DoorFile {
+        kind: DoorKindFile;
+        width: Number;
+        height: Number;
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        /// Name of an entry of `type.door`.
+        r#type: Option<String>;
+        /// From the right jamb to the left one, seen from the first Area that mounts the door.
+        leaves: Vec<LeafFile>;
+        /// How it stands: open if left out.
+        state: StatusFile;
+        /// Percent of the leaves' maximal opening; 100 for an open door if left out.
+        opening: Option<Number>;
+        properties: Pairs;
+        forms: FormsFile;
+    }
+
+    /// A door leaf.
+    LeafFile {
+        /// Where the hinges are, or the side towards which a sliding leaf withdraws.
+        hinge: HingeFile;
+        ..
+        /// Share of the door's width; an equal share if left out.
+        share: Option<Number>;
+        /// cm; 4 if left out.
+        thickness: Option<Number>;
+        /// Degrees for a hinged leaf (90 if left out), percent of its width for a sliding one (100 if left out).
+        max_open: Option<Number>;
+    }
+
+    /// An Orthoframe as a part of an Object or Area.
+    ItemFile {
+        /// Unique in its Object or Area.
+        id: String;
+        /// Key of the Orthoframe.
+        orthoframe: String;
+        ..
+        /// [x, y] or [x, y, z] in cm.
+        at: At;
+        /// Degrees counter-clockwise.
+        angle: Option<Number>;
+        /// The item with a corner at the origin; the first one if none says so.
+        base: bool;
+    }
+
+    /// Faces of two items that belong together.
+    ItemLinkFile {
+        /// "A.roof", "B.base", or an item and a side: "B.C".
+        from: String;
+        to: String;
+        ..
+        /// Offset of the second face from the first, cm; zero when they coincide.
+        rel: At;
+        /// Angle of the second face less that of the first, degrees.
+        angle: Option<Number>;
+    }
+
+    /// A door bound to a side.
+    MountFile {
+        /// "side" or "item.side".
+        side: String;
+        /// Key of the door.
+        door: String;
+        ..
+        /// Whether the leaves swing into the Area (inside) or out of it.
+        opens: OpensFile;
+    }
+
+    /// A kind of thing.
+    ObjectFile {
+        items: Vec<ItemFile>;
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        description: String;
+        /// Name of an entry of `type.object`.
+        r#type: Option<String>;
+        links: Vec<ItemLinkFile>;
+        /// "side" or "item.side" that looks forward; a round table has none.
+        front: Option<String>;
+        back: Option<String>;
+        doors: Vec<MountFile>;
+        properties: Pairs;
+    }
+
+    /// A room, corridor or hall, with all that stands in it.
+    AreaFile {
+        items: Vec<ItemFile>;
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        description: String;
+        /// Name of an entry of `type.area`.
+        r#type: Option<String>;
+        links: Vec<ItemLinkFile>;
+        doors: Vec<MountFile>;
+        properties: Pairs;
+        forms: FormsFile;
+        /// Named places to stand.
+        places: Vec<PlaceFile>;
+        /// What stands in the Area.
+        replicas: Vec<ReplicaFile>;
+    }
+
+    /// A named place to stand.
+    PlaceFile {
+        name: String;
+        at: [Number; 2];
+        ..
+        id: Option<u32>;
+        name_en: String;
+        /// Degrees counter-clockwise from +x of the Area.
+        heading: Option<Number>;
+        /// Name of the replica that is served from here.
+        serves: Option<String>;
+        forms: FormsFile;
+    }
+
+    /// One placed copy of an Object.
+    ReplicaFile {
+        /// Unique in the world.
+        name: String;
+        /// Key of the Object.
+        object: String;
+        /// [x, y] or [x, y, z] of the Object's origin in the Area, cm.
+        at: At;
+        ..
+        id: Option<u32>;
+        name_en: String;
+        /// Degrees counter-clockwise.
+        angle: Option<Number>;
+        /// 0 never moves, 100 may be anywhere.
+        move_prob: u32;
+        properties: Pairs;
+        /// How this replica's doors stand, by the key of the door, where they differ from the door's own state.
+        doors: Table<DoorStateFile>;
+        forms: FormsFile;
+    }
+
+    /// How a door stands.
+    DoorStateFile {
+        ..
+        state: StatusFile;
+        opening: Option<Number>;
+    }
+
+    /// A floor or flat.
+    PlanFile {
+        items: Vec<PlanItemFile>;
+        ..
+        id: Option<u32>;
+        /// The key if left out.
+        name: String;
+        name_en: String;
+        description: String;
+        /// Name of an entry of `type.map`.
+        r#type: Option<String>;
+        links: Vec<PlanLinkFile>;
+    }
+
+    /// An Area placed in a Map.
+    PlanItemFile {
+        /// Key of the Area.
+        area: String;
+        ..
+        /// [x, y] or [x, y, z] in cm.
+        at: At;
+        /// Degrees counter-clockwise.
+        angle: Option<Number>;
+        /// The Area with a corner at the origin; the first one if none says so.
+        base: bool;
+    }
+
+    /// Sides of two Areas bound together.
+    PlanLinkFile {
+        /// "area.side" or "area.item.side".
+        from: String;
+        to: String;
+        ..
+        /// Offset of the second side from the first, cm; zero when they coincide.
+        rel: At;
+        /// Angle of the second side less that of the first, turned round; zero when they coincide.
+        angle: Option<Number>;
+    }
+}
+
+/// [x, y] or [x, y, z]; nothing stands for the origin.
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize, JsonSchema)]
+#[serde(transparent)]
+pub(super) struct At(#[schemars(length(min = 2, max = 3))] pub(super) Vec<Number>);
+
+/// Words that stand for a value of the model, English first, Russian as well.
+macro_rules! words {
+    ($( $(#[$doc:meta])* $name:ident = $model:ident { $( $variant:ident: $word:literal | $russian:literal ),+ } )+) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+        pub(super) enum $name { $( #[serde(rename = $word, alias = $russian)] $variant ),+ }
+
+        impl From<$name> for $model {
+            fn from(word: $name) -> Self {
+                match word { $( $name::$variant => Self::$variant ),+ }
+            }
+        }
+
+        impl From<$model> for $name {
+            fn from(value: $model) -> Self {
+                match value { $( $model::$variant => Self::$variant ),+ }
+            }
+        }
+    )+};
+}
+
+words! {
+    /// Whether a face lets things through.
+    PermeabilityFile = Permeability {
+        Impermeable: "impermeable" | "непроницаемая",
+        Permeable: "permeable" | "проницаемая",
+        Conditional: "conditional" | "условная"
+    }
+    /// How the leaves of a door move.
+    DoorKindFile = DoorKind {
+        Hinged: "hinged" | "распашная",
+        Sliding: "sliding" | "раздвижная",
+        Passage: "passage" | "проход"
+    }
+    /// How a door stands.
+    StatusFile = DoorStatus {
+        Open: "open" | "открыта",
+        Closed: "closed" | "закрыта",
+        Locked: "locked" | "заперта"
+    }
+    /// Where the hinges are.
+    HingeFile = HingeSide { Right: "right" | "справа", Left: "left" | "слева" }
+    /// Whether leaves swing into the Area.
+    OpensFile = OpensTo { Inside: "inside" | "внутрь", Outside: "outside" | "наружу" }
+}
+
+macro_rules! defaults {
+    ($($name:ident::$variant:ident),+) => {$(
+        impl Default for $name { fn default() -> Self { Self::$variant } }
+    )+};
+}
+defaults!(PermeabilityFile::Impermeable, StatusFile::Open, OpensFile::Inside);
