@@ -67,13 +67,17 @@ pub(super) struct Kind {
     pub(super) volume: f64,
     centre: Point,
     /// Outward normal of the front.
-    front: Option<Vector>,
+    pub(super) front: Option<Vector>,
     /// Along the Object's own axes: width, depth.
     pub(super) size: (f64, f64),
     pub(super) container: bool,
 }
 
 impl Kind {
+    pub(super) fn extent_along(&self, way: Vector) -> (f64, f64) {
+        extent(&self.hull.polygon.corners, way)
+    }
+
     /// None for an Object without Orthoframes: it has no place in space.
     pub(super) fn of(world: &World, object: &Object) -> Option<Self> {
         let blocks: Vec<Block> = object

@@ -14,7 +14,7 @@ use crate::geometry::contact::{
 };
 use crate::geometry::{Bounds, Polygon};
 use crate::map::{Item, World};
-use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, ReplicaId};
+use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, Point, ReplicaId};
 
 use super::body::{Block, Body, Kind};
 use super::grid::Grid;
@@ -190,7 +190,7 @@ pub(super) struct Room {
     pub(super) id: AreaId,
     pub(super) map: MapId,
     pub(super) parts: Vec<(Footprint, f64, f64)>,
-    bounds: Bounds,
+    pub(super) bounds: Bounds,
 }
 
 /// Everything measured on the Maps of a world.
@@ -269,8 +269,11 @@ impl Measurements {
         self.reach
     }
 
-    #[must_use]
-    pub fn single(&self, body: &Body) -> Single {
+    pub(super) fn kind(&self, object: ObjectId) -> Option<&Kind> {
+        self.kinds.get(&object)
+    }
+
+    fn single(&self, body: &Body) -> Single {
         let kind = &self.kinds[&body.object];
         Single {
             bottom: tenths(body.bottom),
@@ -280,6 +283,14 @@ impl Measurements {
             base: kind.outline_area.round() as i64,
             place: self.locate(body),
         }
+    }
+
+    /// The Area whose base holds a point of a Map; the lowest id where bases meet.
+    #[must_use]
+    pub fn area_at(&self, map: MapId, p: Point) -> Option<AreaId> {
+        let mut near = Vec::new();
+        self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
+        near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
     }
 
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.
@@ -540,8 +551,13 @@ impl Measurements {
             return 0;
         }
         let (low, high) = (a.bottom.max(b.bottom), a.top.min(b.top));
+        // What holds both of them is round them, not between them.
+        let holds_both = |base: &Footprint| base.contains(from) && base.contains(to);
         let in_the_way = |block: &&Block| {
-            block.top > low && block.bottom < high && length_within(from, to, &block.base) > 0.5
+            block.top > low
+                && block.bottom < high
+                && length_within(from, to, &block.base) > 0.5
+                && !holds_both(&block.base)
         };
         let filled: f64 = third
             .blocks

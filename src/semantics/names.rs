@@ -3,6 +3,7 @@
 //! **Invariant:** two different things never share a symbol; a thing whose name is its own keeps it unchanged.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::Arc;
 
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
@@ -20,8 +21,8 @@ pub enum Subject {
 /// Symbols of everything in a world, both ways.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Symbols {
-    of: HashMap<Subject, String>,
-    subjects: BTreeMap<String, Subject>,
+    of: HashMap<Subject, Arc<str>>,
+    subjects: BTreeMap<Arc<str>, Subject>,
 }
 
 impl Symbols {
@@ -40,7 +41,8 @@ impl Symbols {
                 .chain(numbered)
                 .find(|c| taken.insert(name_key(c)))
                 .expect("the numbers do not end");
-            symbols.subjects.insert(symbol.clone(), subject);
+            let symbol: Arc<str> = symbol.into();
+            symbols.subjects.insert(Arc::clone(&symbol), subject);
             symbols.of.insert(subject, symbol);
         };
         for a in world.areas.values() {
@@ -70,8 +72,18 @@ impl Symbols {
     /// # Panics
     /// When the subject is not of the world that these symbols name.
     #[must_use]
-    pub fn symbol(&self, subject: Subject) -> &str {
+    pub fn symbol(&self, subject: Subject) -> &Arc<str> {
         self.of.get(&subject).expect("every subject of the world has a symbol")
+    }
+
+    /// What a name means, spelled as people spell: case and ё do not matter.
+    #[must_use]
+    pub fn find(&self, name: &str) -> Option<Subject> {
+        let exact = self.subjects.get(name).copied();
+        exact.or_else(|| {
+            let key = name_key(name);
+            self.subjects.iter().find(|(s, _)| name_key(s) == key).map(|(_, &subject)| subject)
+        })
     }
 
     #[must_use]
@@ -79,27 +91,27 @@ impl Symbols {
         self.subjects.get(symbol).copied()
     }
 
-    pub(super) fn area(&self, id: AreaId) -> &str {
+    pub(super) fn area(&self, id: AreaId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Area(id)))
     }
 
-    pub(super) fn replica(&self, id: ReplicaId) -> &str {
+    pub(super) fn replica(&self, id: ReplicaId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Replica(id)))
     }
 
-    pub(super) fn door(&self, id: DoorId) -> &str {
+    pub(super) fn door(&self, id: DoorId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Door(id)))
     }
 
-    pub(super) fn place(&self, id: PlaceId) -> &str {
+    pub(super) fn place(&self, id: PlaceId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Place(id)))
     }
 
-    pub(super) fn object(&self, id: ObjectId) -> &str {
+    pub(super) fn object(&self, id: ObjectId) -> &Arc<str> {
         self.symbol(Subject::Object(id))
     }
 
-    pub(super) fn part(&self, id: OrFrId) -> &str {
+    pub(super) fn part(&self, id: OrFrId) -> &Arc<str> {
         self.symbol(Subject::Part(id))
     }
 }

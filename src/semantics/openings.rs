@@ -11,6 +11,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::geometry::Bounds;
 use crate::geometry::contact::Footprint;
 use crate::map::{Door, DoorKind, DoorState, DoorStatus, Permeability, SideRef, World};
 use crate::units::{AreaId, Cm, DoorId, Point, Vector};
@@ -23,8 +24,11 @@ const FOOTHOLD: f64 = 0.5;
 /// A door or a passage in the side of an Area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
+    /// The Area whose side it is.
     pub area: AreaId,
     pub side: SideRef,
+    /// Start and end of the side, in the Map's frame.
+    pub ends: (Point, Point),
     pub door: Option<DoorId>,
     /// Conditional: a door. Permeable: a passage.
     pub permeability: Permeability,
@@ -37,6 +41,14 @@ pub struct Opening {
     /// The Areas on either side within the reach of a step, with the way to them in cm.
     pub inward: Option<(AreaId, f64)>,
     pub outward: Option<(AreaId, f64)>,
+}
+
+impl Opening {
+    /// The Area behind it: by the link, else by stepping through.
+    #[must_use]
+    pub fn leads_to(&self) -> Option<AreaId> {
+        self.linked.or(self.outward.map(|(area, _)| area))
+    }
 }
 
 /// All openings of all Areas, in the order of Areas, items and sides.
@@ -62,6 +74,7 @@ pub(super) fn openings(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64
                 let step = |sign: f64| step_off(rooms, area.id, ends, sign, reach);
                 found.push(Opening {
                     area: area.id,
+                    ends,
                     door: door.map(|d| d.id),
                     permeability: vector.permeability,
                     width,
@@ -89,7 +102,7 @@ fn links(world: &World) -> BTreeMap<(AreaId, SideRef), AreaId> {
 }
 
 /// An open side between two items of one Area leads nowhere else.
-fn joins_own_items(room: &Room, (a, b): (Point, Point)) -> bool {
+pub(super) fn joins_own_items(room: &Room, (a, b): (Point, Point)) -> bool {
     let middle = nalgebra::center(&a, &b);
     outward_normal(a, b).is_none_or(|n| {
         let outside = middle + n * FOOTHOLD;
@@ -98,7 +111,7 @@ fn joins_own_items(room: &Room, (a, b): (Point, Point)) -> bool {
 }
 
 /// Counter-clockwise round the Area, so the outside is on the right.
-fn outward_normal(a: Point, b: Point) -> Option<Vector> {
+pub(super) fn outward_normal(a: Point, b: Point) -> Option<Vector> {
     let along = (b - a).try_normalize(1e-9)?;
     Some(Vector::new(along.y, -along.x))
 }
@@ -115,8 +128,12 @@ fn step_off(
     let storey = &rooms[&from].parts;
     [0.5, 0.25, 0.75].iter().find_map(|share| {
         let start = a + (b - a) * *share;
+        let swept = Bounds::of([start, start + way * (reach + FOOTHOLD)]);
         let others = rooms.values().filter(|r| {
-            r.map == rooms[&from].map && (sign < 0.0 || r.id != from) && same_storey(storey, &r.parts)
+            r.map == rooms[&from].map
+                && (sign < 0.0 || r.id != from)
+                && r.bounds.meets(&swept)
+                && same_storey(storey, &r.parts)
         });
         others
             .filter_map(|room| Some((room.id, first_floor(room, start, way, reach)?)))
@@ -155,7 +172,7 @@ fn first_floor(room: &Room, start: Point, way: Vector, reach: f64) -> Option<f64
 /// A hinged leaf of width w and thickness d at angle α takes w·cos α + d·sin α; beyond a right angle, its thickness.
 #[must_use]
 pub fn clear_width(door: &Door, state: DoorState, width: f64) -> f64 {
-    if door.leaves.is_empty() {
+    if door.leaves.is_empty() || door.kind == DoorKind::Passage {
         return width;
     }
     if state.status != DoorStatus::Open {

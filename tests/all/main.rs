@@ -1,0 +1,3 @@
+//! Capabilities of the whole crate, one module each.
+
+mod relations;
