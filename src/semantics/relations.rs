@@ -408,3 +408,22 @@ impl Relations {
         (self.areas, self.supports, self.bearing) = (areas, supports, bearing);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_standard_rules_are_sound() {
+        let rules = RelationRules::standard();
+        let warnings: Vec<String> = rules
+            .program()
+            .warnings()
+            .iter()
+            .flat_map(|file| file.placed())
+            .map(|(line, column, warning)| format!("{line}:{column} {warning}"))
+            .collect();
+        assert_eq!(warnings, Vec::<String>::new());
+        assert_eq!(rules.reach, Reach::default());
+    }
+}
