@@ -4,3 +4,6 @@ mod facts_naive;
 
 mod store;
 mod store_world;
+//! Capabilities of the whole crate, one module each.
+
+mod relations;
