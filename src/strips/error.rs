@@ -344,7 +344,7 @@ pub enum RuleError {
 /// A [`RuleError`] together with the text that it was found in.
 #[derive(Debug, Clone)]
 pub struct RuleFault {
-    pub error: RuleError,
+    pub error: Box<RuleError>,
     source: Option<Source>,
 }
 
@@ -352,13 +352,13 @@ impl RuleFault {
     /// A fault within a text; the labels of `error` are spans of `source`.
     #[must_use]
     pub fn new(source: &Source, error: RuleError) -> Self {
-        Self { error, source: Some(source.clone()) }
+        Self { error: Box::new(error), source: Some(source.clone()) }
     }
 
     /// A fault of something that has no text, such as a fact that the map supplied.
     #[must_use]
     pub fn placeless(error: RuleError) -> Self {
-        Self { error, source: None }
+        Self { error: Box::new(error), source: None }
     }
 
     /// File name, line and character column.

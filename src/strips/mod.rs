@@ -27,6 +27,7 @@ mod domain;
 mod error;
 mod ground;
 mod load;
+mod pddl;
 mod problem;
 mod rule_text;
 mod simplify;
