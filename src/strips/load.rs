@@ -121,10 +121,12 @@ impl Domain {
 pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
     let shown = path.display().to_string();
     let refused = |error: std::io::Error| {
-        RuleFault::placeless(RuleError::Unreadable {
-            path: shown.clone(),
-            reason: error.to_string(),
-        })
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "такого файла нет".to_owned(),
+            std::io::ErrorKind::PermissionDenied => "нет прав на чтение".to_owned(),
+            _ => error.to_string(),
+        };
+        RuleFault::placeless(RuleError::Unreadable { path: shown.clone(), reason })
     };
     let bytes = std::fs::metadata(path).map_err(refused)?.len();
     if bytes > MAX_FILE_BYTES {
@@ -184,7 +186,10 @@ impl Loader {
                 Ok(source) => return self.load(&source, Some(&path)),
                 Err(fault) => self.faults.push(include.fault(|at| RuleError::Include {
                     path: include.text.clone(),
-                    reason: fault.error.to_string(),
+                    reason: match *fault.error {
+                        RuleError::Unreadable { reason, .. } => reason,
+                        other => other.to_string(),
+                    },
                     at,
                 })),
             }

@@ -47,7 +47,7 @@ impl<'a> Expression<'a> {
         }
     }
 
-    pub(super) fn items(&self) -> &[Expression<'a>] {
+    pub(super) fn items(&self) -> &[Self] {
         match self {
             Self::List(items, _) => items,
             Self::Word(..) => &[],
