@@ -17,7 +17,7 @@ fn area_of(regions: &[Region]) -> f64 {
 }
 
 /// Everything that must hold of any plan.
-fn check_invariants(plan: &FloorPlan) {
+pub(crate) fn check_invariants(plan: &FloorPlan) {
     for floor in plan.fragments() {
         let frames: f64 = floor.passframes.iter().map(|f| f.polygon.signed_area()).sum();
         let free = area_of(&floor.free);
@@ -38,7 +38,7 @@ fn check_invariants(plan: &FloorPlan) {
 }
 
 /// Every point of a route keeps the robot's radius from every wall and prism of the scene, measured anew.
-fn check_route(plan: &FloorPlan, world: &World, route: &Route) {
+pub(crate) fn check_route(plan: &FloorPlan, world: &World, route: &Route) {
     let radius = plan.robot().radius.get();
     let (step, height) = (plan.robot().step.get(), plan.robot().height.get());
     for leg in route.points.windows(2) {
