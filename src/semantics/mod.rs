@@ -7,6 +7,7 @@ mod measure;
 mod names;
 mod openings;
 pub mod planning;
+pub mod predicate;
 mod position;
 mod relations;
 
