@@ -1,8 +1,13 @@
 //! Integration tests: one binary, one file a capability.
 
 mod architecture;
+mod facts;
+mod facts_naive;
 mod floor_properties;
 mod floors;
 mod planning;
+mod relations;
 mod routes;
+mod store;
+mod store_world;
 mod words;

@@ -190,6 +190,15 @@ impl Belief {
     }
 }
 
+/// What the Map knows for a plan, the robot left out.
+#[must_use]
+pub fn facts_of_map(world: &World, relations: &Relations) -> Vec<InitialFact> {
+    let Some(&area) = world.areas.keys().next() else { return Vec::new() };
+    let state = RobotState { area, at: RobotAt::Elsewhere, holds: None };
+    let initial = planning::initial(world, relations, &state);
+    initial.facts.into_iter().filter(|f| !speaks_of_robot(f)).collect()
+}
+
 fn fact(predicate: &'static str, arguments: &[(&str, &'static str)]) -> InitialFact {
     let argument = |&(name, kind): &(&str, &'static str)| Argument { name: name.to_owned(), kind };
     InitialFact { predicate, arguments: arguments.iter().map(argument).collect(), assumed: false }

@@ -11,7 +11,7 @@ mod mission;
 mod placing;
 mod simulator;
 
-pub use belief::{Belief, Person, STARTING_POINT, Spot, Station};
+pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
 pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 pub use mission::{
