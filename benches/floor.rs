@@ -1,6 +1,6 @@
 //! Free floor and routes on generated floors: building, rebuilding one Fragment, asking the way.
 
-#[path = "../tests/all/floors.rs"]
+#[path = "../tests/floors.rs"]
 #[allow(dead_code, reason = "shared with the tests")]
 mod floors;
 mod generated;

@@ -38,7 +38,14 @@ pub struct Reach {
 
 impl Default for Reach {
     fn default() -> Self {
-        Self { distance: 13_000, beside: 6_000, sector: 20_000, sink: 1_000, escape: 1_000, outside: 5_000 }
+        Self {
+            distance: 13_000,
+            beside: 6_000,
+            sector: 20_000,
+            sink: 1_000,
+            escape: 1_000,
+            outside: 5_000,
+        }
     }
 }
 
@@ -243,8 +250,7 @@ impl Measurements {
         for body in measured.bodies.values() {
             measured.grids.entry(body.map).or_default().insert(body.id, &body.bounds);
         }
-        measured.singles =
-            measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
+        measured.singles = measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
         let mut pairs = Vec::new();
         let mut near = Vec::new();
         for a in measured.bodies.values() {
@@ -345,9 +351,12 @@ impl Measurements {
         }
         // A way between two others that this thing now crosses has both its ends within reach of it.
         let reach = cm(self.reach.beside);
-        near.retain(|&n| n != id && bounds_distance(&self.bodies[&n].bounds, &body.bounds) <= reach);
+        near.retain(|&n| {
+            n != id && bounds_distance(&self.bodies[&n].bounds, &body.bounds) <= reach
+        });
         self.bodies.insert(id, body);
-        let entered: Vec<_> = change.added.iter().copied().filter(|k| k.0 == id || k.1 == id).collect();
+        let entered: Vec<_> =
+            change.added.iter().copied().filter(|k| k.0 == id || k.1 == id).collect();
         for key in entered {
             self.look_between(key);
         }
@@ -455,7 +464,9 @@ impl Measurements {
                 found.over.extend(over(a, kind_a, index, block));
             }
             if block.bottom - a.bottom >= -sink {
-                found.below.extend(below(a, kind_a, index, block).filter(|u| u.gap >= -self.reach.sink));
+                found
+                    .below
+                    .extend(below(a, kind_a, index, block).filter(|u| u.gap >= -self.reach.sink));
             }
             if block.hollow {
                 let hold = std::slice::from_ref(block.widest());
@@ -632,8 +643,7 @@ fn rests_later(a: &Body, kind_a: &Kind, b: &Body, kind_b: &Kind) -> bool {
 
 fn over(a: &Body, kind: &Kind, index: usize, block: &Block) -> Option<Over> {
     let roof = block.roof();
-    let common: f64 =
-        kind.foot.iter().map(|&i| overlap_area(&a.blocks[i].base, roof)).sum();
+    let common: f64 = kind.foot.iter().map(|&i| overlap_area(&a.blocks[i].base, roof)).sum();
     let share = per_mille((common / kind.foot_area).min(1.0));
     let centred = roof.contains(a.centre);
     (share > 0 || centred).then(|| Over {

@@ -7,8 +7,8 @@ mod measure;
 mod names;
 mod openings;
 pub mod planning;
-pub mod predicate;
 mod position;
+pub mod predicate;
 mod relations;
 
 pub use measure::{Change, Measurements, Reach};
@@ -16,5 +16,6 @@ pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
-    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
+    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
+    derive_from,
 };
