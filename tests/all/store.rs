@@ -285,6 +285,19 @@ fn a_refused_import_changes_nothing() {
     assert_eq!((store.revision(), load(&store)), (1, map));
 }
 
+/// The papers' world: what is imported twice is imported once, what is read back is what was read.
+#[test]
+fn the_map_of_the_papers_goes_in_and_comes_out() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let map = World::load("maps/rb2.toml").expect("the map of the papers is sound");
+    let first = store.import(&map, &change("первая")).unwrap();
+    assert_eq!((load(&store), first.revision), (map.clone(), 1));
+    assert_eq!(first.by_table[&Table::AreaObjects].created as usize, map.replicas.len());
+    let again = store.import(&map, &change("та же")).unwrap();
+    assert_eq!((again.revision, again.counts), (1, Counts::default()));
+}
+
 /// The journal alone brings everything back: sled is an index.
 #[test]
 fn the_tables_are_built_anew_from_the_journal() {
