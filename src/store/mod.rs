@@ -35,6 +35,8 @@ mod reader;
 mod schema;
 mod sheet;
 mod sides;
+#[cfg(test)]
+mod sim;
 mod tables;
 mod time;
 mod trees;

@@ -75,6 +75,10 @@ impl Shelf for SledShelf {
         Ok(Arc::new(SledTrees::open(&self.dir.join("sled"))?))
     }
 
+    fn exists(&self) -> bool {
+        self.dir.join("sled").exists()
+    }
+
     fn set_aside(&mut self) -> Result<()> {
         let (from, aside) = (self.dir.join("sled"), self.dir.join("aside"));
         if !from.exists() {

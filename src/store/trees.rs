@@ -35,6 +35,15 @@ pub(crate) struct State {
     pub(crate) digests: Digests,
 }
 
+impl State {
+    /// The state after one more frame. An empty tree has no digest.
+    pub(crate) fn advance(&mut self, lsn: u64, touched: Digests) {
+        self.lsn = lsn;
+        self.digests.extend(touched);
+        self.digests.retain(|_, digest| *digest != Digest::default());
+    }
+}
+
 /// Called with each key and value; returns whether to go on.
 pub(crate) type Visit<'a> = dyn FnMut(&[u8], &[u8]) -> Result<bool> + 'a;
 
