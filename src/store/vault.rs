@@ -107,6 +107,11 @@ fn numbered_files(disk: &dyn Disk, dir: &Path, extension: &str) -> Result<Vec<(u
     Ok(names.iter().filter_map(|n| Some((number(n)?, dir.join(n)))).collect())
 }
 
+/// The snapshots of a store, the oldest first.
+pub(crate) fn snapshot_files(disk: &dyn Disk, dir: &Path) -> Result<Vec<(u64, PathBuf)>> {
+    numbered_files(disk, &snapshot_dir(dir), "snapshot")
+}
+
 /// All that the journal files hold.
 #[derive(Default)]
 struct Log {
@@ -318,7 +323,7 @@ impl Vault {
         }
         disk.sync_dir(dir).map_err(StoreError::io("записать каталог", dir))?;
         let mut log = Log::read(&*disk, dir)?;
-        let snapshots = numbered_files(&*disk, &snapshot_dir(dir), "snapshot")?;
+        let snapshots = snapshot_files(&*disk, dir)?;
         if log.files.is_empty() && snapshots.is_empty() && !shelf.exists() {
             // The journal comes first: trees without one are then always trees that have lost it.
             begin_journal(&*disk, dir, 1)?;
@@ -383,7 +388,7 @@ impl Vault {
         log: &Log,
         shelf: &mut dyn Shelf,
     ) -> Result<(Arc<dyn Trees>, State, OpenReport)> {
-        let snapshots = numbered_files(disk, &snapshot_dir(dir), "snapshot")?;
+        let snapshots = snapshot_files(disk, dir)?;
         let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
         let last = log.last().max(newest_snapshot);
         let mut report = OpenReport::default();
@@ -441,7 +446,7 @@ impl Vault {
 
     /// Goes on writing where the journal ends, or begins a new one where it cannot be trusted.
     fn resume_journal(&mut self, log: &Log, report: &mut OpenReport) -> Result<()> {
-        let snapshots = numbered_files(&*self.disk, &snapshot_dir(&self.dir), "snapshot")?;
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
         let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
         let chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
         report.journal_renewed = if let Some(fault) = &log.fault {
@@ -506,6 +511,7 @@ impl Vault {
         &*self.disk
     }
 
+    #[cfg(test)]
     pub(crate) fn lsn(&self) -> u64 {
         self.state.lsn
     }
@@ -602,7 +608,7 @@ impl Vault {
     }
 
     fn drop_old_files(&self) -> Result<()> {
-        let snapshots = numbered_files(&*self.disk, &snapshot_dir(&self.dir), "snapshot")?;
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
         let Some(dropped) = snapshots.len().checked_sub(SNAPSHOTS_KEPT) else { return Ok(()) };
         for (_, path) in &snapshots[..dropped] {
             self.remove(path)?;
