@@ -96,6 +96,17 @@ pub fn plural(noun: &str) -> String {
     format!("{before}{plural}")
 }
 
+/// The word that names the kind of a thing: "cup" of "red cup", "Room" of "Room-B", "chest" of "chest of drawers".
+#[must_use]
+pub fn kind(name: &str) -> Option<&str> {
+    let before_of = name.split_once(" of ").map_or(name, |(before, _)| before);
+    let is_tag = |word: &str| word.chars().all(|c| c.is_uppercase() || c.is_numeric());
+    let mut words = runs(before_of).into_iter().filter(|run| run.is_word).map(|run| run.text).rev();
+    words
+        .find(|word| word.chars().count() > 2 && !is_tag(word))
+        .filter(|kind| kind.len() < name.len())
+}
+
 /// "1 door", "5 doors"
 #[must_use]
 pub fn count(number: u64, noun: &str) -> String {
@@ -384,6 +395,19 @@ mod tests {
         }
         assert_eq!((possessive("boss"), possessive("robot")), ("boss'".into(), "robot's".into()));
         assert_eq!((count(1, "door"), count(3, "door")), ("1 door".into(), "3 doors".into()));
+    }
+
+    #[test]
+    fn a_name_has_a_kind() {
+        for (name, expected) in [
+            ("red cup", Some("cup")),
+            ("Room-B", Some("Room")),
+            ("chest of drawers", Some("chest")),
+            ("cup", None),
+            ("", None),
+        ] {
+            assert_eq!(kind(name), expected, "{name}");
+        }
     }
 
     #[test]

@@ -188,6 +188,26 @@ impl NounPhrase {
         self.head.as_deref()
     }
 
+    /// Shorter names that people use for the same thing: without its tail, and its head alone.
+    #[must_use]
+    pub fn shorter(&self) -> Vec<Self> {
+        let is_head = |piece: &Piece| matches!(piece, Piece::Noun { .. });
+        let Some(head) = self.pieces.iter().position(is_head) else { return Vec::new() };
+        let first =
+            self.pieces.iter().position(|piece| !matches!(piece, Piece::Fixed(_))).unwrap_or(head);
+        let mut shorter: Vec<Self> = Vec::new();
+        for pieces in [&self.pieces[first..=head], &self.pieces[head..=head]] {
+            let mut short =
+                Self { pieces: pieces.to_vec(), given: BTreeMap::new(), ..self.clone() };
+            let nominative = |piece| short.piece(piece, Case::Nominative, self.number);
+            short.name = short.pieces.iter().map(nominative).collect();
+            if short.name != self.name && shorter.iter().all(|other| other.name != short.name) {
+                shorter.push(short);
+            }
+        }
+        shorter
+    }
+
     fn given_form(&self, case: Case, number: Number) -> Option<&str> {
         let given = |case| self.given.get(&(number, case)).map(String::as_str);
         given(case).or_else(|| match case {
