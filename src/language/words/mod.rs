@@ -24,6 +24,7 @@ mod letters;
 mod lexicon;
 mod list;
 mod noun;
+mod parse;
 mod phrase;
 pub mod russian;
 
