@@ -90,7 +90,7 @@ pub struct Hit<'i, T> {
     pub spelling: Spelling,
 }
 
-/// The index of forms over ids of the caller's. See the [module](self).
+/// The index of forms over ids of the caller's: any form, however it was typed, gives its names back.
 #[derive(Debug, Clone)]
 pub struct FormIndex<T> {
     names: Vec<(Box<str>, T)>,
@@ -179,7 +179,9 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         }
         self.longest_key = self.longest_key.max(key.len());
         let postings = self.forms.entry(key.into()).or_default();
-        match postings.iter_mut().find(|p| p.name == name && p.exact == exact && p.part == part) {
+        // The forms of one name come one after the other, so that its postings are the last ones.
+        let mut own = postings.iter_mut().rev().take_while(|posting| posting.name == name);
+        match own.find(|posting| posting.exact == exact && posting.part == part) {
             Some(posting) => posting.readings.add(readings),
             None => postings.push(Posting { name, readings, exact, spaced, part }),
         }

@@ -25,7 +25,7 @@ use super::noun::Noun;
 use super::parse::Parser;
 use super::russian::Counted;
 
-/// A name with all its forms. See the [module](self).
+/// A name with all its forms.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct NounPhrase {
     pub(super) name: String,
