@@ -152,3 +152,10 @@ fn what_the_map_says_comes_first() {
     );
     assert!(!kettle.is_certain() && kettle.case(Case::Instrumental) == "Самогреем");
 }
+
+#[cfg(feature = "rumorph")]
+#[test]
+fn the_dictionary_knows_living_beings() {
+    let of = |name| NounPhrase::parse(name, &WordHints::default()).case(Case::Accusative);
+    assert_eq!((of("Иван Петрович"), of("Актёр")), ("Ивана Петровича".into(), "Актёра".into()));
+}

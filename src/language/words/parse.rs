@@ -7,7 +7,7 @@
 
 use super::adjective::Adjective;
 use super::dictionary;
-use super::grammar::{Evidence, Gender, Number, WordHints};
+use super::grammar::{Animacy, Evidence, Gender, Number, WordHints};
 use super::letters::{Run, is_acronym, runs, to_cyrillic};
 use super::lexicon;
 use super::noun::{Known, Noun};
@@ -141,6 +141,8 @@ impl<'a> Parser<'a> {
                 at_head = !self.noun(*group);
             } else if !self.coordinated && self.agrees_with_head(*group) {
                 self.agreeing(*group);
+            } else if self.is_second_name(*group) {
+                self.noun(*group);
             } else {
                 tail |= self.is_word(*group);
                 self.fixed(*group);
@@ -169,10 +171,10 @@ impl<'a> Parser<'a> {
                 .place
                 .or(entry.filter(|_| !self.compound).map(lexicon::Entry::place))
                 .unwrap_or_default(),
-            evidence: if noun.is_none() && self.name.chars().any(is_cyrillic_lower) {
-                Evidence::Guess
-            } else {
-                self.evidence
+            evidence: match noun {
+                Some(_) => self.evidence,
+                None if self.name.chars().any(is_cyrillic_lower) => Evidence::Guess,
+                None => Evidence::Rule,
             },
             given: self.hints.forms.clone(),
             head: self.head.map(|(head, _)| head),
@@ -287,6 +289,18 @@ impl<'a> Parser<'a> {
         }
     }
 
+    /// A person's or an animal's next name declines with the first: «Иван Петрович», «Кот Барсик».
+    fn is_second_name(&self, group: Group) -> bool {
+        let Some((_, head)) = &self.head else { return false };
+        let capital = self.text(group).starts_with(char::is_uppercase);
+        let mut words = self.words(group).map(|run| to_cyrillic(run.text).to_lowercase());
+        head.animacy == Animacy::Animate
+            && head.number == Number::Singular
+            && capital
+            && self.is_word(group)
+            && words.all(|word| is_nominative(&word))
+    }
+
     fn agreeing(&mut self, group: Group) {
         let Some((lower, adjective)) = self.adjective(group) else { return self.fixed(group) };
         let last = group.to - 1;
@@ -320,7 +334,9 @@ impl<'a> Parser<'a> {
         };
         let whole = to_cyrillic(self.text(group)).to_lowercase();
         let parts = self.words(group).count();
+        let listed = |run: &Run<'_>| lexicon::find(&run.text.to_lowercase()).is_some();
         if parts > 1
+            && !self.words(group).all(listed)
             && self.words(group).all(|run| is_declinable(run.text))
             && let Some(noun) = dictionary::noun(&whole, known)
         {
@@ -343,7 +359,11 @@ impl<'a> Parser<'a> {
                 self.pieces.push(Piece::Fixed(text.to_owned()));
             } else {
                 self.compound |= found;
-                let known = if found { Known::default() } else { known };
+                let known = match &self.head {
+                    // What follows a living head is its name: «Кот Барсик».
+                    Some((_, head)) => Known { animacy: Some(head.animacy), ..Known::default() },
+                    None => known,
+                };
                 self.take(text, &lower, resolve(&lower, known));
                 found = true;
             }
