@@ -246,11 +246,12 @@ impl Search {
                     self.push(node.spent, node.root, edge, seen_right, seen_left, node.cell);
                 }
             }
-            if l_left && node.left_bends {
+            // An edge may end in the bend itself, and then leads off from it to the other side.
+            if (l_left || r_left) && node.left_bends {
                 let from = if r_left { r } else { meet(at, left, r, l) };
                 self.push_bent(node, left, edge, from, l);
             }
-            if r_right && node.right_bends {
+            if (r_right || l_right) && node.right_bends {
                 let to = if l_right { l } else { meet(at, right, r, l) };
                 self.push_bent(node, right, edge, r, to);
             }
