@@ -10,7 +10,7 @@ mod schema;
 mod text;
 mod write;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use miette::SourceSpan;
@@ -18,7 +18,7 @@ use miette::SourceSpan;
 use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
-use super::fault::{Fault, MapError, MapErrors, Spot, Step};
+use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::Source;
 
 pub use schema::json_schema;
@@ -80,18 +80,23 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }
-    let Draft { world, mut faults, origins, left_out } = read::build(&root);
-    faults.extend(super::check(&world));
-    for fault in &mut faults {
-        let places = fault.spots.iter().filter_map(|spot| {
-            let origin = origins.get(&spot.record)?;
-            Some(SourceSpan::from(place(origin, spot, &left_out)))
-        });
-        let places: Vec<_> = places.collect();
-        fault.spans.extend(places);
+    let Draft { world, mut faults, origins, broken, left_out } = read::build(&root);
+    for mut fault in super::check::check_except(&world, &broken) {
+        fault.locate(&origins, &left_out);
+        faults.push(fault);
     }
     let faults = report(source, faults);
     Reading { world: (!faults.has_errors()).then_some(world), faults }
+}
+
+impl Fault {
+    /// Finds the places in the text of the places in the model.
+    fn locate(&mut self, origins: &BTreeMap<Record, Origin<'_>>, left_out: &HashSet<Span>) {
+        let place = |spot: &Spot| {
+            origins.get(&spot.record).map(|o| SourceSpan::from(place(o, spot, left_out)))
+        };
+        self.spans = self.spots.iter().filter_map(place).collect();
+    }
 }
 
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.

@@ -1,6 +1,6 @@
 //! From the types of the file to a [`World`]: numbers ids in the order of the file and turns names into ids.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use serde::Deserialize;
 
@@ -30,6 +30,8 @@ pub(super) struct Draft<'n> {
     pub(super) world: World,
     pub(super) faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Records of which something could not be read: what they lack is no second fault.
+    pub(super) broken: BTreeSet<Record>,
     /// Entries and lines that could not be read.
     pub(super) left_out: HashSet<Span>,
 }
@@ -48,17 +50,20 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
         root,
         faults: Vec::new(),
         origins: BTreeMap::new(),
+        broken: BTreeSet::new(),
         left_out: HashSet::new(),
         names: Names::default(),
     };
     let world = reader.world();
-    Draft { world, faults: reader.faults, origins: reader.origins, left_out: reader.left_out }
+    let Reader { faults, origins, broken, left_out, .. } = reader;
+    Draft { world, faults, origins, broken, left_out }
 }
 
 struct Reader<'n> {
     root: &'n Node,
     faults: Vec<Fault>,
     origins: BTreeMap<Record, Origin<'n>>,
+    broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
     names: Names,
 }
@@ -205,8 +210,12 @@ impl<'n> Reader<'n> {
         raw.into_iter().map(|raw| (raw.id, convert(self, raw))).collect()
     }
 
+    /// A fault of a record, which is checked no further.
     fn fault(&mut self, error: MapError, spot: Spot) {
-        self.faults.push(Fault::new(error, vec![spot]));
+        self.broken.insert(spot.record);
+        let mut fault = Fault::new(error, vec![spot]);
+        fault.locate(&self.origins, &self.left_out);
+        self.faults.push(fault);
     }
 
     fn misprints(&mut self, misprints: Vec<Misprint>) {
@@ -277,15 +286,19 @@ impl<'n> Reader<'n> {
         }
         let mut read = Vec::new();
         for entry in entries {
+            let faults_before = self.faults.len();
             if let Some(file) = self.decode::<T>(&entry.node, &entry.key_span) {
-                read.push((entry, file));
+                read.push((entry, file, self.faults.len() > faults_before));
             }
         }
-        let ids = number(&read.iter().map(|(_, file)| file.id()).collect::<Vec<_>>());
+        let ids = number(&read.iter().map(|(_, file, _)| file.id()).collect::<Vec<_>>());
         let mut seen = HashSet::new();
         let mut records = Vec::new();
-        for ((entry, file), number) in read.into_iter().zip(ids) {
+        for ((entry, file, is_broken), number) in read.into_iter().zip(ids) {
             let id = id(number);
+            if is_broken {
+                self.broken.insert(record(id));
+            }
             if seen.insert(number) {
                 let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
                 self.origins.insert(record(id), origin);
