@@ -2,6 +2,8 @@
 
 mod architecture;
 mod floors;
+mod maps;
 mod planning;
 mod routes;
 mod words;
+mod worlds;

@@ -48,14 +48,14 @@ impl Checker<'_> {
         }
         let height = frame.height.get();
         let fits = Cm::new(height).is_ok();
-        self.in_range("высота", height, fits, "0..100 км", spot.clone().field("height"));
+        self.in_range("высота", height, fits, "от 0 до 100 км", spot.clone().field("height"));
         if height < 0.0 {
             let error = MapError::NegativeHeight { name: frame.name.clone(), height: frame.height };
             self.fault(error, spot.clone().field("height"));
         }
         let scale = frame.roof_scale;
         let fits = (0.0..=100.0).contains(&scale);
-        self.in_range("roof_scale", scale, fits, "0..100", spot.clone().field("roof_scale"));
+        self.in_range("roof_scale", scale, fits, "от 0 до 100", spot.clone().field("roof_scale"));
     }
 
     fn base(&mut self, frame: &Orthoframe, spot: &Spot) {
@@ -67,12 +67,12 @@ impl Checker<'_> {
         }
         if base.len() > MOST_VECTORS {
             let value = base.len() as f64;
-            self.in_range("число векторов Базы", value, false, "3..10000", spot.clone());
+            self.in_range("число векторов Базы", value, false, "от 3 до 10000", spot.clone());
             return;
         }
         let coordinates = base.iter().flat_map(|v| [v.start.x, v.start.y, v.end.x, v.end.y]);
         if let Some(value) = coordinates.into_iter().find(|&c| Cm::new(c).is_err()) {
-            self.in_range("координата", value, false, "±100 км", spot.clone());
+            self.in_range("координата", value, false, "в пределах ±100 км", spot.clone());
             return;
         }
         let faults_before = self.faults.len();

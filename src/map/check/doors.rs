@@ -42,7 +42,9 @@ impl<'w> Checker<'w> {
                         _ if count > 2 => {
                             self.fault(MapError::DoorMounts { door: name(), count }, spot);
                         }
-                        [one, other] if all_groups_read => self.joined(door, *one, *other),
+                        [one, other] if all_groups_read && one.area != other.area => {
+                            self.joined(door, *one, *other);
+                        }
                         _ => {}
                     }
                 }
@@ -85,13 +87,19 @@ impl<'w> Checker<'w> {
         for (i, leaf) in door.leaves.iter().enumerate() {
             let at = |field| spot.clone().index(i).field(field);
             let (share, thick) = (leaf.share, leaf.thickness.get());
-            self.in_range("share", share, share > 0.0 && share <= 1.0, "0..1", at("share"));
+            self.in_range(
+                "share",
+                share,
+                share > 0.0 && share <= 1.0,
+                "больше 0 и не больше 1",
+                at("share"),
+            );
             let fits = (0.0..=50.0).contains(&thick);
-            self.in_range("thickness", thick, fits, "0..50 см", at("thickness"));
+            self.in_range("thickness", thick, fits, "от 0 до 50 см", at("thickness"));
             let (limit, range) = if door.kind == DoorKind::Hinged {
-                (270.0, "0..270°")
+                (270.0, "больше 0 и не больше 270°")
             } else {
-                (100.0, "0..100 %")
+                (100.0, "больше 0 и не больше 100 %")
             };
             let fits = leaf.max_open > 0.0 && leaf.max_open <= limit;
             self.in_range("max_open", leaf.max_open, fits, range, at("max_open"));
@@ -108,7 +116,7 @@ impl<'w> Checker<'w> {
         let opening = state.opening;
         let at = spot.clone().field("opening");
         let fits = (0.0..=100.0).contains(&opening);
-        self.in_range("opening", opening, fits, "0..100 %", at.clone());
+        self.in_range("opening", opening, fits, "от 0 до 100 %", at.clone());
         let status = match state.status {
             DoorStatus::Open => "открыта",
             DoorStatus::Closed => "закрыта",

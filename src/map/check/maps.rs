@@ -278,7 +278,8 @@ impl<'w> Checker<'w> {
             let count = counts[&map.id];
             if count != 1 {
                 let error = MapError::DomainMaps { map: map.name.clone(), count };
-                self.fault(error, spot.clone().field("maps"));
+                let map = Spot::of(Record::Map(map.id));
+                self.contradiction(error, map, spot.clone().field("maps"));
             }
         }
         self.lifts(&spot);

@@ -120,7 +120,7 @@ impl Checker<'_> {
         let numbers = [frame.x.get(), frame.y.get(), frame.z.get(), frame.angle.get()];
         let wrong = numbers.into_iter().find(|&n| Cm::new(n).is_err());
         if let Some(value) = wrong {
-            let range = "±100 км";
+            let range = "в пределах ±100 км";
             self.fault(
                 MapError::OutOfRange { what: "координата", value, range },
                 spot.clone().field("at"),

@@ -45,7 +45,7 @@ impl Checker<'_> {
             if replica.move_prob > 100 {
                 let value = f64::from(replica.move_prob);
                 let at = spot.clone().field("move_prob");
-                self.in_range("move_prob", value, false, "0..100", at);
+                self.in_range("move_prob", value, false, "от 0 до 100", at);
             }
             let is_finite = self.frame_is_finite(&replica.frame, &spot);
             let world = self.world;
@@ -149,7 +149,7 @@ impl Checker<'_> {
             let at = spot.field("at");
             let wrong = [place.at.x, place.at.y].into_iter().find(|&c| Cm::new(c).is_err());
             if let Some(value) = wrong {
-                self.in_range("координата", value, false, "±100 км", at);
+                self.in_range("координата", value, false, "в пределах ±100 км", at);
             } else if let (Some(area), Some(room)) = (area, self.room(place.area))
                 && !room.polygons.iter().any(|polygon| contains(polygon, place.at))
             {
@@ -174,8 +174,11 @@ impl Checker<'_> {
             ("turn_rate", robot.turn_rate, robot.turn_rate > 0.0),
         ];
         for (what, value, fits) in numbers {
-            let range =
-                if what == "step" || what == "clearance" { "от 0" } else { "больше 0" };
+            let range = if what == "step" || what == "clearance" {
+                "не меньше 0"
+            } else {
+                "больше 0"
+            };
             self.in_range(what, value, fits, range, spot.clone().field(what));
         }
         if let Some(start) = robot.start {

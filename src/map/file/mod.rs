@@ -4,6 +4,7 @@
 //! written reads as the same [`World`], ids included.
 
 mod decode;
+mod misprint;
 mod node;
 mod read;
 mod schema;
@@ -89,6 +90,16 @@ pub fn read(source: &Source, format: Format) -> Reading {
     Reading { world: (!faults.has_errors()).then_some(world), faults }
 }
 
+impl Step {
+    fn name(&self) -> Option<&str> {
+        match self {
+            Self::Field(name) => Some(name),
+            Self::Key(key) => Some(key),
+            Self::Index(_) => None,
+        }
+    }
+}
+
 impl Fault {
     /// Finds the places in the text of the places in the model.
     fn locate(&mut self, origins: &BTreeMap<Record, Origin<'_>>, left_out: &HashSet<Span>) {
@@ -111,13 +122,14 @@ fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
                 .iter()
                 .find_map(|way| node.entry(way).map(|entry| &entry.node)),
             Step::Field(name) => node.entry(name).map(|entry| &entry.node),
+            Step::Key(key) => node.entry(key).map(|entry| &entry.node),
             Step::Index(index) => {
                 node.elements().iter().filter(|e| !left_out.contains(&e.span)).nth(*index)
             }
         };
         let Some(inner) = inner else { break };
         if let (Value::Table(_), None) = (&inner.value, steps.peek())
-            && let Step::Field(name) = step
+            && let Some(name) = step.name()
             && let Some(entry) = node.entry(name)
         {
             // The name of a table says where it is; its extent may be pages.
