@@ -4,14 +4,14 @@
 // pub mod cli;
 pub mod corridor;
 pub mod draw;
-// pub mod engine;
+pub mod engine;
 pub mod exchange;
 pub mod facts;
 pub mod geometry;
 pub mod graphplan;
 pub mod language;
 pub mod map;
-// pub mod robot;
+pub mod robot;
 pub mod semantics;
 pub mod store;
 pub mod strips;

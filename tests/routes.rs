@@ -17,7 +17,7 @@ fn area_of(regions: &[Region]) -> f64 {
 }
 
 /// Everything that must hold of any plan.
-fn check_invariants(plan: &FloorPlan) {
+pub(crate) fn check_invariants(plan: &FloorPlan) {
     for floor in plan.fragments() {
         let frames: f64 = floor.passframes.iter().map(|f| f.polygon.signed_area()).sum();
         let free = area_of(&floor.free);
@@ -38,7 +38,7 @@ fn check_invariants(plan: &FloorPlan) {
 }
 
 /// Every point of a route keeps the robot's radius from every wall and prism of the scene, measured anew.
-fn check_route(plan: &FloorPlan, world: &World, route: &Route) {
+pub(crate) fn check_route(plan: &FloorPlan, world: &World, route: &Route) {
     let radius = plan.robot().radius.get();
     let (step, height) = (plan.robot().step.get(), plan.robot().height.get());
     for leg in route.points.windows(2) {
@@ -335,5 +335,51 @@ fn a_moved_thing_rebuilds_to_what_building_anew_gives() {
     let fresh = plan(&b);
     for (a, b) in plan_before.fragments().zip(fresh.fragments()) {
         assert_eq!(a, b);
+    }
+}
+
+/// The papers' flat, as people wrote it down.
+#[test]
+fn every_room_of_the_flat_is_reached_from_every_other() {
+    let world =
+        World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml")).expect("a good map");
+    let map = *world.maps.keys().next().unwrap();
+    let open: DoorStates = world.doors.keys().map(|&d| (d, DoorState::OPEN)).collect();
+    let plan = FloorPlan::build(&world, map, &world.robot, &open);
+    check_invariants(&plan);
+    let spots: Vec<(AreaId, Point)> = world
+        .places
+        .values()
+        .filter_map(|place| {
+            let (at, frame) = world.placement(place.area)?;
+            (at == map).then(|| (place.area, frame.apply(place.at)))
+        })
+        .collect();
+    for &(_, from) in &spots {
+        for &(_, to) in &spots {
+            for method in [Method::Shortest, Method::Paper] {
+                let route = plan
+                    .route(&world, from, Target::Point(to), method)
+                    .unwrap_or_else(|e| panic!("{e}"));
+                check_route(&plan, &world, &route);
+            }
+        }
+        for &area in world.areas.keys() {
+            plan.route(&world, from, Target::Area(area), Method::Shortest)
+                .unwrap_or_else(|e| panic!("{e}"));
+        }
+        for &id in world.replicas.keys() {
+            if let Err(e) = plan.route(&world, from, Target::Replica(id), Method::Shortest) {
+                panic!("{}: {e}", world.replicas[&id].name);
+            }
+        }
+    }
+    for floor in plan.fragments() {
+        eprintln!(
+            "{}: {} Passframes, {} dead zones",
+            world.areas[&floor.area].name,
+            floor.passframes.len(),
+            floor.dead_zones.len()
+        );
     }
 }

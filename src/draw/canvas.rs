@@ -125,18 +125,6 @@ impl Canvas {
         self.nodes.append(line);
     }
 
-    /// The shorter arc from `a` to `b`.
-    pub(super) fn arc(&mut self, a: Point, b: Point, radius: f64, left: bool, style: Style) {
-        let ((x1, y1), (x2, y2)) = (self.at(a), self.at(b));
-        let data = Data::new()
-            .move_to((x1, y1))
-            // y points down on the sheet, so a left turn of the Map is sweep 0.
-            .elliptical_arc_to((round(radius), round(radius), 0, 0, i32::from(!left), x2, y2));
-        let mut path = Path::new().set("d", data);
-        style.apply(&mut path);
-        self.nodes.append(path);
-    }
-
     pub(super) fn circle(&mut self, center: Point, radius: f64, style: Style) {
         let (x, y) = self.at(center);
         let mut circle = Circle::new().set("cx", x).set("cy", y).set("r", number(radius));

@@ -1,6 +1,6 @@
 //! The plan of a Map (figs. 6, 9-12): rooms, doors as architects draw them, furniture, free floor, Passframes, route.
 
-use crate::geometry::{Bounds, Owner, Polygon, Prism, Scene};
+use crate::geometry::{Bounds, Owner, Polygon, Prism, Region, Scene};
 use crate::map::{Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
@@ -12,7 +12,7 @@ pub struct FloorLayer {
     /// Convex cells with the short text that stands in them.
     pub passframes: Vec<(Polygon, String)>,
     /// Floor that no position of the robot covers.
-    pub dead_zones: Vec<Polygon>,
+    pub dead_zones: Vec<Region>,
 }
 
 /// A drivable line, cut into the directives' legs.
@@ -24,12 +24,11 @@ pub struct RouteLayer {
     pub robot_radius: f64,
 }
 
-/// A door leaf where it stands, and the arc that its free end runs along when it shuts.
+/// A door leaf where it stands, and the floor that it passes over when it shuts.
 #[derive(Debug, Clone)]
 pub struct DoorGlyph {
     pub leaf: Polygon,
-    /// Centre, open end, shut end; absent for a sliding leaf.
-    pub swing: Option<(Point, Point, Point)>,
+    pub swept: Option<Polygon>,
 }
 
 /// What is to be drawn of a Map.
@@ -84,7 +83,7 @@ impl PlanDrawing<'_> {
             canvas.polygon(cell, PASSFRAME, Some(id));
         }
         for zone in &self.floor.dead_zones {
-            canvas.polygon(zone, DEAD_ZONE, None);
+            canvas.polygons(zone.contours().map(|c| c.corners.as_slice()), DEAD_ZONE, None);
         }
     }
 
@@ -236,9 +235,8 @@ fn furniture_style(prism: &Prism, movable: bool) -> Style {
 }
 
 fn draw_door(canvas: &mut Canvas, door: &DoorGlyph) {
-    if let Some((hinge, open_end, shut_end)) = door.swing {
-        let left = (open_end - hinge).perp(&(shut_end - hinge)) > 0.0;
-        canvas.arc(open_end, shut_end, (open_end - hinge).norm(), left, SWING);
+    if let Some(swept) = &door.swept {
+        canvas.polygon(swept, SWING, None);
     }
     canvas.polygon(&door.leaf, LEAF, None);
 }

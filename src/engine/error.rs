@@ -3,7 +3,9 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::language::command::Misheard;
 use crate::map::MapErrors;
+use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::RuleFaults;
@@ -25,7 +27,19 @@ pub enum Error {
     Store(#[from] StoreError),
     #[error(transparent)]
     #[diagnostic(transparent)]
+    Misheard(#[from] Misheard),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
     Request(#[from] RequestError),
+}
+
+impl From<MissionError> for Error {
+    fn from(error: MissionError) -> Self {
+        match error {
+            MissionError::Rules(faults) => Self::Rules(faults),
+            MissionError::Relations(error) => Self::Relations(error),
+        }
+    }
 }
 
 /// A request that speaks of what is not there, or not clearly enough.
@@ -84,14 +98,15 @@ pub enum RequestError {
     #[diagnostic(code(engine::which_map), help("назовите одну: --map ИМЯ"))]
     WhichMap { candidates: String },
 
-    /// A command in words that was not understood.
-    #[error("{message}")]
-    #[diagnostic(code(engine::not_understood))]
-    NotUnderstood {
-        message: String,
-        #[help]
-        help: Option<String>,
-    },
+    /// A command that no goal of the rules stands for.
+    #[error("«{command}»: у этой команды нет цели, которую знают правила робота")]
+    #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
+    NoGoal { command: String },
+
+    /// Something that is to be opened or shut and is no door between rooms.
+    #[error("«{name}» – не дверь между помещениями")]
+    #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
+    NotADoor { name: String },
 
     /// The Map does not say where the robot is.
     #[error("неизвестно, где робот")]
@@ -109,7 +124,7 @@ impl Error {
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Map(_) | Self::Rules(_) | Self::Relations(_) | Self::Request(_) => true,
+            Self::Map(_) | Self::Rules(_) | Self::Relations(_) | Self::Misheard(_) | Self::Request(_) => true,
             Self::Store(error) => !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. }),
         }
     }

@@ -17,7 +17,9 @@
 
 mod drawing;
 mod error;
+mod lexicon;
 mod plan;
+mod position;
 mod route;
 mod rules;
 mod task;
@@ -28,10 +30,11 @@ use std::path::Path;
 
 pub use drawing::Drawing;
 pub use error::{Error, RequestError};
-pub use plan::{PlanAnswer, PlanStep};
-pub use route::{Located, RouteAnswer};
+pub use plan::{PlanAnswer, PlanStep, plan_alone, read_scenario};
+pub use position::Whereabout;
+pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
-pub use task::{Progress, Report, TaskAnswer, TaskEnding};
+pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 
 pub use crate::geometry::Method;
 pub use crate::map::World;
@@ -39,7 +42,8 @@ pub use crate::semantics::Relations;
 pub use crate::store::{Change, Timestamp};
 
 use crate::geometry::{DoorStates, FloorPlan};
-use crate::map::{Entity, Fault, MapErrors, map_file};
+use crate::map::{Entity, Fault, MapErrors, read_file};
+use crate::semantics::{Profile, derive};
 use crate::store::{ImportReport, OpenReport, Store};
 use crate::units::{MapId, nearest_name};
 
@@ -102,7 +106,7 @@ impl Engine {
     /// # Errors
     /// All faults of the file; the store is then as it was.
     pub fn import(&mut self, file: &Path, change: &Change) -> Result<Imported, Error> {
-        let reading = map_file::read_file(file)?;
+        let reading = read_file(file);
         let Some(world) = reading.world else { return Err(reading.faults.into()) };
         let report = match &mut self.store {
             Some(store) => {
@@ -139,10 +143,14 @@ impl Engine {
     /// The relations that hold on the map, derived when first asked for.
     ///
     /// # Errors
-    /// [`RequestError::NoMap`].
+    /// There is no map, or a rule of the user's own outgrows the memory.
     pub fn relations(&self) -> Result<&Relations, Error> {
         let world = self.world()?;
-        Ok(self.relations.get_or_init(|| self.rules.relations.derive(world)))
+        if let Some(relations) = self.relations.get() {
+            return Ok(relations);
+        }
+        let relations = derive(world, &self.rules.relations, Profile::Surveyed)?;
+        Ok(self.relations.get_or_init(|| relations))
     }
 
     /// The free floor of every map, computed when first asked for.
@@ -207,7 +215,7 @@ impl Engine {
 /// # Errors
 /// All faults of the file.
 pub fn check_map(file: &Path) -> Result<(World, Vec<Fault>), MapErrors> {
-    let reading = map_file::read_file(file)?;
+    let reading = read_file(file);
     match reading.world {
         Some(world) => Ok((world, reading.faults.faults)),
         None => Err(reading.faults),

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::graphplan::{self, Limit, Limits, NoPlanReason, Outcome};
-use crate::semantics::planning;
+use crate::robot::{facts_of_map, state};
 use crate::strips::{Scenario, Task};
 
 use super::{Engine, Error};
@@ -77,8 +77,8 @@ impl Engine {
     pub fn plan(&self, scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
         let mut problem = scenario.problem;
         if let Ok(world) = self.world() {
-            for statement in planning::statements(world, self.relations()?) {
-                statement.add_to(&mut problem);
+            for fact in facts_of_map(world, self.relations()?) {
+                state(&mut problem, &fact);
             }
         }
         let task = crate::strips::ground(&scenario.domain, &problem)?;

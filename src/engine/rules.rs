@@ -6,7 +6,7 @@ use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFaults, Scenario};
 use crate::units::Source;
 
-use super::{Error, RequestError};
+use super::Error;
 
 const RELATIONS: &str = "relations.dl";
 const ROBOT: &str = "service-robot.strips";
@@ -27,8 +27,8 @@ impl Rules {
     pub fn read(dir: Option<&Path>) -> Result<Self, Error> {
         let file = |name: &str| dir.map(|d| d.join(name)).filter(|p| p.is_file());
         let relations = match file(RELATIONS) {
-            Some(path) => RelationRules::parse(&read_source(&path)?)?,
-            None => RelationRules::built_in(),
+            Some(path) => RelationRules::load(&path)?,
+            None => RelationRules::standard(),
         };
         let robot = match file(ROBOT) {
             Some(path) => Domain::read(&path)?,
@@ -47,9 +47,4 @@ impl Rules {
 fn built_in_robot() -> Result<Domain, RuleFaults> {
     let text = include_str!("../../rules/service-robot.strips");
     Scenario::parse(&Source::new(ROBOT, text)).map(|scenario| scenario.domain)
-}
-
-pub(super) fn read_source(path: &Path) -> Result<Source, RequestError> {
-    Source::read(path)
-        .map_err(|e| RequestError::File { path: path.display().to_string(), reason: e.to_string() })
 }

@@ -8,7 +8,7 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::map::{DoorStatus, World};
+use crate::map::{DoorKind, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
 use super::floor::Blocker;
@@ -146,7 +146,8 @@ fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Barrier {
     let height = plan.robot().height.get();
     if let Some(door) = door {
         let state = plan.door_state(world, door.id);
-        if state.status != DoorStatus::Open || state.opening <= 0.0 {
+        let is_shut = state.status != DoorStatus::Open || state.opening <= 0.0;
+        if is_shut && door.kind != DoorKind::Passage {
             let status = if state.status == DoorStatus::Locked {
                 DoorStatus::Locked
             } else {

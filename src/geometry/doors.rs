@@ -152,6 +152,9 @@ impl Doorway {
     #[must_use]
     pub fn clear_width(&self, door: Option<&Door>, state: DoorState) -> f64 {
         let Some(door) = door else { return self.width() };
+        if door.kind == DoorKind::Passage {
+            return self.width();
+        }
         if state.status != DoorStatus::Open {
             return 0.0;
         }
@@ -352,7 +355,7 @@ pub fn doorways(world: &World, scene: &Scene, map: MapId) -> Vec<Doorway> {
     let mut found = Vec::new();
     let mut pair = |open: &mut Vec<Option<OpenSide>>, i: usize, j: usize| {
         let (Some(a), Some(b)) = (open[i].as_ref(), open[j].as_ref()) else { return };
-        if let Some(doorway) = join(a, b) {
+        if let Some(doorway) = join(world, a, b) {
             found.push(doorway);
             open[i] = None;
             open[j] = None;
@@ -434,7 +437,7 @@ fn face_each_other(a: &OpenSide, b: &OpenSide) -> bool {
 }
 
 /// The doorway between two sides; none when they do not overlap.
-fn join(a: &OpenSide, b: &OpenSide) -> Option<Doorway> {
+fn join(world: &World, a: &OpenSide, b: &OpenSide) -> Option<Doorway> {
     // The first Area is the one that mounts the door first.
     let rank = |s: &OpenSide| (s.mount.is_none(), s.area);
     let (a, b) = if rank(b) < rank(a) { (b, a) } else { (a, b) };
@@ -445,6 +448,11 @@ fn join(a: &OpenSide, b: &OpenSide) -> Option<Doorway> {
     if span.1 - span.0 < 1e-3 {
         return None;
     }
+    let door = a.mount.as_ref().or(b.mount.as_ref()).map(|m| m.door);
+    // A door narrower than its side stands in the middle of it.
+    let width = door.and_then(|d| world.doors.get(&d)).map_or(0.0, |d| d.width.get());
+    let margin = if width > 0.0 { (span.1 - span.0 - width).max(0.0) / 2.0 } else { 0.0 };
+    let span = if margin > 1e-6 { (span.0 + margin, span.1 - margin) } else { span };
     let opens_to = match (&a.mount, &b.mount) {
         (Some(m), _) => usize::from(m.opens == OpensTo::Outside),
         (None, Some(m)) => usize::from(m.opens == OpensTo::Inside),
@@ -453,7 +461,7 @@ fn join(a: &OpenSide, b: &OpenSide) -> Option<Doorway> {
     Some(Doorway {
         areas: [a.area, b.area],
         sides: [a.side.clone(), b.side.clone()],
-        door: a.mount.as_ref().or(b.mount.as_ref()).map(|m| m.door),
+        door,
         permeability: a.permeability.max(b.permeability),
         opens_to,
         gap: ((near + far).dot(&out) / 2.0).max(0.0),

@@ -14,7 +14,7 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::map::{DoorState, DoorStatus, Permeability, RobotProfile, World};
+use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
 use super::doors::{Doorway, distance, object_leaves};
@@ -135,10 +135,15 @@ impl Site<'_> {
                     d.height.get() <= 0.0 || d.height.get() >= self.robot.height.get()
                 });
                 let state = self.state(door);
-                high_enough && state.status == DoorStatus::Open && state.opening > 0.0
+                let stands_open = state.status == DoorStatus::Open && state.opening > 0.0;
+                high_enough && (stands_open || self.is_passage(door))
             }
         };
         door_admits && doorway.rise.abs() <= self.robot.step.get().max(0.0) + 1e-9
+    }
+
+    fn is_passage(&self, door: DoorId) -> bool {
+        self.world.doors.get(&door).is_some_and(|d| d.kind == DoorKind::Passage)
     }
 
     /// The doorways of an Area, each with the Area's index in it.

@@ -19,6 +19,7 @@
 //! ```
 
 mod blocked;
+pub mod contact;
 mod doors;
 mod floor;
 mod grid;

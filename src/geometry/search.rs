@@ -37,6 +37,8 @@ pub(super) struct Edge {
 
 /// Lengths below this are rounding, in cm.
 const EPSILON: f64 = 1e-7;
+/// Points nearer than this to a vertex are the vertex, in cm.
+const SNAP: f64 = 1e-5;
 
 #[derive(Debug, Clone, Copy)]
 struct SearchNode {
@@ -144,7 +146,9 @@ fn side(a: Point, b: Point, c: Point) -> f64 {
 fn meet(a: Point, b: Point, p: Point, q: Point) -> Point {
     let (dp, dq) = (side(a, b, p), side(a, b, q));
     let t = if (dp - dq).abs() > 0.0 { (dp / (dp - dq)).clamp(0.0, 1.0) } else { 0.0 };
-    p + (q - p) * t
+    let at = p + (q - p) * t;
+    // A ray along a wall meets the wall's end: rounding must not lose the bend there.
+    [p, q].into_iter().find(|&end| (end - at).norm() < SNAP).unwrap_or(at)
 }
 
 impl Search {
@@ -242,11 +246,12 @@ impl Search {
                     self.push(node.spent, node.root, edge, seen_right, seen_left, node.cell);
                 }
             }
-            if l_left && node.left_bends {
+            // An edge may end in the bend itself, and then leads off from it to the other side.
+            if (l_left || r_left) && node.left_bends {
                 let from = if r_left { r } else { meet(at, left, r, l) };
                 self.push_bent(node, left, edge, from, l);
             }
-            if r_right && node.right_bends {
+            if (r_right || l_right) && node.right_bends {
                 let to = if l_right { l } else { meet(at, right, r, l) };
                 self.push_bent(node, right, edge, r, to);
             }

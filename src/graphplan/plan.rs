@@ -21,6 +21,28 @@ impl Plan {
         self.operators().map(|id| u64::from(task.operator(id).cost)).sum()
     }
 
+    /// The assumptions that the plan rests on, sorted: those that an operator or the goal needs before any
+    /// operator has made them true (SPEC P2).
+    #[must_use]
+    pub fn assumptions(&self, task: &Task) -> Vec<FactId> {
+        let mut made = vec![false; task.facts.len()];
+        let mut rests_on = vec![false; task.facts.len()];
+        for operators in &self.steps {
+            for &id in operators {
+                for fact in &task.operator(id).preconditions {
+                    rests_on[fact.index()] |= !made[fact.index()];
+                }
+            }
+            for &id in operators {
+                task.operator(id).add_effects.iter().for_each(|fact| made[fact.index()] = true);
+            }
+        }
+        for fact in &task.goal {
+            rests_on[fact.index()] |= !made[fact.index()];
+        }
+        task.assumptions.iter().copied().filter(|fact| rests_on[fact.index()]).collect()
+    }
+
     /// All operators in an order in which they may be carried out one by one.
     pub fn operators(&self) -> impl Iterator<Item = OperatorId> {
         self.steps.iter().flatten().copied()

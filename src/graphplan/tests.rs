@@ -40,8 +40,11 @@ fn random_task(seed: u64) -> Task {
             let add_effects = random.facts(adds, fact_count);
             let preconditions = random.facts(needs, fact_count);
             // Operators that use up what they need make goals that exclude each other by threes.
-            let mut del_effects =
-                if seed % 2 == 0 { preconditions.clone() } else { random.facts(dels, fact_count) };
+            let mut del_effects = if seed.is_multiple_of(2) {
+                preconditions.clone()
+            } else {
+                random.facts(dels, fact_count)
+            };
             del_effects.retain(|fact| !add_effects.contains(fact));
             Operator {
                 name: format!("o{number}").into(),

@@ -9,10 +9,11 @@
 //! assert_eq!(format!("{} – {}", russian::whence(&room), russian::whither(&room)), "из Комнаты-В – в Комнату-В");
 //! ```
 
+pub mod command;
 pub mod report;
 pub mod words;
 
 pub use words::{
     Animacy, Case, Evidence, FormIndex, Gender, Hit, Language, NounPhrase, Number, PlaceSense,
-    Readings, Spelling, WordHints, alternatives, english, enumerate, russian,
+    Readings, Spelling, WordHints, alternatives, english, enumerate, russian, word_ranges,
 };

@@ -2,9 +2,9 @@
 
 use crate::geometry::{DoorStates, FloorPlan, Scene};
 use crate::map::{DoorState, Entity, Replica, World};
-use crate::semantics::planning::Statement;
-use crate::semantics::predicate;
-use crate::units::{AreaId, Frame, MapId, PlaceId, Point, Pose, ReplicaId};
+use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
+use crate::semantics::{Relations, predicate};
+use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::drive::Sighting;
 
@@ -84,39 +84,49 @@ impl Belief {
         })
     }
 
-    /// What the rules need to know beyond the Map: the robot, its hand, people, and spots.
-    pub(super) fn statements(&self) -> Vec<Statement> {
+    /// The initial position of a planning problem, and the places that it speaks of.
+    pub(super) fn initial(&self, relations: &Relations) -> (Vec<InitialFact>, Vec<PlanPlace>) {
+        // The state of the robot is told below: its spots and its load are not in the Map.
+        let state = RobotState { area: self.area, at: RobotAt::Elsewhere, holds: None };
+        let initial = planning::initial(&self.world, relations, &state);
+        let of_map = initial.facts.into_iter().filter(|f| !speaks_of_robot(f) && !self.is_refuted(f));
+        (of_map.chain(self.of_robot()).collect(), initial.places)
+    }
+
+    /// The robot, its hand, people, and spots.
+    fn of_robot(&self) -> Vec<InitialFact> {
         let area = self.world.name(Entity::Area(self.area));
-        let mut all = vec![Statement::fact(predicate::ROBOT_IN, &[(area, "помещение")])];
+        let mut all = vec![fact(predicate::ROBOT_IN, &[(area, "помещение")])];
         all.push(match &self.station {
-            Station::Place(name) => Statement::fact(predicate::ROBOT_AT_PLACE, &[(name, "место")]),
-            Station::Door(name) => Statement::fact(predicate::ROBOT_AT_DOOR, &[(name, "дверь")]),
+            Station::Place(name) => fact(predicate::ROBOT_AT_PLACE, &[(name, "место")]),
+            Station::Door(name) => fact(predicate::ROBOT_AT_DOOR, &[(name, "дверь")]),
         });
         all.push(match &self.held {
-            Some(thing) => Statement::fact(predicate::ROBOT_HOLDS, &[(&thing.name, "предмет")]),
-            None => Statement::fact(predicate::HAND_FREE, &[]),
+            Some(thing) => fact(predicate::ROBOT_HOLDS, &[(&thing.name, "предмет")]),
+            None => fact(predicate::HAND_FREE, &[]),
         });
         for spot in &self.spots {
             let area = self.world.name(Entity::Area(spot.area));
-            all.push(Statement::fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")]));
+            all.push(fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")]));
         }
         for person in &self.people {
             let args = [(person.name.as_str(), "человек"), (person.place.as_str(), "место")];
-            all.push(Statement::fact(predicate::PERSON_AT_PLACE, &args));
+            all.push(fact(predicate::PERSON_AT_PLACE, &args));
         }
         for (thing, person) in &self.handed_over {
             let args = [(thing.name.as_str(), "предмет"), (person.as_str(), "человек")];
-            all.push(Statement::fact(predicate::HANDED_OVER, &args));
+            all.push(fact(predicate::HANDED_OVER, &args));
         }
         all
     }
 
-    /// Whether a statement of the Map speaks of a way that proved not to be there.
-    pub(super) fn is_refuted(&self, statement: &Statement) -> bool {
-        let ways = [predicate::PLACE_IN, predicate::DOOR_IN];
-        ways.contains(&statement.predicate.as_str())
+    /// Whether a fact of the Map speaks of a way that proved not to be there.
+    fn is_refuted(&self, fact: &InitialFact) -> bool {
+        let is_way = [predicate::PLACE_IN, predicate::DOOR_IN].iter().any(|p| is(fact, p));
+        is_way
             && self.unreachable.iter().any(|(area, name)| {
-                statement.args[0].name == *name && statement.args[1].name == self.world.name(Entity::Area(*area))
+                fact.arguments[0].name == *name
+                    && fact.arguments[1].name == self.world.name(Entity::Area(*area))
             })
     }
 
@@ -137,7 +147,7 @@ impl Belief {
         }
     }
 
-    pub(super) fn set_door(&mut self, door: crate::units::DoorId, state: DoorState) -> bool {
+    pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {
         let Some(before) = self.world.doors.get(&door).map(|d| d.state) else { return false };
         if before == state {
             return false;
@@ -175,12 +185,32 @@ impl Belief {
         self.floor.scene()
     }
 
-    /// The place of the Map that bears this name.
-    pub(super) fn place(&self, name: &str) -> Option<PlaceId> {
-        self.entity(name, |e| if let Entity::Place(id) = e { Some(id) } else { None })
-    }
-
     pub(super) fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Option<T> {
         self.world.find(name).into_iter().find_map(pick)
     }
+}
+
+/// What the Map knows for a plan, the robot left out.
+#[must_use]
+pub fn facts_of_map(world: &World, relations: &Relations) -> Vec<InitialFact> {
+    let Some(&area) = world.areas.keys().next() else { return Vec::new() };
+    let state = RobotState { area, at: RobotAt::Elsewhere, holds: None };
+    let initial = planning::initial(world, relations, &state);
+    initial.facts.into_iter().filter(|f| !speaks_of_robot(f)).collect()
+}
+
+fn fact(predicate: &'static str, arguments: &[(&str, &'static str)]) -> InitialFact {
+    let argument = |&(name, kind): &(&str, &'static str)| Argument { name: name.to_owned(), kind };
+    InitialFact { predicate, arguments: arguments.iter().map(argument).collect(), assumed: false }
+}
+
+fn is(fact: &InitialFact, predicate: &str) -> bool {
+    fact.predicate.trim_end_matches('_') == predicate
+}
+
+fn speaks_of_robot(fact: &InitialFact) -> bool {
+    let of_robot =
+        [predicate::ROBOT_IN, predicate::ROBOT_AT_PLACE, predicate::ROBOT_AT_DOOR, predicate::HAND_FREE];
+    of_robot.iter().any(|p| is(fact, p))
+        || fact.arguments.iter().any(|a| a.name == planning::ROBOT_PLACE)
 }

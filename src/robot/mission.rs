@@ -2,10 +2,14 @@
 
 use crate::geometry::{Method, NoRoute, Route, Target};
 use crate::graphplan::{self, Limits, Outcome};
-use crate::map::{DoorState, DoorStatus, Entity};
-use crate::semantics::{RelationRules, planning};
+use crate::map::{DoorState, DoorStatus, Entity, World};
+use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
+use crate::semantics::{Profile, RelationError, RelationRules, derive};
 use crate::strips::{Domain, Problem, RuleFaults, Task, ground};
-use crate::units::{AreaId, DoorId, Frame, Pose, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, MapId, Pose, ReplicaId};
+
+use miette::Diagnostic;
+use thiserror::Error;
 
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
@@ -26,6 +30,8 @@ pub struct Planned {
     pub outcome: Outcome,
     /// Parallel steps; empty unless there is a plan.
     pub steps: Vec<Vec<Directive>>,
+    /// The places that the plan may name.
+    pub places: Vec<PlanPlace>,
 }
 
 /// What happened on the way.
@@ -73,6 +79,19 @@ pub enum Ending {
     Stuck(Surprise),
 }
 
+/// A mission that cannot even be planned.
+#[derive(Debug, Error, Diagnostic)]
+pub enum MissionError {
+    /// The goal or the rules name what neither the Map nor the rules know.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Rules(#[from] RuleFaults),
+    /// The relations of what is believed cannot be derived.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Relations(#[from] RelationError),
+}
+
 /// Plans and carries out goals on a belief of its own.
 #[derive(Debug)]
 pub struct Mission<'r> {
@@ -80,24 +99,26 @@ pub struct Mission<'r> {
     domain: &'r Domain,
     relations: &'r RelationRules,
     limits: Limits,
+    /// Of the plan in force.
+    places: Vec<PlanPlace>,
 }
 
 impl<'r> Mission<'r> {
     #[must_use]
     pub fn new(belief: Belief, domain: &'r Domain, relations: &'r RelationRules, limits: Limits) -> Self {
-        Self { belief, domain, relations, limits }
+        Self { belief, domain, relations, limits, places: Vec::new() }
     }
 
     /// The plan for a goal from what is believed now.
     ///
     /// # Errors
-    /// The goal or the rules name what neither the Map nor the rules know.
-    pub fn plan(&self, goal: &[GoalFact]) -> Result<Planned, RuleFaults> {
+    /// [`MissionError`].
+    pub fn plan(&self, goal: &[GoalFact]) -> Result<Planned, MissionError> {
         let mut problem = Problem::new();
-        let relations = self.relations.derive(&self.belief.world);
-        let of_map = planning::statements(&self.belief.world, &relations);
-        for statement in of_map.iter().filter(|s| !self.belief.is_refuted(s)).chain(&self.belief.statements()) {
-            statement.add_to(&mut problem);
+        let relations = derive(&self.belief.world, self.relations, Profile::Surveyed)?;
+        let (facts, places) = self.belief.initial(&relations);
+        for fact in &facts {
+            state(&mut problem, fact);
         }
         for fact in goal {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
@@ -113,7 +134,7 @@ impl<'r> Mission<'r> {
                 .collect(),
             _ => Vec::new(),
         };
-        Ok(Planned { task, outcome, steps })
+        Ok(Planned { task, outcome, steps, places })
     }
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
@@ -128,7 +149,7 @@ impl<'r> Mission<'r> {
         goal: &[GoalFact],
         drive: &mut dyn Drive,
         tell: &mut dyn FnMut(&Event<'_>),
-    ) -> Result<Ending, RuleFaults> {
+    ) -> Result<Ending, MissionError> {
         let mut moved = false;
         loop {
             let planned = self.plan(goal)?;
@@ -141,6 +162,7 @@ impl<'r> Mission<'r> {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
             }
             moved = true;
+            self.places.clone_from(&planned.places);
             match self.carry_out(&directives, drive, tell) {
                 None => return Ok(Ending::Done),
                 Some(surprise) if !self.learn(&surprise) => return Ok(Ending::Stuck(surprise)),
@@ -297,10 +319,12 @@ impl<'r> Mission<'r> {
         if let Some(spot) = self.belief.spots.iter().find(|s| s.name == name) {
             return Ok(Target::Point(spot.pose.at));
         }
-        if let Some(place) = self.belief.place(name) {
-            return Ok(Target::Place(place));
+        let place = self.places.iter().find(|p| p.name == name);
+        match place.map(|p| p.source) {
+            Some(PlaceSource::Named(id)) => Ok(Target::Place(id)),
+            Some(PlaceSource::Before(id)) => Ok(Target::Replica(id)),
+            Some(PlaceSource::Robot) | None => Err(Surprise::Unknown { name: name.to_owned() }),
         }
-        self.replica(name).map(Target::Replica)
     }
 
     fn door(&self, name: &str) -> Result<DoorId, Surprise> {
@@ -325,13 +349,26 @@ impl<'r> Mission<'r> {
     }
 }
 
+/// States a fact of the initial position, and what its arguments are.
+pub fn state(problem: &mut Problem, fact: &InitialFact) {
+    for argument in &fact.arguments {
+        problem.add_object(&argument.name, &[argument.kind]);
+    }
+    let args: Vec<&str> = fact.arguments.iter().map(|a| a.name.as_str()).collect();
+    if fact.assumed {
+        problem.add_assumption(fact.predicate, &args);
+    } else {
+        problem.add_fact(fact.predicate, &args);
+    }
+}
+
 fn refused(refusal: Refusal, drive: &dyn Drive) -> Surprise {
     Surprise::Refused { refusal, seen: refusal.about().and_then(|what| drive.look_at(what)) }
 }
 
 /// Where the robot is when nothing else is known: the pose of the Map's starting place.
 #[must_use]
-pub fn starting_pose(world: &crate::map::World) -> Option<(crate::units::MapId, Pose)> {
+pub fn starting_pose(world: &World) -> Option<(MapId, Pose)> {
     let place = world.places.get(&world.robot.start?)?;
     let (map, frame) = world.placement(place.area)?;
     let heading = place.heading.unwrap_or_default() + frame.angle;

@@ -11,9 +11,11 @@ mod mission;
 mod placing;
 mod simulator;
 
-pub use belief::{Belief, Person, STARTING_POINT, Spot, Station};
+pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
 pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
-pub use mission::{Ending, Event, GoalFact, Leg, Mission, Planned, Surprise, starting_pose};
+pub use mission::{
+    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
+};
 pub use placing::spot_on;
 pub use simulator::{Moment, Simulator};

@@ -1,1 +1,20 @@
-//! (stands empty until its chapter is written)
+//! What the geometry of a Map means (paper 1 §5).
+
+mod body;
+mod feed;
+mod grid;
+mod measure;
+mod names;
+mod openings;
+pub mod planning;
+pub mod predicate;
+mod position;
+mod relations;
+
+pub use measure::{Change, Measurements, Reach};
+pub use names::{Subject, Symbols};
+pub use openings::{Opening, clear_width};
+pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
+pub use relations::{
+    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
+};

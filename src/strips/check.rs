@@ -295,7 +295,8 @@ impl Checker<'_> {
                         here.push(meaning);
                     }
                 }
-                Condition::Equal { left, right, negated } => {
+                Condition::Equal { pair, negated } => {
+                    let (left, right) = &**pair;
                     let left = self.term(action, scope, left);
                     let right = self.term(action, scope, right);
                     if let (Some(left), Some(right)) = (left, right) {

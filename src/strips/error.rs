@@ -328,6 +328,41 @@ pub enum RuleError {
     )]
     NoActions,
 
+    /// A plan names an action that the rules do not have.
+    #[error("неизвестное действие «{name}»")]
+    #[diagnostic(code(strips::unknown_action))]
+    UnknownAction {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// An action of a plan whose turn comes too early.
+    #[error("действие невыполнимо: не выполнено {fact}")]
+    #[diagnostic(code(strips::plan_precondition))]
+    PlanPrecondition {
+        fact: String,
+        #[label("здесь план обрывается")]
+        at: SourceSpan,
+    },
+
+    /// Two actions of a step that cannot go together.
+    #[error("действия одного шага мешают друг другу: из-за {fact} нельзя вместе с «{other}»")]
+    #[diagnostic(code(strips::plan_interference), help("разнесите их по разным шагам"))]
+    PlanInterference {
+        fact: String,
+        other: String,
+        #[label("здесь план обрывается")]
+        at: SourceSpan,
+    },
+
+    /// A plan that does not do what it is for.
+    #[error("план выполним, но в конце не выполнена цель {fact}")]
+    #[diagnostic(code(strips::plan_misses_goal))]
+    PlanMissesGoal { fact: String },
+
     /// Grounding found more than the limit allows.
     #[error(
         "из правил получается больше {limit} действий над объектами; последнее из правила «{action}»"
@@ -344,7 +379,7 @@ pub enum RuleError {
 /// A [`RuleError`] together with the text that it was found in.
 #[derive(Debug, Clone)]
 pub struct RuleFault {
-    pub error: RuleError,
+    pub error: Box<RuleError>,
     source: Option<Source>,
 }
 
@@ -352,13 +387,13 @@ impl RuleFault {
     /// A fault within a text; the labels of `error` are spans of `source`.
     #[must_use]
     pub fn new(source: &Source, error: RuleError) -> Self {
-        Self { error, source: Some(source.clone()) }
+        Self { error: Box::new(error), source: Some(source.clone()) }
     }
 
     /// A fault of something that has no text, such as a fact that the map supplied.
     #[must_use]
     pub fn placeless(error: RuleError) -> Self {
-        Self { error, source: None }
+        Self { error: Box::new(error), source: None }
     }
 
     /// File name, line and character column.

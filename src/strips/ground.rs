@@ -60,7 +60,7 @@ impl Relation {
 }
 
 /// A choice of objects for some parameters of a schema.
-type Binding = Vec<Option<ThingId>>;
+pub(super) type Binding = Vec<Option<ThingId>>;
 
 pub(super) struct Reachability<'a> {
     domain: &'a Domain,
@@ -207,7 +207,39 @@ impl<'a> Reachability<'a> {
         })
     }
 
-    fn value(&self, binding: &Binding, term: &SchemaTerm) -> Option<ThingId> {
+    pub(super) fn may_stand(&self, schema: usize, parameter: usize, thing: ThingId) -> bool {
+        self.may_stand[schema][parameter][thing.index()]
+    }
+
+    /// Choices of objects that satisfy the open preconditions among all that is reachable, at most `most`.
+    pub(super) fn bindings(
+        &self,
+        schema: usize,
+        binding: Binding,
+        open: &[usize],
+        most: usize,
+        found: &mut Vec<Binding>,
+    ) {
+        let rule = &self.domain.schemas[schema];
+        if found.len() >= most || !self.comparisons_hold(rule, &binding) {
+            return;
+        }
+        let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
+            found.push(binding);
+            return;
+        };
+        let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
+        let precondition = &rule.preconditions[at];
+        for tuple in tuples {
+            let tuple = &self.relations[precondition.predicate.index()].tuples[tuple as usize];
+            let mut binding = binding.clone();
+            if self.unify(schema, &mut binding, precondition, tuple) {
+                self.bindings(schema, binding, &rest, most, found);
+            }
+        }
+    }
+
+    pub(super) fn value(&self, binding: &Binding, term: &SchemaTerm) -> Option<ThingId> {
         match term {
             SchemaTerm::Constant(name) => Some(self.resolved.index[&name_key(name)]),
             SchemaTerm::Parameter(parameter) => binding[*parameter as usize],

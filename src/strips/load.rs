@@ -6,9 +6,10 @@ use super::check;
 use super::domain::Domain;
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::ground::ground;
+use super::pddl;
 use super::problem::Problem;
 use super::rule_text;
-use super::syntax::{Document, Name};
+use super::syntax::{CostTerm, Document, Name};
 use super::task::Task;
 use crate::units::Source;
 
@@ -34,7 +35,7 @@ impl Scenario {
     /// checked when it is grounded, after a map had its chance to supplement them.
     pub fn read(path: &Path) -> Result<Self, RuleFaults> {
         let source = read_source(path)?;
-        Self::from_document(document(&source, Some(path))?)
+        Self::load(&source, Some(path))
     }
 
     /// Reads a text; what it includes is looked for from the working directory.
@@ -42,7 +43,37 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::read`].
     pub fn parse(source: &Source) -> Result<Self, RuleFaults> {
-        Self::from_document(document(source, None)?)
+        Self::load(source, None)
+    }
+
+    /// Reads a PDDL domain and problem.
+    ///
+    /// # Errors
+    /// All faults of both files at once.
+    pub fn read_pddl(domain: &Path, problem: &Path) -> Result<Self, RuleFaults> {
+        match (read_source(domain), read_source(problem)) {
+            (Ok(domain), Ok(problem)) => Self::parse_pddl(&domain, &problem),
+            (domain, problem) => {
+                Err(RuleFaults(domain.err().into_iter().chain(problem.err()).collect()))
+            }
+        }
+    }
+
+    /// Reads the texts of a PDDL domain and problem.
+    ///
+    /// # Errors
+    /// As [`Scenario::read_pddl`].
+    pub fn parse_pddl(domain: &Source, problem: &Source) -> Result<Self, RuleFaults> {
+        let (mut document, mut faults) = (Document::default(), Vec::new());
+        pddl::read(domain, &mut document, &mut faults);
+        pddl::read(problem, &mut document, &mut faults);
+        // Where some action has a price, one without is free.
+        if document.actions.iter().any(|action| !action.cost.is_empty()) {
+            for action in document.actions.iter_mut().filter(|action| action.cost.is_empty()) {
+                action.cost.push(CostTerm::Number(0));
+            }
+        }
+        Self::from_document(document, faults)
     }
 
     /// Grounds the scenario as it stands.
@@ -53,11 +84,17 @@ impl Scenario {
         ground(&self.domain, &self.problem)
     }
 
-    pub(super) fn from_document(document: Document) -> Result<Self, RuleFaults> {
-        let mut faults = Vec::new();
+    fn load(source: &Source, path: Option<&Path>) -> Result<Self, RuleFaults> {
+        let mut loader = Loader { open: Vec::new(), done: Vec::new(), faults: Vec::new() };
+        let document = loader.load(source, path);
+        Self::from_document(document, loader.faults)
+    }
+
+    /// Checks what was read even when `faults` came up in reading, so that one run tells everything.
+    fn from_document(document: Document, mut faults: Vec<RuleFault>) -> Result<Self, RuleFaults> {
         let domain = check::domain(&document, &mut faults);
         let problem = Problem::of(&document, &mut faults);
-        problem.check_predicates(&domain, &mut faults);
+        problem.check(&domain, &mut faults);
         if !faults.is_empty() {
             return Err(RuleFaults(faults));
         }
@@ -84,10 +121,12 @@ impl Domain {
 pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
     let shown = path.display().to_string();
     let refused = |error: std::io::Error| {
-        RuleFault::placeless(RuleError::Unreadable {
-            path: shown.clone(),
-            reason: error.to_string(),
-        })
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "такого файла нет".to_owned(),
+            std::io::ErrorKind::PermissionDenied => "нет прав на чтение".to_owned(),
+            _ => error.to_string(),
+        };
+        RuleFault::placeless(RuleError::Unreadable { path: shown.clone(), reason })
     };
     let bytes = std::fs::metadata(path).map_err(refused)?.len();
     if bytes > MAX_FILE_BYTES {
@@ -102,18 +141,6 @@ pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
             Err(RuleFault::placeless(RuleError::NotText { path: shown, offset }))
         }
     }
-}
-
-fn document(source: &Source, path: Option<&Path>) -> Result<Document, RuleFaults> {
-    let mut loader = Loader { open: Vec::new(), done: Vec::new(), faults: Vec::new() };
-    let document = loader.load(source, path);
-    if !loader.faults.is_empty() {
-        // What was read already is checked as well, so that one run tells everything.
-        let mut faults = loader.faults;
-        check::domain(&document, &mut faults);
-        return Err(RuleFaults(faults));
-    }
-    Ok(document)
 }
 
 struct Loader {
@@ -159,7 +186,10 @@ impl Loader {
                 Ok(source) => return self.load(&source, Some(&path)),
                 Err(fault) => self.faults.push(include.fault(|at| RuleError::Include {
                     path: include.text.clone(),
-                    reason: fault.error.to_string(),
+                    reason: match *fault.error {
+                        RuleError::Unreadable { reason, .. } => reason,
+                        other => other.to_string(),
+                    },
                     at,
                 })),
             }

@@ -25,8 +25,11 @@
 mod check;
 mod domain;
 mod error;
+mod explain;
 mod ground;
 mod load;
+mod pddl;
+mod plan_text;
 mod problem;
 mod rule_text;
 mod simplify;
@@ -39,8 +42,10 @@ pub use domain::{
     SchemaCost, SchemaTerm,
 };
 pub use error::{Place, RuleError, RuleFault, RuleFaults};
+pub use explain::{Missing, Obstacle, explain_unreachable};
 pub use ground::ground;
 pub use load::{MAX_FILE_BYTES, Scenario};
+pub use plan_text::{Directive, PlanText};
 pub use problem::{Problem, Standing};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
 

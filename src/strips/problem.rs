@@ -139,7 +139,8 @@ impl Problem {
                     Condition::Holds { atom, negated } => {
                         into.push(Statement::of(atom, *negated, standing));
                     }
-                    Condition::Equal { left, right, negated } => {
+                    Condition::Equal { pair, negated } => {
+                        let (left, right) = &**pair;
                         problem.compared.push((left.name.clone(), right.name.clone(), *negated));
                     }
                 }
@@ -155,8 +156,13 @@ impl Problem {
         problem
     }
 
-    /// Predicates and numbers of arguments can be checked before a map supplies its objects.
-    pub(super) fn check_predicates(&self, domain: &Domain, faults: &mut Vec<RuleFault>) {
+    /// Predicates and numbers of arguments can be checked before a map supplies its objects, and all
+    /// else where every object must be declared.
+    pub(super) fn check(&self, domain: &Domain, faults: &mut Vec<RuleFault>) {
+        if self.objects_closed {
+            faults.extend(self.resolve(domain).err().into_iter().flat_map(|faults| faults.0));
+            return;
+        }
         let stated = self.facts.iter().chain(&self.goal).filter(|s| s.text.is_some());
         faults.extend(stated.filter_map(|statement| statement.predicate(domain).err()));
     }
@@ -197,7 +203,7 @@ fn atom_key(predicate: &str) -> String {
 fn check_ground(condition: &Condition, faults: &mut Vec<RuleFault>) {
     let terms = match condition {
         Condition::Holds { atom, .. } => atom.args.iter().collect::<Vec<_>>(),
-        Condition::Equal { left, right, .. } => vec![left, right],
+        Condition::Equal { pair, .. } => vec![&pair.0, &pair.1],
     };
     for term in terms.into_iter().filter(|term| term.is_variable) {
         faults.push(
@@ -515,7 +521,7 @@ impl Resolver<'_> {
         };
         // Two conflicting uses of an undeclared object have been told already.
         if !self.faults.iter().any(|fault| {
-            matches!(&fault.error, RuleError::ObjectType { name, .. } if *name == thing.name)
+            matches!(&*fault.error, RuleError::ObjectType { name, .. } if *name == thing.name)
         }) {
             self.faults.push(statement.argument_fault(place, error));
         }

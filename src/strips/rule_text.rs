@@ -152,7 +152,7 @@ impl<'a> Parser<'a> {
                 self.next += length;
                 self.body(heading)
             }
-            Some(Ahead::Unknown(heading)) => Err(self.unknown_heading(heading)),
+            Some(Ahead::Unknown(heading)) => Err(self.unknown_heading(&heading)),
             None if self.kind() == Some(TokenKind::Open) => {
                 let open = self.advance();
                 match self.heading_ahead() {
@@ -160,7 +160,7 @@ impl<'a> Parser<'a> {
                         self.next -= 1;
                         self.part()
                     }
-                    Some(Ahead::Unknown(heading)) => Err(self.unknown_heading(heading)),
+                    Some(Ahead::Unknown(heading)) => Err(self.unknown_heading(&heading)),
                     _ => Err(self.expected_at("раздел: «Действие:», «Факты:» и так далее", open)),
                 }
             }
@@ -344,7 +344,7 @@ impl<'a> Parser<'a> {
         };
         self.advance();
         let right = self.term()?;
-        Ok(Condition::Equal { left, right, negated: negated != differs })
+        Ok(Condition::Equal { pair: Box::new((left, right)), negated: negated != differs })
     }
 
     /// Effects: plain atoms only.
@@ -600,9 +600,9 @@ impl<'a> Parser<'a> {
         RuleFault::new(self.source, RuleError::MissingParenthesis { at })
     }
 
-    fn unknown_heading(&mut self, heading: String) -> RuleFault {
+    fn unknown_heading(&mut self, heading: &str) -> RuleFault {
         let at = self.advance();
-        let near = nearest_name(&heading, HEADINGS.iter().map(|&(name, _)| name));
+        let near = nearest_name(heading, HEADINGS.iter().map(|&(name, _)| name));
         let help = Some(match near {
             Some(near) => format!("может быть, «{near}»?"),
             None => "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
@@ -611,7 +611,7 @@ impl<'a> Parser<'a> {
         });
         RuleFault::new(
             self.source,
-            RuleError::UnknownHeading { heading: excerpt(&heading), help, at },
+            RuleError::UnknownHeading { heading: excerpt(heading), help, at },
         )
     }
 

@@ -43,7 +43,7 @@ pub(super) struct Atom {
 #[derive(Debug, Clone)]
 pub(super) enum Condition {
     Holds { atom: Atom, negated: bool },
-    Equal { left: Term, right: Term, negated: bool },
+    Equal { pair: Box<(Term, Term)>, negated: bool },
 }
 
 /// A variable with the types it may take; none means any.

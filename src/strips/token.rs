@@ -116,7 +116,7 @@ mod tests {
 
     use super::*;
 
-    fn check(text: &str, expected: Expect) {
+    fn check(text: &str, expected: &Expect) {
         let kinds: Vec<String> = tokens(text)
             .iter()
             .map(|t| format!("{:?} {:?}", t.kind, &text[t.start..t.end]))
@@ -128,7 +128,7 @@ mod tests {
     fn words_keep_hyphens_and_quotes_keep_blanks() {
         check(
             "ДВЕРЬ_ИЗ_В(дверь ?y, «Стол у окна») ; дальше\n?x ≠ Z — $$%",
-            expect![[r#"
+            &expect![[r#"
                 Word("ДВЕРЬ_ИЗ_В") "ДВЕРЬ_ИЗ_В"
                 Open "("
                 Word("дверь") "дверь"

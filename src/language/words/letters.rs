@@ -1,6 +1,7 @@
 //! Letters: runs of a name, the case they are written in, and letters of two alphabets that look alike.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 /// A maximal run of word letters (letters, digits) or of anything else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,6 +36,17 @@ pub(crate) fn runs(text: &str) -> Vec<Run<'_>> {
         }
     }
     runs
+}
+
+/// The places of the words in a text, as the index and the grammars count them.
+///
+/// ```
+/// use orthoframe::language::word_ranges;
+/// assert_eq!(word_ranges("«Дверь-В», да"), [2..12, 13..15, 19..23]);
+/// ```
+#[must_use]
+pub fn word_ranges(text: &str) -> Vec<Range<usize>> {
+    runs(text).iter().filter(|run| run.is_word).map(|run| run.at..run.at + run.text.len()).collect()
 }
 
 fn is_combining(c: char) -> bool {

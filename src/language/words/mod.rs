@@ -29,5 +29,6 @@ pub mod russian;
 
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
+pub use letters::word_ranges;
 pub use list::{Language, alternatives, enumerate};
 pub use phrase::NounPhrase;

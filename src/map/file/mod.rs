@@ -110,6 +110,27 @@ impl Fault {
     }
 }
 
+/// Reads a map file with all its faults, warnings included; its notation follows from its name.
+#[must_use]
+pub fn read_file(path: &Path) -> Reading {
+    let fail = |error| Reading { world: None, faults: MapErrors::of(error) };
+    let unreadable = |e: std::io::Error| {
+        let path = path.to_string_lossy().into_owned();
+        fail(MapError::Unreadable { path, message: e.to_string() })
+    };
+    match std::fs::metadata(path) {
+        Err(e) => return unreadable(e),
+        Ok(data) if data.len() > LIMIT => {
+            return fail(MapError::TooLarge { bytes: data.len(), limit: LIMIT });
+        }
+        Ok(_) => {}
+    }
+    match Source::read(path) {
+        Ok(source) => read(&source, Format::of(path)),
+        Err(e) => unreadable(e),
+    }
+}
+
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
 fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
     let mut node: &Node = origin.node;
@@ -165,17 +186,8 @@ impl World {
     /// # Errors
     /// [`MapErrors`] with every fault of the file. Warnings alone are no error; [`read`] shows them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, MapErrors> {
-        let path = path.as_ref();
-        let unreadable = |e: std::io::Error| {
-            let path = path.to_string_lossy().into_owned();
-            MapErrors::of(MapError::Unreadable { path, message: e.to_string() })
-        };
-        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-        if bytes > LIMIT {
-            return Err(MapErrors::of(MapError::TooLarge { bytes, limit: LIMIT }));
-        }
-        let source = Source::read(path).map_err(unreadable)?;
-        Self::parse(&source, Format::of(path))
+        let reading = read_file(path.as_ref());
+        reading.world.ok_or(reading.faults)
     }
 
     /// Reads a map from a text.
