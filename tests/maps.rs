@@ -5,8 +5,11 @@ use std::path::{Path, PathBuf};
 
 use expect_test::expect_file;
 use miette::Diagnostic;
-use orthoframe::map::{Format, Reading, read};
-use orthoframe::units::Source;
+use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
+use orthoframe::map::{DoorState, Format, Reading, read};
+use orthoframe::units::{Cm, Source};
+
+use crate::worlds::variants;
 
 fn golden() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/map")
@@ -57,5 +60,47 @@ fn the_worked_examples_are_without_fault() {
         let source = Source::read(Path::new(&path)).expect("the examples are part of the crate");
         let reading = read(&source, Format::Toml);
         assert!(reading.faults.faults.is_empty(), "{name}: {}", listing(&reading));
+    }
+}
+
+#[test]
+fn the_robot_drives_from_everywhere_to_everywhere() {
+    let all = ["as it is", "with a fifth room", "mirrored, renamed and turned by 200"];
+    for (how, mut world) in variants().into_iter().filter(|(how, _)| all.contains(how)) {
+        // Seventy-five centimetres must be free, more than the robot of the papers needs.
+        world.robot.radius = Cm::of(37.5 - world.robot.clearance.get());
+        let between: Vec<_> =
+            world.doors.keys().copied().filter(|&d| world.door_areas(d).len() == 2).collect();
+        for door in &between {
+            world.doors.get_mut(door).expect("a door of this world").state = DoorState::OPEN;
+        }
+        let map = *world.maps.keys().next().expect("one flat");
+        let plan = FloorPlan::build(&world, map, &world.robot, &DoorStates::default());
+        let mut targets: Vec<_> = world.places.keys().map(|&place| Target::Place(place)).collect();
+        for door in between {
+            let areas = world.door_areas(door);
+            targets.extend(areas.into_iter().map(|area| Target::Door { door, area }));
+        }
+        for place in world.places.values() {
+            let (_, frame) = world.placement(place.area).expect("every room stands on the map");
+            let from = frame.apply(place.at);
+            for &target in &targets {
+                let route = plan.route(&world, from, target, Method::Shortest);
+                let route =
+                    route.unwrap_or_else(|e| panic!("{how}: {} {target:?}: {e:?}", place.name));
+                assert!(
+                    route.moved_start.is_none(),
+                    "{how}: {} {:?}",
+                    place.name,
+                    route.moved_start
+                );
+                assert!(
+                    route.moved_goal.is_none(),
+                    "{how}: {} {target:?} {:?}",
+                    place.name,
+                    route.moved_goal
+                );
+            }
+        }
     }
 }

@@ -227,9 +227,7 @@ impl<'w> Checker<'w> {
         }
         let placed = [one, other].map(|m| self.placed_mount(m));
         let [Some((map, a)), Some((other_map, b))] = placed else { return };
-        let offset = a.offset(&b);
-        let far = (a.start - b.end).norm().max((a.end - b.start).norm());
-        if map != other_map || offset.distance() > TOLERANCE || far > TOLERANCE {
+        if map != other_map || !a.faces(&b) {
             let words = |m: Mounted<'_>| {
                 let area = area_title(self.world, m.area);
                 format!("{area}.{}.{}", m.mount.item, m.mount.side)

@@ -96,6 +96,23 @@ impl PlacedSide {
     }
 }
 
+/// The thickest wall that a door may stand in, cm.
+const WALL: f64 = 60.0;
+
+impl PlacedSide {
+    /// Whether another side lies opposite this one, as the two faces of a wall do.
+    pub(super) fn faces(&self, other: &Self) -> bool {
+        let along = (self.end - self.start).normalize();
+        let other_along = (other.end - other.start).normalize();
+        let across =
+            nalgebra::center(&other.start, &other.end) - nalgebra::center(&self.start, &self.end);
+        along.dot(&other_along) < -0.999
+            && across.dot(&along).abs() <= TOLERANCE
+            && across.norm() <= WALL
+            && (self.z - other.z).abs() <= WALL
+    }
+}
+
 impl<'w> Checker<'w> {
     pub(super) fn groups(&mut self) {
         let mut keys = BTreeSet::new();

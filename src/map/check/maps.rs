@@ -234,6 +234,13 @@ impl<'w> Checker<'w> {
                 parts.join(i, j);
             }
         }
+        for door in self.world.doors.keys() {
+            if let [one, other] = self.world.door_areas(*door)[..]
+                && let (Some(i), Some(j)) = (index(one), index(other))
+            {
+                parts.join(i, j);
+            }
+        }
         let base = map.items.iter().position(|item| item.is_base).unwrap_or(0);
         for (i, item) in map.items.iter().enumerate() {
             if !parts.joined(base, i) {
