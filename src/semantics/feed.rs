@@ -134,14 +134,32 @@ impl Feed<'_> {
     }
 
     /// `a` against the thing `b`.
-    fn directed(&self, a: &Arc<str>, b: ReplicaId, pair: &Pair, found: &Directed, sink: &mut impl Sink) {
+    fn directed(
+        &self,
+        a: &Arc<str>,
+        b: ReplicaId,
+        pair: &Pair,
+        found: &Directed,
+        sink: &mut impl Sink,
+    ) {
         let object = &self.world.objects[&self.world.replicas[&b].object];
         let part = |block: usize| self.symbols.part(object.items[block].orthoframe);
         let face = |solid: bool| if solid { "solid" } else { "open" };
         let to = self.symbols.replica(b);
         for o in &found.over {
             let centred = i64::from(o.centred);
-            row!(sink, "over", a, to, part(o.block), face(o.solid), o.gap, o.share, centred, o.lift);
+            row!(
+                sink,
+                "over",
+                a,
+                to,
+                part(o.block),
+                face(o.solid),
+                o.gap,
+                o.share,
+                centred,
+                o.lift
+            );
         }
         for u in &found.below {
             row!(sink, "below", a, to, part(u.block), face(u.solid), u.gap, u.share);
@@ -154,7 +172,7 @@ impl Feed<'_> {
                 Into::OpenTop => "open top",
             };
             row!(
-                sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.sunk
+                sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.held
             );
         }
         if let Some(bearing) = found.bearing {
@@ -189,7 +207,10 @@ impl Feed<'_> {
             let name = names.name(self.symbols, o);
             let kind = if o.permeability == Permeability::Conditional { "door" } else { "passage" };
             row!(sink, "opening", &name, kind, tenths(o.width), tenths(o.height));
-            row!(sink, "clear_width", &name, tenths(o.clear_width));
+            // Of a door that the Map does not describe nothing is known, least of all that it stands open.
+            if o.door.is_some() || o.permeability == Permeability::Permeable {
+                row!(sink, "clear_width", &name, tenths(o.clear_width));
+            }
             row!(sink, "mounts", &name, self.symbols.area(o.area));
             if let Some(other) = o.linked {
                 let (low, high) = (o.area.min(other), o.area.max(other));
@@ -239,15 +260,13 @@ impl Feed<'_> {
 
     fn properties(&self, sink: &mut impl Sink) {
         let world = self.world;
-        let objects =
-            world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
+        let objects = world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
         let areas = world.areas.values().map(|a| (self.symbols.area(a.id), &a.properties));
-        let replicas =
-            world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
+        let replicas = world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
         let doors = world.doors.values().map(|d| (self.symbols.door(d.id), &d.properties));
-        let frames =
-            world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
-        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames) {
+        let frames = world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
+        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames)
+        {
             for (name, value) in properties {
                 row!(sink, "property", symbol, name, value);
             }
@@ -266,7 +285,8 @@ impl Feed<'_> {
             });
             // A wardrobe with one door open stands open.
             let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
-            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ")) {
+            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ"))
+            {
                 let x = self.symbols.replica(replica.id);
                 row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
             }
@@ -323,10 +343,14 @@ fn spans(kind: &Kind, block: &Block) -> Vec<(&'static str, (i64, i64))> {
     };
     let depth = kind.front.and_then(along);
     let width = kind.front.map(|f| Vector::new(-f.y, f.x)).and_then(along);
-    [("height", share_of((block.bottom, block.top), (low, high))), ("depth", depth), ("width", width)]
-        .into_iter()
-        .filter_map(|(axis, span)| Some((axis, span?)))
-        .collect()
+    [
+        ("height", share_of((block.bottom, block.top), (low, high))),
+        ("depth", depth),
+        ("width", width),
+    ]
+    .into_iter()
+    .filter_map(|(axis, span)| Some((axis, span?)))
+    .collect()
 }
 
 fn share_of((low, high): (f64, f64), (from, to): (f64, f64)) -> Option<(i64, i64)> {

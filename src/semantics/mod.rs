@@ -15,5 +15,6 @@ pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
-    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
+    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
+    derive_from,
 };

@@ -83,8 +83,7 @@ pub const ROBOT_PLACE: &str = "Место-робота";
 /// Facts for a plan from the Map as it is.
 #[must_use]
 pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
-    let mut writer =
-        Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
+    let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
     writer.doors();
     writer.named_places();
     writer.things(state.holds);
@@ -118,7 +117,12 @@ impl Writer<'_> {
         self.insert(predicate, arguments, false);
     }
 
-    fn insert(&mut self, predicate: &'static str, arguments: &[(&str, &'static str)], assumed: bool) {
+    fn insert(
+        &mut self,
+        predicate: &'static str,
+        arguments: &[(&str, &'static str)],
+        assumed: bool,
+    ) {
         let arguments = arguments
             .iter()
             .map(|&(name, kind)| Argument { name: name.to_owned(), kind })
@@ -140,7 +144,8 @@ impl Writer<'_> {
                 Some(DoorStatus::Closed) => "ДВЕРЬ_ИЗ_В_ЗАКРЫТА_",
                 Some(DoorStatus::Locked) => "ДВЕРЬ_ИЗ_В_ЗАПЕРТА_",
             };
-            let arguments = [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
+            let arguments =
+                [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
             self.insert(predicate, &arguments, true);
         }
     }
@@ -185,7 +190,14 @@ impl Writer<'_> {
         }
     }
 
-    fn portable(&mut self, id: ReplicaId, name: &str, chain: &[ReplicaId], root: ReplicaId, area: AreaId) {
+    fn portable(
+        &mut self,
+        id: ReplicaId,
+        name: &str,
+        chain: &[ReplicaId],
+        root: ReplicaId,
+        area: AreaId,
+    ) {
         if self.relations.bears_something(id) {
             return;
         }
@@ -220,7 +232,9 @@ impl Writer<'_> {
 
     fn on_floor(&self, id: ReplicaId) -> bool {
         let single = self.relations.measurements().singles.get(&id);
-        single.is_some_and(|s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR))
+        single.is_some_and(
+            |s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR),
+        )
     }
 
     /// The places that serve a thing, or the one before it.

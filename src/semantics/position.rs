@@ -72,7 +72,9 @@ pub fn whereabouts(
 ) -> Option<Whereabouts> {
     let here = measured.area_at(map, pose.at);
     let on_map = |o: &&Opening| measured.rooms.get(&o.area).is_some_and(|r| r.map == map);
-    if let Some(opening) = openings.iter().filter(on_map).find(|o| in_doorway(o, pose.at, here, near)) {
+    if let Some(opening) =
+        openings.iter().filter(on_map).find(|o| in_doorway(o, pose.at, here, near))
+    {
         let area = here.unwrap_or(opening.area);
         return Some(Whereabouts {
             area,
@@ -106,7 +108,8 @@ fn in_doorway(opening: &Opening, p: Point, here: Option<AreaId>, near: &Nearness
     let Some((share, out)) = along_and_out(opening.ends, p) else { return false };
     // In the wall's thickness no Area is underfoot.
     let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.wall_thickness));
-    let within = if here.is_none() { -near.doorway..=thickness } else { -near.doorway..=near.doorway };
+    let within =
+        if here.is_none() { -near.doorway..=thickness } else { -near.doorway..=near.doorway };
     (0.0..=1.0).contains(&share) && within.contains(&out)
 }
 
@@ -125,9 +128,7 @@ fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Opt
 /// The nearest thing that stands on the floor and is the only one of its kind in the Area.
 fn next_to(measured: &Measurements, area: AreaId, p: Point, near: &Nearness) -> Option<Spot> {
     const FLOOR: i64 = 800;
-    let stands = |id: &ReplicaId| {
-        matches!(measured.singles[id].place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR)
-    };
+    let stands = |id: &ReplicaId| matches!(measured.singles[id].place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR);
     let bodies: Vec<_> = measured.bodies.values().filter(|b| stands(&b.id)).collect();
     let distance = |outline: &[Footprint]| {
         outline.iter().map(|f| f.distance_to(p)).fold(f64::INFINITY, f64::min)
@@ -156,9 +157,7 @@ fn by_walls(
     // Two walls make a corner when they turn by more than 30°.
     let turned = |u: &Vector, v: &Vector| u.dot(v) < 0.866;
     let opposite = |u: &Vector, v: &Vector| u.dot(v) < -0.866;
-    let corner = walls
-        .iter()
-        .any(|u| walls.iter().any(|v| turned(u, v) && !opposite(u, v)));
+    let corner = walls.iter().any(|u| walls.iter().any(|v| turned(u, v) && !opposite(u, v)));
     match walls.len() {
         0 => Spot::InMiddle,
         _ if corner => Spot::InCorner,

@@ -29,7 +29,10 @@ const MOST_OUTSIDE: usize = 100_000;
 pub enum RelationError {
     /// The file of rules could not be read.
     #[error("не удалось прочесть файл правил «{path}»: {message}")]
-    #[diagnostic(code(semantics::unreadable), help("проверьте путь и права доступа; файл должен быть в UTF-8"))]
+    #[diagnostic(
+        code(semantics::unreadable),
+        help("проверьте путь и права доступа; файл должен быть в UTF-8")
+    )]
     Unreadable { path: String, message: String },
     /// The rule text is at fault.
     #[error(transparent)]
@@ -39,7 +42,9 @@ pub enum RelationError {
     #[error("{fault}")]
     #[diagnostic(
         code(semantics::schema),
-        help("измеряемые отношения объявлены в rules/relations.dl, раздел «Измерения»; их столбцы менять нельзя")
+        help(
+            "измеряемые отношения объявлены в rules/relations.dl, раздел «Измерения»; их столбцы менять нельзя"
+        )
     )]
     Schema { fault: FactError },
     /// Evaluation does not end within its limits.
@@ -184,7 +189,11 @@ pub struct Relations {
 /// # Errors
 /// [`RelationError::Schema`] when the rule text changed a measured relation, [`RelationError::Evaluate`] when a rule of
 /// the user's own outgrows the memory.
-pub fn derive(world: &World, rules: &RelationRules, profile: Profile) -> Result<Relations, RelationError> {
+pub fn derive(
+    world: &World,
+    rules: &RelationRules,
+    profile: Profile,
+) -> Result<Relations, RelationError> {
     let measured = Measurements::of(world, rules.reach);
     derive_from(world, rules, profile, measured)
 }
@@ -204,7 +213,9 @@ pub fn derive_from(
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut rows = Rows { database: rules.program.database(), fault: None };
     rows.insert("profile", &[Cell::Word(profile.name())]);
-    feed.ground(&openings, &mut |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells));
+    feed.ground(&openings, &mut |relation: &'static str, cells: &[Cell<'_>]| {
+        rows.insert(relation, cells)
+    });
     feed.things(&mut |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells));
     if measured.bodies.len() * measured.rooms.len() <= MOST_OUTSIDE {
         for body in measured.bodies.values() {
@@ -400,7 +411,8 @@ impl Relations {
             _ => None,
         };
         let pairs = |name: &'static str| self.derived.tuples(name).into_iter().flatten();
-        let areas = pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
+        let areas =
+            pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
         let supports =
             pairs("RESTS_ON").filter_map(|t| Some((replica(t.symbol(0))?, replica(t.symbol(1))?)));
         let bearing = pairs("ON_TOP_OF").filter_map(|t| replica(t.symbol(1)));
