@@ -96,11 +96,10 @@ impl Feed<'_> {
     }
 
     pub(super) fn single(&self, id: ReplicaId, single: &Single, sink: &mut impl Sink) {
-        let Some(replica) = self.world.replicas.get(&id) else { return };
         let x = self.symbols.replica(id);
         let (kind, fragment) =
-            (self.symbols.object(replica.object), self.symbols.area(replica.area));
-        row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(replica.move_prob));
+            (self.symbols.object(single.object), self.symbols.area(single.fragment));
+        row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(single.move_prob));
         let Single { bottom, top, thin, mean_size, base, .. } = *single;
         row!(sink, "body", x, bottom, top, thin, mean_size, base);
         match single.place {

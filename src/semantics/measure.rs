@@ -150,6 +150,9 @@ pub struct Pair {
 /// One thing by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Single {
+    pub object: ObjectId,
+    pub fragment: AreaId,
+    pub move_prob: u8,
     pub bottom: i64,
     pub top: i64,
     /// The smaller of its sizes along its own axes.
@@ -214,6 +217,16 @@ pub struct Measurements {
     pub(super) pairs: BTreeMap<(ReplicaId, ReplicaId), Pair>,
     /// For each thing the pairs between which it stands.
     stands_between: BTreeMap<ReplicaId, BTreeSet<(ReplicaId, ReplicaId)>>,
+}
+
+/// The same measurements, whatever way they came about.
+impl PartialEq for Measurements {
+    fn eq(&self, other: &Self) -> bool {
+        self.singles == other.singles
+            && self.pairs == other.pairs
+            && self.stands_between == other.stands_between
+            && self.bodies == other.bodies
+    }
 }
 
 impl Measurements {
@@ -282,6 +295,9 @@ impl Measurements {
     fn single(&self, body: &Body) -> Single {
         let kind = &self.kinds[&body.object];
         Single {
+            object: body.object,
+            fragment: body.fragment,
+            move_prob: body.move_prob,
             bottom: tenths(body.bottom),
             top: tenths(body.top),
             thin: tenths(kind.size.0.min(kind.size.1)),
@@ -297,6 +313,24 @@ impl Measurements {
         let mut near = Vec::new();
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+
+    /// Number of pairs near enough to say something of.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// What is measured of a thing by itself.
+    #[must_use]
+    pub fn of_thing(&self, id: ReplicaId) -> Option<&Single> {
+        self.singles.get(&id)
+    }
+
+    /// What is measured of two things, the lower id first; none when they are far apart.
+    #[must_use]
+    pub fn of_pair(&self, a: ReplicaId, b: ReplicaId) -> Option<&Pair> {
+        self.pairs.get(&(a.min(b), a.max(b)))
     }
 
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.

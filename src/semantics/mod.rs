@@ -10,7 +10,9 @@ pub mod planning;
 mod position;
 mod relations;
 
-pub use measure::{Change, Measurements, Reach};
+pub use measure::{
+    Below, Beside, Between, Change, Directed, Located, Measurements, Over, Pair, Reach, Single, Within,
+};
 pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
