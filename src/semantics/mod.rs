@@ -11,7 +11,8 @@ mod position;
 mod relations;
 
 pub use measure::{
-    Below, Beside, Between, Change, Directed, Located, Measurements, Over, Pair, Reach, Single, Within,
+    Below, Beside, Between, Change, Directed, Located, Measurements, Over, Pair, Reach, Single,
+    Within,
 };
 pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};

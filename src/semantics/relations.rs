@@ -13,7 +13,7 @@ use crate::facts::{
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ReplicaId, Source, nearest_name};
 
-use super::feed::{Cell, Feed, OpeningNames};
+use super::feed::{Cell, Feed};
 use super::measure::{Measurements, Reach};
 use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
@@ -176,7 +176,6 @@ pub struct Relations {
     symbols: Symbols,
     measured: Measurements,
     openings: Vec<Opening>,
-    opening_names: Vec<String>,
     database: Database,
     derived: Derived,
     areas: BTreeMap<ReplicaId, AreaId>,
@@ -209,7 +208,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0);
+    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut rows = Rows { database: rules.program.database(), fault: None };
     rows.insert("profile", &[Cell::Word(profile.name())]);
@@ -227,15 +226,12 @@ pub fn derive_from(
         return Err(RelationError::Schema { fault });
     }
     let derived = rules.program.evaluate(&rows.database)?;
-    let mut names = OpeningNames::default();
-    let opening_names = openings.iter().map(|o| names.name(&symbols, o)).collect();
     let mut relations = Relations {
         rules: rules.clone(),
         profile,
         symbols,
         measured,
         openings,
-        opening_names,
         database: rows.database,
         derived,
         areas: BTreeMap::new(),
@@ -279,7 +275,8 @@ impl Relations {
     pub fn update(&mut self, world: &World, moved: ReplicaId) -> Result<bool, RelationError> {
         let known = self.measured.of_thing(moved).map(|s| s.object);
         let now = world.replicas.get(&moved);
-        let same_name = now.is_some_and(|r| r.name.as_str() == self.symbols.replica(moved).as_ref());
+        let same_name =
+            now.is_some_and(|r| r.name.as_str() == self.symbols.replica(moved).as_ref());
         if known.is_none() || known != now.map(|r| r.object) || !same_name {
             return Ok(false);
         }
@@ -414,9 +411,10 @@ impl Relations {
         &self.measured
     }
 
-    /// Openings of all Areas, each with its name in the facts.
-    pub fn openings(&self) -> impl Iterator<Item = (&str, &Opening)> {
-        self.opening_names.iter().map(String::as_str).zip(&self.openings)
+    /// Doors and passages in the sides of all Areas.
+    #[must_use]
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
     }
 
     #[must_use]
