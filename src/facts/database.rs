@@ -29,7 +29,7 @@ pub enum FactError {
 }
 
 /// A relation by its id or by one of its names.
-pub trait RelationKey {
+pub trait RelationKey: Copy {
     #[doc(hidden)]
     fn find(&self, schema: &Schema) -> Result<RelationId, FactError>;
 }
@@ -203,10 +203,6 @@ impl Database {
 
     pub(super) fn rows(&self, relation: RelationId) -> SharedRows {
         self.tables[relation.index()].rows()
-    }
-
-    pub(super) fn table(&self, relation: RelationId) -> &dyn Table {
-        self.tables[relation.index()].as_ref()
     }
 }
 
