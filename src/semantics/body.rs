@@ -172,7 +172,7 @@ pub(super) struct Body {
     /// The Fragment to which the Map's maker gave it.
     pub(super) fragment: AreaId,
     pub(super) object: ObjectId,
-    pub(super) frame: Frame,
+    pub(super) move_prob: u8,
     pub(super) blocks: Vec<Block>,
     pub(super) outline: Vec<Footprint>,
     pub(super) hull: Footprint,
@@ -201,6 +201,7 @@ impl Body {
             map: *map,
             fragment: replica.area,
             object: replica.object,
+            move_prob: replica.move_prob,
             outline: kind.outline.iter().map(|f| f.placed(&frame)).collect(),
             bounds: hull.bounds,
             hull,
@@ -209,7 +210,6 @@ impl Body {
             centre: frame.apply(kind.centre),
             front: kind.front.map(|n| frame.turn(n)),
             blocks,
-            frame,
         })
     }
 

@@ -100,8 +100,8 @@ pub struct Within {
     pub above: i64,
     /// Volume of `a` over that of what holds it.
     pub bulk: i64,
-    /// Share of `a`'s height below the top.
-    pub sunk: i64,
+    /// Share of `a`'s own volume that is inside.
+    pub held: i64,
 }
 
 /// What is measured of one thing against another: (upper, lower), (inner, outer), (seen, anchor).
@@ -150,6 +150,9 @@ pub struct Pair {
 /// One thing by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Single {
+    pub object: ObjectId,
+    pub fragment: AreaId,
+    pub move_prob: u8,
     pub bottom: i64,
     pub top: i64,
     /// The smaller of its sizes along its own axes.
@@ -214,6 +217,16 @@ pub struct Measurements {
     pub(super) pairs: BTreeMap<(ReplicaId, ReplicaId), Pair>,
     /// For each thing the pairs between which it stands.
     stands_between: BTreeMap<ReplicaId, BTreeSet<(ReplicaId, ReplicaId)>>,
+}
+
+/// The same measurements, whatever way they came about.
+impl PartialEq for Measurements {
+    fn eq(&self, other: &Self) -> bool {
+        self.singles == other.singles
+            && self.pairs == other.pairs
+            && self.stands_between == other.stands_between
+            && self.bodies == other.bodies
+    }
 }
 
 impl Measurements {
@@ -282,6 +295,9 @@ impl Measurements {
     fn single(&self, body: &Body) -> Single {
         let kind = &self.kinds[&body.object];
         Single {
+            object: body.object,
+            fragment: body.fragment,
+            move_prob: body.move_prob,
             bottom: tenths(body.bottom),
             top: tenths(body.top),
             thin: tenths(kind.size.0.min(kind.size.1)),
@@ -297,6 +313,24 @@ impl Measurements {
         let mut near = Vec::new();
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+
+    /// Number of pairs near enough to say something of.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// What is measured of a thing by itself.
+    #[must_use]
+    pub fn of_thing(&self, id: ReplicaId) -> Option<&Single> {
+        self.singles.get(&id)
+    }
+
+    /// What is measured of two things, the lower id first; none when they are far apart.
+    #[must_use]
+    pub fn of_pair(&self, a: ReplicaId, b: ReplicaId) -> Option<&Pair> {
+        self.pairs.get(&(a.min(b), a.max(b)))
     }
 
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.
@@ -499,7 +533,14 @@ impl Measurements {
         }
         let sticks_out = a.outline.iter().map(|f| escape(f, hold.iter())).fold(0.0, f64::max);
         let height = a.top - a.bottom;
-        let sunk = if height > 0.0 { ((top - a.bottom) / height).clamp(0.0, 1.0) } else { 1.0 };
+        let upright = if height > 0.0 {
+            (a.top.min(top) - a.bottom.max(bottom)).max(0.0) / height
+        } else {
+            // What lies flat on the top is on it.
+            f64::from(u8::from(bottom <= a.bottom && a.bottom < top))
+        };
+        let flat = a.outline.iter().flat_map(|f| hold.iter().map(move |h| overlap_area(f, h)));
+        let held = upright * (flat.sum::<f64>() / kind.outline_area).min(1.0);
         (sticks_out <= reach).then(|| Within {
             block: None,
             opening: Opening::Container,
@@ -508,7 +549,7 @@ impl Measurements {
             above: tenths(a.top - top),
             // Rounded down, so that less than the whole is less than 1000.
             bulk: if volume > 0.0 { (kind.volume / volume * 1000.0) as i64 } else { 1000 },
-            sunk: per_mille(sunk),
+            held: per_mille(held),
         })
     }
 

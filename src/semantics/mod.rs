@@ -11,7 +11,10 @@ mod position;
 pub mod predicate;
 mod relations;
 
-pub use measure::{Change, Measurements, Reach};
+pub use measure::{
+    Below, Beside, Between, Change, Directed, Located, Measurements, Over, Pair, Reach, Single,
+    Within,
+};
 pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};

@@ -13,7 +13,7 @@ use crate::facts::{
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
 
-use super::feed::{Cell, Feed, OpeningNames};
+use super::feed::{Cell, Feed};
 use super::measure::{Measurements, Reach};
 use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
@@ -176,7 +176,6 @@ pub struct Relations {
     symbols: Symbols,
     measured: Measurements,
     openings: Vec<Opening>,
-    opening_names: Vec<String>,
     database: Database,
     derived: Derived,
     areas: BTreeMap<ReplicaId, AreaId>,
@@ -209,7 +208,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0);
+    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut rows = Rows { database: rules.program.database(), fault: None };
     rows.insert("profile", &[Cell::Word(profile.name())]);
@@ -227,15 +226,12 @@ pub fn derive_from(
         return Err(RelationError::Schema { fault });
     }
     let derived = rules.program.evaluate(&rows.database)?;
-    let mut names = OpeningNames::default();
-    let opening_names = openings.iter().map(|o| names.name(&symbols, o)).collect();
     let mut relations = Relations {
         rules: rules.clone(),
         profile,
         symbols,
         measured,
         openings,
-        opening_names,
         database: rows.database,
         derived,
         areas: BTreeMap::new(),
@@ -244,6 +240,13 @@ pub fn derive_from(
     };
     relations.index();
     Ok(relations)
+}
+
+/// Keeps the first fault. A rule text may do without a measurement.
+fn note(kept: &mut Option<FactError>, fault: FactError) {
+    if !matches!(fault, FactError::UnknownRelation { .. }) {
+        kept.get_or_insert(fault);
+    }
 }
 
 /// Rows on their way into the database; the first that does not fit is kept.
@@ -255,16 +258,55 @@ struct Rows {
 impl Rows {
     fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
         let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
-        match self.database.insert(relation, &tuple) {
-            Ok(_) => {}
-            // A rule text may do without a measurement.
-            Err(FactError::UnknownRelation { .. }) => {}
-            Err(fault) => self.fault = self.fault.take().or(Some(fault)),
+        if let Err(fault) = self.database.insert(relation, &tuple) {
+            note(&mut self.fault, fault);
         }
     }
 }
 
 impl Relations {
+    /// Follows a move of one replica: measures it anew and derives what follows, with the same result as [`derive`].
+    ///
+    /// A replica that was added, removed, renamed or made of another Object needs [`derive`]; `false` says so, and
+    /// nothing is changed.
+    ///
+    /// # Errors
+    /// As [`derive`].
+    pub fn update(&mut self, world: &World, moved: ReplicaId) -> Result<bool, RelationError> {
+        let known = self.measured.of_thing(moved).map(|s| s.object);
+        let now = world.replicas.get(&moved);
+        let same_name =
+            now.is_some_and(|r| r.name.as_str() == self.symbols.replica(moved).as_ref());
+        if known.is_none() || known != now.map(|r| r.object) || !same_name {
+            return Ok(false);
+        }
+        let change = self.measured.update(world, moved);
+        let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
+        let mut database = std::mem::replace(&mut self.database, self.rules.program.database());
+        let mut fault = None;
+        let mut take = |relation: &'static str, cells: &[Cell<'_>]| {
+            let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
+            let _ = database.remove(relation, &tuple).map_err(|e| note(&mut fault, e));
+        };
+        change.single_before.iter().for_each(|s| feed.single(moved, s, &mut take));
+        change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut take));
+        let mut rows = Rows { database, fault };
+        let mut put = |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells);
+        change.single_after.iter().for_each(|s| feed.single(moved, s, &mut put));
+        for key in &change.added {
+            if let Some(pair) = self.measured.pairs.get(key) {
+                feed.pair(*key, pair, &mut put);
+            }
+        }
+        self.database = rows.database;
+        if let Some(fault) = rows.fault {
+            return Err(RelationError::Schema { fault });
+        }
+        self.derived = self.rules.program.evaluate(&self.database)?;
+        self.index();
+        Ok(true)
+    }
+
     /// Every relation that the rule text puts out and names in both languages, in its order there.
     #[must_use]
     pub fn counts(&self) -> Vec<RelationCount> {
@@ -383,9 +425,10 @@ impl Relations {
         &self.measured
     }
 
-    /// Openings of all Areas, each with its name in the facts.
-    pub fn openings(&self) -> impl Iterator<Item = (&str, &Opening)> {
-        self.opening_names.iter().map(String::as_str).zip(&self.openings)
+    /// Doors and passages in the sides of all Areas.
+    #[must_use]
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
     }
 
     #[must_use]
