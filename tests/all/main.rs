@@ -1,0 +1,4 @@
+//! Every capability's tests, in one binary.
+
+mod corridor;
+mod corridor_lattice;
