@@ -52,6 +52,10 @@ const PARALLEL: f64 = 0.1;
 const SHORTEST: f64 = 120.0;
 /// A corridor is at least this many times as long as wide.
 const SLENDER: f64 = 0.7;
+/// So much of a corridor has walls on both sides; the rest are mouths of branches.
+const COVERED: f64 = 0.35;
+/// Facing walls that are shorter than this share of their distance are the ends of something long.
+const STUB: f64 = 0.25;
 
 impl Lane {
     pub(super) fn at(&self, t: f64) -> Point {
@@ -243,7 +247,8 @@ fn pieces(walls: &[Wall]) -> Vec<Piece> {
                 }
             }
         }
-        pieces.extend(seen.into_iter().map(|(_, piece)| piece));
+        let broad = |p: &Piece| p.length() >= STUB * p.width;
+        pieces.extend(seen.into_iter().map(|(_, piece)| piece).filter(broad));
     }
     pieces
 }
@@ -264,6 +269,7 @@ fn join_pieces(pieces: &[Piece], walls: &[Wall]) -> Vec<Lane> {
             let members = (0..pieces.len()).filter(|&i| find(&group, i) == root);
             lane_of(&members.map(|i| pieces[i]).collect::<Vec<_>>())
         })
+        .filter_map(|(lane, covered)| (covered >= COVERED * lane.length()).then_some(lane))
         .filter(|lane| lane.length() >= SHORTEST.max(SLENDER * lane.width))
         .collect();
     lanes.sort_by(|a, b| (b.length() / b.width).total_cmp(&(a.length() / a.width)));
@@ -276,7 +282,8 @@ fn join_pieces(pieces: &[Piece], walls: &[Wall]) -> Vec<Lane> {
     kept
 }
 
-fn lane_of(members: &[Piece]) -> Lane {
+/// The lane of some pieces, and how much of it they cover.
+fn lane_of(members: &[Piece]) -> (Lane, f64) {
     let longest = members
         .iter()
         .max_by(|a, b| a.length().total_cmp(&b.length()))
@@ -285,7 +292,19 @@ fn lane_of(members: &[Piece]) -> Lane {
     let ends = members.iter().flat_map(|p| [p.a, p.b]).map(|p| (p - origin).dot(&dir));
     let walled =
         ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], t| [low.min(t), high.max(t)]);
-    Lane { origin, dir, width: longest.width, walled, reach: walled }
+    let lane = Lane { origin, dir, width: longest.width, walled, reach: walled };
+    let mut spans: Vec<(f64, f64)> = members
+        .iter()
+        .map(|p| (lane.locate(p.a).0, lane.locate(p.b).0))
+        .map(|(a, b)| (a.min(b), a.max(b)))
+        .collect();
+    spans.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut covered, mut end) = (0.0, f64::NEG_INFINITY);
+    for (low, high) in spans {
+        covered += (high - low.max(end)).max(0.0);
+        end = end.max(high);
+    }
+    (lane, covered)
 }
 
 fn in_line(a: &Piece, b: &Piece, walls: &[Wall]) -> bool {
@@ -311,7 +330,12 @@ fn in_line(a: &Piece, b: &Piece, walls: &[Wall]) -> bool {
         return true;
     };
     let gap = (to - from).norm();
-    gap < 1.0 || first_wall(walls, from, (to - from) / gap).is_none_or(|(r, _)| r > gap - 1e-6)
+    if gap < 1.0 {
+        return true;
+    }
+    // From within the one piece into the other, since a piece may end in a wall.
+    let along = (to - from) / gap;
+    first_wall(walls, from - along, along).is_none_or(|(r, _)| r > gap + 1.5)
 }
 
 /// A lane that lies within the width of another one is the other's breadth.
@@ -329,7 +353,7 @@ fn runs_across(lane: &Lane, other: &Lane) -> bool {
 fn stoutest(pieces: &[Piece], walls: &[Wall]) -> Option<Lane> {
     let ratio = |p: &Piece| p.length() / p.width;
     if let Some(piece) = pieces.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b))) {
-        return Some(lane_of(&[*piece]));
+        return Some(lane_of(&[*piece]).0);
     }
     let length = |w: &Wall| (w.b - w.a).norm();
     let wall = walls.iter().max_by(|a, b| length(a).total_cmp(&length(b)))?;

@@ -22,10 +22,12 @@ mod directions;
 mod double;
 mod error;
 mod fault;
+mod figure;
 mod file;
 mod floor;
 mod lanes;
 mod plan;
+mod schema;
 mod single;
 mod system;
 mod weight;
@@ -35,6 +37,8 @@ pub use directions::{Directions, Position, Step, Variant, Way, directions};
 pub use double::{Bearing, DoubleArc, DoubleArcKind, DoubleGraph};
 pub use error::CorridorError;
 pub use fault::{CorridorFault, CorridorFileError};
+pub use figure::{Figure, FigureArc, FigureVertex, figure};
+pub use schema::Place;
 pub use single::{SingleArc, SingleGraph, TurnRow};
 pub use system::{
     ArcCode, ArcIx, CorridorSystem, Entrance, Junction, JunctionKind, Measure, Port, Side, Stretch,

@@ -1,1 +1,5 @@
-//! (stands empty until its chapter is written)
+//! SVG of maps, objects, Passframes, routes and road graphs.
+
+mod corridor;
+
+pub use corridor::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};

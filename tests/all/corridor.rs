@@ -5,8 +5,9 @@ use std::fmt::Write as _;
 use expect_test::{Expect, expect, expect_file};
 use orthoframe::corridor::{
     ArcIx, Command, CorridorError, CorridorSystem, Directions, DoubleArcKind, DoubleGraph,
-    SingleGraph, Variant, directions,
+    SingleGraph, Variant, directions, figure,
 };
+use orthoframe::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
 use orthoframe::units::Source;
 
 const PAPER: &str = include_str!("../../maps/corridor-paper4.toml");
@@ -371,5 +372,40 @@ fn every_cut_and_every_lost_line_of_a_good_file_is_borne() {
         if let Ok(system) = read(&rest.join("\n")) {
             system.check_invariants();
         }
+    }
+}
+
+fn drawn(system: &CorridorSystem, way: &Directions, variant: Variant) -> String {
+    let figure = figure(system, variant, &way.path).unwrap();
+    let vertices = figure.vertices.into_iter().map(|v| CorridorVertex {
+        at: v.at,
+        mark: if v.is_junction { CorridorMark::Junction } else { CorridorMark::Entrance },
+        label: v.label,
+        name: v.name,
+        name_towards: v.name_towards,
+    });
+    let arcs = figure.arcs.into_iter().map(|a| CorridorArc {
+        from: a.from,
+        to: a.to,
+        label: a.label,
+        on_way: a.on_way,
+        faint: a.is_u_turn,
+    });
+    corridor_svg(&CorridorDrawing {
+        title: format!("{}: вариант {}", system.name, variant.number()),
+        vertices: vertices.collect(),
+        arcs: arcs.collect(),
+        notes: way.ru.clone(),
+    })
+}
+
+#[test]
+fn paper_figures_2_and_3() {
+    let system = paper();
+    for variant in [Variant::Single, Variant::Double] {
+        let way = directions(&system, "206", Some((5, 6)), "210", variant).unwrap();
+        let svg = drawn(&system, &way, variant);
+        let name = format!("../golden/corridor/paper4/variant-{}.svg", variant.number());
+        expect_file![name].assert_eq(&svg);
     }
 }
