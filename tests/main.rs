@@ -1,6 +1,8 @@
 //! Integration tests: one binary, one file a capability.
 
 mod architecture;
+mod corridor;
+mod corridor_lattice;
 mod facts;
 mod facts_naive;
 mod floor_properties;
@@ -10,6 +12,7 @@ mod planning;
 mod relations;
 mod routes;
 mod store;
+mod store_faults;
 mod store_world;
 mod words;
 mod worlds;
