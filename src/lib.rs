@@ -1,7 +1,7 @@
 //! orthoframe: an embedded knowledge base and logic engine for robots that work inside buildings.
 
-// #[cfg(feature = "cli")]
-// pub mod cli;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod corridor;
 pub mod draw;
 pub mod engine;
@@ -16,3 +16,5 @@ pub mod semantics;
 pub mod store;
 pub mod strips;
 pub mod units;
+
+pub use engine::Engine;

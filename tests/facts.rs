@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::facts::{Database, Derived, Program, Value};
+use orthoframe::facts::{Because, Database, Derived, Premise, Program, Value, WhyNot};
 use orthoframe::units::Source;
 
-use crate::facts_naive::{Dice, Facts, Model, Tuple, random_facts, show};
+use crate::facts_naive::{Dice, Facts, Model, Tuple, heights, random_facts, random_tuple, show};
 
 pub(crate) fn parse(model: &Model) -> Program {
     Program::parse(&Source::new("random.dl", model.to_string()))
@@ -56,5 +56,66 @@ fn random_programs_derive_what_trying_everything_derives() {
             show(&found),
             show(&expected)
         );
+    }
+}
+
+#[test]
+fn every_derived_tuple_has_a_proof_of_least_height() {
+    for seed in 0..250 {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let program = parse(&model);
+        let facts = random_facts(&model, &mut dice);
+        let derived =
+            program.evaluate(&database(&program, &facts)).expect("random programs are finite");
+        let expected = heights(&model, &facts, &tuples(&derived, &model));
+        let mut explainer = derived.explain();
+        for ((name, tuple), height) in &expected {
+            let proof =
+                explainer.why(name.as_str(), &values(tuple)).unwrap().expect("the tuple holds");
+            assert_eq!(
+                proof.steps[0].height, *height,
+                "seed {seed}: {name}{tuple:?}\n{model}\n{proof}"
+            );
+            for step in &proof.steps {
+                let Because::Rule { premises, .. } = &step.because else {
+                    assert_eq!(step.height, 0, "{proof}");
+                    continue;
+                };
+                let of = |p: &Premise| {
+                    if let Premise::Fact(n) = p { Some(proof.steps[*n].height) } else { None }
+                };
+                let highest = premises.iter().filter_map(of).max().unwrap_or(0);
+                assert_eq!(step.height, highest + 1, "seed {seed}\n{proof}");
+            }
+        }
+    }
+}
+
+#[test]
+fn every_missing_tuple_has_a_failed_premise() {
+    for seed in 0..250 {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let program = parse(&model);
+        let facts = random_facts(&model, &mut dice);
+        let derived =
+            program.evaluate(&database(&program, &facts)).expect("random programs are finite");
+        let found = tuples(&derived, &model);
+        let mut explainer = derived.explain();
+        for (name, columns, group) in &model.relations {
+            let tuple = random_tuple(*columns, &mut dice);
+            match explainer.why_not(name.as_str(), &values(&tuple)).unwrap() {
+                WhyNot::Holds => assert!(found[name].contains(&tuple)),
+                WhyNot::NotTold => assert!(*group == 0 && !found[name].contains(&tuple)),
+                WhyNot::Nearest(rule) => {
+                    assert!(!found[name].contains(&tuple), "seed {seed}: {name}{tuple:?}\n{model}");
+                    assert!(
+                        rule.failed().next().is_some(),
+                        "seed {seed}: {name}{tuple:?}\n{model}\n{rule:?}"
+                    );
+                }
+            }
+        }
     }
 }

@@ -120,7 +120,7 @@ impl Model {
                 for rule in
                     self.rules.iter().filter(|rule| group_of[rule.head.relation.as_str()] == group)
                 {
-                    new.extend(rule.consequences(&facts));
+                    new.extend(rule.consequences(&facts, &facts));
                 }
                 let mut changed = false;
                 for (relation, tuple) in new {
@@ -133,6 +133,35 @@ impl Model {
         }
         facts
     }
+}
+
+/// The height of the lowest proof of every tuple: rounds of all rules together, negations and aggregates
+/// looked up in the finished relations.
+pub(crate) fn heights(
+    model: &Model,
+    input: &Facts,
+    finished: &Facts,
+) -> BTreeMap<(String, Tuple), u32> {
+    let mut known: Facts = finished.keys().map(|name| (name.clone(), BTreeSet::new())).collect();
+    let mut heights = BTreeMap::new();
+    let mut new: Vec<(String, Tuple)> = input
+        .iter()
+        .flat_map(|(name, tuples)| tuples.iter().map(|t| (name.clone(), t.clone())))
+        .collect();
+    for height in 0.. {
+        let mut changed = false;
+        for (relation, tuple) in new {
+            if known.get_mut(&relation).expect("declared").insert(tuple.clone()) {
+                changed = true;
+                heights.insert((relation, tuple), height);
+            }
+        }
+        if !changed && height > 0 {
+            break;
+        }
+        new = model.rules.iter().flat_map(|rule| rule.consequences(&known, finished)).collect();
+    }
+    heights
 }
 
 fn random_rule(
@@ -213,7 +242,8 @@ fn random_rule(
 }
 
 impl Rule {
-    fn consequences(&self, facts: &Facts) -> Vec<(String, Tuple)> {
+    /// Atoms are looked up in `facts`, negations and aggregates in `finished`.
+    fn consequences(&self, facts: &Facts, finished: &Facts) -> Vec<(String, Tuple)> {
         let mut found = Vec::new();
         let local: Vec<usize> = self
             .body
@@ -230,7 +260,7 @@ impl Rule {
                 values[*v] = rest % VALUES;
                 rest /= VALUES;
             }
-            if self.body.iter().all(|premise| holds(premise, &values, facts)) {
+            if self.body.iter().all(|premise| holds(premise, &values, facts, finished)) {
                 let tuple = self.head.args.iter().map(|arg| value(*arg, &values)).collect();
                 found.push((self.head.relation.clone(), tuple));
             }
@@ -252,13 +282,13 @@ fn matches(args: &[Term], tuple: &Tuple, values: &[i64]) -> bool {
     args.iter().zip(tuple).all(|(arg, found)| *arg == Term::Any || value(*arg, values) == *found)
 }
 
-fn holds(premise: &Premise, values: &[i64], facts: &Facts) -> bool {
+fn holds(premise: &Premise, values: &[i64], facts: &Facts, finished: &Facts) -> bool {
     match premise {
         Premise::Atom(atom) => {
             facts[&atom.relation].iter().any(|tuple| matches(&atom.args, tuple, values))
         }
         Premise::Not(atom) => {
-            !facts[&atom.relation].iter().any(|tuple| matches(&atom.args, tuple, values))
+            !finished[&atom.relation].iter().any(|tuple| matches(&atom.args, tuple, values))
         }
         Premise::Compare(a, op, b) => {
             let (a, b) = (value(*a, values), value(*b, values));
@@ -280,7 +310,7 @@ fn holds(premise: &Premise, values: &[i64], facts: &Facts) -> bool {
                 let ways: usize = atoms
                     .iter()
                     .map(|atom| {
-                        facts[&atom.relation]
+                        finished[&atom.relation]
                             .iter()
                             .filter(|t| matches(&atom.args, t, &values))
                             .count()

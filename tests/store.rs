@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::process::Command;
 
-use orthoframe::map::{Replica, World};
+use orthoframe::map::{DoorKind, DoorState, Replica, World};
 use orthoframe::store::{
-    Change, Counts, Edits, Key, Observation, Seen, Sheet, Store, StoreError, Table, Timestamp,
-    records,
+    Change, Counts, Edits, Key, Observation, Seen, Severity, Sheet, Store, StoreError, Table,
+    Timestamp, fsck, records,
 };
 use orthoframe::units::{AreaId, Cm, Deg, Frame, MapId, Point, Pose, ReplicaId};
 use proptest::prelude::*;
@@ -265,7 +265,7 @@ fn what_is_no_store_is_left_alone() {
 
     let dir = scratch();
     drop(open(dir.path()));
-    std::fs::write(dir.path().join("FORMAT"), "orthoframe store, format 9\n").unwrap();
+    std::fs::write(dir.path().join("FORMAT"), "orthoframe store, format 9\n".repeat(2)).unwrap();
     let Err(refused) = Store::open(dir.path()) else { panic!("an unknown format was opened") };
     assert!(matches!(&refused, StoreError::UnknownFormat { found, known: 1, .. } if found == "9"));
 }
@@ -283,6 +283,19 @@ fn a_refused_import_changes_nothing() {
     let refused = store.import(&twins, &change("близнецы")).unwrap_err();
     assert!(matches!(refused, StoreError::DuplicateName { table: "AreaObjects", .. }));
     assert_eq!((store.revision(), load(&store)), (1, map));
+}
+
+/// The papers' world: what is imported twice is imported once, what is read back is what was read.
+#[test]
+fn the_map_of_the_papers_goes_in_and_comes_out() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let map = World::load("maps/rb2.toml").expect("the map of the papers is sound");
+    let first = store.import(&map, &change("первая")).unwrap();
+    assert_eq!((load(&store), first.revision), (map.clone(), 1));
+    assert_eq!(first.by_table[&Table::AreaObjects].created as usize, map.replicas.len());
+    let again = store.import(&map, &change("та же")).unwrap();
+    assert_eq!((again.revision, again.counts), (1, Counts::default()));
 }
 
 /// The journal alone brings everything back: sled is an index.
@@ -477,4 +490,233 @@ fn what_could_not_be_read_is_not_written() {
     map.robot.radius = Cm::of(1e12);
     store.import(&map, &change("первая")).unwrap();
     assert_eq!(load(&store), map);
+}
+
+/// A small step of the first replica, as an edit of its own.
+fn nudge(store: &mut Store, to: f64) {
+    let mut map = load(store);
+    map.replicas.values_mut().next().unwrap().frame = Frame::new(to, 0.0, 0.0, Deg::ZERO);
+    store.commit(&map, &change(&format!("на {to}"))).unwrap();
+}
+
+fn first_x(store: &Store) -> f64 {
+    load(store).replicas.values().next().unwrap().frame.x.get()
+}
+
+#[test]
+fn edits_are_undone_and_redone_in_order() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    assert!(matches!(store.undo(&change("")), Err(StoreError::NothingToUndo { .. })));
+    store.import(&world(41, 3), &change("первая")).unwrap();
+    let before = first_x(&store);
+    for x in [10.0, 20.0, 30.0] {
+        nudge(&mut store, x);
+    }
+    let mut seen = Vec::new();
+    for step in "uuuruurrr".chars() {
+        if step == 'u' {
+            store.undo(&change("отмена")).unwrap();
+        } else {
+            store.redo(&change("возврат")).unwrap();
+        }
+        seen.push(
+            store.world().unwrap().map(|w| w.replicas.values().next().unwrap().frame.x.get()),
+        );
+    }
+    let (before, ten, twenty) = (Some(before), Some(10.0), Some(20.0));
+    assert_eq!(seen, [twenty, ten, before, ten, before, None, before, ten, twenty]);
+    // A new edit ends what can be redone.
+    nudge(&mut store, 40.0);
+    assert!(matches!(store.redo(&change("")), Err(StoreError::NothingToUndo { .. })));
+    store.undo(&change("отмена")).unwrap();
+    assert_eq!(first_x(&store), 20.0);
+    drop(store);
+    assert_eq!(first_x(&open(dir.path())), 20.0);
+}
+
+#[test]
+fn an_edit_that_others_build_on_is_not_undone() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let map = world(43, 3);
+    store.import(&map, &change("первая")).unwrap();
+    nudge(&mut store, 10.0);
+    nudge(&mut store, 20.0);
+    let refused = store.undo_revision(2, &change("")).unwrap_err();
+    assert!(matches!(refused, StoreError::UndoConflict { revision: 2, by: 3, .. }), "{refused}");
+    store.undo_revision(3, &change("")).unwrap();
+    store.undo_revision(2, &change("")).unwrap();
+    assert_eq!(load(&store), map);
+    store.return_to(3, &change("обратно")).unwrap();
+    assert_eq!(first_x(&store), 20.0);
+}
+
+#[test]
+fn two_revisions_are_compared_in_words() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let mut map = World::load("maps/rb2.toml").unwrap();
+    store.import(&map, &change("первая")).unwrap();
+    let areas: Vec<AreaId> = map.areas.keys().copied().collect();
+    let ids: Vec<ReplicaId> = map.replicas.keys().copied().collect();
+    let named =
+        |id: &ReplicaId| format!("экземпляр «{}»", load(&open_twin(dir.path())).replicas[id].name);
+    let names: Vec<String> = ids.iter().map(named).collect();
+    let moved = map.replicas.get_mut(&ids[0]).unwrap();
+    moved.frame.x = moved.frame.x + Cm::of(30.0);
+    moved.frame.y = moved.frame.y + Cm::of(40.0);
+    moved.frame.angle = moved.frame.angle + Deg::of(-90.0);
+    let carried = map.replicas.get_mut(&ids[1]).unwrap();
+    let from = carried.area;
+    carried.area = *areas.iter().find(|a| **a != from).unwrap();
+    let (from, to) =
+        (map.areas[&from].name.clone(), map.areas[&map.replicas[&ids[1]].area].name.clone());
+    let door = map.doors.values_mut().find(|d| d.kind != DoorKind::Passage).unwrap();
+    door.state = DoorState { opening: 40.0, ..DoorState::OPEN };
+    let door_name = door.name.clone();
+    map.robot.speed = 33.0;
+    store.commit(&map, &change("вторая")).unwrap();
+    let said: Vec<String> = store.diff(1, 2).unwrap().iter().map(ToString::to_string).collect();
+    assert!(
+        said.contains(&format!(
+            "{}: передвинут на 50 см, повёрнут на 90° по часовой стрелке",
+            names[0]
+        )),
+        "{said:#?}"
+    );
+    assert!(said.contains(&format!("{}: помещение «{from}» → «{to}»", names[1])), "{said:#?}");
+    assert!(
+        said.iter().any(|s| s.starts_with(&format!("дверь «{door_name}»: "))
+            && s.ends_with("→ открыта на 40 %")),
+        "{said:#?}"
+    );
+    assert!(
+        said.iter().any(|s| s.starts_with("робот домейна") && s.ends_with("Speed 60 → 33")),
+        "{said:#?}"
+    );
+    assert_eq!(said.len(), 4, "{said:#?}");
+    assert_eq!(store.diff(2, 2).unwrap(), []);
+    assert_eq!(store.diff(2, 1).unwrap().len(), 4);
+}
+
+fn open_twin(dir: &Path) -> Store {
+    Store::open_read_only(dir).unwrap().0
+}
+
+#[test]
+fn a_backup_is_the_whole_store_in_one_file() {
+    let (dir, copies) = (scratch(), scratch());
+    let mut store = open(dir.path());
+    let (first, second) = (world(51, 10), world(52, 10));
+    store.import(&first, &change("первая")).unwrap();
+    store.import(&second, &change("вторая")).unwrap();
+    let second = load(&store);
+    let copy = copies.path().join("копия");
+    store.backup(&copy).unwrap();
+    store.import(&world(53, 10), &change("третья")).unwrap();
+
+    let place = copies.path().join("новое");
+    let restored = Store::restore(&copy, &place).unwrap();
+    assert_eq!((restored.revision(), load(&restored)), (2, second));
+    assert_eq!(restored.world_as_of(1).unwrap().unwrap(), first);
+    drop(restored);
+    assert!(fsck(&place).unwrap().is_sound());
+    assert!(matches!(Store::restore(&copy, &place), Err(StoreError::NotEmpty { .. })));
+
+    let mut bytes = std::fs::read(&copy).unwrap();
+    for _ in 0..40 {
+        let bit = Dice::new(bytes.len() as u64).roll(bytes.len() as u64 * 8) as usize;
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        std::fs::write(&copy, &bytes).unwrap();
+        let refused = Store::restore(&copy, copies.path().join("другое"));
+        assert!(matches!(refused, Err(StoreError::BadFile { .. })));
+        bytes[bit / 8] ^= 1 << (bit % 8);
+    }
+    for rubbish in [&b""[..], b"SQLite format 3\0", &[0xFF; 100_000]] {
+        std::fs::write(&copy, rubbish).unwrap();
+        let refused = Store::restore(&copy, copies.path().join("другое"));
+        assert!(matches!(refused, Err(StoreError::BadFile { .. })));
+    }
+}
+
+#[test]
+fn a_deep_check_finds_what_is_broken_and_opening_mends_it() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    for seed in 0..4 {
+        store.import(&world(seed, 5), &change("ещё")).unwrap();
+        store.checkpoint().unwrap();
+    }
+    let map = load(&store);
+    // While it is open, all but sled can be checked.
+    assert!(fsck(dir.path()).unwrap().is_sound());
+    drop(store);
+    let report = fsck(dir.path()).unwrap();
+    assert_eq!((report.is_sound(), report.revision, report.snapshots), (true, 4, 3));
+
+    let snapshots = dir.path().join("snapshots");
+    let newest = std::fs::read_dir(&snapshots).unwrap().map(|e| e.unwrap().path()).max().unwrap();
+    let mut bytes = std::fs::read(&newest).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    std::fs::write(&newest, &bytes).unwrap();
+    std::fs::remove_dir_all(dir.path().join("sled")).unwrap();
+    let report = fsck(dir.path()).unwrap();
+    assert_eq!(report.findings.len(), 2, "{:#?}", report.findings);
+    assert!(report.findings.iter().all(|f| f.severity == Severity::Mendable));
+    // The snapshot before it and the journal since then are enough.
+    let (store, opened) = Store::open(dir.path()).unwrap();
+    assert!(opened.tables_rebuilt.is_some());
+    assert_eq!(load(&store), map);
+}
+
+/// One bit of any file, sled's included: everything is there all the same.
+/// `STORE_FLIPS=1000` flips as many.
+#[test]
+fn a_flipped_bit_in_any_file_costs_nothing() {
+    let flips = std::env::var("STORE_FLIPS").ok().and_then(|n| n.parse().ok()).unwrap_or(60);
+    let original = scratch();
+    let mut store = open(original.path());
+    for seed in 0..3 {
+        store.import(&world(seed, 6), &change("ещё")).unwrap();
+        if seed == 1 {
+            store.checkpoint().unwrap();
+        }
+    }
+    let map = load(&store);
+    drop(store);
+    let mut files = Vec::new();
+    collect_files(original.path(), &mut files);
+    let mut dice = Dice::new(2026);
+    for _ in 0..flips {
+        let copy = scratch();
+        for (path, bytes) in &files {
+            let to = copy.path().join(path.strip_prefix(original.path()).unwrap());
+            std::fs::create_dir_all(to.parent().unwrap()).unwrap();
+            std::fs::write(to, bytes).unwrap();
+        }
+        let filled: Vec<_> = files.iter().filter(|(_, bytes)| !bytes.is_empty()).collect();
+        let (path, bytes) = filled[dice.roll(filled.len() as u64) as usize];
+        let mut bytes = bytes.clone();
+        let bit = dice.roll(bytes.len() as u64 * 8) as usize;
+        bytes[bit / 8] ^= 1 << (bit % 8);
+        std::fs::write(copy.path().join(path.strip_prefix(original.path()).unwrap()), bytes)
+            .unwrap();
+        let opened = Store::open(copy.path());
+        let (store, _) = opened.unwrap_or_else(|e| panic!("{path:?} bit {bit}: {e}"));
+        assert_eq!((store.revision(), load(&store)), (3, map.clone()), "{path:?} bit {bit}");
+    }
+}
+
+fn collect_files(dir: &Path, files: &mut Vec<(std::path::PathBuf, Vec<u8>)>) {
+    for entry in std::fs::read_dir(dir).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect_files(&path, files);
+        } else {
+            let bytes = std::fs::read(&path).unwrap();
+            files.push((path, bytes));
+        }
+    }
 }

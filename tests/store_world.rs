@@ -259,7 +259,7 @@ fn door(dice: &mut Dice, id: DoorId, types: &TypeLists) -> Door {
         name: dice.text(),
         name_en: dice.text(),
         door_type: dice.type_of(&types.door),
-        kind: if dice.chance() { DoorKind::Hinged } else { DoorKind::Sliding },
+        kind: [DoorKind::Hinged, DoorKind::Sliding, DoorKind::Passage][dice.roll(3) as usize],
         width: dice.cm(),
         height: dice.cm(),
         leaves: (0..dice.roll(3)).map(|_| leaf(dice)).collect(),

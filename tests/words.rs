@@ -3,7 +3,11 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use orthoframe::language::{Case, FormIndex, NounPhrase, Number, WordHints};
+use orthoframe::language::command::Listener;
+use orthoframe::language::{
+    Animacy, Case, FormIndex, Gender, Language, NounPhrase, Number, WordHints,
+};
+use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 
 #[test]
 fn names_decline_as_the_golden_tables_say() {
@@ -89,4 +93,69 @@ fn latin(text: &str) -> String {
     text.chars()
         .map(|c| twins.iter().find(|(cyrillic, _)| *cyrillic == c).map_or(c, |(_, latin)| *latin))
         .collect()
+}
+
+proptest! {
+    /// Whatever a map calls a thing: no panic, the nominative is the name, and each form finds it.
+    #[test]
+    fn any_text_is_a_name(name in "[А-Яа-яёЁA-Za-z0-9 «»\"(),./№'–-]{0,24}|\\PC{0,12}") {
+        let phrase = NounPhrase::parse(&name, &WordHints::default());
+        prop_assert_eq!(phrase.case(Case::Nominative), phrase.name());
+        let mut index = FormIndex::default();
+        index.insert(&phrase, ());
+        for (_, _, form) in phrase.all_forms() {
+            prop_assert!(!form.chars().any(char::is_alphanumeric) || !index.find(&form).is_empty(), "{}", form);
+        }
+        prop_assert!(index.near(&name, 2).len() <= 1);
+    }
+
+    /// Whatever a person says: an answer, never a panic, in either language.
+    #[test]
+    fn any_text_may_be_said(text in "([а-яa-z]{1,4} ){0,4}|\\PC{0,40}|(принеси |в |на |книгу |и |мне |Комнату-|В |not |go |to |дверь |, |её ){0,9}") {
+        let mut index = FormIndex::default();
+        for name in ["Книга", "Комната-В", "Дверь-ВZ"] {
+            index.insert(&NounPhrase::parse(name, &WordHints::default()), name);
+        }
+        match Listener::new(&index).hear(&text) {
+            Ok(commands) => prop_assert!(!commands.is_empty()),
+            Err(misheard) => prop_assert!(!misheard.say(Language::Russian).is_empty() && !misheard.say(Language::English).is_empty()),
+        }
+    }
+}
+
+#[test]
+fn a_very_long_name_is_only_slow() {
+    let name = "Комната-В у окна ".repeat(6_000);
+    let phrase = NounPhrase::parse(&name, &WordHints::default());
+    assert!(phrase.case(Case::Genitive).starts_with("Комнаты-В у окна"));
+}
+
+#[test]
+fn what_the_map_says_comes_first() {
+    let mut hints = WordHints {
+        gender: Some(Gender::Masculine),
+        animacy: Some(Animacy::Animate),
+        ..WordHints::default()
+    };
+    let robot = NounPhrase::parse("РБ-2", &hints);
+    assert_eq!((robot.gender(), robot.case(Case::Genitive)), (Gender::Masculine, "РБ-2".into()));
+    hints.forms.insert((Number::Singular, Case::Genitive), "Эр-Бэ".into());
+    let robot = NounPhrase::parse("РБ-2", &hints);
+    assert_eq!(
+        robot.case(Case::Accusative),
+        "Эр-Бэ",
+        "a living thing is in the accusative as in the genitive"
+    );
+    let kettle = NounPhrase::parse(
+        "Самогрей",
+        &WordHints { number: Some(Number::Singular), ..WordHints::default() },
+    );
+    assert!(!kettle.is_certain() && kettle.case(Case::Instrumental) == "Самогреем");
+}
+
+#[cfg(feature = "rumorph")]
+#[test]
+fn the_dictionary_knows_living_beings() {
+    let of = |name| NounPhrase::parse(name, &WordHints::default()).case(Case::Accusative);
+    assert_eq!((of("Иван Петрович"), of("Актёр")), ("Ивана Петровича".into(), "Актёра".into()));
 }

@@ -1,13 +1,18 @@
 //! The arguments of `ortho`.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::graphplan::Limits;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
 #[command(name = "ortho", version, propagate_version = true)]
-#[command(after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 internal error.")]
+#[command(
+    after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 internal error."
+)]
 pub struct Arguments {
     #[command(flatten)]
     pub common: Common,
@@ -21,6 +26,9 @@ pub struct Common {
     /// Store directory
     #[arg(long, global = true, env = "ORTHO_STORE", value_name = "DIR")]
     pub store: Option<PathBuf>,
+    /// Directory of rule files; `./rules` when there is one, else the rules built in
+    #[arg(long, global = true, env = "ORTHO_RULES", value_name = "DIR")]
+    pub rules: Option<PathBuf>,
     /// Print the value behind the words as JSON (see docs/cli.md)
     #[arg(long, global = true)]
     pub json: bool,
@@ -28,7 +36,13 @@ pub struct Common {
     #[arg(long, global = true, value_enum, default_value_t = Lang::Ru)]
     pub lang: Lang,
     /// Who makes the change, for the history
-    #[arg(long, global = true, env = "ORTHO_USER", default_value = "operator", value_name = "NAME")]
+    #[arg(
+        long,
+        global = true,
+        env = "ORTHO_USER",
+        default_value = "operator",
+        value_name = "NAME"
+    )]
     pub user: String,
 }
 
@@ -69,24 +83,8 @@ pub enum Command {
         #[arg(long, value_name = "NAME")]
         of: Option<String>,
     },
-    /// Why a relation holds, or why it does not: ortho why ON_TOP_OF Чашка Стол
-    Why {
-        /// The relation, then its members in order
-        #[arg(required = true, num_args = 1.., value_name = "WORD")]
-        fact: Vec<String>,
-    },
     /// Plan a scenario of a rule file, or a PDDL problem
-    Plan {
-        /// Scenario file (.strips)
-        #[arg(required_unless_present = "problem")]
-        scenario: Option<PathBuf>,
-        /// PDDL domain file
-        #[arg(long, requires = "problem", value_name = "FILE")]
-        domain: Option<PathBuf>,
-        /// PDDL problem file
-        #[arg(long, requires = "domain", conflicts_with = "scenario", value_name = "FILE")]
-        problem: Option<PathBuf>,
-    },
+    Plan(PlanArgs),
     /// Carry out a task given in words, in the simulator: ortho do "Принеси лекарство"
     Do {
         task: String,
@@ -121,6 +119,33 @@ pub enum Command {
         #[arg(short, long, global = true, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+}
+
+#[derive(Debug, Args)]
+pub struct PlanArgs {
+    /// Scenario file (.strips)
+    #[arg(required_unless_present = "problem")]
+    pub scenario: Option<PathBuf>,
+    /// PDDL domain file
+    #[arg(long, requires = "problem", value_name = "FILE")]
+    pub domain: Option<PathBuf>,
+    /// PDDL problem file
+    #[arg(long, requires = "domain", conflicts_with = "scenario", value_name = "FILE")]
+    pub problem: Option<PathBuf>,
+    /// Write the plan here, in the format that plan validators read
+    #[arg(long, value_name = "FILE")]
+    pub out: Option<PathBuf>,
+    /// Give up after this many seconds
+    #[arg(long, value_name = "SECONDS")]
+    pub time_limit: Option<u64>,
+}
+
+impl PlanArgs {
+    pub fn limits(&self) -> Limits {
+        let deadline =
+            self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
+        Limits { deadline, ..Limits::default() }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

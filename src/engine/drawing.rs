@@ -44,9 +44,12 @@ impl Engine {
 
 fn door_glyphs(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
     let glyphs = |doorway: &crate::geometry::Doorway| {
-        let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else { return Vec::new() };
+        let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
+            return Vec::new();
+        };
         let leaves = doorway.leaves(door, door.state);
-        let swept = (door.kind == DoorKind::Hinged).then(|| doorway.swept(door)).unwrap_or_default();
+        let swept =
+            (door.kind == DoorKind::Hinged).then(|| doorway.swept(door)).unwrap_or_default();
         let mut swept = swept.into_iter();
         leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next() }).collect()
     };
@@ -57,7 +60,10 @@ fn floor_layer(floor: &FloorPlan) -> FloorLayer {
     let mut layer = FloorLayer::default();
     for fragment in floor.fragments() {
         layer.passframes.extend(
-            fragment.passframes.iter().map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name()))),
+            fragment
+                .passframes
+                .iter()
+                .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name()))),
         );
         layer.dead_zones.extend(fragment.dead_zones.iter().map(|zone| zone.region.clone()));
     }

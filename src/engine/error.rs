@@ -85,7 +85,10 @@ pub enum RequestError {
 
     /// A pose outside of every Area.
     #[error("точка ({x}, {y}) не лежит ни в одном помещении карты «{map}»")]
-    #[diagnostic(code(engine::nowhere), help("координаты – в сантиметрах, в системе карты: карта занимает {extent}"))]
+    #[diagnostic(
+        code(engine::nowhere),
+        help("координаты – в сантиметрах, в системе карты: карта занимает {extent}")
+    )]
     Nowhere { x: f64, y: f64, map: String, extent: String },
 
     /// Coordinates that are none.
@@ -110,7 +113,10 @@ pub enum RequestError {
 
     /// The Map does not say where the robot is.
     #[error("неизвестно, где робот")]
-    #[diagnostic(code(engine::robot_nowhere), help("назовите его место в карте: [robot] start = «точка»"))]
+    #[diagnostic(
+        code(engine::robot_nowhere),
+        help("назовите его место в карте: [robot] start = «точка»")
+    )]
     RobotNowhere,
 
     /// A file that cannot be read or written.
@@ -124,8 +130,14 @@ impl Error {
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Map(_) | Self::Rules(_) | Self::Relations(_) | Self::Misheard(_) | Self::Request(_) => true,
-            Self::Store(error) => !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. }),
+            Self::Map(_)
+            | Self::Rules(_)
+            | Self::Relations(_)
+            | Self::Misheard(_)
+            | Self::Request(_) => true,
+            Self::Store(error) => {
+                !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
+            }
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::map::{self, Entity, Forms, TypeEntry, World};
 ///
 /// A thing answers to its own name and to the words for its kind, so that «книга» may mean several.
 #[must_use]
-pub fn form_index(world: &World) -> FormIndex<Entity> {
+pub(super) fn form_index(world: &World) -> FormIndex<Entity> {
     let mut index = FormIndex::default();
     for (entity, _) in world.names() {
         index.insert(&phrase(world, entity), entity);
@@ -26,7 +26,9 @@ pub fn form_index(world: &World) -> FormIndex<Entity> {
         }
         for synonym in &kind.synonyms {
             match Language::of(synonym) {
-                Language::Russian => index.insert(&NounPhrase::parse(synonym, &WordHints::default()), entity),
+                Language::Russian => {
+                    index.insert(&NounPhrase::parse(synonym, &WordHints::default()), entity)
+                }
                 Language::English => index.insert_english(synonym, entity),
             }
         }
@@ -36,7 +38,7 @@ pub fn form_index(world: &World) -> FormIndex<Entity> {
 
 /// The name of an entity, ready to be declined.
 #[must_use]
-pub fn named(world: &World, entity: Entity) -> Named {
+pub(super) fn named(world: &World, entity: Entity) -> Named {
     let english = english_name(world, entity);
     Named::new(world.name(entity), &hints(world, entity), Some(english).filter(|n| !n.is_empty()))
 }

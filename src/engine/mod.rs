@@ -30,21 +30,23 @@ use std::path::Path;
 
 pub use drawing::Drawing;
 pub use error::{Error, RequestError};
-pub use plan::{PlanAnswer, PlanStep, plan_alone, read_scenario};
+pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 
+pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::map::World;
+pub use crate::robot::Solved;
 pub use crate::semantics::Relations;
 pub use crate::store::{Change, Timestamp};
 
 use crate::geometry::{DoorStates, FloorPlan};
-use crate::map::{Entity, Fault, MapErrors, read_file};
+use crate::map::{Entity, MapErrors, read_file};
 use crate::semantics::{Profile, derive};
-use crate::store::{ImportReport, OpenReport, Store};
+use crate::store::{ImportReport, OpenReport, Store, StoreError};
 use crate::units::{MapId, nearest_name};
 
 /// The knowledge of one building, and what follows from it.
@@ -83,7 +85,25 @@ impl Engine {
         let rules = Rules::read(rules)?;
         let (store, opened) = Store::open(dir)?;
         let world = store.world()?;
-        Ok(Self { store: Some(store), rules, world, relations: OnceCell::new(), floors: OnceCell::new(), opened })
+        Ok(Self {
+            store: Some(store),
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            opened,
+        })
+    }
+
+    /// Opens a store that is there already.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_existing(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        if !dir.is_dir() {
+            return Err(StoreError::Missing { dir: dir.display().to_string() }.into());
+        }
+        Self::open(dir, rules)
     }
 
     /// An engine without a store, on a map that stays in memory.
@@ -130,7 +150,8 @@ impl Engine {
     /// [`RequestError::NoMap`].
     pub fn world(&self) -> Result<&World, Error> {
         self.world.as_ref().ok_or_else(|| {
-            let store = self.store.as_ref().map(|s| s.dir().display().to_string()).unwrap_or_default();
+            let store =
+                self.store.as_ref().map(|s| s.dir().display().to_string()).unwrap_or_default();
             RequestError::NoMap { store }.into()
         })
     }
@@ -153,6 +174,32 @@ impl Engine {
         Ok(self.relations.get_or_init(|| relations))
     }
 
+    /// Facts with their relations: those of one relation, those about one thing, or both.
+    ///
+    /// # Errors
+    /// The relation or the thing is unknown.
+    pub fn facts(
+        &self,
+        name: Option<&str>,
+        of: Option<&str>,
+    ) -> Result<Vec<(String, Vec<Value>)>, Error> {
+        let relations = self.relations()?;
+        let of = of
+            .map(|of| Ok::<_, Error>((of, self.world()?.name(self.find(of)?).to_owned())))
+            .transpose()?;
+        let Some(name) = name else {
+            return Ok(of.map(|(_, of)| relations.of(&of)).unwrap_or_default());
+        };
+        let tuples = relations.tuples(name)?;
+        let wanted = |t: &Vec<Value>| {
+            of.as_ref().is_none_or(|(_, of)| {
+                t.iter().any(|v| matches!(v, Value::Symbol(s) if **s == **of))
+            })
+        };
+        let label = relations.display_name(name);
+        Ok(tuples.into_iter().filter(wanted).map(|t| (label.clone(), t)).collect())
+    }
+
     /// The free floor of every map, computed when first asked for.
     ///
     /// # Errors
@@ -160,7 +207,9 @@ impl Engine {
     pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
         let world = self.world()?;
         Ok(self.floors.get_or_init(|| {
-            let plan = |&map: &MapId| (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()));
+            let plan = |&map: &MapId| {
+                (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()))
+            };
             world.maps.keys().map(plan).collect()
         }))
     }
@@ -180,13 +229,19 @@ impl Engine {
             return match (maps.next(), maps.next()) {
                 (Some(only), None) => Ok(only.id),
                 _ => {
-                    let candidates: Vec<&str> = world.maps.values().map(|m| m.name.as_str()).collect();
+                    let candidates: Vec<&str> =
+                        world.maps.values().map(|m| m.name.as_str()).collect();
                     Err(RequestError::WhichMap { candidates: candidates.join(", ") }.into())
                 }
             };
         };
         let by_key = world.maps.values().find(|m| m.key == name).map(|m| m.id);
-        let by_name = || world.find(name).into_iter().find_map(|e| if let Entity::Map(id) = e { Some(id) } else { None });
+        let by_name = || {
+            world
+                .find(name)
+                .into_iter()
+                .find_map(|e| if let Entity::Map(id) = e { Some(id) } else { None })
+        };
         by_key.or_else(by_name).ok_or_else(|| {
             let names = world.maps.values().flat_map(|m| [m.name.as_str(), m.key.as_str()]);
             unknown_name(name, names).into()
@@ -204,20 +259,24 @@ impl Engine {
             [] => Err(unknown_name(name, world.names().map(|(_, n)| n)).into()),
             ref several => {
                 let candidates: Vec<&str> = several.iter().map(|&e| world.name(e)).collect();
-                Err(RequestError::AmbiguousName { name: name.to_owned(), candidates: candidates.join(", ") }.into())
+                Err(RequestError::AmbiguousName {
+                    name: name.to_owned(),
+                    candidates: candidates.join(", "),
+                }
+                .into())
             }
         }
     }
 }
 
-/// Reads a map file with all its faults, without touching any store.
+/// Reads a map file, without touching any store. With the world come the warnings.
 ///
 /// # Errors
 /// All faults of the file.
-pub fn check_map(file: &Path) -> Result<(World, Vec<Fault>), MapErrors> {
+pub fn check_map(file: &Path) -> Result<(World, MapErrors), MapErrors> {
     let reading = read_file(file);
     match reading.world {
-        Some(world) => Ok((world, reading.faults.faults)),
+        Some(world) => Ok((world, reading.faults)),
         None => Err(reading.faults),
     }
 }

@@ -25,7 +25,13 @@ impl Engine {
     /// The pose lies in no Area.
     pub fn locate(&self, map: MapId, pose: Pose, facing: bool) -> Result<Whereabout, Error> {
         let world = self.world()?;
-        let found = describe(world, self.relations()?, map, pose, facing.then(|| self.floor(map)).transpose()?.map(|f| f.scene()));
+        let found = describe(
+            world,
+            self.relations()?,
+            map,
+            pose,
+            facing.then(|| self.floor(map)).transpose()?.map(|f| f.scene()),
+        );
         found.ok_or_else(|| {
             let rooms = self.floor(map).map(|f| extent(f.scene())).unwrap_or_default();
             let name = world.maps[&map].name.clone();
@@ -42,7 +48,7 @@ fn extent(scene: &Scene) -> String {
 
 /// Describes a pose; with a scene, also what the robot faces.
 #[must_use]
-pub fn describe(
+pub(super) fn describe(
     world: &World,
     relations: &Relations,
     map: MapId,
@@ -50,7 +56,8 @@ pub fn describe(
     scene: Option<&Scene>,
 ) -> Option<Whereabout> {
     let openings: Vec<_> = relations.openings().map(|(_, o)| o.clone()).collect();
-    let terms = whereabouts(world, relations.measurements(), &openings, map, &pose, &Nearness::default())?;
+    let terms =
+        whereabouts(world, relations.measurements(), &openings, map, &pose, &Nearness::default())?;
     let area = |id: AreaId| named(world, Entity::Area(id));
     let spot = match terms.spot {
         semantics::Spot::InDoorway(way) => Spot::InDoorway(doorway(world, relations, way)),
@@ -73,7 +80,11 @@ fn doorway(world: &World, relations: &Relations, way: Way) -> Doorway {
     let alike = relations
         .joins()
         .iter()
-        .filter(|j| j.from == way.from && Some(j.to) == way.to && is_passage(world, j.door) == way.is_passage)
+        .filter(|j| {
+            j.from == way.from
+                && Some(j.to) == way.to
+                && is_passage(world, j.door) == way.is_passage
+        })
         .count();
     let name = way.door.filter(|_| alike > 1).map(|door| named(world, Entity::Door(door)));
     Doorway {
@@ -92,7 +103,13 @@ fn is_passage(world: &World, door: Option<DoorId>) -> bool {
 const FACING_RANGE: f64 = 250.0;
 
 /// The first thing that a ray along the heading meets.
-fn facing(world: &World, relations: &Relations, scene: &Scene, terms: &Whereabouts, pose: Pose) -> Option<Facing> {
+fn facing(
+    world: &World,
+    relations: &Relations,
+    scene: &Scene,
+    terms: &Whereabouts,
+    pose: Pose,
+) -> Option<Facing> {
     let (sin, cos) = pose.heading.sin_cos();
     let ray = Vector::new(cos, sin);
     let height = world.robot.height.get();
@@ -128,11 +145,18 @@ fn facing(world: &World, relations: &Relations, scene: &Scene, terms: &Whereabou
 
 /// The opening of an Area whose middle is here, seen from that Area.
 fn way_through(relations: &Relations, area: AreaId, middle: Point) -> Option<Way> {
-    let near = |o: &&semantics::Opening| (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm() < 1.0;
-    let opening = relations.openings().map(|(_, o)| o).filter(near).min_by_key(|o| o.area != area)?;
+    let near =
+        |o: &&semantics::Opening| (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm() < 1.0;
+    let opening =
+        relations.openings().map(|(_, o)| o).filter(near).min_by_key(|o| o.area != area)?;
     let behind = opening.leads_to();
     let to = if opening.area == area { behind } else { Some(opening.area) };
-    Some(Way { door: opening.door, is_passage: opening.permeability == Permeability::Permeable, from: area, to })
+    Some(Way {
+        door: opening.door,
+        is_passage: opening.permeability == Permeability::Permeable,
+        from: area,
+        to,
+    })
 }
 
 /// Distance along a ray to a segment.

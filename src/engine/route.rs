@@ -114,7 +114,8 @@ fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
 /// # Errors
 /// [`RequestError::BadPose`].
 pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
-    let bad = |reason: &str| RequestError::BadPose { text: text.to_owned(), reason: reason.to_owned() };
+    let bad =
+        |reason: &str| RequestError::BadPose { text: text.to_owned(), reason: reason.to_owned() };
     let numbers: Vec<f64> = text
         .split(',')
         .map(|part| part.trim().parse::<f64>())
@@ -125,7 +126,8 @@ pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
         [x, y, heading] => (x, y, heading),
         _ => return Err(bad("нужны два или три числа")),
     };
-    let length = |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(&e.to_string()));
+    let length =
+        |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(&e.to_string()));
     Ok(Pose {
         at: Point::new(length(x)?, length(y)?),
         heading: Deg::new(heading).map_err(|e| bad(&e.to_string()))?,

@@ -1,12 +1,12 @@
 //! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
 
 use crate::graphplan::Limits;
-use crate::language::command::{Command, Listener, Misheard, Relation};
+use crate::language::command::{Command, Listener, Relation};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station, Surprise,
-    starting_pose,
+    Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station,
+    Surprise, starting_pose,
 };
 use crate::semantics::{Profile, derive, predicate};
 use crate::units::{MapId, Point, Pose};
@@ -23,10 +23,17 @@ pub const OPERATOR: &str = "Оператор";
 pub enum Progress<'a> {
     /// A plan was made, or found to be impossible.
     Planned(&'a Planned),
-    Started { number: usize, of: usize, directive: &'a Directive },
+    Started {
+        number: usize,
+        of: usize,
+        directive: &'a Directive,
+    },
     Finished(&'a Report),
     /// The world was not as believed; a new plan follows.
-    Surprised { directive: &'a Directive, surprise: &'a Surprise },
+    Surprised {
+        directive: &'a Directive,
+        surprise: &'a Surprise,
+    },
 }
 
 /// Where the robot was when a directive was done.
@@ -71,7 +78,11 @@ impl Engine {
     ///
     /// # Errors
     /// The command is not understood, or the Map lacks what it needs. That there is no plan is an answer.
-    pub fn perform(&self, command: &str, tell: &mut dyn FnMut(&Progress<'_>)) -> Result<TaskAnswer, Error> {
+    pub fn perform(
+        &self,
+        command: &str,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
         self.perform_in(command, self.world()?.clone(), tell)
     }
 
@@ -89,15 +100,19 @@ impl Engine {
         let commands = self.understand(command)?;
         let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
         let floor = self.floor(map)?.clone();
-        let mut belief = Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
-        let Station::Place(here) = belief.station.clone() else { return Err(RequestError::RobotNowhere.into()) };
+        let mut belief =
+            Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
+        let Station::Place(here) = belief.station.clone() else {
+            return Err(RequestError::RobotNowhere.into());
+        };
         belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
         let mut goal = Vec::new();
         for command in &commands {
             goal.extend(self.goal_of(command, &here)?);
         }
         let mut drive = Simulator::new(truth, map, start);
-        let mut mission = Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
+        let mut mission =
+            Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
         let mut plans = 0;
         let ending = mission.run(&goal, &mut drive, &mut |event| match event {
@@ -125,7 +140,16 @@ impl Engine {
         };
         let trace = drive.trace();
         let last = trace.last().expect("a run begins with a moment");
-        Ok(TaskAnswer { goal, map, start, end: last.pose, reports, replans: plans - 1, seconds: last.time, ending })
+        Ok(TaskAnswer {
+            goal,
+            map,
+            start,
+            end: last.pose,
+            reports,
+            replans: plans - 1,
+            seconds: last.time,
+            ending,
+        })
     }
 
     /// The commands of a sentence, with everything that it names found on the map.
@@ -142,29 +166,36 @@ impl Engine {
     fn goal_of(&self, command: &Command<Entity>, here: &str) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
         let name = |e: Entity| world.name(e).to_owned();
-        let fact = |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
+        let fact =
+            |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
         Ok(match command {
             Command::GoTo { to, .. } => vec![self.being_at(to.anchor)?],
             Command::ComeHere => vec![fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()])],
             Command::Bring { what, to: None } => {
                 vec![fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()])]
             }
-            Command::Bring { what, to: Some(to) } | Command::Put { what, to } => match (to.relation, to.anchor) {
-                (Relation::On | Relation::In, Entity::Replica(_)) => {
-                    vec![fact(predicate::THING_ON, vec![name(what.id), name(to.anchor)])]
+            Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
+                match (to.relation, to.anchor) {
+                    (Relation::On | Relation::In, Entity::Replica(_)) => {
+                        vec![fact(predicate::THING_ON, vec![name(what.id), name(to.anchor)])]
+                    }
+                    (_, Entity::Place(_)) => {
+                        vec![fact(predicate::THING_AT_PLACE, vec![name(what.id), name(to.anchor)])]
+                    }
+                    _ => return Err(RequestError::NoGoal { command: name(to.anchor) }.into()),
                 }
-                (_, Entity::Place(_)) => {
-                    vec![fact(predicate::THING_AT_PLACE, vec![name(what.id), name(to.anchor)])]
-                }
-                _ => return Err(RequestError::NoGoal { command: name(to.anchor) }.into()),
-            },
+            }
             Command::Take { what } => vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])],
             Command::Find(what) => vec![self.being_near(what.id)?],
             Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
             Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
             Command::Lock(door) => self.door_facts(predicate::DOOR_LOCKED, door.id)?,
             Command::Unlock(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
-            Command::SwitchOn(_) | Command::SwitchOff(_) | Command::Tidy(_) | Command::CallOperator | Command::Report => {
+            Command::SwitchOn(_)
+            | Command::SwitchOff(_)
+            | Command::Tidy(_)
+            | Command::CallOperator
+            | Command::Report => {
                 return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
             }
         })
@@ -193,7 +224,9 @@ impl Engine {
         let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
             facts
                 .iter()
-                .find(|f| f.predicate.trim_end_matches('_') == predicate && f.arguments[at].name == wanted)
+                .find(|f| {
+                    f.predicate.trim_end_matches('_') == predicate && f.arguments[at].name == wanted
+                })
                 .map(|f| f.arguments[give].name.clone())
         };
         let support = about(predicate::THING_ON, 0, name, 1);
@@ -215,7 +248,9 @@ impl Engine {
             .filter(|j| j.door == Some(door))
             .map(|j| GoalFact {
                 predicate: predicate.to_owned(),
-                args: [Entity::Door(door), Entity::Area(j.from), Entity::Area(j.to)].map(|e| world.name(e).to_owned()).into(),
+                args: [Entity::Door(door), Entity::Area(j.from), Entity::Area(j.to)]
+                    .map(|e| world.name(e).to_owned())
+                    .into(),
             })
             .collect();
         if facts.is_empty() {

@@ -74,14 +74,14 @@ pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) 
     let strata = strata(&declared, &clauses, faults);
     unused(&declared, &clauses, &facts, faults);
     Program {
-        sources: sources.to_vec(),
+        sources: sources.into(),
         relations: Arc::new(declared.relations),
         names: Arc::new(declared.names),
-        clauses,
-        facts,
-        strata,
+        clauses: clauses.into(),
+        facts: facts.into(),
+        strata: strata.into(),
         words,
-        warnings: Vec::new(),
+        warnings: [].into(),
     }
 }
 

@@ -204,10 +204,6 @@ impl Database {
     pub(super) fn rows(&self, relation: RelationId) -> SharedRows {
         self.tables[relation.index()].rows()
     }
-
-    pub(super) fn table(&self, relation: RelationId) -> &dyn Table {
-        self.tables[relation.index()].as_ref()
-    }
 }
 
 /// The word of a value, [`NO_WORD`] when the table has never seen it.

@@ -3,16 +3,19 @@
 use std::fmt;
 
 use super::database::{FactError, RelationKey, Schema, find_word};
-use super::program::{RelationId, RelationInfo};
+use super::program::{Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::word::{Value, Word, Words};
 
 /// All relations of a program after evaluation, input facts included.
 #[derive(Clone)]
 pub struct Derived {
+    pub(super) program: Program,
     pub(super) schema: Schema,
     pub(super) words: Words,
     pub(super) rows: Vec<SharedRows>,
+    /// What was told rather than derived: facts of the text and the database.
+    pub(super) given: Vec<SharedRows>,
 }
 
 impl fmt::Debug for Derived {

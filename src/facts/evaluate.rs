@@ -45,7 +45,7 @@ impl Program {
     /// [`EvaluateError::TooMany`] when a relation outgrows the limit.
     pub fn evaluate(&self, database: &Database) -> Result<Derived, EvaluateError> {
         let mut evaluation = Evaluation::new(self, database);
-        for stratum in &self.strata {
+        for stratum in self.strata.iter() {
             evaluation.stratum(stratum)?;
         }
         Ok(evaluation.derived())
@@ -91,6 +91,24 @@ impl Finished {
             scan.same.iter_mut().for_each(|(column, _)| *column = place[*column]);
             scan.filters.iter_mut().for_each(|filter| filter.column = place[filter.column]);
         }
+    }
+
+    /// The first rows whose key columns have these words.
+    pub(super) fn find(
+        &mut self,
+        relation: RelationId,
+        key: &[Expr],
+        word: &[Word],
+        limit: usize,
+    ) -> Vec<Vec<Word>> {
+        let rows = self.rows[relation.index()].as_deref().expect("all relations are finished");
+        let is_natural = key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32));
+        if is_natural {
+            return rows.range(word).take(limit).map(|at| rows.row(at).to_vec()).collect();
+        }
+        let entry = self.indexes.entry((relation, key.to_vec()));
+        let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
+        index.range(word).take(limit).map(|at| rows.row(index.row(at)).to_vec()).collect()
     }
 
     /// Runs a provided plan from the given registers.
@@ -168,9 +186,12 @@ impl<'a> Evaluation<'a> {
     }
 
     fn derived(self) -> Derived {
-        let rows = self.finished.rows.into_iter().zip(self.given);
-        let rows = rows.map(|(rows, given)| rows.unwrap_or(given)).collect();
-        Derived { schema: Schema::of(self.program), words: self.finished.words, rows }
+        let rows = self.finished.rows.into_iter().zip(&self.given);
+        let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
+        let mut words = self.finished.words;
+        words.settle();
+        let (program, schema) = (self.program.clone(), Schema::of(self.program));
+        Derived { program, schema, words, rows, given: self.given }
     }
 
     fn limit(&self, relation: RelationId) -> usize {
@@ -326,7 +347,7 @@ impl<'a> Evaluation<'a> {
 /// Every relation's facts of the text and the database.
 pub(super) fn given(program: &Program, database: &Database) -> Vec<SharedRows> {
     let mut by_relation: HashMap<RelationId, Vec<&[Word]>> = HashMap::new();
-    for fact in &program.facts {
+    for fact in program.facts.iter() {
         by_relation.entry(fact.relation).or_default().push(&fact.words);
     }
     let rows = program.relations().map(|(relation, info)| {

@@ -74,6 +74,11 @@ impl Index {
         self.columns.len() - 1
     }
 
+    /// The place in the relation of the row at a place in the index.
+    pub(super) fn row(&self, at: usize) -> usize {
+        self.order.as_ref().map_or(at, |order| order[at] as usize)
+    }
+
     pub(super) fn at(&self, column: usize) -> &IndexColumn {
         &self.columns[column].1
     }

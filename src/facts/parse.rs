@@ -517,7 +517,8 @@ fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, _) = sign(":")(rest)?;
     let (rest, body) =
         alt((delimited(sign("{"), disjunction, sign("}")), atom.map(Body::Atom))).parse(rest)?;
-    Ok((rest, Expr::Aggregate { function, value, body: Box::new(body), at: name.at }))
+    let last = input.rest[input.rest.len() - rest.rest.len() - 1].at;
+    Ok((rest, Expr::Aggregate { function, value, body: Box::new(body), at: name.at.to(last) }))
 }
 
 fn functor(word: &str) -> Option<Functor> {

@@ -43,6 +43,17 @@ pub(super) struct Plan {
     pub(super) requests: Vec<Request>,
 }
 
+impl Plan {
+    /// Makes every solution count, also those that differ only in what the goal does not read.
+    pub(super) fn count_all(&mut self) {
+        for step in &mut self.steps {
+            if let Step::Scan(scan) = step {
+                scan.once = false;
+            }
+        }
+    }
+}
+
 /// Sizes as far as they are known.
 pub(super) trait Statistics {
     fn size(&self, relation: RelationId) -> f64;

@@ -132,7 +132,7 @@ pub(super) struct Aggregate {
 pub(super) enum Expr {
     Variable(VariableId),
     Constant(Word),
-    Call(Functor, Vec<Expr>),
+    Call(Functor, Vec<Self>),
 }
 
 impl Expr {
@@ -171,18 +171,18 @@ pub(super) struct Fact {
     pub(super) at: Span,
 }
 
-/// A rule text that was read and found sound, ready to be evaluated over any number of databases.
+/// A rule text that was read and found sound, ready to be evaluated over any number of databases. Cheap to clone.
 #[derive(Debug, Clone)]
 pub struct Program {
-    pub(super) sources: Vec<Source>,
+    pub(super) sources: Arc<[Source]>,
     pub(super) relations: Arc<Vec<RelationInfo>>,
     pub(super) names: Arc<Names>,
-    pub(super) clauses: Vec<Clause>,
-    pub(super) facts: Vec<Fact>,
-    pub(super) strata: Vec<Stratum>,
+    pub(super) clauses: Arc<[Clause]>,
+    pub(super) facts: Arc<[Fact]>,
+    pub(super) strata: Arc<[Stratum]>,
     /// The constants of the text; a database starts with them.
     pub(super) words: Words,
-    pub(super) warnings: Vec<FileFaults>,
+    pub(super) warnings: Arc<[FileFaults]>,
 }
 
 impl Program {
@@ -212,7 +212,7 @@ impl Program {
         if !errors.is_empty() {
             return Err(Faults { files: by_file(sources, errors) });
         }
-        program.warnings = by_file(sources, warnings);
+        program.warnings = by_file(sources, warnings).into();
         Ok(program)
     }
 

@@ -96,7 +96,7 @@ struct Machine<'a, 'b> {
 
 /// What an aggregate has seen so far.
 #[derive(Debug, Clone, Copy, Default)]
-struct Count {
+pub(super) struct Count {
     count: i64,
     /// i128 holds any sum of fewer than 2^64 numbers.
     sum: i128,
@@ -105,7 +105,7 @@ struct Count {
 }
 
 impl Count {
-    fn add(&mut self, number: i64) {
+    pub(super) fn add(&mut self, number: i64) {
         self.count += 1;
         self.sum += i128::from(number);
         self.least = Some(self.least.map_or(number, |least| least.min(number)));
@@ -113,7 +113,7 @@ impl Count {
     }
 
     /// No value for the extremes and the mean of nothing, or for a sum beyond `i64`.
-    fn value(&self, function: Aggregation) -> Option<i64> {
+    pub(super) fn value(&self, function: Aggregation) -> Option<i64> {
         match function {
             Aggregation::Count => Some(self.count),
             Aggregation::Sum => i64::try_from(self.sum).ok(),

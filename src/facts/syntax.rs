@@ -71,9 +71,9 @@ pub(super) struct Rule {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Body {
-    All(Vec<Body>),
-    Any(Vec<Body>),
-    Not(Box<Body>),
+    All(Vec<Self>),
+    Any(Vec<Self>),
+    Not(Box<Self>),
     Atom(Atom),
     Compare { op: Comparison, left: Expr, right: Expr, at: Span },
 }
@@ -91,8 +91,8 @@ pub(super) enum Expr {
     Variable(Name),
     Number(i64, Span),
     Text(String, Span),
-    Call { functor: Functor, args: Vec<Expr>, at: Span },
-    Aggregate { function: Aggregation, value: Option<Box<Expr>>, body: Box<Body>, at: Span },
+    Call { functor: Functor, args: Vec<Self>, at: Span },
+    Aggregate { function: Aggregation, value: Option<Box<Self>>, body: Box<Body>, at: Span },
 }
 
 impl Expr {

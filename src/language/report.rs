@@ -24,7 +24,8 @@ use super::words::{Case, Gender, Language, NounPhrase, Number, WordHints, englis
 /// A name of the map in both languages.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Named {
-    russian: NounPhrase,
+    /// Boxed, since a doorway holds three names and a report several doorways.
+    russian: Box<NounPhrase>,
     english: String,
 }
 
@@ -37,7 +38,7 @@ impl Named {
             .map(Into::into)
             .or_else(|| english::name_of(name))
             .unwrap_or_else(|| name.to_owned());
-        Self { russian: NounPhrase::parse(name, hints), english }
+        Self { russian: Box::new(NounPhrase::parse(name, hints)), english }
     }
 
     /// A name of which nothing more is known.

@@ -63,7 +63,8 @@ impl Belief {
         let (area, _) = floor.locate(pose.at)?;
         let frame = floor.scene().areas.get(&area)?.frame;
         let near = |at: Point| (frame.apply(at) - pose.at).norm() <= AT_PLACE;
-        let place = world.places.values().find(|p| p.area == area && near(p.at)).map(|p| p.name.clone());
+        let place =
+            world.places.values().find(|p| p.area == area && near(p.at)).map(|p| p.name.clone());
         let mut spots = Vec::new();
         let place = place.unwrap_or_else(|| {
             spots.push(Spot { name: STARTING_POINT.to_owned(), area, pose });
@@ -89,7 +90,8 @@ impl Belief {
         // The state of the robot is told below: its spots and its load are not in the Map.
         let state = RobotState { area: self.area, at: RobotAt::Elsewhere, holds: None };
         let initial = planning::initial(&self.world, relations, &state);
-        let of_map = initial.facts.into_iter().filter(|f| !speaks_of_robot(f) && !self.is_refuted(f));
+        let of_map =
+            initial.facts.into_iter().filter(|f| !speaks_of_robot(f) && !self.is_refuted(f));
         (of_map.chain(self.of_robot()).collect(), initial.places)
     }
 
@@ -209,8 +211,12 @@ fn is(fact: &InitialFact, predicate: &str) -> bool {
 }
 
 fn speaks_of_robot(fact: &InitialFact) -> bool {
-    let of_robot =
-        [predicate::ROBOT_IN, predicate::ROBOT_AT_PLACE, predicate::ROBOT_AT_DOOR, predicate::HAND_FREE];
+    let of_robot = [
+        predicate::ROBOT_IN,
+        predicate::ROBOT_AT_PLACE,
+        predicate::ROBOT_AT_DOOR,
+        predicate::HAND_FREE,
+    ];
     of_robot.iter().any(|p| is(fact, p))
         || fact.arguments.iter().any(|a| a.name == planning::ROBOT_PLACE)
 }

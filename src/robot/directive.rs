@@ -37,12 +37,24 @@ pub enum Deed {
     /// Drive within the Area to a door.
     GoToDoor(String),
     /// Drive through the door into an Area.
-    Cross { door: String, into: String },
-    SetDoor { door: String, status: DoorStatus },
+    Cross {
+        door: String,
+        into: String,
+    },
+    SetDoor {
+        door: String,
+        status: DoorStatus,
+    },
     Take(String),
     /// Put a thing onto another, or down where the robot stands.
-    Put { thing: String, onto: Option<String> },
-    HandOver { thing: String, person: String },
+    Put {
+        thing: String,
+        onto: Option<String>,
+    },
+    HandOver {
+        thing: String,
+        person: String,
+    },
 }
 
 impl Directive {

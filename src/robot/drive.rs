@@ -52,9 +52,16 @@ impl Refusal {
 /// What the vehicle's senses say of one thing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Sighting {
-    Door { door: DoorId, state: DoorState },
+    Door {
+        door: DoorId,
+        state: DoorState,
+    },
     /// A replica seen at a frame of an Area.
-    Replica { replica: ReplicaId, area: AreaId, frame: Frame },
+    Replica {
+        replica: ReplicaId,
+        area: AreaId,
+        frame: Frame,
+    },
 }
 
 /// A vehicle with a hand. All positions are of its Map's frame, cm; times are seconds since it was switched on.

@@ -1,11 +1,11 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
 use crate::geometry::{Method, NoRoute, Route, Target};
-use crate::graphplan::{self, Limits, Outcome};
+use crate::graphplan::{Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
 use crate::semantics::{Profile, RelationError, RelationRules, derive};
-use crate::strips::{Domain, Problem, RuleFaults, Task, ground};
+use crate::strips::{Domain, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, Frame, MapId, Pose, ReplicaId};
 
 use miette::Diagnostic;
@@ -15,6 +15,7 @@ use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
 use super::placing::spot_on;
+use super::solve::{Solved, solve};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -26,8 +27,7 @@ pub struct GoalFact {
 /// A goal turned into a task and solved.
 #[derive(Debug, Clone)]
 pub struct Planned {
-    pub task: Task,
-    pub outcome: Outcome,
+    pub solved: Solved,
     /// Parallel steps; empty unless there is a plan.
     pub steps: Vec<Vec<Directive>>,
     /// The places that the plan may name.
@@ -39,11 +39,24 @@ pub struct Planned {
 pub enum Event<'a> {
     Planned(&'a Planned),
     /// The first number counts from 1 over all directives of the plan in force.
-    Started { number: usize, of: usize, directive: &'a Directive },
+    Started {
+        number: usize,
+        of: usize,
+        directive: &'a Directive,
+    },
     /// A directive is done.
-    Finished { number: usize, directive: &'a Directive, belief: &'a Belief, leg: &'a Leg },
+    Finished {
+        number: usize,
+        directive: &'a Directive,
+        belief: &'a Belief,
+        leg: &'a Leg,
+    },
     /// The world is not as believed; a new plan follows.
-    Surprised { directive: &'a Directive, surprise: &'a Surprise, belief: &'a Belief },
+    Surprised {
+        directive: &'a Directive,
+        surprise: &'a Surprise,
+        belief: &'a Belief,
+    },
 }
 
 /// The way driven for one directive. `seconds` are the drive's.
@@ -105,7 +118,12 @@ pub struct Mission<'r> {
 
 impl<'r> Mission<'r> {
     #[must_use]
-    pub fn new(belief: Belief, domain: &'r Domain, relations: &'r RelationRules, limits: Limits) -> Self {
+    pub fn new(
+        belief: Belief,
+        domain: &'r Domain,
+        relations: &'r RelationRules,
+        limits: Limits,
+    ) -> Self {
         Self { belief, domain, relations, limits, places: Vec::new() }
     }
 
@@ -124,17 +142,15 @@ impl<'r> Mission<'r> {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
             problem.add_goal(&fact.predicate, &args);
         }
-        let task = ground(self.domain, &problem)?;
-        let outcome = graphplan::solve(&task, &self.limits);
-        let steps = match &outcome {
-            Outcome::Plan(plan) => plan
-                .steps
-                .iter()
-                .map(|step| step.iter().map(|&o| Directive::of(self.domain, task.operator(o))).collect())
-                .collect(),
+        let solved = solve(self.domain, &problem, &self.limits)?;
+        let steps = match &solved.outcome {
+            Outcome::Plan(plan) => {
+                let directive = |&o| Directive::of(self.domain, solved.task.operator(o));
+                plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
+            }
             _ => Vec::new(),
         };
-        Ok(Planned { task, outcome, steps, places })
+        Ok(Planned { solved, steps, places })
     }
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
@@ -154,7 +170,7 @@ impl<'r> Mission<'r> {
         loop {
             let planned = self.plan(goal)?;
             tell(&Event::Planned(&planned));
-            if !matches!(planned.outcome, Outcome::Plan(_)) {
+            if !matches!(planned.solved.outcome, Outcome::Plan(_)) {
                 return Ok(Ending::NoPlan(Box::new(planned)));
             }
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
@@ -183,7 +199,8 @@ impl<'r> Mission<'r> {
             tell(&Event::Started { number, of: directives.len(), directive });
             let begun = drive.time();
             let mut leg = Leg::default();
-            let result = directive.deeds().iter().try_for_each(|deed| self.perform(deed, drive, &mut leg));
+            let result =
+                directive.deeds().iter().try_for_each(|deed| self.perform(deed, drive, &mut leg));
             leg.seconds = drive.time() - begun;
             self.belief.pose = drive.pose().1;
             if let Err(surprise) = result {
@@ -195,7 +212,12 @@ impl<'r> Mission<'r> {
         None
     }
 
-    fn perform(&mut self, deed: &Deed, drive: &mut dyn Drive, leg: &mut Leg) -> Result<(), Surprise> {
+    fn perform(
+        &mut self,
+        deed: &Deed,
+        drive: &mut dyn Drive,
+        leg: &mut Leg,
+    ) -> Result<(), Surprise> {
         match deed {
             Deed::GoToPlace(name) => {
                 let target = self.place_target(name)?;
@@ -209,7 +231,8 @@ impl<'r> Mission<'r> {
             }
             Deed::Cross { door: name, into } => {
                 let door = self.door(name)?;
-                let into = self.entity(into, |e| if let Entity::Area(id) = e { Some(id) } else { None })?;
+                let into =
+                    self.entity(into, |e| if let Entity::Area(id) = e { Some(id) } else { None })?;
                 let areas = [self.belief.area, into];
                 self.go(name, Target::Door { door, area: into }, &areas, drive, leg)?;
                 self.belief.area = into;
@@ -252,7 +275,12 @@ impl<'r> Mission<'r> {
         driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
     }
 
-    fn set_door(&mut self, name: &str, status: DoorStatus, drive: &mut dyn Drive) -> Result<(), Surprise> {
+    fn set_door(
+        &mut self,
+        name: &str,
+        status: DoorStatus,
+        drive: &mut dyn Drive,
+    ) -> Result<(), Surprise> {
         let door = self.door(name)?;
         let state = match status {
             DoorStatus::Open => DoorState::OPEN,
@@ -264,7 +292,12 @@ impl<'r> Mission<'r> {
         Ok(())
     }
 
-    fn put(&mut self, thing: &str, onto: Option<&str>, drive: &mut dyn Drive) -> Result<(), Surprise> {
+    fn put(
+        &mut self,
+        thing: &str,
+        onto: Option<&str>,
+        drive: &mut dyn Drive,
+    ) -> Result<(), Surprise> {
         let held = self.held(thing)?;
         let from = self.belief.pose;
         let (area, frame) = match onto {
@@ -292,7 +325,8 @@ impl<'r> Mission<'r> {
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise) -> bool {
         match surprise {
-            Surprise::Blocked { seen: Some(seen), .. } | Surprise::Refused { seen: Some(seen), .. } => {
+            Surprise::Blocked { seen: Some(seen), .. }
+            | Surprise::Refused { seen: Some(seen), .. } => {
                 // The robot stopped somewhere on its way; from here on that is its place.
                 self.name_this_point();
                 self.belief.learn(*seen)
@@ -311,7 +345,11 @@ impl<'r> Mission<'r> {
         let Some((area, _)) = self.belief.floor.locate(self.belief.pose.at) else { return };
         self.belief.area = area;
         let name = format!("Остановка-{}", self.belief.spots.len() + 1);
-        self.belief.spots.push(super::belief::Spot { name: name.clone(), area, pose: self.belief.pose });
+        self.belief.spots.push(super::belief::Spot {
+            name: name.clone(),
+            area,
+            pose: self.belief.pose,
+        });
         self.belief.station = Station::Place(name);
     }
 

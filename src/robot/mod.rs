@@ -10,6 +10,7 @@ mod drive;
 mod mission;
 mod placing;
 mod simulator;
+mod solve;
 
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
@@ -19,3 +20,4 @@ pub use mission::{
 };
 pub use placing::spot_on;
 pub use simulator::{Moment, Simulator};
+pub use solve::{Solved, solve};

@@ -15,17 +15,27 @@ const STEP: f64 = 2.5;
 /// # Panics
 /// When `thing` is not of this world.
 #[must_use]
-pub fn spot_on(world: &World, scene: &Scene, thing: ReplicaId, support: ReplicaId, from: Point) -> Option<Frame> {
+pub fn spot_on(
+    world: &World,
+    scene: &Scene,
+    thing: ReplicaId,
+    support: ReplicaId,
+    from: Point,
+) -> Option<Frame> {
     let support = scene.replicas.get(&support)?;
     // Turned to the Map's axes at the origin: the size of the thing's own box.
     let shape = PlacedReplica::new(world, thing, Frame::IDENTITY);
     let height = shape.top - shape.bottom;
-    let mut roofs: Vec<_> =
-        support.prisms.iter().filter(|p| p.roof_permeability == Permeability::Impermeable).collect();
+    let mut roofs: Vec<_> = support
+        .prisms
+        .iter()
+        .filter(|p| p.roof_permeability == Permeability::Impermeable)
+        .collect();
     roofs.sort_by(|a, b| b.top.total_cmp(&a.top));
     let area = scene.areas.get(&support.area)?;
     let fits = |at: Vector, top: f64| {
-        let bounds = Bounds { min: shape.bounds.min + at, max: shape.bounds.max + at }.grown(MARGIN);
+        let bounds =
+            Bounds { min: shape.bounds.min + at, max: shape.bounds.max + at }.grown(MARGIN);
         scene
             .replicas
             .values()
@@ -46,7 +56,12 @@ pub fn spot_on(world: &World, scene: &Scene, thing: ReplicaId, support: ReplicaI
             .min_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()))
             .map(|c| {
                 let origin = area.frame.invert(Point::origin() + (c - middle));
-                Frame::new(origin.x, origin.y, roof.top - shape.bottom - area.frame.z.get(), Deg::ZERO - area.frame.angle)
+                Frame::new(
+                    origin.x,
+                    origin.y,
+                    roof.top - shape.bottom - area.frame.z.get(),
+                    Deg::ZERO - area.frame.angle,
+                )
             })
     })
 }
@@ -56,6 +71,8 @@ fn grid(bounds: Bounds) -> impl Iterator<Item = Point> {
     let count = |length: f64| (length / STEP).floor() as usize + 1;
     let (nx, ny) = (count(size.x), count(size.y));
     (0..nx).flat_map(move |i| {
-        (0..ny).map(move |j| bounds.min + Vector::new((i as f64 + 0.5) * STEP, (j as f64 + 0.5) * STEP))
+        (0..ny).map(move |j| {
+            bounds.min + Vector::new((i as f64 + 0.5) * STEP, (j as f64 + 0.5) * STEP)
+        })
     })
 }

@@ -10,7 +10,9 @@ use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
 use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
 use parry2d_f64::shape::{Ball, Segment};
 
-use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, nearest_on_segment};
+use crate::geometry::{
+    Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, nearest_on_segment,
+};
 use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -134,9 +136,18 @@ impl Simulator {
             .iter()
             .filter(|e| Bounds::of([e.a, e.b]).meets(&swept))
             .filter_map(|e| {
-                let edge = Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
-                let hit = cast_shapes(&from, velocity, &disc, &ShapePose::identity(), ShapeVector::ZERO, &edge, options)
-                    .expect("parry casts a ball against a segment")?;
+                let edge =
+                    Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
+                let hit = cast_shapes(
+                    &from,
+                    velocity,
+                    &disc,
+                    &ShapePose::identity(),
+                    ShapeVector::ZERO,
+                    &edge,
+                    options,
+                )
+                .expect("parry casts a ball against a segment")?;
                 Some((hit.time_of_impact, e.of))
             })
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))

@@ -88,9 +88,8 @@ impl Kind {
                 let base = Polygon::new(o.corners().map(|p| item.frame.apply(p)).collect());
                 let centre = base.centroid();
                 let grown = |p: &Point| centre + (p - centre) * o.roof_scale;
-                let roof = o
-                    .is_uniframe()
-                    .then(|| Polygon::new(base.corners.iter().map(grown).collect()));
+                let roof =
+                    o.is_uniframe().then(|| Polygon::new(base.corners.iter().map(grown).collect()));
                 let solid = |p: Permeability| p == Permeability::Impermeable;
                 let sides_solid = o.base.iter().all(|v| solid(v.permeability));
                 Block {
@@ -100,7 +99,9 @@ impl Kind {
                     top: item.frame.z.get() + o.height.get(),
                     solid_base: solid(o.base_permeability),
                     solid_roof: solid(o.roof_permeability),
-                    hollow: !(sides_solid && solid(o.base_permeability) && solid(o.roof_permeability)),
+                    hollow: !(sides_solid
+                        && solid(o.base_permeability)
+                        && solid(o.roof_permeability)),
                     open_top: o.roof_permeability == Permeability::Permeable,
                 }
             })
@@ -149,7 +150,11 @@ fn front_of(world: &World, object: &Object) -> Option<Vector> {
         // Counter-clockwise round the base, so the outside is on the right.
         Some(Vector::new(along.y, -along.x))
     };
-    object.front.as_ref().and_then(normal).or_else(|| object.back.as_ref().and_then(normal).map(|n| -n))
+    object
+        .front
+        .as_ref()
+        .and_then(normal)
+        .or_else(|| object.back.as_ref().and_then(normal).map(|n| -n))
 }
 
 /// Which way a point lies, seen from a thing that has a front.
@@ -167,7 +172,7 @@ pub(super) struct Body {
     /// The Fragment to which the Map's maker gave it.
     pub(super) fragment: AreaId,
     pub(super) object: ObjectId,
-    pub(super) frame: Frame,
+    pub(super) move_prob: u8,
     pub(super) blocks: Vec<Block>,
     pub(super) outline: Vec<Footprint>,
     pub(super) hull: Footprint,
@@ -196,6 +201,7 @@ impl Body {
             map: *map,
             fragment: replica.area,
             object: replica.object,
+            move_prob: replica.move_prob,
             outline: kind.outline.iter().map(|f| f.placed(&frame)).collect(),
             bounds: hull.bounds,
             hull,
@@ -204,7 +210,6 @@ impl Body {
             centre: frame.apply(kind.centre),
             front: kind.front.map(|n| frame.turn(n)),
             blocks,
-            frame,
         })
     }
 

@@ -3,13 +3,12 @@
 //! Two kinds of rows: those of things, which one moved replica changes, and those of the world beneath them – Areas,
 //! openings, parts, properties – which it does not.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::geometry::contact::extent;
 use crate::map::{DoorState, DoorStatus, Entity, Permeability, World};
-use crate::units::{AreaId, Cm, ReplicaId, Vector};
+use crate::units::{Cm, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
 use super::measure::{Between, Directed, Located, Measurements, Opening as Into, Pair, Single};
@@ -96,11 +95,10 @@ impl Feed<'_> {
     }
 
     pub(super) fn single(&self, id: ReplicaId, single: &Single, sink: &mut impl Sink) {
-        let Some(replica) = self.world.replicas.get(&id) else { return };
         let x = self.symbols.replica(id);
         let (kind, fragment) =
-            (self.symbols.object(replica.object), self.symbols.area(replica.area));
-        row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(replica.move_prob));
+            (self.symbols.object(single.object), self.symbols.area(single.fragment));
+        row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(single.move_prob));
         let Single { bottom, top, thin, mean_size, base, .. } = *single;
         row!(sink, "body", x, bottom, top, thin, mean_size, base);
         match single.place {
@@ -134,14 +132,32 @@ impl Feed<'_> {
     }
 
     /// `a` against the thing `b`.
-    fn directed(&self, a: &Arc<str>, b: ReplicaId, pair: &Pair, found: &Directed, sink: &mut impl Sink) {
+    fn directed(
+        &self,
+        a: &Arc<str>,
+        b: ReplicaId,
+        pair: &Pair,
+        found: &Directed,
+        sink: &mut impl Sink,
+    ) {
         let object = &self.world.objects[&self.world.replicas[&b].object];
         let part = |block: usize| self.symbols.part(object.items[block].orthoframe);
         let face = |solid: bool| if solid { "solid" } else { "open" };
         let to = self.symbols.replica(b);
         for o in &found.over {
             let centred = i64::from(o.centred);
-            row!(sink, "over", a, to, part(o.block), face(o.solid), o.gap, o.share, centred, o.lift);
+            row!(
+                sink,
+                "over",
+                a,
+                to,
+                part(o.block),
+                face(o.solid),
+                o.gap,
+                o.share,
+                centred,
+                o.lift
+            );
         }
         for u in &found.below {
             row!(sink, "below", a, to, part(u.block), face(u.solid), u.gap, u.share);
@@ -154,7 +170,7 @@ impl Feed<'_> {
                 Into::OpenTop => "open top",
             };
             row!(
-                sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.sunk
+                sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.held
             );
         }
         if let Some(bearing) = found.bearing {
@@ -184,24 +200,26 @@ impl Feed<'_> {
 
     fn openings(&self, openings: &[Opening], sink: &mut impl Sink) {
         let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
-        let mut names = OpeningNames::default();
         for o in openings {
-            let name = names.name(self.symbols, o);
+            let name = &o.name;
             let kind = if o.permeability == Permeability::Conditional { "door" } else { "passage" };
-            row!(sink, "opening", &name, kind, tenths(o.width), tenths(o.height));
-            row!(sink, "clear_width", &name, tenths(o.clear_width));
-            row!(sink, "mounts", &name, self.symbols.area(o.area));
+            row!(sink, "opening", name, kind, tenths(o.width), tenths(o.height));
+            // Of a door that the Map does not describe nothing is known, least of all that it stands open.
+            if o.door.is_some() || o.permeability == Permeability::Permeable {
+                row!(sink, "clear_width", name, tenths(o.clear_width));
+            }
+            row!(sink, "mounts", name, self.symbols.area(o.area));
             if let Some(other) = o.linked {
                 let (low, high) = (o.area.min(other), o.area.max(other));
-                row!(sink, "links", &name, self.symbols.area(low), self.symbols.area(high));
+                row!(sink, "links", name, self.symbols.area(low), self.symbols.area(high));
             }
             for (side, found) in [("inward", o.inward), ("outward", o.outward)] {
                 if let Some((area, way)) = found {
-                    row!(sink, "step", &name, side, self.symbols.area(area), tenths(way));
+                    row!(sink, "step", name, side, self.symbols.area(area), tenths(way));
                 }
             }
             if let Some(state) = o.door.map(|d| self.world.doors[&d].state) {
-                row!(sink, "door_state", &name, status_word(state), state.opening.round() as i64);
+                row!(sink, "door_state", name, status_word(state), state.opening.round() as i64);
             }
         }
     }
@@ -239,15 +257,13 @@ impl Feed<'_> {
 
     fn properties(&self, sink: &mut impl Sink) {
         let world = self.world;
-        let objects =
-            world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
+        let objects = world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
         let areas = world.areas.values().map(|a| (self.symbols.area(a.id), &a.properties));
-        let replicas =
-            world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
+        let replicas = world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
         let doors = world.doors.values().map(|d| (self.symbols.door(d.id), &d.properties));
-        let frames =
-            world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
-        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames) {
+        let frames = world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
+        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames)
+        {
             for (name, value) in properties {
                 row!(sink, "property", symbol, name, value);
             }
@@ -266,7 +282,8 @@ impl Feed<'_> {
             });
             // A wardrobe with one door open stands open.
             let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
-            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ")) {
+            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ"))
+            {
                 let x = self.symbols.replica(replica.id);
                 row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
             }
@@ -274,30 +291,7 @@ impl Feed<'_> {
     }
 }
 
-/// Names for openings: the door's, or the Area's with the side's.
-#[derive(Default)]
-pub(super) struct OpeningNames {
-    /// Both sides of a link are one passage.
-    passages: BTreeMap<(AreaId, AreaId, usize), String>,
-    seen: BTreeMap<(AreaId, AreaId), usize>,
-}
-
-impl OpeningNames {
-    pub(super) fn name(&mut self, symbols: &Symbols, o: &Opening) -> String {
-        if let Some(door) = o.door {
-            return symbols.door(door).to_string();
-        }
-        let own = format!("{}: {}.{}", symbols.area(o.area), o.side.item, o.side.side);
-        let Some(other) = o.linked else { return own };
-        // The n-th passage of X to Y is the n-th of Y to X; which is which does not matter to any relation.
-        let nth = self.seen.entry((o.area, other)).or_default();
-        *nth += 1;
-        let key = (o.area.min(other), o.area.max(other), *nth);
-        self.passages.entry(key).or_insert(own).clone()
-    }
-}
-
-pub(super) fn status_word(state: DoorState) -> &'static str {
+fn status_word(state: DoorState) -> &'static str {
     match state.status {
         DoorStatus::Open => "open",
         DoorStatus::Closed => "closed",
@@ -323,10 +317,14 @@ fn spans(kind: &Kind, block: &Block) -> Vec<(&'static str, (i64, i64))> {
     };
     let depth = kind.front.and_then(along);
     let width = kind.front.map(|f| Vector::new(-f.y, f.x)).and_then(along);
-    [("height", share_of((block.bottom, block.top), (low, high))), ("depth", depth), ("width", width)]
-        .into_iter()
-        .filter_map(|(axis, span)| Some((axis, span?)))
-        .collect()
+    [
+        ("height", share_of((block.bottom, block.top), (low, high))),
+        ("depth", depth),
+        ("width", width),
+    ]
+    .into_iter()
+    .filter_map(|(axis, span)| Some((axis, span?)))
+    .collect()
 }
 
 fn share_of((low, high): (f64, f64), (from, to): (f64, f64)) -> Option<(i64, i64)> {

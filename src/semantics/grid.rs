@@ -70,8 +70,9 @@ fn cells(bounds: &Bounds) -> Option<impl Iterator<Item = (i32, i32)>> {
     let (x0, x1) = (cell(bounds.min.x), cell(bounds.max.x));
     let (y0, y1) = (cell(bounds.min.y), cell(bounds.max.y));
     let count = (x1 - x0 + 1.0) * (y1 - y0 + 1.0);
-    (count <= MOST_CELLS)
-        .then(|| (x0 as i32..=x1 as i32).flat_map(move |x| (y0 as i32..=y1 as i32).map(move |y| (x, y))))
+    (count <= MOST_CELLS).then(|| {
+        (x0 as i32..=x1 as i32).flat_map(move |x| (y0 as i32..=y1 as i32).map(move |y| (x, y)))
+    })
 }
 
 #[cfg(test)]

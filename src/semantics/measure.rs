@@ -38,7 +38,14 @@ pub struct Reach {
 
 impl Default for Reach {
     fn default() -> Self {
-        Self { distance: 13_000, beside: 6_000, sector: 20_000, sink: 1_000, escape: 1_000, outside: 5_000 }
+        Self {
+            distance: 13_000,
+            beside: 6_000,
+            sector: 20_000,
+            sink: 1_000,
+            escape: 1_000,
+            outside: 5_000,
+        }
     }
 }
 
@@ -93,8 +100,8 @@ pub struct Within {
     pub above: i64,
     /// Volume of `a` over that of what holds it.
     pub bulk: i64,
-    /// Share of `a`'s height below the top.
-    pub sunk: i64,
+    /// Share of `a`'s own volume that is inside.
+    pub held: i64,
 }
 
 /// What is measured of one thing against another: (upper, lower), (inner, outer), (seen, anchor).
@@ -143,6 +150,9 @@ pub struct Pair {
 /// One thing by itself.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Single {
+    pub object: ObjectId,
+    pub fragment: AreaId,
+    pub move_prob: u8,
     pub bottom: i64,
     pub top: i64,
     /// The smaller of its sizes along its own axes.
@@ -209,6 +219,16 @@ pub struct Measurements {
     stands_between: BTreeMap<ReplicaId, BTreeSet<(ReplicaId, ReplicaId)>>,
 }
 
+/// The same measurements, whatever way they came about.
+impl PartialEq for Measurements {
+    fn eq(&self, other: &Self) -> bool {
+        self.singles == other.singles
+            && self.pairs == other.pairs
+            && self.stands_between == other.stands_between
+            && self.bodies == other.bodies
+    }
+}
+
 impl Measurements {
     /// Measures all Maps of a world.
     #[must_use]
@@ -243,8 +263,7 @@ impl Measurements {
         for body in measured.bodies.values() {
             measured.grids.entry(body.map).or_default().insert(body.id, &body.bounds);
         }
-        measured.singles =
-            measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
+        measured.singles = measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
         let mut pairs = Vec::new();
         let mut near = Vec::new();
         for a in measured.bodies.values() {
@@ -276,6 +295,9 @@ impl Measurements {
     fn single(&self, body: &Body) -> Single {
         let kind = &self.kinds[&body.object];
         Single {
+            object: body.object,
+            fragment: body.fragment,
+            move_prob: body.move_prob,
             bottom: tenths(body.bottom),
             top: tenths(body.top),
             thin: tenths(kind.size.0.min(kind.size.1)),
@@ -291,6 +313,24 @@ impl Measurements {
         let mut near = Vec::new();
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+
+    /// Number of pairs near enough to say something of.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
+        self.pairs.len()
+    }
+
+    /// What is measured of a thing by itself.
+    #[must_use]
+    pub fn of_thing(&self, id: ReplicaId) -> Option<&Single> {
+        self.singles.get(&id)
+    }
+
+    /// What is measured of two things, the lower id first; none when they are far apart.
+    #[must_use]
+    pub fn of_pair(&self, a: ReplicaId, b: ReplicaId) -> Option<&Pair> {
+        self.pairs.get(&(a.min(b), a.max(b)))
     }
 
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.
@@ -345,9 +385,12 @@ impl Measurements {
         }
         // A way between two others that this thing now crosses has both its ends within reach of it.
         let reach = cm(self.reach.beside);
-        near.retain(|&n| n != id && bounds_distance(&self.bodies[&n].bounds, &body.bounds) <= reach);
+        near.retain(|&n| {
+            n != id && bounds_distance(&self.bodies[&n].bounds, &body.bounds) <= reach
+        });
         self.bodies.insert(id, body);
-        let entered: Vec<_> = change.added.iter().copied().filter(|k| k.0 == id || k.1 == id).collect();
+        let entered: Vec<_> =
+            change.added.iter().copied().filter(|k| k.0 == id || k.1 == id).collect();
         for key in entered {
             self.look_between(key);
         }
@@ -455,7 +498,9 @@ impl Measurements {
                 found.over.extend(over(a, kind_a, index, block));
             }
             if block.bottom - a.bottom >= -sink {
-                found.below.extend(below(a, kind_a, index, block).filter(|u| u.gap >= -self.reach.sink));
+                found
+                    .below
+                    .extend(below(a, kind_a, index, block).filter(|u| u.gap >= -self.reach.sink));
             }
             if block.hollow {
                 let hold = std::slice::from_ref(block.widest());
@@ -488,7 +533,14 @@ impl Measurements {
         }
         let sticks_out = a.outline.iter().map(|f| escape(f, hold.iter())).fold(0.0, f64::max);
         let height = a.top - a.bottom;
-        let sunk = if height > 0.0 { ((top - a.bottom) / height).clamp(0.0, 1.0) } else { 1.0 };
+        let upright = if height > 0.0 {
+            (a.top.min(top) - a.bottom.max(bottom)).max(0.0) / height
+        } else {
+            // What lies flat on the top is on it.
+            f64::from(u8::from(bottom <= a.bottom && a.bottom < top))
+        };
+        let flat = a.outline.iter().flat_map(|f| hold.iter().map(move |h| overlap_area(f, h)));
+        let held = upright * (flat.sum::<f64>() / kind.outline_area).min(1.0);
         (sticks_out <= reach).then(|| Within {
             block: None,
             opening: Opening::Container,
@@ -497,7 +549,7 @@ impl Measurements {
             above: tenths(a.top - top),
             // Rounded down, so that less than the whole is less than 1000.
             bulk: if volume > 0.0 { (kind.volume / volume * 1000.0) as i64 } else { 1000 },
-            sunk: per_mille(sunk),
+            held: per_mille(held),
         })
     }
 
@@ -632,8 +684,7 @@ fn rests_later(a: &Body, kind_a: &Kind, b: &Body, kind_b: &Kind) -> bool {
 
 fn over(a: &Body, kind: &Kind, index: usize, block: &Block) -> Option<Over> {
     let roof = block.roof();
-    let common: f64 =
-        kind.foot.iter().map(|&i| overlap_area(&a.blocks[i].base, roof)).sum();
+    let common: f64 = kind.foot.iter().map(|&i| overlap_area(&a.blocks[i].base, roof)).sum();
     let share = per_mille((common / kind.foot_area).min(1.0));
     let centred = roof.contains(a.centre);
     (share > 0 || centred).then(|| Over {

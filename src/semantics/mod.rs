@@ -7,14 +7,18 @@ mod measure;
 mod names;
 mod openings;
 pub mod planning;
-pub mod predicate;
 mod position;
+pub mod predicate;
 mod relations;
 
-pub use measure::{Change, Measurements, Reach};
+pub use measure::{
+    Below, Beside, Between, Change, Directed, Located, Measurements, Over, Pair, Reach, Single,
+    Within,
+};
 pub use names::{Subject, Symbols};
 pub use openings::{Opening, clear_width};
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
-    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
+    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
+    derive_from,
 };

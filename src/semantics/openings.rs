@@ -17,6 +17,7 @@ use crate::map::{Door, DoorKind, DoorState, DoorStatus, Permeability, SideRef, W
 use crate::units::{AreaId, Cm, DoorId, Point, Vector};
 
 use super::measure::Room;
+use super::names::Symbols;
 
 /// A step this long beyond a border stands on the floor behind it, in cm.
 const FOOTHOLD: f64 = 0.5;
@@ -24,6 +25,8 @@ const FOOTHOLD: f64 = 0.5;
 /// A door or a passage in the side of an Area.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Opening {
+    /// Its name in the facts: the door's, or one made of the Areas that it joins. Both sides of one opening share it.
+    pub name: String,
     /// The Area whose side it is.
     pub area: AreaId,
     pub side: SideRef,
@@ -52,7 +55,19 @@ impl Opening {
 }
 
 /// All openings of all Areas, in the order of Areas, items and sides.
-pub(super) fn openings(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64) -> Vec<Opening> {
+pub(super) fn openings(
+    world: &World,
+    rooms: &BTreeMap<AreaId, Room>,
+    reach: f64,
+    symbols: &Symbols,
+) -> Vec<Opening> {
+    let mut found = sides(world, rooms, reach);
+    name(world, &mut found, reach, symbols);
+    found
+}
+
+/// Every open side of an Area by itself.
+fn sides(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64) -> Vec<Opening> {
     let links = links(world);
     let placed: BTreeSet<AreaId> = rooms.keys().copied().collect();
     let mut found = Vec::new();
@@ -73,6 +88,7 @@ pub(super) fn openings(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64
                 let width = vector.length().get();
                 let step = |sign: f64| step_off(rooms, area.id, ends, sign, reach);
                 found.push(Opening {
+                    name: String::new(),
                     area: area.id,
                     ends,
                     door: door.map(|d| d.id),
@@ -89,6 +105,60 @@ pub(super) fn openings(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64
         }
     }
     found
+}
+
+/// Gives both sides of an opening one name, and the door to the side that does not mount it.
+fn name(world: &World, openings: &mut [Opening], reach: f64, symbols: &Symbols) {
+    let mut by_area: BTreeMap<AreaId, Vec<usize>> = BTreeMap::new();
+    for (i, opening) in openings.iter().enumerate() {
+        by_area.entry(opening.area).or_default().push(i);
+    }
+    let middle = |o: &Opening| nalgebra::center(&o.ends.0, &o.ends.1);
+    let mut taken = BTreeSet::new();
+    for i in 0..openings.len() {
+        let here = &openings[i];
+        let behind = here.leads_to().and_then(|area| by_area.get(&area));
+        let other_side = behind.into_iter().flatten().copied().filter(|&j| {
+            let there = &openings[j];
+            j != i
+                && there.leads_to() == Some(here.area)
+                && (middle(there) - middle(here)).norm() <= reach + here.width / 2.0
+        });
+        let nearest = other_side.min_by(|&j, &k| {
+            let way = |n: usize| (middle(&openings[n]) - middle(here)).norm();
+            way(j).total_cmp(&way(k))
+        });
+        let there = nearest.map(|j| (openings[j].name.clone(), openings[j].door));
+        let here = &mut openings[i];
+        if here.door.is_none()
+            && let Some(door) = there.as_ref().and_then(|t| t.1).and_then(|d| world.doors.get(&d))
+        {
+            here.door = Some(door.id);
+            here.clear_width = clear_width(door, door.state, here.width);
+        }
+        here.name = match (here.door, there) {
+            (Some(door), _) => symbols.door(door).to_string(),
+            (None, Some((name, _))) if !name.is_empty() => name,
+            _ => new_name(here, symbols, &mut taken),
+        };
+    }
+}
+
+/// «Проход-А-Б», with a number when there are several.
+fn new_name(opening: &Opening, symbols: &Symbols, taken: &mut BTreeSet<String>) -> String {
+    let kind = if opening.permeability == Permeability::Conditional {
+        "Дверь"
+    } else {
+        "Проход"
+    };
+    let mut name = format!("{kind}-{}", symbols.area(opening.area));
+    if let Some(other) = opening.leads_to() {
+        name = format!("{name}-{}", symbols.area(other));
+    }
+    (1..)
+        .map(|n| if n == 1 { name.clone() } else { format!("{name}-{n}") })
+        .find(|n| symbols.subject(n).is_none() && taken.insert(n.clone()))
+        .expect("the numbers do not end")
 }
 
 /// Both ends of every link between permeable sides, each with the Area at the other end.

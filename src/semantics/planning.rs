@@ -83,8 +83,7 @@ pub const ROBOT_PLACE: &str = "Место-робота";
 /// Facts for a plan from the Map as it is.
 #[must_use]
 pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
-    let mut writer =
-        Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
+    let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
     writer.doors();
     writer.named_places();
     writer.things(state.holds);
@@ -118,7 +117,12 @@ impl Writer<'_> {
         self.insert(predicate, arguments, false);
     }
 
-    fn insert(&mut self, predicate: &'static str, arguments: &[(&str, &'static str)], assumed: bool) {
+    fn insert(
+        &mut self,
+        predicate: &'static str,
+        arguments: &[(&str, &'static str)],
+        assumed: bool,
+    ) {
         let arguments = arguments
             .iter()
             .map(|&(name, kind)| Argument { name: name.to_owned(), kind })
@@ -140,7 +144,8 @@ impl Writer<'_> {
                 Some(DoorStatus::Closed) => "ДВЕРЬ_ИЗ_В_ЗАКРЫТА_",
                 Some(DoorStatus::Locked) => "ДВЕРЬ_ИЗ_В_ЗАПЕРТА_",
             };
-            let arguments = [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
+            let arguments =
+                [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
             self.insert(predicate, &arguments, true);
         }
     }
@@ -185,7 +190,14 @@ impl Writer<'_> {
         }
     }
 
-    fn portable(&mut self, id: ReplicaId, name: &str, chain: &[ReplicaId], root: ReplicaId, area: AreaId) {
+    fn portable(
+        &mut self,
+        id: ReplicaId,
+        name: &str,
+        chain: &[ReplicaId],
+        root: ReplicaId,
+        area: AreaId,
+    ) {
         if self.relations.bears_something(id) {
             return;
         }
@@ -220,7 +232,9 @@ impl Writer<'_> {
 
     fn on_floor(&self, id: ReplicaId) -> bool {
         let single = self.relations.measurements().singles.get(&id);
-        single.is_some_and(|s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR))
+        single.is_some_and(
+            |s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR),
+        )
     }
 
     /// The places that serve a thing, or the one before it.
@@ -283,5 +297,118 @@ impl Writer<'_> {
     fn is(&self, id: ReplicaId, wanted: &str) -> bool {
         let object = &self.world.objects[&self.world.replicas[&id].object];
         self.world.types.object.has_trait(object.object_type, wanted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::map::Format;
+    use crate::semantics::{Profile, RelationRules, derive};
+    use crate::units::Source;
+
+    const HOME: &str = r#"
+format = 1
+[type]
+object = [{ name = "Мебель" }, { name = "Вещь", traits = ["portable"] }]
+[orthoframe]
+floor-a = { name = "Пол А", height = 270, points = [[0, 0], [300, 0], [300, 100], [300, 200], [300, 400], [200, 400], [100, 400], [0, 400]], side.C = { permeability = "conditional" }, side.F = { permeability = "permeable" } }
+floor-b = { name = "Пол Б", height = 270, points = [[0, 0], [300, 0], [300, 400], [0, 400], [0, 200], [0, 100]], side.E = { permeability = "conditional" } }
+floor-c = { name = "Пол В", height = 270, points = [[0, 0], [100, 0], [200, 0], [300, 0], [300, 200], [0, 200]], side.B = { permeability = "permeable" } }
+cube = { name = "Куб", rect = [60, 40], height = 50 }
+small = { name = "Кубик", rect = [8, 8], height = 5 }
+[object]
+stand = { name = "Тумба", type = "Мебель", items = [{ id = "A", orthoframe = "cube" }] }
+thing = { name = "Вещь", type = "Вещь", items = [{ id = "A", orthoframe = "small" }] }
+[door.ab]
+name = "Дверь-АБ"
+kind = "hinged"
+width = 100
+height = 200
+leaves = [{ hinge = "left", share = 1, thickness = 4, max_open = 90 }]
+state = "closed"
+[area.a]
+name = "А"
+items = [{ id = "A", orthoframe = "floor-a" }]
+doors = [{ side = "C", door = "ab", opens = "inside" }]
+places = [{ name = "Точка", at = [150, 150] }]
+replicas = [
+  { name = "Ключ", object = "thing", at = [200, 300], properties = { "КЛЮЧ_ОТ" = "Дверь-АБ" } },
+]
+[area.b]
+name = "Б"
+items = [{ id = "A", orthoframe = "floor-b" }]
+doors = [{ side = "E", door = "ab", opens = "outside" }]
+places = [{ name = "У тумбы", at = [150, 150], serves = "Тумба-1" }]
+replicas = [
+  { name = "Тумба-1", object = "stand", at = [100, 300] },
+  { name = "Тумба-2", object = "stand", at = [200, 300] },
+  { name = "Лекарство", object = "thing", at = [110, 310, 50] },
+  { name = "Поднос", object = "thing", at = [210, 310, 50] },
+  { name = "Пилюля", object = "thing", at = [210, 310, 55] },
+]
+[area.c]
+name = "В"
+items = [{ id = "A", orthoframe = "floor-c" }]
+[map.flat]
+name = "Карта"
+items = [{ area = "a" }, { area = "b", at = [300, 0] }, { area = "c", at = [0, 400] }]
+links = [{ from = "a.C", to = "b.E" }, { from = "a.F", to = "c.B" }]
+"#;
+
+    fn check(state: impl Fn(&World) -> RobotState, expected: &Expect) {
+        let world = World::parse(&Source::new("дом.toml", HOME), Format::Toml)
+            .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+        let relations =
+            derive(&world, &RelationRules::standard(), Profile::Surveyed).expect("rules end");
+        let lines: Vec<String> = initial(&world, &relations, &state(&world))
+            .facts
+            .iter()
+            .map(|f| {
+                let arguments: Vec<String> =
+                    f.arguments.iter().map(|a| format!("{} {}", a.kind, a.name)).collect();
+                let mark = if f.assumed { "?" } else { "" };
+                format!("{}({}){mark}\n", f.predicate, arguments.join(", "))
+            })
+            .collect();
+        expected.assert_eq(&lines.concat());
+    }
+
+    fn at_point(world: &World) -> RobotState {
+        let place = world.places.values().next().expect("the first place is in А");
+        RobotState { area: place.area, at: RobotAt::Place(place.id), holds: None }
+    }
+
+    #[test]
+    fn the_map_says_what_a_plan_needs() {
+        check(
+            at_point,
+            &expect![[r#"
+            ДВЕРЬ_ИЗ_В_ЗАКРЫТА_(дверь Дверь-АБ, помещение А, помещение Б)?
+            ДВЕРЬ_ИЗ_В_ЗАКРЫТА_(дверь Дверь-АБ, помещение Б, помещение А)?
+            ДВЕРЬ_ИЗ_В_ОТКРЫТА_(дверь Проход-А-В, помещение А, помещение В)?
+            ДВЕРЬ_ИЗ_В_ОТКРЫТА_(дверь Проход-А-В, помещение В, помещение А)?
+            ДВЕРЬ_ИМЕЕТ-СТВОРКУ_(дверь Дверь-АБ)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Дверь-АБ, помещение А)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Дверь-АБ, помещение Б)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Проход-А-В, помещение А)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Проход-А-В, помещение В)
+            КЛЮЧ_ПОДХОДИТ-К_(предмет Ключ, дверь Дверь-АБ)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Место-у-Ключ, помещение А)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Точка, помещение А)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Тумба-2, помещение Б)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место У тумбы, помещение Б)
+            ПОЗИЦИЯ_НАХОДИТСЯ-У_(место Тумба-2, объект Тумба-2)
+            ПОЗИЦИЯ_НАХОДИТСЯ-У_(место У тумбы, объект Тумба-1)
+            ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ_(предмет Ключ, место Место-у-Ключ)
+            ПРЕДМЕТ_НАХОДИТСЯ-НА_(предмет Лекарство, объект Тумба-1)
+            ПРЕДМЕТ_НАХОДИТСЯ-НА_(предмет Пилюля, объект Тумба-2)
+            РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(место Точка)
+            РОБОТ-НАХОДИТСЯ-В_(помещение А)
+            РУКА-СВОБОДНА_()
+        "#]],
+        );
     }
 }

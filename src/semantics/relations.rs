@@ -11,9 +11,9 @@ use crate::facts::{
     Database, Derived, EvaluateError, FactError, Faults, Program, RelationId, RelationInfo, Value,
 };
 use crate::map::{Entity, World};
-use crate::units::{AreaId, DoorId, ReplicaId, Source, nearest_name};
+use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
 
-use super::feed::{Cell, Feed, OpeningNames};
+use super::feed::{Cell, Feed};
 use super::measure::{Measurements, Reach};
 use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
@@ -29,7 +29,10 @@ const MOST_OUTSIDE: usize = 100_000;
 pub enum RelationError {
     /// The file of rules could not be read.
     #[error("не удалось прочесть файл правил «{path}»: {message}")]
-    #[diagnostic(code(semantics::unreadable), help("проверьте путь и права доступа; файл должен быть в UTF-8"))]
+    #[diagnostic(
+        code(semantics::unreadable),
+        help("проверьте путь и права доступа; файл должен быть в UTF-8")
+    )]
     Unreadable { path: String, message: String },
     /// The rule text is at fault.
     #[error(transparent)]
@@ -39,7 +42,9 @@ pub enum RelationError {
     #[error("{fault}")]
     #[diagnostic(
         code(semantics::schema),
-        help("измеряемые отношения объявлены в rules/relations.dl, раздел «Измерения»; их столбцы менять нельзя")
+        help(
+            "измеряемые отношения объявлены в rules/relations.dl, раздел «Измерения»; их столбцы менять нельзя"
+        )
     )]
     Schema { fault: FactError },
     /// Evaluation does not end within its limits.
@@ -171,7 +176,6 @@ pub struct Relations {
     symbols: Symbols,
     measured: Measurements,
     openings: Vec<Opening>,
-    opening_names: Vec<String>,
     database: Database,
     derived: Derived,
     areas: BTreeMap<ReplicaId, AreaId>,
@@ -184,7 +188,11 @@ pub struct Relations {
 /// # Errors
 /// [`RelationError::Schema`] when the rule text changed a measured relation, [`RelationError::Evaluate`] when a rule of
 /// the user's own outgrows the memory.
-pub fn derive(world: &World, rules: &RelationRules, profile: Profile) -> Result<Relations, RelationError> {
+pub fn derive(
+    world: &World,
+    rules: &RelationRules,
+    profile: Profile,
+) -> Result<Relations, RelationError> {
     let measured = Measurements::of(world, rules.reach);
     derive_from(world, rules, profile, measured)
 }
@@ -200,11 +208,13 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0);
+    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut rows = Rows { database: rules.program.database(), fault: None };
     rows.insert("profile", &[Cell::Word(profile.name())]);
-    feed.ground(&openings, &mut |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells));
+    feed.ground(&openings, &mut |relation: &'static str, cells: &[Cell<'_>]| {
+        rows.insert(relation, cells)
+    });
     feed.things(&mut |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells));
     if measured.bodies.len() * measured.rooms.len() <= MOST_OUTSIDE {
         for body in measured.bodies.values() {
@@ -216,15 +226,12 @@ pub fn derive_from(
         return Err(RelationError::Schema { fault });
     }
     let derived = rules.program.evaluate(&rows.database)?;
-    let mut names = OpeningNames::default();
-    let opening_names = openings.iter().map(|o| names.name(&symbols, o)).collect();
     let mut relations = Relations {
         rules: rules.clone(),
         profile,
         symbols,
         measured,
         openings,
-        opening_names,
         database: rows.database,
         derived,
         areas: BTreeMap::new(),
@@ -233,6 +240,13 @@ pub fn derive_from(
     };
     relations.index();
     Ok(relations)
+}
+
+/// Keeps the first fault. A rule text may do without a measurement.
+fn note(kept: &mut Option<FactError>, fault: FactError) {
+    if !matches!(fault, FactError::UnknownRelation { .. }) {
+        kept.get_or_insert(fault);
+    }
 }
 
 /// Rows on their way into the database; the first that does not fit is kept.
@@ -244,16 +258,55 @@ struct Rows {
 impl Rows {
     fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
         let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
-        match self.database.insert(relation, &tuple) {
-            Ok(_) => {}
-            // A rule text may do without a measurement.
-            Err(FactError::UnknownRelation { .. }) => {}
-            Err(fault) => self.fault = self.fault.take().or(Some(fault)),
+        if let Err(fault) = self.database.insert(relation, &tuple) {
+            note(&mut self.fault, fault);
         }
     }
 }
 
 impl Relations {
+    /// Follows a move of one replica: measures it anew and derives what follows, with the same result as [`derive`].
+    ///
+    /// A replica that was added, removed, renamed or made of another Object needs [`derive`]; `false` says so, and
+    /// nothing is changed.
+    ///
+    /// # Errors
+    /// As [`derive`].
+    pub fn update(&mut self, world: &World, moved: ReplicaId) -> Result<bool, RelationError> {
+        let known = self.measured.of_thing(moved).map(|s| s.object);
+        let now = world.replicas.get(&moved);
+        let same_name =
+            now.is_some_and(|r| r.name.as_str() == self.symbols.replica(moved).as_ref());
+        if known.is_none() || known != now.map(|r| r.object) || !same_name {
+            return Ok(false);
+        }
+        let change = self.measured.update(world, moved);
+        let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
+        let mut database = std::mem::replace(&mut self.database, self.rules.program.database());
+        let mut fault = None;
+        let mut take = |relation: &'static str, cells: &[Cell<'_>]| {
+            let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
+            let _ = database.remove(relation, &tuple).map_err(|e| note(&mut fault, e));
+        };
+        change.single_before.iter().for_each(|s| feed.single(moved, s, &mut take));
+        change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut take));
+        let mut rows = Rows { database, fault };
+        let mut put = |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells);
+        change.single_after.iter().for_each(|s| feed.single(moved, s, &mut put));
+        for key in &change.added {
+            if let Some(pair) = self.measured.pairs.get(key) {
+                feed.pair(*key, pair, &mut put);
+            }
+        }
+        self.database = rows.database;
+        if let Some(fault) = rows.fault {
+            return Err(RelationError::Schema { fault });
+        }
+        self.derived = self.rules.program.evaluate(&self.database)?;
+        self.index();
+        Ok(true)
+    }
+
     /// Every relation that the rule text puts out and names in both languages, in its order there.
     #[must_use]
     pub fn counts(&self) -> Vec<RelationCount> {
@@ -299,6 +352,20 @@ impl Relations {
             found.extend(about.map(|t| (info.name.clone(), t)));
         }
         found
+    }
+
+    /// A relation's first name, whichever of its names is given.
+    #[must_use]
+    pub fn display_name(&self, name: &str) -> String {
+        let key = name_key(name);
+        let is_it = |info: &RelationInfo| {
+            name_key(&info.name) == key
+                || info.second_name.as_deref().is_some_and(|n| name_key(n) == key)
+        };
+        let mut relations = self.derived.relations();
+        relations
+            .find(|(_, info)| is_it(info))
+            .map_or_else(|| name.to_owned(), |(_, info)| info.name.clone())
     }
 
     /// Whether a tuple of symbols holds.
@@ -358,9 +425,10 @@ impl Relations {
         &self.measured
     }
 
-    /// Openings of all Areas, each with its name in the facts.
-    pub fn openings(&self) -> impl Iterator<Item = (&str, &Opening)> {
-        self.opening_names.iter().map(String::as_str).zip(&self.openings)
+    /// Doors and passages in the sides of all Areas.
+    #[must_use]
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
     }
 
     #[must_use]
@@ -400,7 +468,8 @@ impl Relations {
             _ => None,
         };
         let pairs = |name: &'static str| self.derived.tuples(name).into_iter().flatten();
-        let areas = pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
+        let areas =
+            pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
         let supports =
             pairs("RESTS_ON").filter_map(|t| Some((replica(t.symbol(0))?, replica(t.symbol(1))?)));
         let bearing = pairs("ON_TOP_OF").filter_map(|t| replica(t.symbol(1)));

@@ -21,6 +21,11 @@ pub enum StoreError {
     #[diagnostic(code(store::not_a_store), help("укажите пустой или новый каталог"))]
     NotAStore { dir: String },
 
+    /// A backup is restored into a place of its own.
+    #[error("каталог «{dir}» не пуст")]
+    #[diagnostic(code(store::not_empty), help("укажите новый каталог: хранилище не затирается"))]
+    NotEmpty { dir: String },
+
     /// There is nothing at this path.
     #[error("хранилища «{dir}» нет")]
     #[diagnostic(code(store::missing), help("создайте его импортом карты: ortho import КАРТА"))]

@@ -15,7 +15,7 @@ use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
 use super::frame::Op;
 use super::ids::{self, Known};
-use super::open::{SledShelf, check_format, lock, write_format};
+use super::open::{SledShelf, check_format, format_is_whole, lock, write_format};
 use super::reader::{Reader, encode_touched, history_key, key_of_record};
 use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
@@ -157,6 +157,15 @@ pub struct Store {
     _lock: Option<File>,
 }
 
+impl std::fmt::Debug for Store {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Store")
+            .field("dir", &self.dir)
+            .field("revision", &self.revision)
+            .finish_non_exhaustive()
+    }
+}
+
 impl Store {
     /// Opens the store in a directory, or makes a new one there.
     ///
@@ -167,10 +176,10 @@ impl Store {
     pub fn open(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
         let dir = dir.as_ref();
         let disk: Arc<dyn Disk> = Arc::new(RealDisk);
-        let is_new = !check_format(&*disk, dir)?;
+        check_format(&*disk, dir)?;
         disk.create_dir(dir).map_err(StoreError::io("создать каталог", dir))?;
         let lock = lock(dir)?;
-        if is_new {
+        if !format_is_whole(&*disk, dir) {
             write_format(&*disk, dir)?;
             let parent = dir.parent().filter(|p| !p.as_os_str().is_empty());
             let parent = parent.unwrap_or_else(|| Path::new("."));

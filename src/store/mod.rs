@@ -22,7 +22,9 @@
 //! [`World`]: crate::map::World
 
 mod cell;
+mod check;
 mod derived;
+mod diff;
 mod disk;
 mod error;
 mod frame;
@@ -35,14 +37,19 @@ mod reader;
 mod schema;
 mod sheet;
 mod sides;
+#[cfg(test)]
+mod sim;
 mod tables;
 mod time;
 mod trees;
+mod undo;
 mod vault;
 mod version;
 mod write;
 
 pub use cell::{Cell, Key, Kind, Row};
+pub use check::{Finding, FsckReport, Severity, fsck};
+pub use diff::{Difference, Fate, FieldChange};
 pub use error::StoreError;
 pub use keep::{Change, Counts, Edits, ImportReport, Revision, RevisionKind, Store};
 pub use observe::{Belief, Observation, Proposal, Seen};

@@ -1,7 +1,7 @@
 //! The directory of a store: its FORMAT file, its lock, sled's corner of it.
 //!
 //! ```text
-//! store/FORMAT      "orthoframe store, format 1"
+//! store/FORMAT      "orthoframe store, format 1", twice: one flipped bit is then no other format
 //!       lock        held while a program has the store open for writing
 //!       journal/    00000000000000000001.journal ...
 //!       snapshots/  00000000000000004711.snapshot ...
@@ -21,6 +21,7 @@ use super::trees::{SledTrees, Trees};
 use super::vault::Shelf;
 
 const FORMAT_FILE: &str = "FORMAT";
+const FORMAT_LINE: &str = "orthoframe store, format ";
 
 /// Takes the store for this program alone; the lock goes with the file.
 pub(crate) fn lock(dir: &Path) -> Result<File> {
@@ -49,19 +50,33 @@ pub(crate) fn check_format(disk: &dyn Disk, dir: &Path) -> Result<bool> {
     }
     let path = dir.join(FORMAT_FILE);
     let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
-    let text = String::from_utf8_lossy(&bytes);
-    let found = text.trim().strip_prefix("orthoframe store, format ").unwrap_or(&text);
-    if found.parse() == Ok(FORMAT) {
-        Ok(true)
-    } else {
-        let found = found.trim().chars().take(40).collect();
-        Err(StoreError::UnknownFormat { dir: name, found, known: FORMAT })
+    match format_of(&bytes) {
+        Some(FORMAT) => Ok(true),
+        Some(other) => {
+            Err(StoreError::UnknownFormat { dir: name, found: other.to_string(), known: FORMAT })
+        }
+        // A damaged file says nothing; every journal and snapshot states its format once more.
+        None if names.iter().any(|n| n == "journal") => Ok(true),
+        None => Err(StoreError::NotAStore { dir: name }),
     }
+}
+
+/// The format that both lines state.
+fn format_of(bytes: &[u8]) -> Option<u32> {
+    let mut lines = std::str::from_utf8(bytes).ok()?.lines();
+    let (first, second) = (lines.next()?, lines.next()?);
+    let number = first.strip_prefix(FORMAT_LINE)?.parse().ok()?;
+    (first == second && lines.next().is_none()).then_some(number)
+}
+
+/// Whether the FORMAT file is as this program writes it.
+pub(crate) fn format_is_whole(disk: &dyn Disk, dir: &Path) -> bool {
+    disk.read(&dir.join(FORMAT_FILE)).is_ok_and(|bytes| format_of(&bytes) == Some(FORMAT))
 }
 
 pub(crate) fn write_format(disk: &dyn Disk, dir: &Path) -> Result<()> {
     let path = dir.join(FORMAT_FILE);
-    let text = format!("orthoframe store, format {FORMAT}\n").into_bytes();
+    let text = format!("{FORMAT_LINE}{FORMAT}\n").repeat(2).into_bytes();
     disk.replace(&path, &[text]).map_err(StoreError::io("записать", &path))
 }
 
@@ -73,6 +88,10 @@ pub(crate) struct SledShelf {
 impl Shelf for SledShelf {
     fn open(&mut self) -> Result<Arc<dyn Trees>> {
         Ok(Arc::new(SledTrees::open(&self.dir.join("sled"))?))
+    }
+
+    fn exists(&self) -> bool {
+        self.dir.join("sled").exists()
     }
 
     fn set_aside(&mut self) -> Result<()> {

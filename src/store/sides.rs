@@ -66,7 +66,6 @@ macro_rules! sides {
             side_pntr,
             base: $base(item),
             x1, y1, x2, y2, len, ang, z, height,
-            ..t::$record::default()
         }
     }};
 }

@@ -35,6 +35,15 @@ pub(crate) struct State {
     pub(crate) digests: Digests,
 }
 
+impl State {
+    /// The state after one more frame. An empty tree has no digest.
+    pub(crate) fn advance(&mut self, lsn: u64, touched: Digests) {
+        self.lsn = lsn;
+        self.digests.extend(touched);
+        self.digests.retain(|_, digest| *digest != Digest::default());
+    }
+}
+
 /// Called with each key and value; returns whether to go on.
 pub(crate) type Visit<'a> = dyn FnMut(&[u8], &[u8]) -> Result<bool> + 'a;
 
@@ -69,9 +78,24 @@ pub(crate) fn digests(trees: &dyn Trees) -> Result<Digests> {
 
 /// sled's trees in a directory.
 pub(crate) struct SledTrees {
+    open: Option<Open>,
+}
+
+struct Open {
     trees: BTreeMap<u8, sled::Tree>,
     state: sled::Tree,
     db: sled::Db,
+}
+
+impl Drop for SledTrees {
+    fn drop(&mut self) {
+        // The last handle flushes, and flushing broken pages panics.
+        let open = self.open.take();
+        let _ = guarded(|| {
+            drop(open);
+            Ok(())
+        });
+    }
 }
 
 const STATE_KEY: &[u8] = b"state";
@@ -103,12 +127,16 @@ impl SledTrees {
             let trees = tree_names()
                 .map(|(code, name)| Ok((code, db.open_tree(name)?)))
                 .collect::<sled::Result<_>>()?;
-            Ok(Self { trees, state: db.open_tree("~state")?, db })
+            Ok(Self { open: Some(Open { trees, state: db.open_tree("~state")?, db }) })
         })
     }
 
+    fn open_trees(&self) -> &Open {
+        self.open.as_ref().expect("only dropping closes the trees")
+    }
+
     fn tree(&self, tree: u8) -> Result<&sled::Tree> {
-        self.trees.get(&tree).ok_or_else(|| StoreError::Tables {
+        self.open_trees().trees.get(&tree).ok_or_else(|| StoreError::Tables {
             what: format!("нет таблицы с номером {tree}"),
         })
     }
@@ -172,7 +200,7 @@ impl Trees for SledTrees {
             touched.entry(op.tree).or_default().push(op);
         }
         let mut trees = touched.keys().map(|t| self.tree(*t)).collect::<Result<Vec<_>>>()?;
-        trees.push(&self.state);
+        trees.push(&self.open_trees().state);
         let state = encode_state(state);
         guarded(|| {
             let done = trees.as_slice().transaction(|trees| {
@@ -197,7 +225,7 @@ impl Trees for SledTrees {
     }
 
     fn state(&self) -> Result<State> {
-        match guarded(|| self.state.get(STATE_KEY))? {
+        match guarded(|| self.open_trees().state.get(STATE_KEY))? {
             None => Ok(State::default()),
             Some(bytes) => decode_state(&bytes).ok_or_else(|| StoreError::Tables {
                 what: "испорчена отметка о состоянии".into(),
@@ -206,7 +234,7 @@ impl Trees for SledTrees {
     }
 
     fn flush(&self) -> Result<()> {
-        guarded(|| self.db.flush().map(|_| ()))
+        guarded(|| self.open_trees().db.flush().map(|_| ()))
     }
 }
 

@@ -53,6 +53,8 @@ pub(crate) struct Change {
 /// Where the trees live.
 pub(crate) trait Shelf: Send {
     fn open(&mut self) -> Result<Arc<dyn Trees>>;
+    /// Whether there are trees already, whole or broken.
+    fn exists(&self) -> bool;
     /// Puts broken trees away, so that [`Shelf::open`] then gives empty ones.
     fn set_aside(&mut self) -> Result<()>;
 }
@@ -103,6 +105,11 @@ fn numbered_files(disk: &dyn Disk, dir: &Path, extension: &str) -> Result<Vec<(u
         (end == extension && stem.len() == 20).then(|| stem.parse().ok()).flatten()
     };
     Ok(names.iter().filter_map(|n| Some((number(n)?, dir.join(n)))).collect())
+}
+
+/// The snapshots of a store, the oldest first.
+pub(crate) fn snapshot_files(disk: &dyn Disk, dir: &Path) -> Result<Vec<(u64, PathBuf)>> {
+    numbered_files(disk, &snapshot_dir(dir), "snapshot")
 }
 
 /// All that the journal files hold.
@@ -228,6 +235,18 @@ fn next_magic(bytes: &[u8]) -> usize {
     bytes.windows(4).position(|w| w == b"OFJ\x01").unwrap_or(bytes.len())
 }
 
+/// A journal file that begins with the given sequence number.
+fn begin_journal(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Journal> {
+    let dir = journal_dir(dir);
+    let path = numbered(&dir, lsn, "journal");
+    let head = file_header(JOURNAL, lsn);
+    let mut file = disk.appender(&path).map_err(StoreError::io("создать", &path))?;
+    let written = file.append(&head).and_then(|()| file.sync());
+    written.map_err(StoreError::io("записать", &path))?;
+    disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
+    Ok(Journal { file, path, length: head.len() as u64 })
+}
+
 /// Applies the frames after the trees' own state, and checks what comes out of it.
 fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
     let mut state = trees.state()?;
@@ -243,11 +262,9 @@ fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
     let before = state.lsn;
     for lsn in before + 1..=last {
         let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
-        state.lsn = lsn;
-        state.digests.extend(payload.digests);
+        state.advance(lsn, payload.digests);
         trees.apply(&payload.ops, &state)?;
     }
-    state.digests.retain(|_, digest| *digest != super::frame::Digest::default());
     if digests(trees)? != state.digests {
         return Err(broken("записи не совпадают с контрольной суммой"));
     }
@@ -305,7 +322,19 @@ impl Vault {
             disk.create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;
         }
         disk.sync_dir(dir).map_err(StoreError::io("записать каталог", dir))?;
-        let log = Log::read(&*disk, dir)?;
+        let mut log = Log::read(&*disk, dir)?;
+        let snapshots = snapshot_files(&*disk, dir)?;
+        if log.files.is_empty() && snapshots.is_empty() && !shelf.exists() {
+            // The journal comes first: trees without one are then always trees that have lost it.
+            begin_journal(&*disk, dir, 1)?;
+            log = Log::read(&*disk, dir)?;
+        }
+        // A frame that a killed program wrote but did not sync can be read now and yet vanish with the power:
+        // what is built upon must be on the disk first.
+        if let Some((_, path, _)) = log.files.last() {
+            let synced = disk.appender(path).and_then(|mut file| file.sync());
+            synced.map_err(StoreError::io("записать", path))?;
+        }
         let (trees, state, mut report) = Self::recover(&*disk, dir, &log, shelf)?;
         let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
         let mut vault = Self {
@@ -328,6 +357,9 @@ impl Vault {
         impl Shelf for InMemory {
             fn open(&mut self) -> Result<Arc<dyn Trees>> {
                 Ok(Arc::new(super::trees::MemoryTrees::default()))
+            }
+            fn exists(&self) -> bool {
+                false
             }
             fn set_aside(&mut self) -> Result<()> {
                 Ok(())
@@ -356,7 +388,7 @@ impl Vault {
         log: &Log,
         shelf: &mut dyn Shelf,
     ) -> Result<(Arc<dyn Trees>, State, OpenReport)> {
-        let snapshots = numbered_files(disk, &snapshot_dir(dir), "snapshot")?;
+        let snapshots = snapshot_files(disk, dir)?;
         let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
         let last = log.last().max(newest_snapshot);
         let mut report = OpenReport::default();
@@ -414,7 +446,7 @@ impl Vault {
 
     /// Goes on writing where the journal ends, or begins a new one where it cannot be trusted.
     fn resume_journal(&mut self, log: &Log, report: &mut OpenReport) -> Result<()> {
-        let snapshots = numbered_files(&*self.disk, &snapshot_dir(&self.dir), "snapshot")?;
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
         let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
         let chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
         report.journal_renewed = if let Some(fault) = &log.fault {
@@ -462,14 +494,7 @@ impl Vault {
     }
 
     fn begin_journal(&mut self) -> Result<()> {
-        let dir = journal_dir(&self.dir);
-        let path = numbered(&dir, self.state.lsn + 1, "journal");
-        let head = file_header(JOURNAL, self.state.lsn + 1);
-        let mut file = self.disk.appender(&path).map_err(StoreError::io("создать", &path))?;
-        let written = file.append(&head).and_then(|()| file.sync());
-        written.map_err(StoreError::io("записать", &path))?;
-        self.disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
-        self.journal = Some(Journal { file, path, length: head.len() as u64 });
+        self.journal = Some(begin_journal(&*self.disk, &self.dir, self.state.lsn + 1)?);
         Ok(())
     }
 
@@ -486,6 +511,7 @@ impl Vault {
         &*self.disk
     }
 
+    #[cfg(test)]
     pub(crate) fn lsn(&self) -> u64 {
         self.state.lsn
     }
@@ -504,9 +530,7 @@ impl Vault {
         let lsn = self.state.lsn + 1;
         let frame = encode_frame(lsn, &ops, &touched);
         self.append(&frame)?;
-        self.state.lsn = lsn;
-        self.state.digests.extend(touched);
-        self.state.digests.retain(|_, digest| *digest != super::frame::Digest::default());
+        self.state.advance(lsn, touched);
         if let Err(error) = self.trees.apply(&ops, &self.state) {
             // The frame is safe, the trees are not: opening the store anew applies it.
             self.read_only = Some(error.to_string());
@@ -567,8 +591,10 @@ impl Vault {
         let empty = self.journal.as_ref().is_some_and(|j| {
             j.path == numbered(&journal_dir(&self.dir), self.state.lsn + 1, "journal")
         });
-        if !empty {
-            self.begin_journal()?;
+        if !empty && let Err(error) = self.begin_journal() {
+            // Two journals that both go on from here would not be told apart.
+            self.read_only = Some(error.to_string());
+            return Err(error);
         }
         self.drop_old_files()?;
         self.journal_bytes = 0;
@@ -582,7 +608,7 @@ impl Vault {
     }
 
     fn drop_old_files(&self) -> Result<()> {
-        let snapshots = numbered_files(&*self.disk, &snapshot_dir(&self.dir), "snapshot")?;
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
         let Some(dropped) = snapshots.len().checked_sub(SNAPSHOTS_KEPT) else { return Ok(()) };
         for (_, path) in &snapshots[..dropped] {
             self.remove(path)?;

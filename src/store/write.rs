@@ -17,7 +17,7 @@ pub(super) const TRAIT: &str = "trait";
 pub(super) const STATUSES: &[(DoorStatus, &str)] =
     &[(DoorStatus::Open, "open"), (DoorStatus::Closed, "closed"), (DoorStatus::Locked, "locked")];
 pub(super) const DOOR_KINDS: &[(DoorKind, &str)] =
-    &[(DoorKind::Hinged, "hinged"), (DoorKind::Sliding, "sliding")];
+    &[(DoorKind::Hinged, "hinged"), (DoorKind::Sliding, "sliding"), (DoorKind::Passage, "passage")];
 pub(super) const GENDERS: &[(Gender, &str)] =
     &[(Gender::Masculine, "m"), (Gender::Feminine, "f"), (Gender::Neuter, "n")];
 pub(super) const CASES: &[(Case, &str)] = &[
@@ -27,17 +27,6 @@ pub(super) const CASES: &[(Case, &str)] = &[
     (Case::Accusative, "acc"),
     (Case::Instrumental, "ins"),
     (Case::Prepositional, "loc"),
-];
-
-/// The type lists of a world with the tables in which they stand.
-pub(super) const TYPE_LISTS: &[Table] = &[
-    Table::OrtFrmTypeList,
-    Table::OrtFrmShapeList,
-    Table::OrtFrmSideTypeList,
-    Table::ObjectTypeList,
-    Table::AreaTypeList,
-    Table::MapTypeList,
-    Table::DoorTypeList,
 ];
 
 fn word<T: PartialEq + Copy>(words: &[(T, &'static str)], value: T) -> String {

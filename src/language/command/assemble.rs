@@ -1,5 +1,6 @@
 //! From clauses to commands: which argument is the thing, which the place, and whether each means one thing only.
 
+use std::hash::Hash;
 use std::ops::Range;
 
 use super::grammar::{Argument, Item, Reference, Sentence, items};
@@ -9,7 +10,7 @@ use crate::language::words::{Case, Hit};
 use crate::units::{Source, nearest_name};
 
 /// Reads a sentence into commands. See [`Listener::hear`].
-pub(super) fn commands<T: Clone + PartialEq>(
+pub(super) fn commands<T: Clone + Eq + Hash>(
     text: &str,
     listener: &Listener<'_, T>,
 ) -> Result<Vec<Command<T>>, Misheard> {
@@ -97,7 +98,7 @@ struct Roles<T> {
     to_me: bool,
 }
 
-impl<T: Clone + PartialEq> Reader<'_, '_, T> {
+impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     fn clause(&mut self, clause: &Clause<'_, '_, T>) -> Result<Vec<Command<T>>, Misheard> {
         let Some((verb, words)) = clause.verb else { return Err(self.no_verb(clause)) };
         if let Some(strange) =
@@ -275,10 +276,14 @@ impl<T: Clone + PartialEq> Reader<'_, '_, T> {
         if let [only] = &ids[..] {
             return Ok(only.clone());
         }
-        let named =
-            suiting.iter().filter(|hit| ids.contains(hit.id)).map(|hit| hit.name.to_owned());
+        // «чашка или чашка?» tells nothing: then each by its title.
+        let meant: Vec<&Hit<'_, T>> =
+            suiting.into_iter().filter(|hit| ids.contains(hit.id)).collect();
+        let alike = meant.iter().any(|hit| hit.name == meant[0].name && hit.id != meant[0].id);
+        let candidates =
+            meant.iter().map(|hit| if alike { hit.title } else { hit.name }.to_owned()).collect();
         let (reference, at) = self.shown(&argument.words);
-        Err(Misheard::Ambiguous { reference, candidates: named.collect(), text: self.source(), at })
+        Err(Misheard::Ambiguous { reference, candidates, text: self.source(), at })
     }
 
     fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {

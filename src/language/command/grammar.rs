@@ -8,6 +8,7 @@
 //! A name is the longest run of words that the index knows in any form; it wins over a vocabulary word only where it
 //! is longer, so that «Кресло у окна» is one name and «у окна» a link and a name.
 
+use std::hash::Hash;
 use std::iter::Enumerate;
 use std::ops::Range;
 
@@ -18,7 +19,7 @@ use nom::multi::{many0, many1};
 use nom::{IResult, Input, Needed, Parser};
 
 use super::vocabulary::{Link, Meaning, Verb, longest};
-use crate::language::words::{FormIndex, Hit, word_ranges};
+use crate::language::words::{FormIndex, Hit, is_hyphen, word_ranges};
 use crate::units::name_key;
 
 /// A sentence cut into words: their places in the text and their keys.
@@ -151,7 +152,7 @@ pub(super) enum Item<'s, T> {
 type Parsed<'s, 't, T, O> = IResult<Words<'s, 't, T>, O>;
 
 /// Reads the whole sentence. Every word is read as something, so nothing is left over.
-pub(super) fn items<'s, 't, T: PartialEq>(
+pub(super) fn items<'s, 't, T: Clone + Eq + Hash>(
     sentence: &'s Sentence<'t>,
     index: &'s FormIndex<T>,
 ) -> Vec<Item<'s, T>> {
@@ -159,15 +160,15 @@ pub(super) fn items<'s, 't, T: PartialEq>(
     many0(item).parse(words).map_or_else(|_| Vec::new(), |(_, items)| items)
 }
 
-fn item<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Item<'s, T>> {
+fn item<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Item<'s, T>> {
     alt((control, argument, dangling)).parse(input)
 }
 
 /// A word of the vocabulary and the words it takes, unless a longer name begins here.
-fn meaning<'s, 't, T: PartialEq>(
+fn meaning<'s, 't, T: Clone + Eq + Hash>(
     input: Words<'s, 't, T>,
 ) -> Parsed<'s, 't, T, (Meaning, Range<usize>)> {
-    let found = longest(input.iter_elements());
+    let found = longest(&input.iter_elements());
     let named = name_length(&input);
     match found {
         Some((taken, meaning)) if taken >= named => {
@@ -178,12 +179,13 @@ fn meaning<'s, 't, T: PartialEq>(
     }
 }
 
-fn name_length<T: PartialEq>(input: &Words<'_, '_, T>) -> usize {
-    let words = &input.sentence.words[..input.end];
-    input.index.longest_at(input.sentence.text, words, input.at).map_or(0, |(taken, _)| taken)
+fn name_length<T: Clone + Eq + Hash>(input: &Words<'_, '_, T>) -> usize {
+    input.index.length_at(input.sentence.text, &input.sentence.words[..input.end], input.at)
 }
 
-fn control<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Item<'s, T>> {
+fn control<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Item<'s, T>> {
     let (rest, (meaning, words)) = meaning(input.clone())?;
     let item = match meaning {
         Meaning::Verb(verb) => Item::Verb(verb, words),
@@ -198,11 +200,13 @@ fn control<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, I
     Ok((rest, item))
 }
 
-fn filler<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, ()> {
+fn filler<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, ()> {
     map(verify(meaning, |(meaning, _)| *meaning == Meaning::Filler), |_| ()).parse(input)
 }
 
-fn link<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, (Link, Range<usize>)> {
+fn link<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, (Link, Range<usize>)> {
     let (rest, (meaning, words)) = meaning(input.clone())?;
     match meaning {
         Meaning::Link(link) => Ok((rest, (link, words))),
@@ -210,20 +214,26 @@ fn link<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, (Lin
     }
 }
 
-fn argument<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Item<'s, T>> {
+fn argument<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Item<'s, T>> {
     let (rest, link) = opt(link).parse(input)?;
     let (rest, _) = many0(filler).parse(rest)?;
     let from = rest.at;
-    let (rest, reference) = alt((personal, known, unknown)).parse(rest)?;
+    let (rest, reference) = alt((personal, mistagged, known, unknown)).parse(rest)?;
     let words = from..rest.at;
     Ok((rest, Item::Argument(Argument { link: link.map(|(link, _)| link), reference, words })))
 }
 
-fn dangling<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Item<'s, T>> {
+fn dangling<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Item<'s, T>> {
     map(link, |(_, words)| Item::Dangling(words)).parse(input)
 }
 
-fn personal<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Reference<'s, T>> {
+fn personal<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Reference<'s, T>> {
     let (rest, (meaning, _)) = meaning(input.clone())?;
     match meaning {
         Meaning::Me => Ok((rest, Reference::Me)),
@@ -232,7 +242,9 @@ fn personal<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, 
     }
 }
 
-fn known<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Reference<'s, T>> {
+fn known<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Reference<'s, T>> {
     let words = &input.sentence.words[..input.end];
     match input.index.longest_at(input.sentence.text, words, input.at) {
         Some((taken, hits)) => Ok((input.take_from(taken), Reference::Known(hits))),
@@ -240,15 +252,37 @@ fn known<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Ref
     }
 }
 
+/// A name with a tag that no name has: «Комнату-X» is none of the rooms, though «комнату» would be some.
+fn mistagged<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Reference<'s, T>> {
+    let sentence = input.sentence;
+    let (rest, _) = known(input.clone())?;
+    let (rest, tags) = many1(unknown_word).parse(rest)?;
+    let first = rest.at - tags.len();
+    let between = &sentence.text[sentence.words[first - 1].end..sentence.words[first].start];
+    let word = &sentence.text[sentence.words[first].clone()];
+    let tag = word.chars().count() < 4 && word.chars().all(|c| c.is_uppercase() || c.is_numeric());
+    if tag || word.chars().count() == 1 || between.chars().all(is_hyphen) {
+        Ok((input.take_from(first + 1 - input.at), Reference::Unknown))
+    } else {
+        Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Verify)))
+    }
+}
+
 /// Words that are neither in the vocabulary nor the beginning of a name, and the name that they stand before.
-fn unknown<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Reference<'s, T>> {
+fn unknown<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Reference<'s, T>> {
     let (rest, _) = many1(unknown_word).parse(input)?;
     let (rest, _) = opt(known).parse(rest)?;
     Ok((rest, Reference::Unknown))
 }
 
-fn unknown_word<'s, 't, T: PartialEq>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, ()> {
-    if input.input_len() == 0 || longest(input.iter_elements()).is_some() || name_length(&input) > 0
+fn unknown_word<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, ()> {
+    if input.input_len() == 0
+        || longest(&input.iter_elements()).is_some()
+        || name_length(&input) > 0
     {
         return Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Tag)));
     }

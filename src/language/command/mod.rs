@@ -21,6 +21,8 @@ mod assemble;
 mod grammar;
 mod vocabulary;
 
+use std::hash::Hash;
+
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
@@ -190,7 +192,7 @@ pub struct Listener<'i, T> {
 /// Of several things that a word may mean, those that may be meant where the thing is said to be.
 pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>) -> Vec<T>;
 
-impl<'i, T: Clone + PartialEq> Listener<'i, T> {
+impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     /// Characters of the longest command that is read.
     pub const LONGEST: usize = 2_000;
 
@@ -338,7 +340,7 @@ mod tests {
                 Открой Дверь-ВZ
                     Open(Thing { id: "Дверь-ВZ", at: None })
                 Положи книгу на стол
-                    language::unknown_name: На карте нет «стол». Есть «Письменный стол» или «Стул».
+                    Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
                 Положи книгу на письменный стол
                     Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
                 Bring the medicine
@@ -378,7 +380,7 @@ mod tests {
                 мне нужно лекарство
                     Bring { what: Thing { id: "Лекарство", at: None }, to: None }
                 Я хочу, чтобы ты принёс лекарство
-                    language::not_understood: Слово «принёс» непонятно. Может быть, «принеси»?
+                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
                 Дверь-ZY запри
                     Lock(Thing { id: "Дверь-ZY", at: None })
                 закрой дверь-zy на ключ
@@ -414,7 +416,7 @@ mod tests {
             ],
             &expect![[r#"
                 Возьми красную чашку со стола в кухне
-                    language::unknown_name: На карте нет «стола». Есть «Письменный стол» или «Стул».
+                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня") }) } }
                 Возьми книгу с полки и положи её на тумбочку 1
                     Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None }) } }; Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None } }
                 Принеси книгу из шкафа в Комнату-В
@@ -478,13 +480,13 @@ mod tests {
                 Отрой Дверь-ВZ
                     language::not_understood: Слово «Отрой» непонятно. Может быть, «открой»?
                 Принеси чашку
-                    language::ambiguous: «чашку» – это «чашка» или «чашка»? Назовите одно из них полностью.
+                    language::ambiguous: «чашку» – это «Красная чашка» или «Белая чашка»? Назовите одно из них полностью.
                 Bring the cup
-                    language::unknown_name: The map has no "cup". There is "Red cup" or "White cup".
+                    language::ambiguous: By "cup", do you mean "Red cup" or "White cup"?
                 Поезжай в Комнату-X
-                    language::unknown_name: На карте нет «X». Проверьте название.
+                    language::unknown_name: На карте нет «Комнату-X». Есть «Комната-В» или «Комната-Y».
                 Принеси синюю чашку
-                    language::unknown_name: На карте нет «синюю чашку». Есть «чашка» или «Белая чашка».
+                    language::unknown_name: На карте нет «синюю чашку». Есть «Красная чашка» или «Белая чашка».
                 Принеси
                     language::incomplete: Не сказано, что принести. Дополните задание.
                 Дверь-ВZ

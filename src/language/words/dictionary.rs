@@ -152,9 +152,7 @@ mod source {
         forms: &[(Analysis, Number, Case)],
     ) -> Option<Paradigm> {
         let is_rare = |form: &Analysis| {
-            dictionary.ud_tag(form.ud).is_some_and(|tag| {
-                tag.labels().any(|label| label != "loc2" && is_mark_of_rarity(label))
-            })
+            dictionary.ud_tag(form.ud).is_some_and(|tag| tag.labels().any(is_mark_of_rarity))
         };
         let best = |number: Number, case: Case| {
             let suiting = forms.iter().filter(|(_, n, c)| (*n, *c) == (number, case));
@@ -168,7 +166,8 @@ mod source {
                     Animacy::Animate => best(number, Case::Genitive),
                     Animacy::Inanimate => best(number, Case::Nominative),
                 },
-                Case::Locative => best(number, case).or_else(|| best(number, Case::Prepositional)),
+                // Its second locative is often bookish («в щиту»); the usual ones stand in the word list.
+                Case::Locative => best(number, Case::Prepositional),
                 _ => best(number, case),
             }
         };

@@ -9,7 +9,7 @@
 //! ```
 
 use super::adjective::Adjective;
-use super::letters::{cyrillic_twin, runs};
+use super::letters::{Run, cyrillic_twin, runs};
 use super::lexicon;
 
 /// The name inside a sentence, with "the" where English wants it: "the kitchen" for Kitchen, but "Room-B", "Office 12",
@@ -96,6 +96,17 @@ pub fn plural(noun: &str) -> String {
     format!("{before}{plural}")
 }
 
+/// The word that names the kind of a thing: "cup" of "red cup", "Room" of "Room-B", "chest" of "chest of drawers".
+#[must_use]
+pub fn kind(name: &str) -> Option<&str> {
+    let before_of = name.split_once(" of ").map_or(name, |(before, _)| before);
+    let is_tag = |word: &str| word.chars().all(|c| c.is_uppercase() || c.is_numeric());
+    let mut words = runs(before_of).into_iter().filter(|run| run.is_word).map(|run| run.text).rev();
+    words
+        .find(|word| word.chars().count() > 2 && !is_tag(word))
+        .filter(|kind| kind.len() < name.len())
+}
+
 /// "1 door", "5 doors"
 #[must_use]
 pub fn count(number: u64, noun: &str) -> String {
@@ -128,6 +139,8 @@ pub fn name_of(name: &str) -> Option<String> {
         rest = name.char_indices().nth(letters).map_or("", |(at, _)| &name[at..]);
     }
     let runs = runs(rest);
+    let mut wide = english.contains(' ');
+    let mut noun_before = false;
     let mut at = 0;
     while let Some(run) = runs.get(at) {
         if let [digits, hyphen, ending] = &runs[at..runs.len().min(at + 3)]
@@ -140,13 +153,32 @@ pub fn name_of(name: &str) -> Option<String> {
         }
         match run.is_word {
             // "Bedside table 1": a hyphen would bind the number to the last word alone.
-            false if run.is_hyphen() && english.contains(' ') => english.push(' '),
-            false => english.push_str(run.text),
-            true => english.push_str(&word_of(run.text)?),
+            false if run.is_hyphen() && wide && next_is_tag(&runs[at + 1..]) => {
+                english.push(' ');
+            }
+            false => english.push_str(&run.text.replace('№', "No. ")),
+            true => {
+                let word =
+                    word_of(run.text).or_else(|| plural_of(run.text).filter(|_| !noun_before))?;
+                noun_before |= !words_of(run.text).is_empty();
+                wide = word.contains(' ');
+                english.push_str(&word);
+            }
         }
         at += 1;
     }
     Some(english)
+}
+
+fn next_is_tag(runs: &[Run<'_>]) -> bool {
+    runs.first().is_some_and(|run| is_tag(run.text))
+}
+
+/// A letter or two, or a number: what tells rooms of one kind apart.
+fn is_tag(word: &str) -> bool {
+    word.chars().count() <= 3
+        && (word.chars().all(|c| c.is_uppercase() || c.is_numeric())
+            || word.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// «2-й» is "2nd".
@@ -182,9 +214,13 @@ fn word_of(word: &str) -> Option<String> {
     if let Some((_, english)) = adjective {
         return Some(cased_like(word, english));
     }
-    let is_tag =
-        word.chars().count() <= 3 && word.chars().all(|c| c.is_uppercase() || c.is_ascii_digit());
-    is_tag.then(|| word.chars().map(latin_of).collect())
+    is_tag(word).then(|| latin(word))
+}
+
+/// «стулья» is "chairs"; after a noun the same letters may be its genitive («кабинет директора»).
+fn plural_of(word: &str) -> Option<String> {
+    let singular = lexicon::singular_of(&word.to_lowercase())?;
+    words_of(singular).first().map(|english| cased_like(word, &plural(english)))
 }
 
 /// Names that are one thing in English.
@@ -255,36 +291,47 @@ fn cased_like(written: &str, english: &str) -> String {
     }
 }
 
-/// The Latin letter that looks like this one, else its usual transcription.
-fn latin_of(c: char) -> String {
-    const LATIN: [(char, &str); 19] = [
-        ('Б', "Be"),
+/// A tag in Latin letters: each by its look, and where none looks like it by its usual transcription; a letter that
+/// stands alone by its name where a look-alike has taken the transcription.
+fn latin(tag: &str) -> String {
+    const ALONE: [(&str, &str); 3] = [("Б", "Be"), ("З", "Ze"), ("П", "Pe")];
+    const LATIN: [(char, &str); 20] = [
+        ('Б', "B"),
         ('Г', "G"),
         ('Д', "D"),
         ('Ё', "E"),
         ('Ж', "Zh"),
-        ('З', "Ze"),
+        ('З', "Z"),
         ('И', "I"),
         ('Й', "J"),
         ('Л', "L"),
-        ('П', "Pe"),
+        ('П', "P"),
         ('Ф', "F"),
         ('Ц', "Ts"),
         ('Ч', "Ch"),
         ('Ш', "Sh"),
         ('Щ', "Shch"),
-        ('Ы', "Yi"),
-        ('Э', "Eh"),
+        ('Ы', "Y"),
+        ('Э', "E"),
         ('Ю', "Yu"),
         ('Я', "Ya"),
+        ('Ь', ""),
     ];
-    if let Some(twin) = ('A'..='Z').find(|latin| cyrillic_twin(*latin) == Some(c)) {
-        return twin.into();
+    if let Some((_, name)) = ALONE.iter().find(|(letter, _)| *letter == tag) {
+        return (*name).into();
     }
-    LATIN
-        .iter()
-        .find(|(letter, _)| *letter == c)
-        .map_or_else(|| c.to_string(), |(_, latin)| (*latin).into())
+    let one = |c: char| -> String {
+        let capital = c.to_uppercase().next().unwrap_or(c);
+        let twin =
+            ('A'..='Z').find(|latin| cyrillic_twin(*latin) == Some(capital)).map(String::from);
+        let listed = LATIN
+            .iter()
+            .find(|(letter, _)| *letter == capital)
+            .map(|(_, latin)| (*latin).to_owned());
+        let latin = twin.or(listed).unwrap_or_else(|| c.to_string());
+        if c.is_lowercase() { latin.to_lowercase() } else { latin }
+    };
+    tag.chars().map(one).collect()
 }
 
 fn is_cyrillic(c: char) -> bool {
@@ -387,6 +434,19 @@ mod tests {
     }
 
     #[test]
+    fn a_name_has_a_kind() {
+        for (name, expected) in [
+            ("red cup", Some("cup")),
+            ("Room-B", Some("Room")),
+            ("chest of drawers", Some("chest")),
+            ("cup", None),
+            ("", None),
+        ] {
+            assert_eq!(kind(name), expected, "{name}");
+        }
+    }
+
+    #[test]
     fn russian_names_have_english_ones() {
         for (russian, english) in [
             ("Дверь-ВZ", Some("Door-BZ")),
@@ -396,6 +456,11 @@ mod tests {
             ("Стул 2", Some("Chair 2")),
             ("Тумбочка-1", Some("Bedside table 1")),
             ("2-й этаж", Some("2nd floor")),
+            ("Дверь-1а", Some("Door-1a")),
+            ("Кабинет №12-А", Some("Study No. 12-A")),
+            ("Офисные стулья", Some("Office chairs")),
+            ("ИБП", Some("IBP")),
+            ("Корпус Б", Some("Building Be")),
             ("Кабинет директора", None),
             ("Room-Z", Some("Room-Z")),
             ("Шкаф-бар", Some("Bar cabinet")),

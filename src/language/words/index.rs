@@ -19,12 +19,15 @@
 //! ```
 
 use std::collections::HashMap;
+use std::hash::Hash;
+use std::ops::Range;
 
 use unicode_normalization::UnicodeNormalization;
 
 use super::english;
 use super::grammar::{Case, Number};
 use super::letters::cyrillic_twin;
+use super::list::Language;
 use super::phrase::NounPhrase;
 
 /// Which cases and numbers a form may be.
@@ -71,22 +74,28 @@ pub enum Spelling {
     Spaced,
     /// Letters of the other alphabet that look alike.
     LookAlike,
+    /// A part of the name only: «стол» for «Письменный стол».
+    Part,
 }
 
 /// A name that a form was found to belong to.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Hit<'i, T> {
     pub id: &'i T,
-    /// The name as the map writes it.
+    /// The name that it is a form of.
     pub name: &'i str,
+    /// The first name of this id: how the map calls it.
+    pub title: &'i str,
     pub readings: Readings,
     pub spelling: Spelling,
 }
 
-/// The index of forms over ids of the caller's. See the [module](self).
+/// The index of forms over ids of the caller's: any form, however it was typed, gives its names back.
 #[derive(Debug, Clone)]
 pub struct FormIndex<T> {
     names: Vec<(Box<str>, T)>,
+    /// The first name of each id.
+    titles: HashMap<T, u32>,
     forms: HashMap<Box<str>, Vec<Posting>>,
     longest_key: usize,
 }
@@ -97,66 +106,84 @@ struct Posting {
     readings: Readings,
     exact: u32,
     spaced: u32,
+    /// A form of a part of the name only.
+    part: bool,
 }
 
 impl<T> Default for FormIndex<T> {
     fn default() -> Self {
-        Self { names: Vec::new(), forms: HashMap::new(), longest_key: 0 }
+        Self { names: Vec::new(), titles: HashMap::new(), forms: HashMap::new(), longest_key: 0 }
     }
 }
 
-impl<T: PartialEq> FormIndex<T> {
-    /// Adds all forms of a Russian name. An id may have several names.
+impl<T: Clone + Eq + Hash> FormIndex<T> {
+    /// Adds all forms of a Russian name, and of its parts that people call it by: «стол» for «Письменный стол».
+    /// An id may have several names; the first is its title.
     pub fn insert(&mut self, phrase: &NounPhrase, id: T) {
         let name = self.add_name(phrase.name(), id);
+        self.add_forms(phrase, name, false);
+        for short in phrase.shorter() {
+            self.add_forms(&short, name, true);
+        }
+    }
+
+    fn add_forms(&mut self, phrase: &NounPhrase, name: u32, part: bool) {
         let mut forms: Vec<(String, Readings)> = Vec::new();
-        for (number, case, form) in phrase.all_forms() {
+        let own = (phrase.number(), Case::Nominative, phrase.name().to_owned());
+        for (number, case, form) in phrase.all_forms().into_iter().chain([own]) {
             let reading = Readings::one(number, case);
             match forms.iter_mut().find(|(other, _)| *other == form) {
                 Some((_, readings)) => readings.add(reading),
                 None => forms.push((form, reading)),
             }
         }
-        forms.push((phrase.name().into(), Readings::one(phrase.number(), Case::Nominative)));
         for (form, readings) in forms {
-            self.add_form(&form, name, readings);
+            self.add_form(&form, name, readings, part);
         }
     }
 
-    /// Adds an English name: as it is, its plural, its possessive.
+    /// Adds an English name: as it is, its plural, its possessive, and the word that names its kind.
     pub fn insert_english(&mut self, english_name: &str, id: T) {
         let name = self.add_name(english_name, id);
+        self.add_english(english_name, name, false);
+        if let Some(short) = english::kind(english_name) {
+            self.add_english(short, name, true);
+        }
+    }
+
+    fn add_english(&mut self, english_name: &str, name: u32, part: bool) {
         let of = |number: Number| {
             Case::ALL.iter().fold(Readings::default(), |mut all, case| {
                 all.add(Readings::one(number, *case));
                 all
             })
         };
-        self.add_form(english_name, name, of(Number::Singular));
-        self.add_form(&english::plural(english_name), name, of(Number::Plural));
-        self.add_form(
-            &english::possessive(english_name),
-            name,
-            Readings::one(Number::Singular, Case::Genitive),
-        );
+        self.add_form(english_name, name, of(Number::Singular), part);
+        self.add_form(&english::plural(english_name), name, of(Number::Plural), part);
+        let genitive = Readings::one(Number::Singular, Case::Genitive);
+        self.add_form(&english::possessive(english_name), name, genitive, part);
     }
 
     fn add_name(&mut self, name: &str, id: T) -> u32 {
+        let number = u32::try_from(self.names.len())
+            .expect("a map has fewer than four thousand million names");
+        self.titles.entry(id.clone()).or_insert(number);
         self.names.push((name.into(), id));
-        u32::try_from(self.names.len() - 1)
-            .expect("a map has fewer than four thousand million names")
+        number
     }
 
-    fn add_form(&mut self, form: &str, name: u32, readings: Readings) {
+    fn add_form(&mut self, form: &str, name: u32, readings: Readings, part: bool) {
         let Spelled { key, exact, spaced } = Spelled::of(form);
         if key.is_empty() {
             return;
         }
-        self.longest_key = self.longest_key.max(key.chars().count());
+        self.longest_key = self.longest_key.max(key.len());
         let postings = self.forms.entry(key.into()).or_default();
-        match postings.iter_mut().find(|p| p.name == name && p.exact == exact) {
+        // The forms of one name come one after the other, so that its postings are the last ones.
+        let mut own = postings.iter_mut().rev().take_while(|posting| posting.name == name);
+        match own.find(|posting| posting.exact == exact && posting.part == part) {
             Some(posting) => posting.readings.add(readings),
-            None => postings.push(Posting { name, readings, exact, spaced }),
+            None => postings.push(Posting { name, readings, exact, spaced, part }),
         }
     }
 
@@ -166,50 +193,64 @@ impl<T: PartialEq> FormIndex<T> {
         let Spelled { key, exact, spaced } = Spelled::of(text);
         let Some(postings) = self.forms.get(key.as_str()) else { return Vec::new() };
         let spelling = |posting: &Posting| match () {
+            () if posting.part => Spelling::Part,
             () if posting.exact == exact => Spelling::Exact,
             () if posting.spaced == spaced => Spelling::Spaced,
             () => Spelling::LookAlike,
         };
-        let best = postings.iter().map(spelling).min();
+        let Some(best) = postings.iter().map(spelling).min() else { return Vec::new() };
         let mut hits: Vec<Hit<'_, T>> = Vec::new();
-        for posting in postings.iter().filter(|posting| Some(spelling(posting)) == best) {
+        let mut place: HashMap<&T, usize> = HashMap::new();
+        for posting in postings.iter().filter(|posting| spelling(posting) == best) {
             let (name, id) = &self.names[posting.name as usize];
-            match hits.iter_mut().find(|hit| hit.id == id) {
+            let at = *place.entry(id).or_insert(hits.len());
+            match hits.get_mut(at) {
                 Some(hit) => hit.readings.add(posting.readings),
-                None => hits.push(Hit {
-                    id,
-                    name,
-                    readings: posting.readings,
-                    spelling: spelling(posting),
-                }),
+                None => {
+                    let title = &self.names[self.titles[id] as usize].0;
+                    hits.push(Hit { id, name, title, readings: posting.readings, spelling: best });
+                }
             }
         }
         hits
     }
 
-    /// The longest run of words from `from` on that is a form of some name, with the number of words it takes.
+    /// How many words from `from` on the longest form of some name takes; 0 when none begins there.
     ///
-    /// `text` is the whole sentence and `words` the byte ranges of its words, in order.
+    /// `words` are the byte ranges of the words of `text`, as [`word_ranges`](super::word_ranges) gives them.
+    #[must_use]
+    pub fn length_at(&self, text: &str, words: &[Range<usize>], from: usize) -> usize {
+        let mut key = String::new();
+        let mut best = 0;
+        for (taken, word) in words[from.min(words.len())..].iter().enumerate() {
+            if !key.is_empty() {
+                key.push(' ');
+            }
+            key.push_str(&Spelled::of(&text[word.clone()]).key);
+            if key.len() > self.longest_key {
+                break;
+            }
+            if self.forms.contains_key(key.as_str()) {
+                best = taken + 1;
+            }
+        }
+        best
+    }
+
+    /// The longest form of some name that begins at a word, with the number of words it takes.
     #[must_use]
     pub fn longest_at(
         &self,
         text: &str,
-        words: &[std::ops::Range<usize>],
+        words: &[Range<usize>],
         from: usize,
     ) -> Option<(usize, Vec<Hit<'_, T>>)> {
-        let start = words.get(from)?.start;
-        let mut key = String::new();
-        let mut best = None;
-        for (taken, word) in words[from..].iter().enumerate() {
-            key.push_str(&Spelled::of(&text[word.clone()]).key);
-            if key.chars().count() > self.longest_key {
-                break;
-            }
-            if self.forms.contains_key(key.as_str()) {
-                best = Some((taken + 1, word.end));
+        match self.length_at(text, words, from) {
+            0 => None,
+            taken => {
+                Some((taken, self.find(&text[words[from].start..words[from + taken - 1].end])))
             }
         }
-        best.map(|(taken, end)| (taken, self.find(&text[start..end])))
     }
 
     /// Names like `text`, the nearest first: a slip of the pen in any form, or a name that holds all its words.
@@ -227,14 +268,20 @@ impl<T: PartialEq> FormIndex<T> {
                 self.keep(&mut best, limit, likeness, posting.name);
             }
         }
-        best.into_iter().map(|(_, name)| self.names[name as usize].0.as_ref()).collect()
+        best.into_iter().map(|(_, name)| self.shown(name)).collect()
     }
 
-    /// Keeps the best names, each once, in order; equal ones by the order of insertion.
+    /// The title of a name's id, in the language of that name.
+    fn shown(&self, name: u32) -> &str {
+        let (own, id) = &self.names[name as usize];
+        let title = &self.names[self.titles[id] as usize].0;
+        if Language::of(own) == Language::of(title) { title } else { own }
+    }
+
+    /// Keeps the best names, each id once, in order; equal ones by the order of insertion.
     fn keep(&self, best: &mut Vec<(f64, u32)>, limit: usize, likeness: f64, name: u32) {
-        let same =
-            |other: &(f64, u32)| self.names[other.1 as usize].0 == self.names[name as usize].0;
-        match best.iter().position(same) {
+        let id = &self.names[name as usize].1;
+        match best.iter().position(|(_, other)| self.names[*other as usize].1 == *id) {
             Some(at) if best[at].0 >= likeness => return,
             Some(at) => drop(best.remove(at)),
             None => {}
@@ -253,11 +300,14 @@ impl<T: PartialEq> FormIndex<T> {
 
 /// A text under its three equalities, found in one pass.
 struct Spelled {
-    /// What all spellings share: letters and digits only, small, ё as е, Latin twins as Cyrillic.
+    /// What all spellings share: words of small letters with a blank between them, ё as е, Latin twins as Cyrillic.
+    ///
+    /// A digit beside a letter begins a word, and so does a tag of capitals at the end: «К305», «КомнатаВ». Other
+    /// joints matter: without them «комнату» would be «Комнат-У».
     key: String,
     /// Mark of the spelling up to case and ё, as [`crate::units::name_key`] has it.
     exact: u32,
-    /// Mark of the spelling without hyphens and blanks.
+    /// Mark of the same words in the alphabet they are typed in.
     spaced: u32,
 }
 
@@ -265,41 +315,66 @@ impl Spelled {
     fn of(text: &str) -> Self {
         // A text without combining marks and compatibility letters is in NFC already.
         if text.chars().all(|c| (c as u32) < 0x300 || ('\u{400}'..='\u{4ff}').contains(&c)) {
-            Self::of_letters(text.chars(), text.len())
+            Self::of_nfc(text)
         } else {
-            Self::of_letters(text.nfc(), text.len())
+            Self::of_nfc(&text.nfc().collect::<String>())
         }
     }
 
-    fn of_letters(text: impl Iterator<Item = char>, length: usize) -> Self {
-        let mut key = String::with_capacity(length);
+    fn of_nfc(text: &str) -> Self {
+        let mut key = String::with_capacity(text.len());
         let (mut exact, mut spaced) = (Mark::new(), Mark::new());
-        let mut blank = false;
-        for c in text.flat_map(char::to_lowercase) {
-            let c = if c == 'ё' { 'е' } else { c };
+        let (mut blank, mut joint) = (false, false);
+        let mut before = ' ';
+        for (at, c) in text.char_indices() {
             if c.is_whitespace() {
-                blank = !key.is_empty();
+                (blank, joint) = (!key.is_empty(), true);
                 continue;
             }
             if std::mem::take(&mut blank) {
                 exact.add(' ');
             }
-            exact.add(c);
-            if c.is_alphanumeric() {
-                spaced.add(c);
-                key.push(if c.is_ascii() {
-                    cyrillic_twin(c.to_ascii_uppercase()).map_or(c, small)
-                } else {
-                    c
-                });
+            joint |= !c.is_alphanumeric() || is_joint(before, &text[at..]);
+            before = c;
+            for small in c.to_lowercase().map(without_yo) {
+                exact.add(small);
+                if !c.is_alphanumeric() {
+                    continue;
+                }
+                if std::mem::take(&mut joint) && !key.is_empty() {
+                    key.push(' ');
+                    spaced.add(' ');
+                }
+                spaced.add(small);
+                let twin = cyrillic_twin(small.to_ascii_uppercase()).filter(|_| small.is_ascii());
+                key.extend(
+                    twin.map_or(small, |twin| twin.to_lowercase().next().unwrap_or(twin))
+                        .to_lowercase(),
+                );
             }
         }
         Self { key, exact: exact.0, spaced: spaced.0 }
     }
 }
 
-fn small(c: char) -> char {
-    c.to_lowercase().next().unwrap_or(c)
+fn without_yo(c: char) -> char {
+    if c == 'ё' { 'е' } else { c }
+}
+
+/// Whether a word ends between two letters that nothing separates.
+fn is_joint(before: char, rest: &str) -> bool {
+    let Some(next) = rest.chars().next() else { return false };
+    if before.is_numeric() != next.is_numeric()
+        && before.is_alphanumeric()
+        && next.is_alphanumeric()
+    {
+        return true;
+    }
+    // «КомнатаВ»: three capitals at most, and nothing small after them.
+    before.is_lowercase() && next.is_uppercase() && {
+        let tag = rest.chars().take_while(|c| c.is_alphanumeric()).take(4);
+        tag.clone().count() < 4 && tag.clone().all(|c| !c.is_lowercase())
+    }
 }
 
 /// FNV-1a over characters: a mark by which two spellings of one key are told apart.
@@ -418,21 +493,27 @@ mod tests {
     fn the_longest_name_is_taken_from_a_sentence() {
         let things = index(&["Стол", "Стол у окна", "окно"]);
         let text = "на стол у окна справа";
-        let words: Vec<_> = super::super::letters::runs(text)
-            .iter()
-            .filter(|run| run.is_word)
-            .map(|run| run.at..run.at + run.text.len())
-            .collect();
+        let words = super::super::word_ranges(text);
         let (taken, hits) = things.longest_at(text, &words, 1).unwrap();
         assert_eq!((taken, *hits[0].id), (3, "Стол у окна"));
         assert!(things.longest_at(text, &words, 0).is_none());
     }
 
     #[test]
+    fn a_part_names_the_thing_when_nothing_is_called_so() {
+        let things = index(&["Письменный стол директора", "Окно", "Комната-В", "Комната-У"]);
+        check(&things, "столом", &["Письменный стол директора"]);
+        check(&things, "письменному столу", &["Письменный стол директора"]);
+        check(&things, "комнату", &["Комната-В", "Комната-У"]);
+        let more = index(&["Письменный стол", "Стол"]);
+        check(&more, "стола", &["Стол"]);
+    }
+
+    #[test]
     fn near_names_are_offered() {
         let rooms = index(&["Комната-В", "Комната-Z", "Письменный стол"]);
         assert_eq!(rooms.near("Конмату-Z", 1), ["Комната-Z"]);
-        assert_eq!(rooms.near("стол", 3), ["Письменный стол"]);
+        assert_eq!(rooms.near("столл", 3), ["Письменный стол"]);
         assert!(rooms.near("подводная лодка", 3).is_empty());
         assert!(rooms.near(&"я".repeat(100_000), 3).is_empty());
     }

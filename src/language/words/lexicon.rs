@@ -5,7 +5,8 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use super::grammar::{Gender, PlaceSense};
+use super::grammar::{Case, Gender, Number, PlaceSense};
+use super::noun::{Known, Noun};
 
 /// One line of the list. What it leaves open follows from the ending.
 #[derive(Debug, Clone, Default)]
@@ -43,6 +44,21 @@ pub(crate) fn find(word: &str) -> Option<&'static Entry> {
     if word.contains('ё') { words.get(&without_yo(word)) } else { words.get(word) }
 }
 
+/// The word of the list whose nominative plural this is: «стул» for «стулья».
+pub(crate) fn singular_of(plural: &str) -> Option<&'static str> {
+    static PLURALS: OnceLock<HashMap<String, &'static str>> = OnceLock::new();
+    let plural_of = |word| {
+        let noun = Noun::by_rules(word, Known::default());
+        without_yo(noun.paradigm.form(Number::Plural, Case::Nominative))
+    };
+    let declines = |(_, entry): &(&str, Entry)| !entry.plural_only && !entry.indeclinable;
+    let plurals = PLURALS.get_or_init(|| {
+        let words = TEXT.lines().filter_map(read_line).filter(declines);
+        words.map(|(word, _)| (plural_of(word), word)).collect()
+    });
+    plurals.get(&without_yo(plural)).copied()
+}
+
 fn without_yo(word: &str) -> String {
     word.replace('ё', "е")
 }
@@ -78,7 +94,7 @@ fn read_line(line: &'static str) -> Option<(&'static str, Entry)> {
 }
 
 /// All words of the list, for the tests that hold it against the rules and the dictionary.
-#[cfg(test)]
+#[cfg(all(test, feature = "rumorph"))]
 pub(crate) fn all() -> impl Iterator<Item = (&'static str, Entry)> {
     TEXT.lines().filter_map(read_line)
 }

@@ -24,11 +24,13 @@ mod letters;
 mod lexicon;
 mod list;
 mod noun;
+mod parse;
 mod phrase;
 pub mod russian;
 
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
+pub(crate) use letters::is_hyphen;
 pub use letters::word_ranges;
 pub use list::{Language, alternatives, enumerate};
 pub use phrase::NounPhrase;

@@ -53,6 +53,14 @@ pub(crate) struct Known {
 }
 
 impl Noun {
+    /// Whether it has one form only: «кафе».
+    pub(crate) fn is_unchanging(&self) -> bool {
+        let nominative = self.paradigm.form(Number::Singular, Case::Nominative);
+        Number::BOTH
+            .iter()
+            .all(|n| Case::SIX.iter().all(|case| self.paradigm.form(*n, *case) == nominative))
+    }
+
     /// Whether it declines as an adjective: «гостиная».
     pub(crate) fn is_adjectival(&self) -> bool {
         let genitive = self.paradigm.form(Number::Plural, Case::Genitive);

@@ -4,13 +4,14 @@
 //! written reads as the same [`World`], ids included.
 
 mod decode;
+mod misprint;
 mod node;
 mod read;
 mod schema;
 mod text;
 mod write;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use miette::SourceSpan;
@@ -18,7 +19,7 @@ use miette::SourceSpan;
 use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
-use super::fault::{Fault, MapError, MapErrors, Spot, Step};
+use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::Source;
 
 pub use schema::json_schema;
@@ -80,18 +81,33 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }
-    let Draft { world, mut faults, origins, left_out } = read::build(&root);
-    faults.extend(super::check(&world));
-    for fault in &mut faults {
-        let places = fault.spots.iter().filter_map(|spot| {
-            let origin = origins.get(&spot.record)?;
-            Some(SourceSpan::from(place(origin, spot, &left_out)))
-        });
-        let places: Vec<_> = places.collect();
-        fault.spans.extend(places);
+    let Draft { world, mut faults, origins, broken, left_out } = read::build(&root);
+    for mut fault in super::check::check_except(&world, &broken) {
+        fault.locate(&origins, &left_out);
+        faults.push(fault);
     }
     let faults = report(source, faults);
     Reading { world: (!faults.has_errors()).then_some(world), faults }
+}
+
+impl Step {
+    fn name(&self) -> Option<&str> {
+        match self {
+            Self::Field(name) => Some(name),
+            Self::Key(key) => Some(key),
+            Self::Index(_) => None,
+        }
+    }
+}
+
+impl Fault {
+    /// Finds the places in the text of the places in the model.
+    fn locate(&mut self, origins: &BTreeMap<Record, Origin<'_>>, left_out: &HashSet<Span>) {
+        let place = |spot: &Spot| {
+            origins.get(&spot.record).map(|o| SourceSpan::from(place(o, spot, left_out)))
+        };
+        self.spans = self.spots.iter().filter_map(place).collect();
+    }
 }
 
 /// Reads a map file with all its faults, warnings included; its notation follows from its name.
@@ -127,13 +143,14 @@ fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
                 .iter()
                 .find_map(|way| node.entry(way).map(|entry| &entry.node)),
             Step::Field(name) => node.entry(name).map(|entry| &entry.node),
+            Step::Key(key) => node.entry(key).map(|entry| &entry.node),
             Step::Index(index) => {
                 node.elements().iter().filter(|e| !left_out.contains(&e.span)).nth(*index)
             }
         };
         let Some(inner) = inner else { break };
         if let (Value::Table(_), None) = (&inner.value, steps.peek())
-            && let Step::Field(name) = step
+            && let Some(name) = step.name()
             && let Some(entry) = node.entry(name)
         {
             // The name of a table says where it is; its extent may be pages.
