@@ -33,7 +33,8 @@ impl Case {
         relations: &[(&str, Vec<Vec<i64>>)],
         by_hand: impl Fn() -> usize + 'static,
     ) -> Self {
-        let program = Program::parse(&Source::new(name, text)).expect("the benchmark's program is sound");
+        let program =
+            Program::parse(&Source::new(name, text)).expect("the benchmark's program is sound");
         let mut database = program.database();
         for (relation, tuples) in relations {
             for tuple in tuples {
@@ -46,7 +47,8 @@ impl Case {
 
     /// Derived tuples, input left out.
     fn run(&self) -> usize {
-        let derived = self.program.evaluate(&self.database).expect("the benchmark's program is finite");
+        let derived =
+            self.program.evaluate(&self.database).expect("the benchmark's program is finite");
         let sizes = self.program.relations().map(|(id, info)| {
             let is_counted = info.input.is_none() && info.name != "target";
             if is_counted { derived.len(id).expect("the relation is declared") } else { 0 }
@@ -71,16 +73,22 @@ fn spatial(name: &'static str, (boxes, doors): (Vec<Box8>, Vec<Edge>)) -> Case {
 
 fn cases() -> Vec<Case> {
     let tree = inputs::tree(11);
-    let (r, s, t) =
-        (inputs::random(20_000, 100_000, 5), inputs::random(20_000, 100_000, 6), inputs::random(20_000, 100_000, 7));
+    let (r, s, t) = (
+        inputs::random(20_000, 100_000, 5),
+        inputs::random(20_000, 100_000, 6),
+        inputs::random(20_000, 100_000, 7),
+    );
     let counted = inputs::random(100_000, 200_000, 8);
     vec![
         closure("chain 4000", inputs::chain(4000)),
         closure("grid 70", inputs::grid(70)),
         closure("random 4000", inputs::random(4000, 8000, 1)),
-        Case::new("same generation 11", programs::SAME_GENERATION, &[("parent", edges(&tree))], move || {
-            by_hand::same_generation(&tree)
-        }),
+        Case::new(
+            "same generation 11",
+            programs::SAME_GENERATION,
+            &[("parent", edges(&tree))],
+            move || by_hand::same_generation(&tree),
+        ),
         Case::new(
             "three-way join",
             programs::THREE_WAY,
@@ -96,7 +104,9 @@ fn cases() -> Vec<Case> {
 }
 
 fn quick_table(only: Option<&str>) {
-    let mut table = "| program | tuples | by hand, ms | rules, ms | ratio |\n|---|---|---|---|---|\n".to_owned();
+    let mut table =
+        "| program | tuples | by hand, ms | rules, ms | ratio |\n|---|---|---|---|---|\n"
+            .to_owned();
     for case in cases().iter().filter(|case| only.is_none_or(|only| case.name.contains(only))) {
         let (tuples, expected) = (case.run(), (case.by_hand)());
         assert_eq!(tuples, expected, "{}: both find the same", case.name);
@@ -107,7 +117,11 @@ fn quick_table(only: Option<&str>) {
             by_hand = by_hand.min(timed(|| (case.by_hand)()));
         }
         let (rules, by_hand) = (rules.as_secs_f64() * 1e3, by_hand.as_secs_f64() * 1e3);
-        table += &format!("| {} | {tuples} | {by_hand:.1} | {rules:.1} | {:.2} |\n", case.name, rules / by_hand);
+        table += &format!(
+            "| {} | {tuples} | {by_hand:.1} | {rules:.1} | {:.2} |\n",
+            case.name,
+            rules / by_hand
+        );
     }
     eprintln!("{table}");
 }

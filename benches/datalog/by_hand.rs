@@ -37,7 +37,11 @@ pub fn same_generation(parents: &[Edge]) -> usize {
     let half = iteration.variable::<Edge>("half");
     // same(x, y) :- parent(p, x), parent(p, y), x != y.
     same.insert(Relation::from_vec(
-        Relation::from_join(&child, &child, |_p, &x, &y| (x, y)).iter().filter(|(x, y)| x != y).copied().collect(),
+        Relation::from_join(&child, &child, |_p, &x, &y| (x, y))
+            .iter()
+            .filter(|(x, y)| x != y)
+            .copied()
+            .collect(),
     ));
     while iteration.changed() {
         // same(x, y) :- parent(a, x), same(a, b), parent(b, y).   half: (b, x).
@@ -98,12 +102,24 @@ pub fn spatial(boxes: &[Box8], doors: &[Edge]) -> usize {
         }
         found.into()
     };
-    let on = pairs(&|a, b| a[5] == b[5] + b[6] && a[1] < b[3] && b[1] < a[3] && a[2] < b[4] && b[2] < a[4]);
+    let on = pairs(&|a, b| {
+        a[5] == b[5] + b[6] && a[1] < b[3] && b[1] < a[3] && a[2] < b[4] && b[2] < a[4]
+    });
     let inside = pairs(&|a, b| {
-        b[1] <= a[1] && a[3] <= b[3] && b[2] <= a[2] && a[4] <= b[4] && b[5] <= a[5] && a[5] + a[6] <= b[5] + b[6]
+        b[1] <= a[1]
+            && a[3] <= b[3]
+            && b[2] <= a[2]
+            && a[4] <= b[4]
+            && b[5] <= a[5]
+            && a[5] + a[6] <= b[5] + b[6]
     });
     let touching = pairs(&|a, b| {
-        a[1] <= b[3] && b[1] <= a[3] && a[2] <= b[4] && b[2] <= a[4] && a[5] <= b[5] + b[6] && b[5] <= a[5] + a[6]
+        a[1] <= b[3]
+            && b[1] <= a[3]
+            && a[2] <= b[4]
+            && b[2] <= a[4]
+            && a[5] <= b[5] + b[6]
+            && b[5] <= a[5] + a[6]
     });
     let near = pairs(&|a, b| {
         a[1] <= b[3] + 50

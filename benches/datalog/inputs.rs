@@ -78,7 +78,16 @@ pub fn boxes(count: usize, per_room: usize, seed: u64) -> (Vec<Box8>, Vec<Edge>)
         let mut add = |mine: &mut Vec<[i64; 6]>, b: [i64; 6]| {
             let [x1, y1, x2, y2, z, h] = b;
             let id = boxes.len() as i64;
-            boxes.push([id, room, corner.0 + x1, corner.1 + y1, corner.0 + x2, corner.1 + y2, corner.2 + z, h]);
+            boxes.push([
+                id,
+                room,
+                corner.0 + x1,
+                corner.1 + y1,
+                corner.0 + x2,
+                corner.1 + y2,
+                corner.2 + z,
+                h,
+            ]);
             mine.push(b);
         };
         let furniture = per_room * 2 / 5;
@@ -90,14 +99,16 @@ pub fn boxes(count: usize, per_room: usize, seed: u64) -> (Vec<Box8>, Vec<Edge>)
         for _ in 0..furniture {
             let under = loop {
                 let under = mine[dice.between(0, mine.len() as i64 - 1) as usize];
-                if under[2] - under[0] >= 6 && under[3] - under[1] >= 6 && under[4] + under[5] < 260 {
+                if under[2] - under[0] >= 6 && under[3] - under[1] >= 6 && under[4] + under[5] < 260
+                {
                     break under;
                 }
             };
             let w = dice.between(5, 30.min(under[2] - under[0]));
             let d = dice.between(5, 30.min(under[3] - under[1]));
             let h = dice.between(5, 30);
-            let (x, y) = (dice.between(under[0], under[2] - w), dice.between(under[1], under[3] - d));
+            let (x, y) =
+                (dice.between(under[0], under[2] - w), dice.between(under[1], under[3] - d));
             add(&mut mine, [x, y, x + w, y + d, under[4] + under[5], h]);
         }
         for _ in 0..per_room / 5 {
