@@ -142,3 +142,14 @@ fn a_full_disk_stops_the_writer_and_costs_nothing() {
     assert!(store.revision() >= known);
     check(&store);
 }
+
+/// Run by the scripts after a fault: opens the store of `STORE_CHECK`, which must be at `STORE_KNOWN` at least.
+#[test]
+fn checker() {
+    let Some(dir) = std::env::var_os("STORE_CHECK") else { return };
+    let known: u64 = std::env::var("STORE_KNOWN").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
+    let (store, report) = Store::open(&dir).expect("the store opens");
+    println!("at {} of {known} known: {report:?}", store.revision());
+    assert!(store.revision() >= known, "{known} was acknowledged");
+    check(&store);
+}
