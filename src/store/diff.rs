@@ -160,7 +160,7 @@ impl Store {
             *is = is.take().or(after);
         }
         let differences = pairs.into_iter().filter(|(_, [was, is])| was != is);
-        Ok(differences.map(|((table, _), rows)| difference(table, rows, &names)).collect())
+        Ok(differences.map(|((table, _), rows)| difference(table, &rows, &names)).collect())
     }
 }
 
@@ -173,8 +173,8 @@ fn same_thing(table: Table, key: &Key, rows: &[Option<Row>; 2]) -> Key {
     }
 }
 
-fn difference(table: Table, rows: [Option<Row>; 2], names: &Names) -> Difference {
-    let [was, is] = &rows;
+fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names) -> Difference {
+    let [was, is] = rows;
     let fate = match (was, is) {
         (None, _) => Fate::Created,
         (_, None) => Fate::Deleted,

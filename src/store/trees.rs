@@ -238,10 +238,13 @@ impl Trees for SledTrees {
     }
 }
 
+/// Values by tree and key.
+type Records = BTreeMap<(u8, Vec<u8>), Vec<u8>>;
+
 /// Trees in memory.
 #[derive(Default)]
 pub(crate) struct MemoryTrees {
-    inner: RwLock<(BTreeMap<(u8, Vec<u8>), Vec<u8>>, State)>,
+    inner: RwLock<(Records, State)>,
 }
 
 impl Trees for MemoryTrees {
