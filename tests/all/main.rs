@@ -1,5 +1,5 @@
 //! Capabilities of the whole crate, one module each.
 
-mod relations;
 mod facts;
 mod facts_naive;
+mod relations;
