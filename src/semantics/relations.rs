@@ -145,6 +145,12 @@ impl RelationRules {
         Ok(rules)
     }
 
+    /// How far measuring must look for these rules.
+    #[must_use]
+    pub fn reach(&self) -> Reach {
+        self.reach
+    }
+
     #[must_use]
     pub fn program(&self) -> &Program {
         &self.program
