@@ -52,8 +52,8 @@ pub enum MapError {
     #[diagnostic(code(map::missing_field), help("добавьте поле «{field}»"))]
     MissingField { field: &'static str },
     /// A text where a number belongs, and the like.
-    #[error("{found} вместо ожидаемого: {expected}")]
-    #[diagnostic(code(map::wrong_kind), help("замените значение: здесь нужно {expected}"))]
+    #[error("{found}, а нужно: {expected}")]
+    #[diagnostic(code(map::wrong_kind), help("замените значение; нужно: {expected}"))]
     WrongKind { found: String, expected: String },
     /// None of the words that may stand here.
     #[error("неизвестное слово «{word}»{}", perhaps(.nearest))]
@@ -64,8 +64,8 @@ pub enum MapError {
     #[diagnostic(code(map::bad_value), help("исправьте значение"))]
     BadValue { message: String },
     /// A number out of its range.
-    #[error("{what}: {value} вне пределов {range}")]
-    #[diagnostic(code(map::out_of_range), help("задайте {what} в пределах {range}"))]
+    #[error("{what} = {value}, а нужно {range}")]
+    #[diagnostic(code(map::out_of_range), help("задайте {what} {range}"))]
     OutOfRange { what: &'static str, value: f64, range: &'static str },
     /// A name that nothing bears.
     #[error("{what} «{name}» не существует{}", perhaps(.nearest))]
@@ -85,7 +85,7 @@ pub enum MapError {
     DanglingId { owner: String, what: &'static str, id: u32 },
     /// One name for two things.
     #[error("имя «{name}» носят двое: {first} и {second}")]
-    #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{name}-2»"))]
+    #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{}-2»", name.trim()))]
     DuplicateName { name: String, first: String, second: String },
     /// A record without a name.
     #[error("{what} без имени")]
@@ -402,9 +402,11 @@ pub enum Record {
 }
 
 /// One step from a record to what lies within it, in the words of the map file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Step {
     Field(&'static str),
+    /// Of a table whose keys the map chooses: the id of a side, the key of a door.
+    Key(String),
     Index(usize),
 }
 
@@ -424,6 +426,12 @@ impl Spot {
     #[must_use]
     pub fn field(mut self, name: &'static str) -> Self {
         self.steps.push(Step::Field(name));
+        self
+    }
+
+    #[must_use]
+    pub fn key(mut self, key: &str) -> Self {
+        self.steps.push(Step::Key(key.to_owned()));
         self
     }
 
@@ -450,6 +458,7 @@ impl fmt::Display for Spot {
         }
         self.steps.iter().try_for_each(|step| match step {
             Step::Field(name) => write!(f, ".{name}"),
+            Step::Key(key) => write!(f, ".{key}"),
             Step::Index(index) => write!(f, "[{index}]"),
         })
     }

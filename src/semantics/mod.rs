@@ -51,6 +51,7 @@ mod names;
 mod openings;
 pub mod planning;
 mod position;
+pub mod predicate;
 mod relations;
 mod view;
 

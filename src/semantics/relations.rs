@@ -12,7 +12,7 @@ use crate::facts::{
     Value, WhyNot,
 };
 use crate::map::{Entity, World};
-use crate::units::{AreaId, DoorId, ReplicaId, Source, nearest_name};
+use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
 
 use super::feed::{Cell, Feed};
 use super::measure::{Measurements, Reach};
@@ -354,6 +354,20 @@ impl Relations {
             found.extend(about.map(|t| (info.name.clone(), t)));
         }
         found
+    }
+
+    /// A relation's first name, whichever of its names is given.
+    #[must_use]
+    pub fn display_name(&self, name: &str) -> String {
+        let key = name_key(name);
+        let is_it = |info: &RelationInfo| {
+            name_key(&info.name) == key
+                || info.second_name.as_deref().is_some_and(|n| name_key(n) == key)
+        };
+        let mut relations = self.derived.relations();
+        relations
+            .find(|(_, info)| is_it(info))
+            .map_or_else(|| name.to_owned(), |(_, info)| info.name.clone())
     }
 
     /// Whether a tuple of symbols holds.

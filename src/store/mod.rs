@@ -1,1 +1,67 @@
-//! (stands empty until its chapter is written)
+//! Tables, keys, history (paper 2): the map kept so that nothing acknowledged is ever lost.
+//!
+//! Every table of paper 2 has a record type and a sled tree of its own ([`records`], [`Table`]); a [`World`]
+//! becomes records and comes back from them unchanged ([`Sheet`]). Every change is one transaction: a
+//! checksummed frame of the journal, on the disk before it is acknowledged, then one sled transaction. Nothing
+//! is overwritten without trace: each version of a record bears who wrote it, when, and in which revision, and
+//! the map can be read as of any revision.
+//!
+//! ```
+//! use orthoframe::store::{Change, Store, Timestamp};
+//! # let dir = tempfile::tempdir().unwrap();
+//! # let dir = dir.path().join("store");
+//!
+//! let (store, report) = Store::open(&dir)?;
+//! assert_eq!((store.revision(), report.torn_bytes), (0, 0));
+//! assert!(store.world()?.is_none()); // until the first store.import(&world, &change)
+//! let change = Change::new("Мастер", Timestamp(0), "первая карта");
+//! # let _ = change;
+//! # Ok::<(), orthoframe::store::StoreError>(())
+//! ```
+//!
+//! [`World`]: crate::map::World
+
+mod cell;
+mod check;
+mod derived;
+mod diff;
+mod disk;
+mod error;
+mod frame;
+mod ids;
+mod keep;
+mod observe;
+mod open;
+mod read;
+mod reader;
+mod schema;
+mod sheet;
+mod sides;
+#[cfg(test)]
+mod sim;
+mod tables;
+mod time;
+mod trees;
+mod undo;
+mod vault;
+mod version;
+mod write;
+
+pub use cell::{Cell, Key, Kind, Row};
+pub use check::{Finding, FsckReport, Severity, fsck};
+pub use diff::{Difference, Fate, FieldChange};
+pub use error::StoreError;
+pub use keep::{Change, Counts, Edits, ImportReport, Revision, RevisionKind, Store};
+pub use observe::{Belief, Observation, Proposal, Seen};
+pub use reader::Reader;
+pub use schema::{Column, Origin, Record};
+pub use sheet::Sheet;
+pub use tables::Table;
+pub use time::{Timestamp, TimestampError};
+pub use vault::OpenReport;
+pub use version::{Stamp, Version};
+
+/// One struct a table, under the table's name.
+pub mod records {
+    pub use super::tables::*;
+}

@@ -19,15 +19,16 @@ use crate::units::nearest_name;
 /// Faults of one table after which its reading ends.
 const MOST_FAULTS: usize = 50;
 
-/// Reads one table; notes its faults and gives what could be read.
+/// Reads one table; notes its faults and gives what could be read. Adds to `left_out` the places of what could not.
 pub(super) fn decode<'n, T: Deserialize<'n>>(
     node: &'n Node,
     name_span: &Span,
+    left_out: &mut HashSet<Span>,
     faults: &mut Vec<Misprint>,
 ) -> Option<T> {
-    let mut left_out = HashSet::new();
+    let most_left_out = left_out.len() + MOST_FAULTS;
     loop {
-        let mut fault = match T::deserialize(Reader { node, left_out: &left_out }) {
+        let mut fault = match T::deserialize(Reader { node, left_out }) {
             Ok(value) => return Some(value),
             Err(fault) => fault,
         };
@@ -39,7 +40,7 @@ pub(super) fn decode<'n, T: Deserialize<'n>>(
         if !fault.follows {
             faults.push(Misprint { error: *fault.error, span: fault.span });
         }
-        if !culprit.is_some_and(|span| left_out.insert(span)) || left_out.len() > MOST_FAULTS {
+        if !culprit.is_some_and(|span| left_out.insert(span)) || left_out.len() > most_left_out {
             return None;
         }
     }
@@ -238,6 +239,22 @@ impl<'de> Deserializer<'de> for Reader<'de, '_> {
         }
     }
 
+    /// By names only; serde would take a list for a struct too, by position.
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
+        match &self.node.value {
+            Value::List(_) => {
+                let fault: DecodeError = de::Error::invalid_type(Unexpected::Seq, &visitor);
+                Err(self.placed(fault))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
         _name: &'static str,
@@ -263,7 +280,7 @@ impl<'de> Deserializer<'de> for Reader<'de, '_> {
 
     serde::forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        unit unit_struct seq tuple_struct map struct identifier ignored_any
+        unit unit_struct seq tuple_struct map identifier ignored_any
     }
 }
 
@@ -287,7 +304,10 @@ impl<'n> de::SeqAccess<'n> for Elements<'n, '_> {
         // A coordinate cannot be left out of a point, a line can be left out of a list.
         let is_line = matches!(node.value, Value::Table(_));
         let read = seed.deserialize(self.reader.inner(node)).map(Some);
-        read.map_err(|fault| if is_line { fault.without(&node.span) } else { fault })
+        read.map_err(|fault| {
+            let fault = fault.at(&node.span);
+            if is_line { fault.without(&node.span) } else { fault }
+        })
     }
 }
 
@@ -319,6 +339,6 @@ impl<'n> de::MapAccess<'n> for Fields<'n, '_> {
     ) -> Result<V::Value, DecodeError> {
         let entry = self.current.take().expect("serde asks for a value after its key");
         let value = seed.deserialize(self.reader.inner(&entry.node));
-        value.map_err(|fault| fault.without(&entry.key_span))
+        value.map_err(|fault| fault.at(&entry.node.span).without(&entry.key_span))
     }
 }

@@ -9,6 +9,7 @@ use serde_saphyr::{Location, Spanned};
 use toml::de::{DeTable, DeValue};
 
 use super::Format;
+use super::misprint::in_russian;
 use crate::map::fault::MapError;
 
 /// Bytes of the text.
@@ -83,7 +84,7 @@ fn parse_toml(text: &str) -> Result<Node, Vec<Misprint>> {
         return Err(errors
             .into_iter()
             .map(|e| Misprint {
-                error: MapError::Syntax { format: "TOML", message: e.message().to_owned() },
+                error: MapError::Syntax { format: "TOML", message: in_russian(e.message()) },
                 span: e.span(),
             })
             .collect());
@@ -132,14 +133,29 @@ fn toml_value(value: DeValue<'_>) -> Value {
 /// YAML, and JSON as its subset.
 fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
     let name = if format == Format::Json { "JSON" } else { "YAML" };
-    let root: Spanned<Tree> = serde_saphyr::from_str(text).map_err(|e| {
+    // A room may be named «Y» or «No»: only true and false are truth values.
+    let options = serde_saphyr::options! { strict_booleans: true };
+    let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
         Misprint {
             error: MapError::Syntax { format: name, message: e.to_string() },
-            span: e.location().map(|at| span(at)),
+            span: e.location().map(|at| span_in(text, at)),
         }
     })?;
     Ok(root.into())
+}
+
+/// The place of a fault, which the reader may know by line and column only.
+fn span_in(text: &str, at: Location) -> Span {
+    if at.span().byte_offset().is_some() && at.span().byte_len().is_some() {
+        return span(at);
+    }
+    let line_start: usize =
+        text.split_inclusive('\n').take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
+    let line = &text[line_start..];
+    let column = (at.column() as usize).saturating_sub(1);
+    let start = line_start + line.char_indices().nth(column).map_or(line.len(), |(i, _)| i);
+    start..start
 }
 
 fn span(at: Location) -> Span {

@@ -1,6 +1,6 @@
 //! From the types of the file to a [`World`]: numbers ids in the order of the file and turns names into ids.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use serde::Deserialize;
 
@@ -30,6 +30,10 @@ pub(super) struct Draft<'n> {
     pub(super) world: World,
     pub(super) faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Records of which something could not be read: what they lack is no second fault.
+    pub(super) broken: BTreeSet<Record>,
+    /// Entries and lines that could not be read.
+    pub(super) left_out: HashSet<Span>,
 }
 
 /// Where a record stands in the text.
@@ -42,16 +46,25 @@ pub(super) struct Origin<'n> {
 
 /// Builds the world that a tree describes.
 pub(super) fn build(root: &Node) -> Draft<'_> {
-    let mut reader =
-        Reader { root, faults: Vec::new(), origins: BTreeMap::new(), names: Names::default() };
+    let mut reader = Reader {
+        root,
+        faults: Vec::new(),
+        origins: BTreeMap::new(),
+        broken: BTreeSet::new(),
+        left_out: HashSet::new(),
+        names: Names::default(),
+    };
     let world = reader.world();
-    Draft { world, faults: reader.faults, origins: reader.origins }
+    let Reader { faults, origins, broken, left_out, .. } = reader;
+    Draft { world, faults, origins, broken, left_out }
 }
 
 struct Reader<'n> {
     root: &'n Node,
     faults: Vec<Fault>,
     origins: BTreeMap<Record, Origin<'n>>,
+    broken: BTreeSet<Record>,
+    left_out: HashSet<Span>,
     names: Names,
 }
 
@@ -130,24 +143,22 @@ macro_rules! keyed {
 }
 keyed!(OrthoframeFile, DoorFile, ObjectFile, AreaFile, PlanFile, PlaceFile, ReplicaFile, TypeFile);
 
-/// Ids for records in file order: the given one, else the next free one after its predecessor's.
+/// Ids for records in file order: the given one, else the one after its predecessor's, else a new highest one.
 fn number(given: &[Option<u32>]) -> Vec<u32> {
-    let taken: HashSet<u32> = given.iter().flatten().copied().collect();
+    let mut used: HashSet<u32> = given.iter().flatten().copied().collect();
+    let mut highest = used.iter().copied().max().unwrap_or(0);
     let mut last = 0;
-    given
-        .iter()
-        .map(|given| {
-            last = given.unwrap_or_else(|| {
-                // At most `taken.len()` numbers are passed over, and saturation only ends in a duplicate, which is reported.
-                let mut next = u32::saturating_add(last, 1);
-                while taken.contains(&next) && next < u32::MAX {
-                    next += 1;
-                }
-                next
-            });
-            last
-        })
-        .collect()
+    let mut next = |given: &Option<u32>| {
+        last = given.unwrap_or_else(|| {
+            let follows = u32::saturating_add(last, 1);
+            // Saturation ends in a duplicate, which is reported.
+            if used.contains(&follows) { highest.saturating_add(1) } else { follows }
+        });
+        used.insert(last);
+        highest = highest.max(last);
+        last
+    };
+    given.iter().map(|given| next(given)).collect()
 }
 
 impl<'n> Reader<'n> {
@@ -197,8 +208,12 @@ impl<'n> Reader<'n> {
         raw.into_iter().map(|raw| (raw.id, convert(self, raw))).collect()
     }
 
+    /// A fault of a record, which is checked no further.
     fn fault(&mut self, error: MapError, spot: Spot) {
-        self.faults.push(Fault::new(error, vec![spot]));
+        self.broken.insert(spot.record);
+        let mut fault = Fault::new(error, vec![spot]);
+        fault.locate(&self.origins, &self.left_out);
+        self.faults.push(fault);
     }
 
     fn misprints(&mut self, misprints: Vec<Misprint>) {
@@ -207,7 +222,7 @@ impl<'n> Reader<'n> {
 
     fn decode<T: Deserialize<'n>>(&mut self, node: &'n Node, name: &Span) -> Option<T> {
         let mut misprints = Vec::new();
-        let value = decode(node, name, &mut misprints);
+        let value = decode(node, name, &mut self.left_out, &mut misprints);
         self.misprints(misprints);
         value
     }
@@ -233,7 +248,8 @@ impl<'n> Reader<'n> {
                 span: Some(0..0),
             }),
             Some(entry) => {
-                if let Some(format) = decode::<u32>(&entry.node, &entry.key_span, &mut misprints)
+                if let Some(format) =
+                    decode::<u32>(&entry.node, &entry.key_span, &mut self.left_out, &mut misprints)
                     && format != FORMAT
                 {
                     misprints.push(Misprint {
@@ -268,15 +284,19 @@ impl<'n> Reader<'n> {
         }
         let mut read = Vec::new();
         for entry in entries {
+            let faults_before = self.faults.len();
             if let Some(file) = self.decode::<T>(&entry.node, &entry.key_span) {
-                read.push((entry, file));
+                read.push((entry, file, self.faults.len() > faults_before));
             }
         }
-        let ids = number(&read.iter().map(|(_, file)| file.id()).collect::<Vec<_>>());
+        let ids = number(&read.iter().map(|(_, file, _)| file.id()).collect::<Vec<_>>());
         let mut seen = HashSet::new();
         let mut records = Vec::new();
-        for ((entry, file), number) in read.into_iter().zip(ids) {
+        for ((entry, file, is_broken), number) in read.into_iter().zip(ids) {
             let id = id(number);
+            if is_broken {
+                self.broken.insert(record(id));
+            }
             if seen.insert(number) {
                 let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
                 self.origins.insert(record(id), origin);
@@ -431,21 +451,17 @@ impl<'n> Reader<'n> {
             let name_of =
                 |node: &Node| node.entry("name").and_then(|n| n.node.text()).map(name_key);
             index.broken.extend(nodes.iter().filter_map(name_of));
-            let mut nodes = nodes.iter();
-            for line in list {
-                // A line that could not be read has no place in `list`: pass over its node.
-                let key = name_key(line.names()[0]);
-                let node = nodes.find(|node| name_of(node).as_ref() == Some(&key));
+            // Lines that could not be read have no place in `list`.
+            let read: Vec<_> =
+                nodes.iter().filter(|node| !self.left_out.contains(&node.span)).collect();
+            for (line, node) in list.into_iter().zip(read) {
                 let number = ids.next().expect("every line was numbered");
                 if !seen.insert(number) {
                     let error = MapError::DuplicateId { what, id: number };
-                    self.misprints(vec![Misprint { error, span: node.map(|n| n.span.clone()) }]);
+                    self.misprints(vec![Misprint { error, span: Some(node.span.clone()) }]);
                     continue;
                 }
-                if let Some(node) = node {
-                    self.origins
-                        .insert(record(id(number)), Origin { node, name: node.span.clone() });
-                }
+                self.origins.insert(record(id(number)), Origin { node, name: node.span.clone() });
                 let [name, name_en] = line.names();
                 index.add(id(number), name, &[name_en]);
                 lines.push((area, id(number), line));
@@ -540,8 +556,10 @@ impl<'n> Reader<'n> {
         let Raw { id, key, file, .. } = raw;
         let spot = Spot::of(Record::Orthoframe(id));
         let mut base = self.base(&key, &file, &spot);
-        for (side, traits) in file.side.0 {
-            let at = spot.clone().field("side");
+        // A base that could not be read has no sides to speak of.
+        let sides = if base.is_empty() { Vec::new() } else { file.side.0 };
+        for (side, traits) in sides {
+            let at = spot.clone().field("side").key(&side);
             match base.iter_mut().find(|v| v.id == side) {
                 Some(vector) => self.apply_traits(vector, traits, at),
                 None => {
@@ -585,8 +603,11 @@ impl<'n> Reader<'n> {
             + usize::from(!file.points.is_empty())
             + usize::from(!file.sides.is_empty());
         if ways != 1 {
-            let error = MapError::BaseForm { name: key.to_owned(), count: ways };
-            self.fault(error, spot.clone());
+            // A base that could not be read is one already.
+            if ways > 1 || !self.broken.contains(&spot.record) {
+                let error = MapError::BaseForm { name: key.to_owned(), count: ways };
+                self.fault(error, spot.clone());
+            }
             return Vec::new();
         }
         if let Some([w, d]) = file.rect {
@@ -594,16 +615,19 @@ impl<'n> Reader<'n> {
             return lettered(&corners.map(|(x, y)| Point::new(x, y)));
         }
         if let Some(regular) = &file.regular {
-            if !(3..=360).contains(&regular.corners) || regular.radius.0 <= 0.0 {
-                let error = MapError::OutOfRange {
-                    what: "число углов и радиус правильного многоугольника",
-                    value: f64::from(regular.corners),
-                    range: "3..360, радиус больше 0",
-                };
-                self.fault(error, spot.clone().field("regular"));
+            let (corners, radius) = (regular.corners, regular.radius.0);
+            let at = |field| spot.clone().field("regular").field(field);
+            if !(3..=360).contains(&corners) {
+                let (value, range) = (f64::from(corners), "от 3 до 360");
+                self.fault(MapError::OutOfRange { what: "corners", value, range }, at("corners"));
                 return Vec::new();
             }
-            return lettered(&regular_corners(regular.corners, regular.radius.0));
+            if radius <= 0.0 {
+                let (value, range) = (radius, "больше 0");
+                self.fault(MapError::OutOfRange { what: "radius", value, range }, at("radius"));
+                return Vec::new();
+            }
+            return lettered(&regular_corners(corners, radius));
         }
         if !file.points.is_empty() {
             let corners: Vec<_> = file.points.iter().map(|p| Point::new(p[0].0, p[1].0)).collect();
@@ -633,7 +657,8 @@ impl<'n> Reader<'n> {
     }
 
     fn apply_traits(&mut self, vector: &mut BaseVector, traits: SideTraitsFile, spot: Spot) {
-        vector.side_type = self.type_of(TypeKind::Side, traits.r#type.as_deref(), spot);
+        vector.side_type =
+            self.type_of(TypeKind::Side, traits.r#type.as_deref(), spot.field("type"));
         vector.permeability = traits.permeability.into();
         vector.names = traits.names;
         vector.properties = traits.properties;
@@ -810,13 +835,14 @@ impl<'n> Reader<'n> {
             let error = MapError::OutOfRange {
                 what: "move_prob",
                 value: f64::from(file.move_prob),
-                range: "0..100",
+                range: "от 0 до 100",
             };
             self.fault(error, spot.clone().field("move_prob"));
         }
         let mut door_states = BTreeMap::new();
         for (door, state) in file.doors.0 {
-            let door = self.follow(|n| &n.doors, "Дверь", &door, spot.clone().field("doors"));
+            let at = spot.clone().field("doors").key(&door);
+            let door = self.follow(|n| &n.doors, "Дверь", &door, at);
             let DoorStateFile { state, opening } = state;
             door_states.extend(door.map(|door| (door, door_state(state, opening))));
         }

@@ -153,12 +153,14 @@ macro_rules! tables {
 
         impl Lines for $name {
             fn lines(&self) -> String {
-                let mut lines = String::new();
-                $( lines.push_str(&line(stringify!($req), &self.$req)); )*
+                let mut lines = Vec::new();
+                $( lines.push(line(stringify!($req), &self.$req)); )*
                 $( if !is_default(&self.$opt) {
-                    lines.push_str(&line(stringify!($opt), &self.$opt));
+                    lines.push(line(stringify!($opt), &self.$opt));
                 } )*
-                lines
+                // What is said in a word stands before what takes many lines.
+                lines.sort_by_key(|line| line.matches('\n').count() > 1);
+                lines.concat()
             }
         }
     )+};

@@ -26,6 +26,11 @@ pub(super) trait Printed: Serialize {
     fn print(&self) -> String {
         inline(self)
     }
+
+    /// The field with this value.
+    fn field(&self, name: &str) -> String {
+        format!("{name} = {}\n", self.print())
+    }
 }
 
 /// A key, quoted where TOML wants it.
@@ -48,9 +53,9 @@ fn quoted(text: &str) -> String {
     quoted
 }
 
-/// A line of a record.
+/// A line of a record, or several where the value is made of lines.
 pub(super) fn line(name: &str, value: &impl Printed) -> String {
-    format!("{} = {}\n", key(name.trim_start_matches("r#")), value.print())
+    value.field(name.trim_start_matches("r#"))
 }
 
 fn inline<T: Serialize + ?Sized>(value: &T) -> String {
@@ -84,7 +89,13 @@ impl<T: Printed> Printed for Option<T> {
     }
 }
 
-impl<T: Serialize> Printed for Table<T> {}
+/// `side.A = {…}`, one line per key.
+impl<T: Serialize> Printed for Table<T> {
+    fn field(&self, name: &str) -> String {
+        self.0.iter().map(|(k, v)| format!("{name}.{} = {}\n", key(k), inline(v))).collect()
+    }
+}
+
 impl<K: Serialize, V: Serialize> Printed for BTreeMap<K, V> {}
 impl<T: Serialize> Printed for [T; 2] {}
 

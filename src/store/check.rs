@@ -1,0 +1,218 @@
+//! The deep check of a store, its backup and its restoration.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::disk::{Disk, RealDisk};
+use super::error::{Result, StoreError};
+use super::keep::Store;
+use super::open::{SledShelf, check_format, lock, write_format};
+use super::schema::key_of;
+use super::tables::Table;
+use super::trees::{HISTORY, Trees, digests};
+use super::vault::{Shelf, Vault, check_snapshot, snapshot_files, write_snapshot};
+use super::version::Version;
+
+/// How bad a finding is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Severity {
+    /// Good to know.
+    Note,
+    /// The next opening mends it; nothing is lost.
+    Mendable,
+    /// Something is lost, or wrong.
+    Broken,
+}
+
+/// One thing that a check found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    pub severity: Severity,
+    pub text: String,
+}
+
+/// What a deep check of a store found.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct FsckReport {
+    pub lsn: u64,
+    pub revision: u64,
+    /// Live records, deleted ones and old versions.
+    pub records: u64,
+    pub snapshots: usize,
+    pub findings: Vec<Finding>,
+}
+
+impl FsckReport {
+    /// Nothing needs mending.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.findings.iter().all(|f| f.severity == Severity::Note)
+    }
+
+    fn find(&mut self, severity: Severity, text: impl Into<String>) {
+        self.findings.push(Finding { severity, text: text.into() });
+    }
+}
+
+/// Checks every byte of a store: journal, snapshots, every record, the map that they make, and sled's trees
+/// against them. Mends nothing; [`Store::open`] does.
+///
+/// # Errors
+/// When there is no store, or it is of an unknown format. Whatever is broken within it is a finding.
+pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
+    let dir = dir.as_ref();
+    let disk: Arc<dyn Disk> = Arc::new(RealDisk);
+    if !check_format(&*disk, dir)? {
+        return Err(StoreError::Missing { dir: dir.display().to_string() });
+    }
+    let mut report = FsckReport::default();
+    check_snapshots(&*disk, dir, &mut report)?;
+    match Vault::open_read_only(Arc::clone(&disk), dir) {
+        Err(error @ StoreError::UnknownFormat { .. }) => return Err(error),
+        Err(error) => report.find(Severity::Broken, error.to_string()),
+        Ok((vault, opened)) => {
+            report.lsn = opened.lsn;
+            report.records = opened.records;
+            if opened.torn_bytes > 0 {
+                let text = format!("журнал обрывается: {} байт не дописано", opened.torn_bytes);
+                report.find(Severity::Mendable, text);
+            }
+            if let Some(fault) = opened.journal_renewed {
+                report.find(Severity::Mendable, fault);
+            }
+            let trees = Arc::clone(vault.trees());
+            check_records(&*trees, &mut report)?;
+            check_map(Store::over(vault, dir, None), &mut report);
+            check_sled(dir, &*trees, &mut report);
+        }
+    }
+    Ok(report)
+}
+
+fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Result<()> {
+    for (_, path) in snapshot_files(disk, dir)? {
+        report.snapshots += 1;
+        if let Err(error) = check_snapshot(disk, &path) {
+            report.find(Severity::Mendable, error.to_string());
+        }
+    }
+    Ok(())
+}
+
+/// Every version of every record: checksum, cells, key.
+fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
+    let mut check = |table: Table, key: &[u8], bytes: &[u8]| {
+        let fault = match Version::decode(table, key, bytes) {
+            Err(error) => error.to_string(),
+            Ok(version) => match key_of(table.columns(), &version.row) {
+                Some(own) if own.as_bytes() == key => return,
+                _ => format!("таблица {}: запись стоит не под своим ключом", table.name()),
+            },
+        };
+        report.find(Severity::Broken, fault);
+    };
+    for table in Table::ALL.iter().copied().filter(|t| t.is_stored()) {
+        trees.scan(table.code(), &[], &mut |key, bytes| {
+            check(table, key, bytes);
+            Ok(true)
+        })?;
+    }
+    trees.scan(HISTORY, &[], &mut |key, bytes| {
+        if let Some((table, key)) = key.split_first().and_then(|(code, rest)| {
+            Some((Table::from_code(*code)?, rest.split_last_chunk::<8>()?.0))
+        }) {
+            check(table, key, bytes);
+        }
+        Ok(true)
+    })
+}
+
+fn check_map(store: Result<Store>, report: &mut FsckReport) {
+    let found = store.and_then(|store| {
+        report.revision = store.revision();
+        let numbers: BTreeSet<u64> = store.revisions()?.iter().map(|r| r.number).collect();
+        if let (Some(first), Some(last)) = (numbers.first(), numbers.last())
+            && last - first + 1 != numbers.len() as u64
+        {
+            report.find(Severity::Broken, "в списке правок есть пропуски");
+        }
+        store.world()
+    });
+    match found {
+        Err(error) => report.find(Severity::Broken, error.to_string()),
+        Ok(None) => report.find(Severity::Note, "карты в хранилище ещё нет"),
+        Ok(Some(world)) => {
+            for fault in crate::map::check(&world).iter().filter(|f| !f.is_warning()) {
+                report.find(Severity::Broken, format!("карта: {}", fault.error));
+            }
+        }
+    }
+}
+
+fn check_sled(dir: &Path, expected: &dyn Trees, report: &mut FsckReport) {
+    let mut shelf = SledShelf { dir: dir.to_owned() };
+    if !shelf.exists() {
+        report.find(Severity::Mendable, "таблиц sled нет");
+        return;
+    }
+    let Ok(_lock) = lock(dir) else {
+        report
+            .find(Severity::Note, "хранилище открыто другой программой: таблицы sled не проверены");
+        return;
+    };
+    let found = shelf.open().and_then(|trees| {
+        let (state, now) = (trees.state()?, expected.state()?);
+        Ok((state.lsn < now.lsn, state.lsn == now.lsn && digests(&*trees)? == now.digests))
+    });
+    match found {
+        Ok((_, true)) => {}
+        Ok((true, _)) => report.find(Severity::Note, "таблицы sled отстали от журнала"),
+        Ok(_) => report.find(Severity::Mendable, "таблицы sled не сходятся с журналом"),
+        Err(error) => report.find(Severity::Mendable, error.to_string()),
+    }
+}
+
+impl Store {
+    /// Writes the whole store, its history included, into one checksummed file.
+    ///
+    /// # Errors
+    /// [`StoreError::Io`].
+    pub fn backup(&self, path: impl AsRef<Path>) -> Result<()> {
+        let path = path.as_ref();
+        let state = self.vault.trees().state()?;
+        write_snapshot(&RealDisk, path, &**self.vault.trees(), &state)?;
+        // Whoever relies on a copy wants to know that it can be read.
+        check_snapshot(&RealDisk, path).map(|_| ())
+    }
+
+    /// Makes a new store of a backup, in a directory that is empty or does not exist.
+    ///
+    /// # Errors
+    /// [`StoreError::BadFile`] when the backup is broken; [`StoreError::NotEmpty`] when there is something in
+    /// the directory: a store is never overwritten.
+    pub fn restore(backup: impl AsRef<Path>, dir: impl AsRef<Path>) -> Result<Self> {
+        let (backup, dir) = (backup.as_ref(), dir.as_ref());
+        let state = check_snapshot(&RealDisk, backup)?;
+        let names = RealDisk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
+        if !names.is_empty() {
+            return Err(StoreError::NotEmpty { dir: dir.display().to_string() });
+        }
+        let snapshots = dir.join("snapshots");
+        RealDisk.create_dir(&snapshots).map_err(StoreError::io("создать каталог", &snapshots))?;
+        let bytes = RealDisk.read(backup).map_err(StoreError::io("прочитать", backup))?;
+        let path = snapshots.join(format!("{:020}.snapshot", state.lsn));
+        RealDisk.replace(&path, &[bytes]).map_err(StoreError::io("записать", &path))?;
+        // Last, so that a half-restored directory is no store.
+        write_format(&RealDisk, dir)?;
+        Ok(Self::open(dir)?.0)
+    }
+
+    /// Takes a snapshot now: the next opening has less to replay.
+    ///
+    /// # Errors
+    /// [`StoreError::ReadOnly`], [`StoreError::Io`].
+    pub fn checkpoint(&mut self) -> Result<()> {
+        self.vault.checkpoint()
+    }
+}

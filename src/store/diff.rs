@@ -1,0 +1,311 @@
+//! What changed between two revisions, as data and in words.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use super::cell::{Cell, Key, Row};
+use super::error::Result;
+use super::keep::Store;
+use super::reader::Reader;
+use super::schema::Record;
+use super::tables::{self as t, Table};
+
+/// What became of a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Fate {
+    Created,
+    Changed,
+    Deleted,
+}
+
+/// One column of a record before and after.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FieldChange {
+    pub column: &'static str,
+    pub old: Cell,
+    pub new: Cell,
+}
+
+/// One record that two revisions do not share. Its `Display` says it in a Russian sentence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Difference {
+    pub table: Table,
+    pub fate: Fate,
+    /// What the record speaks of: «стул «Стул-1»».
+    pub subject: String,
+    /// The columns that differ; all of them for what was created or deleted.
+    pub fields: Vec<FieldChange>,
+    /// The same in words, where there are better ones than the columns' names.
+    words: Option<String>,
+}
+
+impl fmt::Display for Difference {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(words) = &self.words {
+            return write!(f, "{}: {words}", self.subject);
+        }
+        match self.fate {
+            Fate::Created => write!(f, "{}: добавлено", self.subject),
+            Fate::Deleted => write!(f, "{}: удалено", self.subject),
+            Fate::Changed => {
+                write!(f, "{}: ", self.subject)?;
+                for (n, field) in self.fields.iter().enumerate() {
+                    let comma = if n == 0 { "" } else { ", " };
+                    write!(f, "{comma}{} {} → {}", field.column, field.old, field.new)?;
+                }
+                Ok(())
+            }
+        }
+    }
+}
+
+/// How people call a record of a table, and the column by which its owner is found: none for what has a name
+/// of its own.
+fn noun(table: Table) -> (&'static str, Option<Table>) {
+    use Table as T;
+    match table {
+        T::OrFr => ("ортофрейм", None),
+        T::Object => ("объект", None),
+        T::Area => ("помещение", None),
+        T::AreaObjects => ("экземпляр", None),
+        T::Map => ("карта", None),
+        T::Domain => ("домейн", None),
+        T::Door => ("дверь", None),
+        T::Places => ("место", None),
+        T::OrtFrmSides | T::SideNames => ("грань ортофрейма", Some(T::OrFr)),
+        T::OrtFrmProperties => ("свойство ортофрейма", Some(T::OrFr)),
+        T::OrtFrmSideProperties => ("свойство грани ортофрейма", Some(T::OrFr)),
+        T::ObjectItems => ("часть объекта", Some(T::Object)),
+        T::ObjectItemLinks => ("связь частей объекта", Some(T::Object)),
+        T::ObjectDoors => ("дверь объекта", Some(T::Object)),
+        T::ObjectProperties => ("свойство объекта", Some(T::Object)),
+        T::AreaItems => ("часть помещения", Some(T::Area)),
+        T::AreaItemLinks => ("связь частей помещения", Some(T::Area)),
+        T::AreaDoors => ("дверь помещения", Some(T::Area)),
+        T::AreaProperties => ("свойство помещения", Some(T::Area)),
+        T::ReplicaProperties => ("свойство экземпляра", Some(T::AreaObjects)),
+        T::ReplicaDoors => ("дверца экземпляра", Some(T::AreaObjects)),
+        T::DoorSides => ("створка двери", Some(T::Door)),
+        T::DoorProperties => ("свойство двери", Some(T::Door)),
+        T::MapItems => ("помещение карты", Some(T::Map)),
+        T::MapItemLinks => ("связь помещений карты", Some(T::Map)),
+        T::DomainMaps => ("карта домейна", Some(T::Domain)),
+        T::Lifts | T::LiftStops => ("лифт домейна", Some(T::Domain)),
+        T::Robot => ("робот домейна", Some(T::Domain)),
+        other => (other.name(), None),
+    }
+}
+
+/// Names of what bears an id, at two revisions: a thing that is gone still has its old name.
+struct Names(BTreeMap<(Table, u32), String>);
+
+impl Names {
+    fn of(from: &Reader, to: &Reader) -> Result<Self> {
+        let mut names = BTreeMap::new();
+        for reader in [from, to] {
+            for table in super::ids::tables() {
+                for (_, version) in reader.versions(table, &Key::new())? {
+                    if let Some((id, name)) = display_name(table, &version.row) {
+                        names.insert((table, id), name);
+                    }
+                }
+            }
+        }
+        Ok(Self(names))
+    }
+
+    fn get(&self, table: Table, id: u32) -> String {
+        match self.0.get(&(table, id)) {
+            Some(name) => format!("«{name}»"),
+            None => format!("№ {id}"),
+        }
+    }
+}
+
+fn display_name(table: Table, row: &Row) -> Option<(u32, String)> {
+    let (id, _) = super::ids::identity(table, row)?;
+    let text = |name: &str| {
+        let at = table.columns().iter().position(|c| c.name == name)?;
+        match row.get(at)? {
+            Cell::Text(text) if !text.is_empty() => Some(text.clone()),
+            _ => None,
+        }
+    };
+    Some((id, text("Name").or_else(|| text("Key"))?))
+}
+
+impl Store {
+    /// What differs between two revisions, in the order of tables and keys.
+    ///
+    /// A replica that went to another Area counts as changed, though its record has another key.
+    ///
+    /// # Errors
+    /// [`UnknownRevision`](super::StoreError::UnknownRevision), [`BadRecord`](super::StoreError::BadRecord).
+    pub fn diff(&self, from: u64, to: u64) -> Result<Vec<Difference>> {
+        let (old, new) = (self.reader_at(from)?, self.reader_at(to)?);
+        let names = Names::of(&old, &new)?;
+        let mut keys = std::collections::BTreeSet::new();
+        for revision in from.min(to) + 1..=from.max(to) {
+            keys.extend(self.reader().touched(revision)?);
+        }
+        let mut pairs = BTreeMap::<(Table, Key), [Option<Row>; 2]>::new();
+        for (table, key) in keys {
+            let live = |reader: &Reader| -> Result<Option<Row>> {
+                Ok(reader.version(table, &key)?.filter(|v| !v.stamp.deleted).map(|v| v.row))
+            };
+            let rows = [live(&old)?, live(&new)?];
+            let [was, is] = pairs.entry((table, same_thing(table, &key, &rows))).or_default();
+            let [before, after] = rows;
+            *was = was.take().or(before);
+            *is = is.take().or(after);
+        }
+        let differences = pairs.into_iter().filter(|(_, [was, is])| was != is);
+        Ok(differences.map(|((table, _), rows)| difference(table, rows, &names)).collect())
+    }
+}
+
+/// A replica is one thing wherever it stands; all else is known by its key.
+fn same_thing(table: Table, key: &Key, rows: &[Option<Row>; 2]) -> Key {
+    let row = rows.iter().flatten().next();
+    match row.and_then(|row| super::ids::identity(table, row)) {
+        Some((id, _)) => Key::new().id(id),
+        None => key.clone(),
+    }
+}
+
+fn difference(table: Table, rows: [Option<Row>; 2], names: &Names) -> Difference {
+    let [was, is] = &rows;
+    let fate = match (was, is) {
+        (None, _) => Fate::Created,
+        (_, None) => Fate::Deleted,
+        _ => Fate::Changed,
+    };
+    let row = is.as_ref().or(was.as_ref()).expect("a difference has a row");
+    let cell = |row: &Option<Row>, n: usize| {
+        row.as_ref().and_then(|r| r.get(n)).cloned().unwrap_or(Cell::Null)
+    };
+    let fields = table
+        .columns()
+        .iter()
+        .enumerate()
+        .map(|(n, c)| FieldChange { column: c.name, old: cell(was, n), new: cell(is, n) })
+        .filter(|field| field.old != field.new)
+        .collect();
+    Difference {
+        table,
+        fate,
+        subject: subject(table, row, names),
+        words: words(table, was.as_ref(), is.as_ref(), names),
+        fields,
+    }
+}
+
+fn subject(table: Table, row: &Row, names: &Names) -> String {
+    let (noun, owner) = noun(table);
+    let id = |cell: Option<&Cell>| match cell {
+        Some(Cell::Int(id)) => u32::try_from(*id).unwrap_or(0),
+        _ => 0,
+    };
+    if let Some(owner) = owner {
+        let rest: Vec<String> = table
+            .columns()
+            .iter()
+            .zip(row)
+            .skip(1)
+            .filter(|(c, _)| c.is_key)
+            .map(|(_, cell)| cell.to_string())
+            .collect();
+        let owner = names.get(owner, id(row.first()));
+        return format!("{noun} {owner} {}", rest.join(" ")).trim_end().to_owned();
+    }
+    match super::ids::identity(table, row) {
+        Some((id, _)) => format!("{noun} {}", names.get(table, id)),
+        None => format!("{noun} {}", super::sheet::describe_key(table, row)),
+    }
+}
+
+/// Movements and door states have words of their own.
+fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names) -> Option<String> {
+    match table {
+        Table::AreaObjects => {
+            let old = was.and_then(|row| t::AreaObjects::from_row(row));
+            let new = is.and_then(|row| t::AreaObjects::from_row(row));
+            replica_words(old.as_ref(), new.as_ref(), names)
+        }
+        Table::Door => {
+            let (old, new) = (t::Door::from_row(was?)?, t::Door::from_row(is?)?);
+            let only_state =
+                t::Door { status: new.status.clone(), opening: new.opening, ..old.clone() };
+            (only_state == new).then(|| format!("{} → {}", door_words(&old), door_words(&new)))
+        }
+        Table::ReplicaDoors => {
+            let state = |row: &Row| t::ReplicaDoors::from_row(row);
+            let (old, new) = (state(was?)?, state(is?)?);
+            let door = |r: &t::ReplicaDoors| t::Door {
+                status: r.status.clone(),
+                opening: r.opening,
+                ..t::Door::default()
+            };
+            Some(format!("{} → {}", door_words(&door(&old)), door_words(&door(&new))))
+        }
+        _ => None,
+    }
+}
+
+fn door_words(door: &t::Door) -> String {
+    match door.status.as_str() {
+        "open" if door.opening < 100.0 => format!("открыта на {} %", door.opening),
+        "open" => "открыта".into(),
+        "closed" => "закрыта".into(),
+        "locked" => "заперта".into(),
+        other => other.into(),
+    }
+}
+
+fn replica_words(
+    old: Option<&t::AreaObjects>,
+    new: Option<&t::AreaObjects>,
+    names: &Names,
+) -> Option<String> {
+    let area = |r: &t::AreaObjects| names.get(Table::Area, r.area_id);
+    let (old, new) = match (old, new) {
+        (Some(old), Some(new)) => (old, new),
+        (None, Some(new)) => return Some(format!("появился (помещение {})", area(new))),
+        (Some(old), None) => return Some(format!("удалён (помещение {})", area(old))),
+        (None, None) => return None,
+    };
+    let mut said = Vec::new();
+    if old.area_id != new.area_id {
+        said.push(format!("помещение {} → {}", area(old), area(new)));
+    } else {
+        let moved = (new.x - old.x).hypot(new.y - old.y).hypot(new.z - old.z);
+        if moved > 0.0 {
+            said.push(format!("передвинут на {} см", hundredths(moved)));
+        }
+    }
+    let turn = (new.ang - old.ang).rem_euclid(360.0);
+    let turn = if turn > 180.0 { turn - 360.0 } else { turn };
+    if turn.abs() > 0.0 {
+        let way = if turn > 0.0 {
+            "против часовой стрелки"
+        } else {
+            "по часовой стрелке"
+        };
+        said.push(format!("повёрнут на {}° {way}", hundredths(turn.abs())));
+    }
+    if old.object_id != new.object_id {
+        let object = |r: &t::AreaObjects| names.get(Table::Object, r.object_id);
+        said.push(format!("объект {} → {}", object(old), object(new)));
+    }
+    if old.move_prob != new.move_prob {
+        said.push(format!("подвижность {} → {}", old.move_prob, new.move_prob));
+    }
+    if (&old.name, &old.name_en) != (&new.name, &new.name_en) {
+        said.push(format!("имя «{}» → «{}»", old.name, new.name));
+    }
+    Some(said.join(", "))
+}
+
+fn hundredths(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}

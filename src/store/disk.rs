@@ -1,0 +1,109 @@
+//! The few things that journal and snapshots ask of a file system, so that tests can put a failing one in its place.
+//!
+//! **Invariant**: no other file of this folder writes a file, but for sled's own.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// A file that is only appended to.
+pub(crate) trait Appender: Send {
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
+    /// What was appended outlives a power cut once this returns.
+    fn sync(&mut self) -> io::Result<()>;
+    fn cut(&mut self, length: u64) -> io::Result<()>;
+}
+
+/// A file system as the store sees it.
+pub(crate) trait Disk: Send + Sync {
+    fn create_dir(&self, dir: &Path) -> io::Result<()>;
+    /// File names within a directory, sorted; none when it does not exist.
+    fn list(&self, dir: &Path) -> io::Result<Vec<String>>;
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
+    /// Opens a file to append to, making it when it does not exist.
+    fn appender(&self, path: &Path) -> io::Result<Box<dyn Appender>>;
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
+    fn remove(&self, path: &Path) -> io::Result<()>;
+    /// The directory's entries outlive a power cut once this returns.
+    fn sync_dir(&self, dir: &Path) -> io::Result<()>;
+
+    /// Puts a file in place whole or not at all, power cut or no.
+    fn replace(&self, path: &Path, parts: &[Vec<u8>]) -> io::Result<()> {
+        let aside = aside_name(path);
+        // An attempt that failed before may have left its beginning.
+        match self.remove(&aside) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e),
+            _ => {}
+        }
+        let mut file = self.appender(&aside)?;
+        parts.iter().try_for_each(|part| file.append(part))?;
+        file.sync()?;
+        drop(file);
+        self.rename(&aside, path)?;
+        self.sync_dir(path.parent().unwrap_or_else(|| Path::new(".")))
+    }
+}
+
+fn aside_name(path: &Path) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(".new");
+    name.into()
+}
+
+/// The file system of this machine.
+pub(crate) struct RealDisk;
+
+impl Appender for File {
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.write_all(bytes)
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        // fdatasync: it also writes the length that an append has changed.
+        self.sync_data()
+    }
+
+    fn cut(&mut self, length: u64) -> io::Result<()> {
+        self.set_len(length)?;
+        self.sync_data()
+    }
+}
+
+impl Disk for RealDisk {
+    fn create_dir(&self, dir: &Path) -> io::Result<()> {
+        fs::create_dir_all(dir)
+    }
+
+    fn list(&self, dir: &Path) -> io::Result<Vec<String>> {
+        let entries = match fs::read_dir(dir) {
+            Err(e) if e.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            entries => entries?,
+        };
+        let mut names = entries
+            .map(|entry| Ok(entry?.file_name().to_string_lossy().into_owned()))
+            .collect::<io::Result<Vec<_>>>()?;
+        names.sort();
+        Ok(names)
+    }
+
+    fn read(&self, path: &Path) -> io::Result<Vec<u8>> {
+        fs::read(path)
+    }
+
+    fn appender(&self, path: &Path) -> io::Result<Box<dyn Appender>> {
+        Ok(Box::new(OpenOptions::new().create(true).append(true).open(path)?))
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::rename(from, to)
+    }
+
+    fn remove(&self, path: &Path) -> io::Result<()> {
+        fs::remove_file(path)
+    }
+
+    fn sync_dir(&self, dir: &Path) -> io::Result<()> {
+        // A directory is a file that can be opened and synced; other systems than Unix do it of themselves.
+        if cfg!(unix) { File::open(dir)?.sync_all() } else { Ok(()) }
+    }
+}

@@ -1,0 +1,572 @@
+//! [`Store`]: the map's records under lock, with their history.
+//!
+//! One writer: whoever holds the `Store`. Readers are values of their own ([`Reader`]) and may live in other threads.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use crate::map::{Replica, World};
+use crate::units::AreaId;
+
+use super::cell::{Cell, Key, Row};
+use super::disk::{Disk, RealDisk};
+use super::error::{Result, StoreError};
+use super::frame::Op;
+use super::ids::{self, Known};
+use super::open::{SledShelf, check_format, format_is_whole, lock, write_format};
+use super::reader::{Reader, encode_touched, history_key, key_of_record};
+use super::schema::Record;
+use super::sheet::{Sheet, describe_key};
+use super::tables::{self as t, Table};
+use super::time::Timestamp;
+use super::trees::{CHANGES, HISTORY};
+use super::vault::{Change as Write, OpenReport, Vault};
+use super::version::{Stamp, Version};
+
+/// Who changes the map, when and why. The clock is the caller's.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Change {
+    pub user: String,
+    pub at: Timestamp,
+    pub reason: String,
+}
+
+impl Change {
+    #[must_use]
+    pub fn new(user: impl Into<String>, at: Timestamp, reason: impl Into<String>) -> Self {
+        Self { user: user.into(), at, reason: reason.into() }
+    }
+}
+
+/// How many records a transaction created, changed and deleted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Counts {
+    pub created: u32,
+    pub changed: u32,
+    pub deleted: u32,
+}
+
+impl Counts {
+    #[must_use]
+    pub fn total(&self) -> u32 {
+        self.created + self.changed + self.deleted
+    }
+}
+
+/// What a transaction did.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct ImportReport {
+    /// The revision that it made, or the old one when nothing changed.
+    pub revision: u64,
+    pub counts: Counts,
+    /// The same by table; tables without a change are absent.
+    pub by_table: BTreeMap<Table, Counts>,
+}
+
+/// Records to put and to remove in one transaction.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Edits {
+    pub(crate) rows: BTreeMap<(Table, Key), Option<Row>>,
+}
+
+impl Edits {
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Creates the record, or changes the one with its key.
+    #[must_use]
+    pub fn put<T: Record>(mut self, record: &T) -> Self {
+        self.rows.insert((T::TABLE, key_of_record(record)), Some(record.to_row()));
+        self
+    }
+
+    /// Marks the record with this record's key as deleted; only its key fields count.
+    #[must_use]
+    pub fn remove<T: Record>(mut self, record: &T) -> Self {
+        self.rows.insert((T::TABLE, key_of_record(record)), None);
+        self
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.rows.is_empty()
+    }
+
+    /// What turns one sheet into another.
+    pub(crate) fn between(from: &Sheet, to: &Sheet) -> Self {
+        let mut rows = BTreeMap::new();
+        for (table, key, row) in to.iter() {
+            if from.get(table, key) != Some(row) {
+                rows.insert((table, key.clone()), Some(row.clone()));
+            }
+        }
+        for (table, key, _) in from.iter() {
+            if to.get(table, key).is_none() {
+                rows.insert((table, key.clone()), None);
+            }
+        }
+        Self { rows }
+    }
+}
+
+/// Why a revision was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum RevisionKind {
+    Import,
+    Edit,
+    Undo,
+    Redo,
+}
+
+impl RevisionKind {
+    const ALL: [(Self, &'static str); 4] = [
+        (Self::Import, "import"),
+        (Self::Edit, "edit"),
+        (Self::Undo, "undo"),
+        (Self::Redo, "redo"),
+    ];
+
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        Self::ALL.iter().find(|(kind, _)| *kind == self).map_or("edit", |(_, word)| word)
+    }
+}
+
+/// One entry of the list of revisions.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Revision {
+    pub number: u64,
+    pub at: Timestamp,
+    pub user: String,
+    pub reason: String,
+    pub kind: RevisionKind,
+    /// The revision that an undo took back, or that a redo brought again.
+    pub undoes: Option<u64>,
+    pub counts: Counts,
+}
+
+/// A store open for writing (or, with [`Store::open_read_only`], for reading).
+pub struct Store {
+    pub(super) vault: Vault,
+    pub(super) dir: PathBuf,
+    revision: u64,
+    _lock: Option<File>,
+}
+
+impl std::fmt::Debug for Store {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Store")
+            .field("dir", &self.dir)
+            .field("revision", &self.revision)
+            .finish_non_exhaustive()
+    }
+}
+
+impl Store {
+    /// Opens the store in a directory, or makes a new one there.
+    ///
+    /// # Errors
+    /// [`StoreError::Locked`] when another program has it open, [`StoreError::UnknownFormat`] and
+    /// [`StoreError::NotAStore`] when the directory is something else, [`StoreError::BothCorrupt`] when it is
+    /// beyond repair; nothing is changed then.
+    pub fn open(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
+        let dir = dir.as_ref();
+        let disk: Arc<dyn Disk> = Arc::new(RealDisk);
+        check_format(&*disk, dir)?;
+        disk.create_dir(dir).map_err(StoreError::io("создать каталог", dir))?;
+        let lock = lock(dir)?;
+        if !format_is_whole(&*disk, dir) {
+            write_format(&*disk, dir)?;
+            let parent = dir.parent().filter(|p| !p.as_os_str().is_empty());
+            let parent = parent.unwrap_or_else(|| Path::new("."));
+            disk.sync_dir(parent).map_err(StoreError::io("записать каталог", parent))?;
+        }
+        let mut shelf = SledShelf { dir: dir.to_owned() };
+        let (vault, report) = Vault::open(disk, dir, &mut shelf)?;
+        Ok((Self::over(vault, dir, Some(lock))?, report))
+    }
+
+    /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
+    ///
+    /// # Errors
+    /// [`StoreError::Missing`] when there is none; else as [`Store::open`].
+    pub fn open_read_only(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
+        let dir = dir.as_ref();
+        let disk: Arc<dyn Disk> = Arc::new(RealDisk);
+        if !check_format(&*disk, dir)? {
+            return Err(StoreError::Missing { dir: dir.display().to_string() });
+        }
+        let (vault, report) = Vault::open_read_only(disk, dir)?;
+        Ok((Self::over(vault, dir, None)?, report))
+    }
+
+    pub(crate) fn over(vault: Vault, dir: &Path, lock: Option<File>) -> Result<Self> {
+        let mut store = Self { vault, dir: dir.to_owned(), revision: 0, _lock: lock };
+        let last = store.vault.trees().last(Table::Revisions.code(), &[], &[0xFF; 4])?;
+        if let Some((key, _)) = last {
+            let key = Key::from_bytes(&key);
+            let record: t::Revisions = store.reader().record(&key)?.ok_or_else(|| {
+                StoreError::BadRecord {
+                    table: Table::Revisions.name(), key: "последняя".into()
+                }
+            })?;
+            store.revision = u64::from(record.revision);
+        }
+        Ok(store)
+    }
+
+    /// The number of the last change of the map; 0 before the first import.
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The directory of the store.
+    #[must_use]
+    pub fn dir(&self) -> &Path {
+        &self.dir
+    }
+
+    /// Why nothing can be written, if so.
+    #[must_use]
+    pub fn read_only(&self) -> Option<&str> {
+        self.vault.read_only()
+    }
+
+    /// The store as it stands now, for reading.
+    #[must_use]
+    pub fn reader(&self) -> Reader {
+        Reader::new(Arc::clone(self.vault.trees()), self.revision)
+    }
+
+    /// The store as it stood at a revision; 0 is the empty store.
+    ///
+    /// # Errors
+    /// [`StoreError::UnknownRevision`] when there is none of that number yet.
+    pub fn reader_at(&self, revision: u64) -> Result<Reader> {
+        if revision > self.revision {
+            return Err(StoreError::UnknownRevision { wanted: revision, last: self.revision });
+        }
+        Ok(Reader::new(Arc::clone(self.vault.trees()), revision))
+    }
+
+    /// The map; none before the first import.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn world(&self) -> Result<Option<World>> {
+        self.reader().world()
+    }
+
+    /// The map as it stood at a revision.
+    ///
+    /// # Errors
+    /// As [`Store::reader_at`].
+    pub fn world_as_of(&self, revision: u64) -> Result<Option<World>> {
+        self.reader_at(revision)?.world()
+    }
+
+    /// The last revision made at or before a moment; 0 when there was none.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn revision_at(&self, moment: Timestamp) -> Result<u64> {
+        let before = self.revisions()?.into_iter().filter(|r| r.at <= moment);
+        Ok(before.map(|r| r.number).max().unwrap_or(0))
+    }
+
+    /// A Fragment: the replicas that stand in an Area.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn fragment(&self, area: AreaId) -> Result<Vec<Replica>> {
+        self.reader().fragment(area)
+    }
+
+    /// All versions of a record, the oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a version is broken.
+    pub fn history(&self, table: Table, key: &Key) -> Result<Vec<Version>> {
+        self.reader().history(table, key)
+    }
+
+    /// All revisions, the oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn revisions(&self) -> Result<Vec<Revision>> {
+        let found = self.reader().versions(Table::Revisions, &Key::new())?;
+        found.into_iter().map(|(_, version)| revision(&version)).collect()
+    }
+
+    /// Makes the map of the store equal to a world that was read from a file: one transaction, one revision.
+    ///
+    /// What bears a known name keeps its id, what is new gets the next one, what has vanished is marked as
+    /// deleted. A world that says what the store says changes nothing.
+    ///
+    /// # Errors
+    /// [`StoreError::DuplicateName`] and [`StoreError::Duplicate`] when the world is ambiguous;
+    /// [`StoreError::Io`] when it could not be written. The store is then as before.
+    pub fn import(&mut self, world: &World, change: &Change) -> Result<ImportReport> {
+        let world = if self.revision == 0 {
+            world.clone()
+        } else {
+            ids::renumbered(world, &mut self.known_ids()?)?
+        };
+        self.become_world(&world, change, RevisionKind::Import)
+    }
+
+    /// Makes the map of the store equal to a world that came from it and was edited: ids are the store's own.
+    ///
+    /// # Errors
+    /// As [`Store::import`]; [`StoreError::IdReused`] when a new thing bears the id of an old one.
+    pub fn commit(&mut self, world: &World, change: &Change) -> Result<ImportReport> {
+        self.become_world(world, change, RevisionKind::Edit)
+    }
+
+    fn become_world(
+        &mut self,
+        world: &World,
+        change: &Change,
+        kind: RevisionKind,
+    ) -> Result<ImportReport> {
+        let edits = Edits::between(&self.reader().sheet()?, &Sheet::of(world)?);
+        self.write(&edits, change, kind, None)
+    }
+
+    /// Edits single records in one transaction.
+    ///
+    /// The records are taken as they are: whoever edits a map this way checks it (`map::check`) first.
+    ///
+    /// # Errors
+    /// As [`Store::commit`]; [`StoreError::DerivedTable`] for a table that is computed.
+    pub fn apply(&mut self, edits: &Edits, change: &Change) -> Result<ImportReport> {
+        self.write(edits, change, RevisionKind::Edit, None)
+    }
+
+    /// The next free id of a table: ids are never given twice.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn next_id(&self, table: Table) -> Result<u32> {
+        let last = self.reader().record::<t::LastIds>(&Key::new().text(table.name()))?;
+        Ok(last.map_or(0, |l| l.last_id).saturating_add(1))
+    }
+
+    /// The names and ids of all that is or was in the map.
+    fn known_ids(&self) -> Result<Known> {
+        let mut known = Known::default();
+        for table in ids::tables() {
+            self.vault.trees().scan(table.code(), &[], &mut |key, bytes| {
+                let version = Version::decode(table, key, bytes)?;
+                known.add(table, &version.row, !version.stamp.deleted);
+                Ok(true)
+            })?;
+        }
+        for last in self.reader().records::<t::LastIds>(&Key::new())? {
+            if let Some(table) = Table::named(&last.kind) {
+                known.raise(table, last.last_id);
+            }
+        }
+        Ok(known)
+    }
+
+    /// The one place where records of the map are written.
+    pub(super) fn write(
+        &mut self,
+        edits: &Edits,
+        change: &Change,
+        kind: RevisionKind,
+        undoes: Option<u64>,
+    ) -> Result<ImportReport> {
+        let revision = self.revision + 1;
+        let stamp = |deleted| Stamp { revision, at: change.at, user: change.user.clone(), deleted };
+        let mut draft = Draft::default();
+        for ((table, key), row) in &edits.rows {
+            if !table.is_stored() {
+                return Err(StoreError::DerivedTable { table: table.name() });
+            }
+            if let Some(row) = row {
+                check_numbers(*table, row)?;
+            }
+            let old = self.vault.get(table.code(), key.as_bytes())?;
+            let was =
+                old.as_ref().map(|b| Version::decode(*table, key.as_bytes(), b)).transpose()?;
+            let living = was.as_ref().filter(|v| !v.stamp.deleted);
+            let counts = draft.by_table.entry(*table).or_default();
+            let is_deletion = row.is_none();
+            let row = match (living, row) {
+                (None, None) => continue,
+                (Some(v), Some(row)) if v.row == *row => continue,
+                (None, Some(row)) => {
+                    if let Some(v) = &was {
+                        check_id(*table, v, row)?;
+                    }
+                    counts.created += 1;
+                    row
+                }
+                (Some(v), None) => {
+                    counts.deleted += 1;
+                    &v.row
+                }
+                (Some(_), Some(row)) => {
+                    counts.changed += 1;
+                    row
+                }
+            };
+            draft.raise_id(*table, row);
+            let version = Version { stamp: stamp(is_deletion), row: row.clone() };
+            let bytes = version.encode(*table, key.as_bytes());
+            if let (Some(old), Some(was)) = (&old, &was) {
+                let key = history_key(*table, key.as_bytes(), was.stamp.revision);
+                draft.put(HISTORY, key, old.clone(), None);
+            }
+            draft.put(table.code(), key.as_bytes().to_vec(), bytes, old);
+            draft.touched.push((*table, key.clone()));
+        }
+        let report = draft.report(revision);
+        if report.counts.total() == 0 {
+            return Ok(ImportReport { revision: self.revision, ..ImportReport::default() });
+        }
+        self.note_ids(&mut draft, &stamp(false))?;
+        note_revision(&mut draft, &report, &stamp(false), change, kind, undoes);
+        self.vault.commit(&draft.writes)?;
+        self.revision = revision;
+        Ok(report)
+    }
+
+    fn note_ids(&self, draft: &mut Draft, stamp: &Stamp) -> Result<()> {
+        for (table, id) in std::mem::take(&mut draft.last_ids) {
+            if id >= self.next_id(table)? {
+                let record = t::LastIds { kind: table.name().into(), last_id: id };
+                self.put_log(draft, &record, stamp)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a record that is not of the map to a transaction.
+    pub(super) fn put_log<T: Record>(
+        &self,
+        draft: &mut Draft,
+        record: &T,
+        stamp: &Stamp,
+    ) -> Result<()> {
+        let row = record.to_row();
+        check_numbers(T::TABLE, &row)?;
+        let key = key_of_record(record).as_bytes().to_vec();
+        let old = self.vault.get(T::TABLE.code(), &key)?;
+        let bytes = Version { stamp: stamp.clone(), row }.encode(T::TABLE, &key);
+        draft.put(T::TABLE.code(), key, bytes, old);
+        Ok(())
+    }
+}
+
+/// A transaction in the making.
+#[derive(Default)]
+pub(super) struct Draft {
+    pub(super) writes: Vec<Write>,
+    touched: Vec<(Table, Key)>,
+    by_table: BTreeMap<Table, Counts>,
+    last_ids: BTreeMap<Table, u32>,
+}
+
+impl Draft {
+    pub(super) fn put(&mut self, tree: u8, key: Vec<u8>, value: Vec<u8>, old: Option<Vec<u8>>) {
+        self.writes.push(Write { op: Op { tree, key, value: Some(value) }, old });
+    }
+
+    fn raise_id(&mut self, table: Table, row: &Row) {
+        if let Some((id, _)) = ids::identity(table, row) {
+            let last = self.last_ids.entry(table).or_default();
+            *last = (*last).max(id);
+        }
+    }
+
+    fn report(&mut self, revision: u64) -> ImportReport {
+        self.by_table.retain(|_, counts| counts.total() > 0);
+        let mut counts = Counts::default();
+        for c in self.by_table.values() {
+            counts.created += c.created;
+            counts.changed += c.changed;
+            counts.deleted += c.deleted;
+        }
+        ImportReport { revision, counts, by_table: std::mem::take(&mut self.by_table) }
+    }
+}
+
+/// What is not finite could be written, but not read.
+fn check_numbers(table: Table, row: &Row) -> Result<()> {
+    for (column, cell) in table.columns().iter().zip(row) {
+        if let Cell::Real(value) = cell
+            && !value.is_finite()
+        {
+            let (key, column) = (describe_key(table, row), column.name);
+            return Err(StoreError::NotFinite { table: table.name(), key, column, value: *value });
+        }
+    }
+    Ok(())
+}
+
+/// A deleted record may come back as itself, but not as something else.
+fn check_id(table: Table, was: &Version, row: &Row) -> Result<()> {
+    match (ids::identity(table, &was.row), ids::identity(table, row)) {
+        (Some((id, was)), Some((_, is))) if was != is => {
+            Err(StoreError::IdReused { table: table.name(), id, was, is })
+        }
+        _ => Ok(()),
+    }
+}
+
+fn note_revision(
+    draft: &mut Draft,
+    report: &ImportReport,
+    stamp: &Stamp,
+    change: &Change,
+    kind: RevisionKind,
+    undoes: Option<u64>,
+) {
+    let number = |n: u64| u32::try_from(n).expect("four thousand million revisions are not made");
+    let record = t::Revisions {
+        revision: number(report.revision),
+        kind: kind.word().into(),
+        reason: change.reason.clone(),
+        undoes: undoes.map(number),
+        created: report.counts.created,
+        changed: report.counts.changed,
+        deleted: report.counts.deleted,
+    };
+    let key = key_of_record(&record);
+    let version = Version { stamp: stamp.clone(), row: record.to_row() };
+    let bytes = version.encode(Table::Revisions, key.as_bytes());
+    draft.put(Table::Revisions.code(), key.as_bytes().to_vec(), bytes, None);
+    let pieces = encode_touched(draft.touched.iter());
+    for (no, piece) in (0u32..).zip(pieces) {
+        let mut key = report.revision.to_be_bytes().to_vec();
+        key.extend(no.to_be_bytes());
+        draft.put(CHANGES, key, piece, None);
+    }
+}
+
+fn revision(version: &Version) -> Result<Revision> {
+    let bad = || StoreError::BadRecord {
+        table: Table::Revisions.name(),
+        key: describe_key(Table::Revisions, &version.row),
+    };
+    let r = <t::Revisions as Record>::from_row(&version.row).ok_or_else(bad)?;
+    let kind = RevisionKind::ALL.iter().find(|(_, word)| *word == r.kind).ok_or_else(bad)?.0;
+    Ok(Revision {
+        number: u64::from(r.revision),
+        at: version.stamp.at,
+        user: version.stamp.user.clone(),
+        reason: r.reason,
+        kind,
+        undoes: r.undoes.map(u64::from),
+        counts: Counts { created: r.created, changed: r.changed, deleted: r.deleted },
+    })
+}

@@ -1,0 +1,248 @@
+//! Reading a store at one revision, while others may write.
+//!
+//! A reader sees the map as it stood at its revision, whatever is committed meanwhile: a record that is newer
+//! than that is looked up in the history, which the same transaction has filled.
+
+use std::sync::Arc;
+
+use crate::map::{Replica, World};
+use crate::units::{AreaId, DomainId, MapId};
+
+use super::cell::{Key, Row};
+use super::error::{Result, StoreError};
+use super::schema::{Record, key_of};
+use super::sheet::{Sheet, describe_key};
+use super::tables::{self as t, Table};
+use super::trees::{CHANGES, HISTORY, Trees};
+use super::version::Version;
+
+/// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
+#[derive(Clone)]
+pub struct Reader {
+    trees: Arc<dyn Trees>,
+    revision: u64,
+}
+
+/// `table key revision`: where the history keeps an old version.
+pub(crate) fn history_key(table: Table, key: &[u8], revision: u64) -> Vec<u8> {
+    let mut out = history_prefix(table, key);
+    out.extend(revision.to_be_bytes());
+    out
+}
+
+fn history_prefix(table: Table, key: &[u8]) -> Vec<u8> {
+    let mut out = vec![table.code()];
+    out.extend(key);
+    out
+}
+
+impl Reader {
+    pub(crate) fn new(trees: Arc<dyn Trees>, revision: u64) -> Self {
+        Self { trees, revision }
+    }
+
+    #[must_use]
+    pub fn revision(&self) -> u64 {
+        self.revision
+    }
+
+    /// The version of a record that was valid at this revision, the mark of its deletion included.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when the record is broken.
+    pub fn version(&self, table: Table, key: &Key) -> Result<Option<Version>> {
+        match self.trees.get(table.code(), key.as_bytes())? {
+            Some(bytes) => self.valid(table, key.as_bytes(), &bytes),
+            None => Ok(None),
+        }
+    }
+
+    fn valid(&self, table: Table, key: &[u8], current: &[u8]) -> Result<Option<Version>> {
+        let version = Version::decode(table, key, current)?;
+        if version.stamp.revision <= self.revision || !table.is_map() {
+            return Ok(Some(version));
+        }
+        let (from, to) = (history_prefix(table, key), history_key(table, key, self.revision));
+        match self.trees.last(HISTORY, &from, &to)? {
+            Some((_, bytes)) => Version::decode(table, key, &bytes).map(Some),
+            None => Ok(None),
+        }
+    }
+
+    /// The live versions whose keys begin with `prefix`, in the order of their keys.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn versions(&self, table: Table, prefix: &Key) -> Result<Vec<(Key, Version)>> {
+        let mut found = Vec::new();
+        self.trees.scan(table.code(), prefix.as_bytes(), &mut |key, bytes| {
+            if let Some(version) = self.valid(table, key, bytes)?
+                && !version.stamp.deleted
+            {
+                found.push((Key::from_bytes(key), version));
+            }
+            Ok(true)
+        })?;
+        Ok(found)
+    }
+
+    /// The live records of a type whose keys begin with `prefix`: [`Key::new`] gives all.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn records<T: Record>(&self, prefix: &Key) -> Result<Vec<T>> {
+        self.versions(T::TABLE, prefix)?.into_iter().map(|(_, v)| record(&v.row)).collect()
+    }
+
+    /// One live record.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when it is broken.
+    pub fn record<T: Record>(&self, key: &Key) -> Result<Option<T>> {
+        match self.version(T::TABLE, key)? {
+            Some(v) if !v.stamp.deleted => record(&v.row).map(Some),
+            _ => Ok(None),
+        }
+    }
+
+    /// All live records of the map.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn sheet(&self) -> Result<Sheet> {
+        let mut sheet = Sheet::default();
+        for table in Table::ALL.iter().copied().filter(|t| t.is_map()) {
+            for (key, version) in self.versions(table, &Key::new())? {
+                sheet.insert(table, key, version.row);
+            }
+        }
+        Ok(sheet)
+    }
+
+    /// The map; none when nothing was imported yet.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn world(&self) -> Result<Option<World>> {
+        self.sheet()?.world()
+    }
+
+    /// A Fragment (paper 2 §5): all that stands in an Area, found by the Area's id alone.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn fragment(&self, area: AreaId) -> Result<Vec<Replica>> {
+        let mut sheet = Sheet::default();
+        for (key, version) in self.versions(Table::AreaObjects, &Key::new().id(area.0))? {
+            let replica: t::AreaObjects = record(&version.row)?;
+            sheet.insert(Table::AreaObjects, key, version.row);
+            let by_replica = Key::new().id(replica.repl_id);
+            let forms = Key::new().text(Table::AreaObjects.name()).id(replica.repl_id);
+            for (table, prefix) in [
+                (Table::ReplicaProperties, &by_replica),
+                (Table::ReplicaDoors, &by_replica),
+                (Table::NameForms, &forms),
+            ] {
+                for (key, version) in self.versions(table, prefix)? {
+                    sheet.insert(table, key, version.row);
+                }
+            }
+        }
+        super::read::replicas(&sheet)
+    }
+
+    /// The Maps of a Domain, found by its id alone.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn maps_of(&self, domain: DomainId) -> Result<Vec<MapId>> {
+        let placed = self.records::<t::DomainMaps>(&Key::new().id(domain.0))?;
+        Ok(placed.into_iter().map(|r| MapId(r.map_id)).collect())
+    }
+
+    /// The Areas of a Map, found by its id alone.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn areas_of(&self, map: MapId) -> Result<Vec<AreaId>> {
+        let placed = self.records::<t::MapItems>(&Key::new().id(map.0))?;
+        Ok(placed.into_iter().map(|r| AreaId(r.area_id)).collect())
+    }
+
+    /// All versions of a record up to this revision, the oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a version is broken.
+    pub fn history(&self, table: Table, key: &Key) -> Result<Vec<Version>> {
+        let mut versions = Vec::new();
+        let from = history_prefix(table, key.as_bytes());
+        self.trees.scan(HISTORY, &from, &mut |_, bytes| {
+            versions.push(Version::decode(table, key.as_bytes(), bytes)?);
+            Ok(true)
+        })?;
+        if let Some(bytes) = self.trees.get(table.code(), key.as_bytes())? {
+            versions.push(Version::decode(table, key.as_bytes(), &bytes)?);
+        }
+        versions.retain(|v| v.stamp.revision <= self.revision);
+        Ok(versions)
+    }
+
+    /// The keys that a revision touched.
+    pub(crate) fn touched(&self, revision: u64) -> Result<Vec<(Table, Key)>> {
+        let mut keys = Vec::new();
+        self.trees.scan(CHANGES, &revision.to_be_bytes(), &mut |_, bytes| {
+            let list = decode_touched(bytes).ok_or_else(|| StoreError::BadRecord {
+                table: "~changes",
+                key: revision.to_string(),
+            })?;
+            keys.extend(list);
+            Ok(true)
+        })?;
+        Ok(keys)
+    }
+}
+
+fn record<T: Record>(row: &Row) -> Result<T> {
+    T::from_row(row).ok_or_else(|| StoreError::BadRecord {
+        table: T::TABLE.name(),
+        key: describe_key(T::TABLE, row),
+    })
+}
+
+/// The keys that a revision touched, in pieces that sled keeps within its pages.
+pub(crate) fn encode_touched<'a>(keys: impl Iterator<Item = &'a (Table, Key)>) -> Vec<Vec<u8>> {
+    const PIECE: usize = 16 << 10;
+    let mut pieces = vec![Vec::new()];
+    for (table, key) in keys {
+        if pieces.last().is_some_and(|p| p.len() > PIECE) {
+            pieces.push(Vec::new());
+        }
+        let piece = pieces.last_mut().expect("there is always a piece");
+        piece.push(table.code());
+        super::cell::put_bytes(piece, key.as_bytes());
+    }
+    for piece in &mut pieces {
+        let crc = crc32fast::hash(piece);
+        piece.extend(crc.to_be_bytes());
+    }
+    pieces
+}
+
+fn decode_touched(bytes: &[u8]) -> Option<Vec<(Table, Key)>> {
+    let (body, crc) = bytes.split_last_chunk::<4>()?;
+    if crc32fast::hash(body) != u32::from_be_bytes(*crc) {
+        return None;
+    }
+    let mut bytes = super::cell::Bytes(body);
+    let mut keys = Vec::new();
+    while !bytes.0.is_empty() {
+        let table = Table::from_code(bytes.byte()?)?;
+        keys.push((table, Key::from_bytes(bytes.slice()?)));
+    }
+    Some(keys)
+}
+
+/// The key of a record.
+pub(crate) fn key_of_record<T: Record>(record: &T) -> Key {
+    key_of(T::TABLE.columns(), &record.to_row()).expect("a record's key fields are ids and texts")
+}

@@ -1,0 +1,659 @@
+//! The tables of paper 2, one record type each, with the paper's table and column names (its `Hieght` too).
+//!
+//! Paper 2 §§2-7. Every record bears, beside these columns, `RecDate`, `RecUser`, `Deleted` and its revision:
+//! see [`Stamp`](super::Stamp). Columns and tables that no paper has are marked `beyond` and stand last.
+//! Lengths are cm, angles degrees; permeability is 0, 1 or 2.
+//!
+//! **Invariant**: a table's code stands in the journal; codes and columns are only ever added, never changed.
+#![allow(missing_docs, reason = "the columns are described in paper 2, whose names they bear")]
+
+use super::cell::{Cell, Field, Row};
+use super::schema::{Column, Origin, Record, column, field, role, tables};
+
+tables! {
+    /// Orthoframes (paper 2 §2).
+    Paper OrFr = 1 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        col type_id: Option<u32> = "TypeID",
+        col shape_id: Option<u32> = "ShapeID",
+        col side_count: u32 = "SideCount",
+        col base_pntr: u32 = "BasePntr",
+        col roof: f64 = "Roof",
+        col roof_pntr: u32 = "RoofPntr",
+        col size_x: f64 = "SizeX",
+        col size_y: f64 = "SizeY",
+        beyond key: String = "Key",
+        beyond name_en: String = "NameEn",
+        beyond roof_scale: f64 = "RoofScale",
+    }
+    /// Geometric figures of bases: «Квадрат».
+    Paper OrtFrmShapeList = 2 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// Types of Orthoframes: «Часть мебели».
+    Paper OrtFrmTypeList = 3 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// Properties of Orthoframes: «Цвет» = «Черный».
+    Paper OrtFrmProperties = 4 {
+        key or_fr_id: u32 = "OrFrID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    /// Base vectors of Orthoframes and the sides on them.
+    Paper OrtFrmSides = 5 {
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col side_type_id: Option<u32> = "SideTypeID",
+        col side_pntr: u32 = "SidePntr",
+        col x1: f64 = "X1",
+        col y1: f64 = "Y1",
+        col x2: f64 = "X2",
+        col y2: f64 = "Y2",
+        col len: f64 = "Len",
+        col ang: f64 = "Ang",
+        beyond no: u32 = "No",
+    }
+    /// Types of sides: «Стена», «Проход».
+    Paper OrtFrmSideTypeList = 6 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// Properties of sides.
+    Paper OrtFrmSideProperties = 7 {
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    /// Kinds of things (paper 2 §3).
+    Paper Object = 8 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        col type_id: Option<u32> = "TypeID",
+        col size_x: f64 = "SizeX",
+        col size_y: f64 = "SizeY",
+        col height: f64 = "Hieght",
+        beyond key: String = "Key",
+        beyond name_en: String = "NameEn",
+        beyond front_item: Option<String> = "FrontItemID",
+        beyond front_side: Option<String> = "FrontSideID",
+        beyond back_item: Option<String> = "BackItemID",
+        beyond back_side: Option<String> = "BackSideID",
+    }
+    /// Types of Objects: «Стол».
+    Paper ObjectTypeList = 9 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// The Orthoframes of an Object.
+    Paper ObjectItems = 10 {
+        key object_id: u32 = "ObjectID",
+        key item_id: String = "ItemID",
+        col or_fr_id: u32 = "OrFrID",
+        col pos_x: f64 = "PosX",
+        col pos_y: f64 = "PosY",
+        col pos_z: f64 = "PosZ",
+        col pos_a: f64 = "PosA",
+        col base: bool = "Base",
+        beyond no: u32 = "No",
+    }
+    /// Links between items of an Object. A base is written `@base`, a roof `@roof` in `SideID`.
+    Paper ObjectItemLinks = 11 {
+        key object_id: u32 = "ObjectID",
+        key item_id: String = "ItemID",
+        key item_id2: String = "ItemID2",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key or_fr_id2: u32 = "OrFrID2",
+        key side_id2: String = "SideID2",
+        col rel_x: f64 = "RelX",
+        col rel_y: f64 = "RelY",
+        col rel_a: f64 = "RelA",
+        col rel_xy: f64 = "RelXY",
+        col rel_z: f64 = "RelZ",
+        beyond no: u32 = "No",
+    }
+    /// Doors of Objects. `SetInside`: 1 into, -1 out of.
+    Paper ObjectDoors = 12 {
+        key object_id: u32 = "ObjectID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key door_id: u32 = "DoorID",
+        col set_inside: i64 = "SetInside",
+        beyond_key item_id: String = "ItemID",
+        beyond no: u32 = "No",
+    }
+    /// Rooms, corridors, halls (paper 2 §4).
+    Paper Area = 13 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        col type_id: Option<u32> = "TypeID",
+        col size_x: f64 = "SizeX",
+        col size_y: f64 = "SizeY",
+        col height: f64 = "Hieght",
+        beyond key: String = "Key",
+        beyond name_en: String = "NameEn",
+    }
+    /// Types of Areas: «Коридор».
+    Paper AreaTypeList = 14 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// The Orthoframes of an Area.
+    Paper AreaItems = 15 {
+        key area_id: u32 = "AreaID",
+        key item_id: String = "ItemID",
+        col or_fr_id: u32 = "OrFrID",
+        col pos_x: f64 = "PosX",
+        col pos_y: f64 = "PosY",
+        col pos_z: f64 = "PosZ",
+        col pos_a: f64 = "PosA",
+        col base: bool = "Base",
+        beyond no: u32 = "No",
+    }
+    /// Links between items of an Area; as [`ObjectItemLinks`].
+    Paper AreaItemLinks = 16 {
+        key area_id: u32 = "AreaID",
+        key item_id: String = "ItemID",
+        key item_id2: String = "ItemID2",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key or_fr_id2: u32 = "OrFrID2",
+        key side_id2: String = "SideID2",
+        col rel_x: f64 = "RelX",
+        col rel_y: f64 = "RelY",
+        col rel_a: f64 = "RelA",
+        col rel_xy: f64 = "RelXY",
+        col rel_z: f64 = "RelZ",
+        beyond no: u32 = "No",
+    }
+    /// Doors of Areas. `SetInside`: 1 into the Area, -1 out of it.
+    Paper AreaDoors = 17 {
+        key area_id: u32 = "AreaID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key door_id: u32 = "DoorID",
+        col set_inside: i64 = "SetInside",
+        beyond_key item_id: String = "ItemID",
+        beyond no: u32 = "No",
+    }
+    /// Fragments: the replicas of Objects that stand in an Area (paper 2 §5).
+    Paper AreaObjects = 18 {
+        key area_id: u32 = "AreaID",
+        key object_id: u32 = "ObjectID",
+        key repl_id: u32 = "ReplID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col z: f64 = "Z",
+        col ang: f64 = "Ang",
+        col move_prob: u32 = "MoveProb",
+        beyond name: String = "Name",
+        beyond name_en: String = "NameEn",
+    }
+    /// Floors and flats (paper 2 §6).
+    Paper Map = 19 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        col type_id: Option<u32> = "TypeID",
+        col size_x: f64 = "SizeX",
+        col size_y: f64 = "SizeY",
+        col height: f64 = "Hieght",
+        beyond key: String = "Key",
+        beyond name_en: String = "NameEn",
+    }
+    /// Types of Maps: «Квартира».
+    Paper MapTypeList = 20 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// The Areas of a Map. An Area stands in one Map once, so its id serves as `ItemID`; `OrFrID` is that of
+    /// its base item.
+    Paper MapItems = 21 {
+        key map_id: u32 = "MapID",
+        key item_id: u32 = "ItemID",
+        col area_id: u32 = "AreaID",
+        col or_fr_id: u32 = "OrFrID",
+        col pos_x: f64 = "PosX",
+        col pos_y: f64 = "PosY",
+        col pos_z: f64 = "PosZ",
+        col pos_a: f64 = "PosA",
+        col base: bool = "Base",
+        beyond no: u32 = "No",
+    }
+    /// Links between sides of the Areas of a Map. The paper names a side by its Orthoframe, which may serve
+    /// an Area more than once; hence the items.
+    Paper MapItemLinks = 22 {
+        key map_id: u32 = "MapID",
+        key item_id: u32 = "ItemID",
+        key item_id2: u32 = "ItemID2",
+        col area_id: u32 = "AreaID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col area_id2: u32 = "AreaID2",
+        key or_fr_id2: u32 = "OrFrID2",
+        key side_id2: String = "SideID2",
+        col rel_x: f64 = "RelX",
+        col rel_y: f64 = "RelY",
+        col rel_a: f64 = "RelA",
+        col rel_z: f64 = "RelZ",
+        beyond_key area_item_id: String = "AreaItemID",
+        beyond_key area_item_id2: String = "AreaItemID2",
+        beyond no: u32 = "No",
+    }
+    /// Buildings.
+    Paper Domain = 23 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond key: String = "Key",
+        beyond name_en: String = "NameEn",
+    }
+    /// The Maps of a Domain.
+    Paper DomainMaps = 24 {
+        key domain_id: u32 = "DomainID",
+        key map_id: u32 = "MapID",
+        col pos_x: f64 = "PosX",
+        col pos_y: f64 = "PosY",
+        col pos_z: f64 = "PosZ",
+        col pos_a: f64 = "PosA",
+        col base: bool = "Base",
+        beyond no: u32 = "No",
+    }
+    /// Doors (paper 2 §7).
+    Paper Door = 25 {
+        key id: u32 = "ID",
+        col type_id: Option<u32> = "TypeID",
+        col side_count: u32 = "SideCount",
+        col width: f64 = "Width",
+        col height: f64 = "Height",
+        beyond key: String = "Key",
+        beyond name: String = "Name",
+        beyond name_en: String = "NameEn",
+        beyond kind: String = "Kind",
+        beyond status: String = "Status",
+        beyond opening: f64 = "Opening",
+    }
+    /// Types of Doors: «Распашная».
+    Paper DoorTypeList = 26 {
+        key id: u32 = "ID",
+        col name: String = "Name",
+        col desc: String = "Desc",
+        beyond name_en: String = "NameEn",
+        beyond gender: String = "Gender",
+        beyond animate: bool = "Animate",
+    }
+    /// Leaves of doors. `JointSide`: 0 right, 1 left.
+    Paper DoorSides = 27 {
+        key door_id: u32 = "DoorID",
+        key side_id: u32 = "SideID",
+        col joint_side: u32 = "JointSide",
+        col side_part: f64 = "SidePart",
+        col thick: f64 = "Thick",
+        col max_open: f64 = "MaxOpen",
+    }
+    /// All sides of an Object's items, in the Object's frame.
+    Derived ObjectItemSides = 28 {
+        key object_id: u32 = "ObjectID",
+        key item_id: String = "ItemID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col side_type_id: Option<u32> = "SideTypeID",
+        col side_pntr: u32 = "SidePntr",
+        col base: bool = "Base",
+        col x1: f64 = "X1",
+        col y1: f64 = "Y1",
+        col x2: f64 = "X2",
+        col y2: f64 = "Y2",
+        col len: f64 = "Len",
+        col ang: f64 = "Ang",
+        col z: f64 = "Z",
+        col height: f64 = "Hieght",
+    }
+    /// All sides of an Area's items, in the Area's frame.
+    Derived AreaItemSides = 29 {
+        key area_id: u32 = "AreaID",
+        key item_id: String = "ItemID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col side_type_id: Option<u32> = "SideTypeID",
+        col side_pntr: u32 = "SidePntr",
+        col base: bool = "Base",
+        col x1: f64 = "X1",
+        col y1: f64 = "Y1",
+        col x2: f64 = "X2",
+        col y2: f64 = "Y2",
+        col len: f64 = "Len",
+        col ang: f64 = "Ang",
+        col z: f64 = "Z",
+        col height: f64 = "Hieght",
+    }
+    /// All sides of the replicas of a Fragment, in the Area's frame.
+    Derived AreaObjectSides = 30 {
+        key area_id: u32 = "AreaID",
+        key object_id: u32 = "ObjectID",
+        key repl_id: u32 = "ReplID",
+        key item_id: String = "ItemID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col side_type_id: Option<u32> = "SideTypeID",
+        col side_pntr: u32 = "SidePntr",
+        col base: bool = "Base",
+        col x1: f64 = "X1",
+        col y1: f64 = "Y1",
+        col x2: f64 = "X2",
+        col y2: f64 = "Y2",
+        col len: f64 = "Len",
+        col ang: f64 = "Ang",
+        col z: f64 = "Z",
+        col height: f64 = "Hieght",
+    }
+    /// All sides of the Areas of a Map, in the Map's frame.
+    Derived MapItemSides = 31 {
+        key map_id: u32 = "MapID",
+        key item_id: u32 = "ItemID",
+        key area_id: u32 = "AreaID",
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        col side_type_id: Option<u32> = "SideTypeID",
+        col side_pntr: u32 = "SidePntr",
+        col base: bool = "Base",
+        col x1: f64 = "X1",
+        col y1: f64 = "Y1",
+        col x2: f64 = "X2",
+        col y2: f64 = "Y2",
+        col len: f64 = "Len",
+        col ang: f64 = "Ang",
+        col z: f64 = "Z",
+        col height: f64 = "Hieght",
+        beyond_key area_item_id: String = "AreaItemID",
+    }
+    /// What people call a side: «Парадный вход».
+    Beyond SideNames = 40 {
+        key or_fr_id: u32 = "OrFrID",
+        key side_id: String = "SideID",
+        key no: u32 = "No",
+        col name: String = "Name",
+    }
+    Beyond ObjectProperties = 41 {
+        key object_id: u32 = "ObjectID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    Beyond AreaProperties = 42 {
+        key area_id: u32 = "AreaID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    Beyond DoorProperties = 43 {
+        key door_id: u32 = "DoorID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    Beyond ReplicaProperties = 44 {
+        key repl_id: u32 = "ReplID",
+        key prop: String = "Prop",
+        col prop_val: String = "PropVal",
+    }
+    /// States of an Object's doors on one replica.
+    Beyond ReplicaDoors = 45 {
+        key repl_id: u32 = "ReplID",
+        key door_id: u32 = "DoorID",
+        col status: String = "Status",
+        col opening: f64 = "Opening",
+    }
+    /// Synonyms and traits of the entries of the type lists. `List` is the list's table, `Role` the word's.
+    Beyond TypeWords = 46 {
+        key list: String = "List",
+        key type_id: u32 = "TypeID",
+        key role: String = "Role",
+        key no: u32 = "No",
+        col word: String = "Word",
+    }
+    /// Word forms given by hand. `Kind` is the table in which the named thing stands.
+    Beyond NameForms = 47 {
+        key kind: String = "Kind",
+        key id: u32 = "ID",
+        key case: String = "Case",
+        col form: String = "Form",
+    }
+    /// Named places to stand.
+    Beyond Places = 48 {
+        key area_id: u32 = "AreaID",
+        key place_id: u32 = "PlaceID",
+        col name: String = "Name",
+        col name_en: String = "NameEn",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col ang: Option<f64> = "Ang",
+        col serves: Option<u32> = "ServesReplID",
+    }
+    /// Lifts and stairs.
+    Beyond Lifts = 49 {
+        key domain_id: u32 = "DomainID",
+        key lift_no: u32 = "LiftNo",
+        col name: String = "Name",
+    }
+    Beyond LiftStops = 50 {
+        key domain_id: u32 = "DomainID",
+        key lift_no: u32 = "LiftNo",
+        key stop_no: u32 = "StopNo",
+        col area_id: u32 = "AreaID",
+    }
+    /// The robot that works in the Domain.
+    Beyond Robot = 51 {
+        key domain_id: u32 = "DomainID",
+        col radius: f64 = "Radius",
+        col height: f64 = "Height",
+        col step: f64 = "Step",
+        col clearance: f64 = "Clearance",
+        col speed: f64 = "Speed",
+        col turn_rate: f64 = "TurnRate",
+        col start: Option<u32> = "StartPlaceID",
+    }
+    /// Where the robot stood last. `RecDate` says when, `RecUser` who said so.
+    Log RobotPose = 60 {
+        key robot_id: u32 = "RobotID",
+        col map_id: u32 = "MapID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col ang: f64 = "Ang",
+    }
+    /// What was seen of a replica (D5): at a place, or not where it was expected.
+    Log Observations = 61 {
+        key repl_id: u32 = "ReplID",
+        key at: i64 = "At",
+        key no: u32 = "No",
+        col seen: bool = "Seen",
+        col area_id: u32 = "AreaID",
+        col x: f64 = "X",
+        col y: f64 = "Y",
+        col z: f64 = "Z",
+        col ang: f64 = "Ang",
+        col sure: f64 = "Sure",
+        col observer: String = "Observer",
+    }
+    /// Every change of the map: who and when stand in its `RecUser` and `RecDate`.
+    Log Revisions = 62 {
+        key revision: u32 = "Revision",
+        col kind: String = "Kind",
+        col reason: String = "Reason",
+        col undoes: Option<u32> = "Undoes",
+        col created: u32 = "CreatedCount",
+        col changed: u32 = "ChangedCount",
+        col deleted: u32 = "DeletedCount",
+    }
+    /// The highest id ever given in a table, so that none is given twice.
+    Log LastIds = 63 {
+        key kind: String = "Kind",
+        col last_id: u32 = "LastID",
+    }
+    /// What a person said of the observations up to a moment: that they are wrong.
+    Log Verdicts = 64 {
+        key repl_id: u32 = "ReplID",
+        key at: i64 = "At",
+        col verdict: String = "Verdict",
+        col reason: String = "Reason",
+    }
+}
+
+impl Table {
+    /// Whether a change of this table is a change of the map, which makes a new revision.
+    #[must_use]
+    pub fn is_map(self) -> bool {
+        matches!(self.origin(), Origin::Paper | Origin::Beyond)
+    }
+
+    /// Whether records of this table are kept in the store.
+    #[must_use]
+    pub fn is_stored(self) -> bool {
+        self.origin() != Origin::Derived
+    }
+
+    #[must_use]
+    pub fn code(self) -> u8 {
+        self as u8
+    }
+
+    #[must_use]
+    pub fn from_code(code: u8) -> Option<Self> {
+        Self::ALL.iter().copied().find(|table| table.code() == code)
+    }
+
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.iter().copied().find(|table| table.name() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The paper's own list, copied from its §§2-7 by hand.
+    const PAPER: &[(&str, &str)] = &[
+        ("OrFr", "ID Name Desc TypeID ShapeID SideCount BasePntr Roof RoofPntr SizeX SizeY"),
+        ("OrtFrmShapeList", "ID Name Desc"),
+        ("OrtFrmTypeList", "ID Name Desc"),
+        ("OrtFrmProperties", "OrFrID Prop PropVal"),
+        ("OrtFrmSides", "OrFrID SideID SideTypeID SidePntr X1 Y1 X2 Y2 Len Ang"),
+        ("OrtFrmSideTypeList", "ID Name Desc"),
+        ("OrtFrmSideProperties", "OrFrID SideID Prop PropVal"),
+        ("Object", "ID Name Desc TypeID SizeX SizeY Hieght"),
+        ("ObjectTypeList", "ID Name Desc"),
+        ("ObjectItems", "ObjectID ItemID OrFrID PosX PosY PosZ PosA Base"),
+        (
+            "ObjectItemLinks",
+            "ObjectID ItemID ItemID2 OrFrID SideID OrFrID2 SideID2 RelX RelY RelA RelXY RelZ",
+        ),
+        ("ObjectDoors", "ObjectID OrFrID SideID DoorID SetInside"),
+        ("Area", "ID Name Desc TypeID SizeX SizeY Hieght"),
+        ("AreaTypeList", "ID Name Desc"),
+        ("AreaItems", "AreaID ItemID OrFrID PosX PosY PosZ PosA Base"),
+        (
+            "AreaItemLinks",
+            "AreaID ItemID ItemID2 OrFrID SideID OrFrID2 SideID2 RelX RelY RelA RelXY RelZ",
+        ),
+        ("AreaDoors", "AreaID OrFrID SideID DoorID SetInside"),
+        ("AreaObjects", "AreaID ObjectID ReplID X Y Z Ang MoveProb"),
+        ("Map", "ID Name Desc TypeID SizeX SizeY Hieght"),
+        ("MapTypeList", "ID Name Desc"),
+        ("MapItems", "MapID ItemID AreaID OrFrID PosX PosY PosZ PosA Base"),
+        (
+            "MapItemLinks",
+            "MapID ItemID ItemID2 AreaID OrFrID SideID AreaID2 OrFrID2 SideID2 RelX RelY RelA RelZ",
+        ),
+        ("Domain", "ID Name Desc"),
+        ("DomainMaps", "DomainID MapID PosX PosY PosZ PosA Base"),
+        ("Door", "ID TypeID SideCount Width Height"),
+        ("DoorTypeList", "ID Name Desc"),
+        ("DoorSides", "DoorID SideID JointSide SidePart Thick MaxOpen"),
+        (
+            "ObjectItemSides",
+            "ObjectID ItemID OrFrID SideID SideTypeID SidePntr Base X1 Y1 X2 Y2 Len Ang Z Hieght",
+        ),
+        (
+            "AreaItemSides",
+            "AreaID ItemID OrFrID SideID SideTypeID SidePntr Base X1 Y1 X2 Y2 Len Ang Z Hieght",
+        ),
+        (
+            "AreaObjectSides",
+            "AreaID ObjectID ReplID ItemID OrFrID SideID SideTypeID SidePntr Base X1 Y1 X2 Y2 Len \
+             Ang Z Hieght",
+        ),
+        (
+            "MapItemSides",
+            "MapID ItemID AreaID OrFrID SideID SideTypeID SidePntr Base X1 Y1 X2 Y2 Len Ang Z \
+             Hieght",
+        ),
+    ];
+
+    #[test]
+    fn every_table_and_field_of_the_paper_is_there() {
+        let ours: Vec<_> = Table::ALL
+            .iter()
+            .filter(|t| matches!(t.origin(), Origin::Paper | Origin::Derived))
+            .map(|t| {
+                let names: Vec<_> =
+                    t.columns().iter().filter(|c| !c.is_beyond).map(|c| c.name).collect();
+                (t.name(), names.join(" "))
+            })
+            .collect();
+        let paper: Vec<_> = PAPER.iter().map(|(t, c)| (*t, (*c).to_owned())).collect();
+        assert_eq!(ours, paper);
+        assert_eq!(ours.len(), 31);
+    }
+
+    /// Journals hold these numbers: a change here makes old stores unreadable.
+    #[test]
+    fn codes_stay_what_they_are() {
+        let codes: Vec<u8> = Table::ALL.iter().map(|t| t.code()).collect();
+        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=64).collect();
+        assert_eq!(codes, expected);
+        assert!(Table::ALL.iter().all(|t| Table::from_code(t.code()) == Some(*t)));
+    }
+
+    #[test]
+    fn a_row_from_before_a_column_was_added_takes_its_default() {
+        let area =
+            Area {
+                id: 7, name: "Комната-В".into(), name_en: "Room-B".into(), ..Area::default()
+            };
+        let row = area.to_row();
+        assert_eq!(Area::from_row(&row), Some(area));
+        let old = Area::from_row(&row[..3]).unwrap();
+        assert_eq!((old.id, old.name.as_str(), old.name_en.as_str()), (7, "Комната-В", ""));
+        assert_eq!(Area::from_row(&[Cell::Text("семь".into())]), None);
+    }
+}

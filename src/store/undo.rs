@@ -1,0 +1,113 @@
+//! Undo and redo: a revision that takes another one back, record by record.
+//!
+//! Nothing is rewound: undoing revision 7 makes revision 8, in which every record that 7 touched is again what
+//! it was after 6. So the history stays whole, and an undo can be undone.
+
+use super::cell::Key;
+use super::error::{Result, StoreError};
+use super::keep::{Change, Edits, ImportReport, Revision, RevisionKind, Store};
+use super::reader::Reader;
+use super::sheet::describe_key;
+use super::tables::Table;
+
+impl Store {
+    /// Takes back the last change that is not taken back yet.
+    ///
+    /// # Errors
+    /// [`StoreError::NothingToUndo`]; else as [`Store::apply`].
+    pub fn undo(&mut self, change: &Change) -> Result<ImportReport> {
+        let target = undoable(&self.revisions()?).last().copied();
+        let target = target.ok_or(StoreError::NothingToUndo { what: "отменять" })?;
+        self.revert(target, change, RevisionKind::Undo)
+    }
+
+    /// Brings back what the last undo took.
+    ///
+    /// # Errors
+    /// [`StoreError::NothingToUndo`] when the last change is no undo; else as [`Store::apply`].
+    pub fn redo(&mut self, change: &Change) -> Result<ImportReport> {
+        let target = redoable(&self.revisions()?).last().copied();
+        let target = target.ok_or(StoreError::NothingToUndo { what: "возвращать" })?;
+        self.revert(target, change, RevisionKind::Redo)
+    }
+
+    /// Takes back one revision, wherever it stands, if nothing that it touched was changed since.
+    ///
+    /// # Errors
+    /// [`StoreError::UndoConflict`] names the record and the later revision; [`StoreError::UnknownRevision`].
+    pub fn undo_revision(&mut self, revision: u64, change: &Change) -> Result<ImportReport> {
+        if revision == 0 || revision > self.revision() {
+            let last = self.revision();
+            return Err(StoreError::UnknownRevision { wanted: revision, last });
+        }
+        self.revert(revision, change, RevisionKind::Undo)
+    }
+
+    /// Makes the map what it was at a revision.
+    ///
+    /// # Errors
+    /// [`StoreError::UnknownRevision`]; else as [`Store::apply`].
+    pub fn return_to(&mut self, revision: u64, change: &Change) -> Result<ImportReport> {
+        let then = self.reader_at(revision)?.sheet()?;
+        let edits = Edits::between(&self.reader().sheet()?, &then);
+        self.write(&edits, change, RevisionKind::Edit, None)
+    }
+
+    fn revert(&mut self, target: u64, change: &Change, kind: RevisionKind) -> Result<ImportReport> {
+        let (now, before) = (self.reader(), self.reader_at(target - 1)?);
+        let mut edits = Edits::new();
+        for (table, key) in now.touched(target)? {
+            check_untouched_since(&now, target, table, &key)?;
+            let old = before.version(table, &key)?.filter(|v| !v.stamp.deleted).map(|v| v.row);
+            edits.rows.insert((table, key), old);
+        }
+        self.write(&edits, change, kind, Some(target))
+    }
+}
+
+/// The record must still be as the revision left it, whichever later revision wrote it.
+fn check_untouched_since(now: &Reader, target: u64, table: Table, key: &Key) -> Result<()> {
+    let Some(current) = now.version(table, key)? else { return Ok(()) };
+    let left = now.history(table, key)?.into_iter().find(|v| v.stamp.revision == target);
+    let same = left.is_some_and(|left| {
+        left.stamp.deleted == current.stamp.deleted
+            && (left.row == current.row || current.stamp.deleted)
+    });
+    if same {
+        return Ok(());
+    }
+    Err(StoreError::UndoConflict {
+        revision: target,
+        record: format!("{} ({})", table.name(), describe_key(table, &current.row)),
+        by: current.stamp.revision,
+    })
+}
+
+/// The changes that stand, the oldest first: an undo takes its target off, a redo puts it back on.
+fn undoable(revisions: &[Revision]) -> Vec<u64> {
+    let mut standing = Vec::new();
+    for r in revisions {
+        match (r.kind, r.undoes) {
+            (RevisionKind::Undo, Some(target)) => standing.retain(|n| *n != target),
+            (RevisionKind::Redo, Some(undo)) => {
+                let brought = revisions.iter().find(|r| r.number == undo).and_then(|r| r.undoes);
+                standing.extend(brought);
+            }
+            _ => standing.push(r.number),
+        }
+    }
+    standing
+}
+
+/// The undos that can be taken back: those after the last change of another kind, and not redone yet.
+fn redoable(revisions: &[Revision]) -> Vec<u64> {
+    let mut undos = Vec::new();
+    for r in revisions {
+        match (r.kind, r.undoes) {
+            (RevisionKind::Undo, _) => undos.push(r.number),
+            (RevisionKind::Redo, Some(undo)) => undos.retain(|n| *n != undo),
+            _ => undos.clear(),
+        }
+    }
+    undos
+}

@@ -1,0 +1,663 @@
+//! The vault: journal, snapshots and trees as one thing that never loses what it acknowledged.
+//!
+//! A transaction is one frame of the journal, on the disk before it is acknowledged; then it is applied to the
+//! trees. Truth is the newest whole snapshot and the frames after it; the trees are an index of it. Opening
+//! brings the two together:
+//!
+//! | journal | trees | what is done |
+//! |---|---|---|
+//! | whole | whole | the frames that the trees lack are applied; a torn tail is cut off |
+//! | whole | broken, or not as their digests say | set aside, built anew from snapshot and journal |
+//! | broken | whole and not behind it | a new snapshot and a new journal are written from the trees |
+//! | broken | broken | refused, both named |
+//!
+//! **Invariant**: when [`Vault::commit`] returns `Ok`, the frame is on the disk; after it returned an error
+//! from the journal, nothing more is written until the store is opened again.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::disk::{Appender, Disk};
+use super::error::{Result, StoreError};
+use super::frame::{
+    Digests, FORMAT, HeadError, JOURNAL, Op, Payload, SNAPSHOT, Scan, Tail, encode_frame,
+    file_header, scan,
+};
+use super::trees::{State, Trees, digests, tree_names};
+
+/// What opening a store found and mended.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct OpenReport {
+    /// Sequence number of the last transaction.
+    pub lsn: u64,
+    /// Records found whole, those of the history included.
+    pub records: u64,
+    /// Transactions that the tables lacked and that were taken from the journal.
+    pub replayed: u64,
+    /// Length of a write that was cut short, and so never acknowledged; it was cut off.
+    pub torn_bytes: u64,
+    /// Why the tables were built anew from snapshot and journal.
+    pub tables_rebuilt: Option<String>,
+    /// Why the journal was written anew from the tables.
+    pub journal_renewed: Option<String>,
+}
+
+/// One record's change within a transaction, with what stood there before.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Change {
+    pub(crate) op: Op,
+    pub(crate) old: Option<Vec<u8>>,
+}
+
+/// Where the trees live.
+pub(crate) trait Shelf: Send {
+    fn open(&mut self) -> Result<Arc<dyn Trees>>;
+    /// Whether there are trees already, whole or broken.
+    fn exists(&self) -> bool;
+    /// Puts broken trees away, so that [`Shelf::open`] then gives empty ones.
+    fn set_aside(&mut self) -> Result<()>;
+}
+
+struct Journal {
+    file: Box<dyn Appender>,
+    path: PathBuf,
+    length: u64,
+}
+
+/// See the module.
+pub(crate) struct Vault {
+    disk: Arc<dyn Disk>,
+    dir: PathBuf,
+    trees: Arc<dyn Trees>,
+    state: State,
+    journal: Option<Journal>,
+    read_only: Option<String>,
+    /// Journal length at which the next snapshot is taken.
+    checkpoint_at: u64,
+    /// Counted over all journal files that a rebuild would have to read.
+    journal_bytes: u64,
+}
+
+/// A snapshot is taken when the journal outgrows this, or twice the last snapshot if that is more.
+const CHECKPOINT_BYTES: u64 = 16 << 20;
+const SNAPSHOTS_KEPT: usize = 3;
+/// Snapshots are written in frames of about this size.
+const CHUNK_BYTES: usize = 1 << 20;
+
+fn journal_dir(dir: &Path) -> PathBuf {
+    dir.join("journal")
+}
+
+fn snapshot_dir(dir: &Path) -> PathBuf {
+    dir.join("snapshots")
+}
+
+fn numbered(dir: &Path, lsn: u64, extension: &str) -> PathBuf {
+    dir.join(format!("{lsn:020}.{extension}"))
+}
+
+/// Files named by a number, in its order.
+fn numbered_files(disk: &dyn Disk, dir: &Path, extension: &str) -> Result<Vec<(u64, PathBuf)>> {
+    let names = disk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
+    let number = |name: &String| {
+        let (stem, end) = name.split_once('.')?;
+        (end == extension && stem.len() == 20).then(|| stem.parse().ok()).flatten()
+    };
+    Ok(names.iter().filter_map(|n| Some((number(n)?, dir.join(n)))).collect())
+}
+
+/// The snapshots of a store, the oldest first.
+pub(crate) fn snapshot_files(disk: &dyn Disk, dir: &Path) -> Result<Vec<(u64, PathBuf)>> {
+    numbered_files(disk, &snapshot_dir(dir), "snapshot")
+}
+
+/// All that the journal files hold.
+#[derive(Default)]
+struct Log {
+    files: Vec<(u64, PathBuf, Vec<u8>)>,
+    /// Sequence number → file and payload.
+    frames: BTreeMap<u64, (usize, std::ops::Range<usize>)>,
+    /// Where the last file's good part ends, and how much follows.
+    end: u64,
+    torn: u64,
+    fault: Option<StoreError>,
+}
+
+impl Log {
+    fn read(disk: &dyn Disk, dir: &Path) -> Result<Self> {
+        let mut log = Self::default();
+        let mut torn_files = Vec::new();
+        for (first, path) in numbered_files(disk, &journal_dir(dir), "journal")? {
+            let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
+            let index = log.files.len();
+            let corrupt = |offset: usize| StoreError::JournalCorrupt {
+                path: path.display().to_string(),
+                offset: offset as u64,
+            };
+            (log.end, log.torn) = (bytes.len() as u64, 0);
+            match scan(&bytes, JOURNAL) {
+                Ok(scan) if scan.lsn == first => {
+                    log.end = scan.good as u64;
+                    log.torn = bytes.len() as u64 - log.end;
+                    if scan.tail == Tail::Torn {
+                        torn_files.push((first + scan.frames.len() as u64, corrupt(scan.good)));
+                    }
+                    log.take(index, &scan, &bytes, &corrupt);
+                }
+                Err(HeadError::Short) => {
+                    (log.end, log.torn) = (0, bytes.len() as u64);
+                }
+                Err(HeadError::Format(found)) => {
+                    return Err(StoreError::UnknownFormat {
+                        dir: dir.display().to_string(),
+                        found: found.to_string(),
+                        known: FORMAT,
+                    });
+                }
+                Ok(_) | Err(HeadError::Broken) => {
+                    log.fault.get_or_insert(corrupt(0));
+                    // The frames may be whole though the head is not.
+                    let mut mended = file_header(JOURNAL, first);
+                    mended.extend(bytes.get(mended.len()..).unwrap_or_default());
+                    if let Ok(scan) = scan(&mended, JOURNAL) {
+                        log.take(index, &scan, &mended, &corrupt);
+                    }
+                }
+            }
+            log.files.push((first, path, bytes));
+        }
+        // A tear is harmless only where nothing was written after it.
+        for (next, fault) in torn_files {
+            if log.frames.range(next..).next().is_some() {
+                log.fault.get_or_insert(fault);
+            }
+        }
+        Ok(log)
+    }
+
+    fn take(
+        &mut self,
+        file: usize,
+        found: &Scan,
+        bytes: &[u8],
+        corrupt: &dyn Fn(usize) -> StoreError,
+    ) {
+        for (lsn, payload) in &found.frames {
+            self.frames.insert(*lsn, (file, payload.clone()));
+        }
+        if found.tail == Tail::Corrupt {
+            self.fault.get_or_insert_with(|| corrupt(found.good));
+            // What stands behind the hole may be all that the trees lack.
+            let mut at = found.good + 1;
+            while at < bytes.len() {
+                let mut rest = file_header(JOURNAL, 0);
+                let head = rest.len();
+                rest.extend(&bytes[at..]);
+                match scan(&rest, JOURNAL) {
+                    Ok(later) if !later.frames.is_empty() => {
+                        for (lsn, payload) in &later.frames {
+                            let place = payload.start - head + at..payload.end - head + at;
+                            self.frames.insert(*lsn, (file, place));
+                        }
+                        at += (later.good - head).max(1);
+                    }
+                    _ => at += next_magic(&bytes[at + 1..]) + 1,
+                }
+            }
+        }
+    }
+
+    /// Whether something stood in a journal of which nothing can be read any more.
+    fn lost_head(&self) -> bool {
+        self.fault.is_some() && self.frames.is_empty()
+    }
+
+    /// The last sequence number that is known of: a file that begins with 4 has had 3 before it.
+    fn last(&self) -> u64 {
+        let before = self.files.last().map_or(0, |(first, ..)| first.saturating_sub(1));
+        self.frames.keys().next_back().copied().unwrap_or(0).max(before)
+    }
+
+    /// Whether every frame from `after + 1` to `last` is there.
+    fn reaches(&self, after: u64, last: u64) -> bool {
+        last <= after || self.frames.range(after + 1..=last).count() as u64 == last - after
+    }
+
+    fn payload(&self, lsn: u64) -> Option<Payload> {
+        let (file, range) = self.frames.get(&lsn)?;
+        Payload::decode(self.files[*file].2.get(range.clone())?)
+    }
+}
+
+/// How many bytes to skip to the next place where a frame may begin.
+fn next_magic(bytes: &[u8]) -> usize {
+    bytes.windows(4).position(|w| w == b"OFJ\x01").unwrap_or(bytes.len())
+}
+
+/// A journal file that begins with the given sequence number.
+fn begin_journal(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Journal> {
+    let dir = journal_dir(dir);
+    let path = numbered(&dir, lsn, "journal");
+    let head = file_header(JOURNAL, lsn);
+    let mut file = disk.appender(&path).map_err(StoreError::io("создать", &path))?;
+    let written = file.append(&head).and_then(|()| file.sync());
+    written.map_err(StoreError::io("записать", &path))?;
+    disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
+    Ok(Journal { file, path, length: head.len() as u64 })
+}
+
+/// Applies the frames after the trees' own state, and checks what comes out of it.
+fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
+    let mut state = trees.state()?;
+    let broken = |what: &str| StoreError::Tables { what: what.to_owned() };
+    if !log.reaches(state.lsn, last) {
+        let empty = state.lsn == 0;
+        return Err(broken(if empty {
+            "таблиц нет"
+        } else {
+            "таблицы отстали от журнала"
+        }));
+    }
+    let before = state.lsn;
+    for lsn in before + 1..=last {
+        let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
+        state.advance(lsn, payload.digests);
+        trees.apply(&payload.ops, &state)?;
+    }
+    if digests(trees)? != state.digests {
+        return Err(broken("записи не совпадают с контрольной суммой"));
+    }
+    Ok((state.clone(), state.lsn - before))
+}
+
+/// Puts a snapshot's records into empty trees.
+fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> {
+    let bad = |what: &str| StoreError::BadFile {
+        path: path.display().to_string(),
+        what: what.to_owned(),
+    };
+    let bytes = disk.read(path).map_err(StoreError::io("прочитать", path))?;
+    let found = scan(&bytes, SNAPSHOT).map_err(|_: HeadError| bad("начало файла испорчено"))?;
+    let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
+        return Err(bad("файл испорчен или записан не до конца"));
+    };
+    let payload = |(_, range): &(u64, std::ops::Range<usize>)| {
+        Payload::decode(&bytes[range.clone()]).ok_or_else(|| bad("кадр не читается"))
+    };
+    // The last frame holds the digests alone: without it the snapshot is not whole.
+    let end = payload(last)?;
+    if last.0 != found.lsn || !end.ops.is_empty() {
+        return Err(bad("файл записан не до конца"));
+    }
+    for chunk in chunks {
+        trees.apply(&payload(chunk)?.ops, &State::default())?;
+    }
+    trees.apply(&[], &State { lsn: found.lsn, digests: end.digests })
+}
+
+/// Whether a snapshot file is whole, without putting it anywhere.
+pub(crate) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
+    let trees = super::trees::MemoryTrees::default();
+    load_snapshot(disk, path, &trees)?;
+    let state = trees.state()?;
+    if digests(&trees)? == state.digests {
+        Ok(state)
+    } else {
+        Err(StoreError::BadFile {
+            path: path.display().to_string(),
+            what: "записи не совпадают с контрольной суммой".into(),
+        })
+    }
+}
+
+impl Vault {
+    /// Opens what is there, or makes it; see the module's table.
+    pub(crate) fn open(
+        disk: Arc<dyn Disk>,
+        dir: &Path,
+        shelf: &mut dyn Shelf,
+    ) -> Result<(Self, OpenReport)> {
+        for dir in [dir.to_owned(), journal_dir(dir), snapshot_dir(dir)] {
+            disk.create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;
+        }
+        disk.sync_dir(dir).map_err(StoreError::io("записать каталог", dir))?;
+        let mut log = Log::read(&*disk, dir)?;
+        let snapshots = snapshot_files(&*disk, dir)?;
+        if log.files.is_empty() && snapshots.is_empty() && !shelf.exists() {
+            // The journal comes first: trees without one are then always trees that have lost it.
+            begin_journal(&*disk, dir, 1)?;
+            log = Log::read(&*disk, dir)?;
+        }
+        // A frame that a killed program wrote but did not sync can be read now and yet vanish with the power:
+        // what is built upon must be on the disk first.
+        if let Some((_, path, _)) = log.files.last() {
+            let synced = disk.appender(path).and_then(|mut file| file.sync());
+            synced.map_err(StoreError::io("записать", path))?;
+        }
+        let (trees, state, mut report) = Self::recover(&*disk, dir, &log, shelf)?;
+        let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
+        let mut vault = Self {
+            disk,
+            dir: dir.to_owned(),
+            trees,
+            state,
+            journal: None,
+            read_only: None,
+            checkpoint_at: CHECKPOINT_BYTES,
+            journal_bytes,
+        };
+        vault.resume_journal(&log, &mut report)?;
+        Ok((vault, report))
+    }
+
+    /// Reads a store without touching it: snapshot and journal into memory.
+    pub(crate) fn open_read_only(disk: Arc<dyn Disk>, dir: &Path) -> Result<(Self, OpenReport)> {
+        struct InMemory;
+        impl Shelf for InMemory {
+            fn open(&mut self) -> Result<Arc<dyn Trees>> {
+                Ok(Arc::new(super::trees::MemoryTrees::default()))
+            }
+            fn exists(&self) -> bool {
+                false
+            }
+            fn set_aside(&mut self) -> Result<()> {
+                Ok(())
+            }
+        }
+        let log = Log::read(&*disk, dir)?;
+        let (trees, state, mut report) = Self::recover(&*disk, dir, &log, &mut InMemory)?;
+        report.tables_rebuilt = None;
+        report.torn_bytes = log.torn;
+        let vault = Self {
+            disk,
+            dir: dir.to_owned(),
+            trees,
+            state,
+            journal: None,
+            read_only: Some("так его открыли".into()),
+            checkpoint_at: u64::MAX,
+            journal_bytes: 0,
+        };
+        Ok((vault, report))
+    }
+
+    fn recover(
+        disk: &dyn Disk,
+        dir: &Path,
+        log: &Log,
+        shelf: &mut dyn Shelf,
+    ) -> Result<(Arc<dyn Trees>, State, OpenReport)> {
+        let snapshots = snapshot_files(disk, dir)?;
+        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
+        let last = log.last().max(newest_snapshot);
+        let mut report = OpenReport::default();
+
+        let opened = shelf.open().and_then(|trees| {
+            let seen = trees.state()?.lsn;
+            let found = replay(log, &*trees, last.max(seen))?;
+            Ok((trees, found))
+        });
+        let (trees, (state, replayed)) = match opened {
+            Ok(whole) => whole,
+            Err(why) => {
+                // With neither snapshot nor journal, empty trees would be a silent loss of everything.
+                if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) {
+                    return Err(both_corrupt(dir, log, &why, &why));
+                }
+                let rebuilt = Self::rebuild(disk, &snapshots, log, last, shelf)
+                    .map_err(|also| both_corrupt(dir, log, &also, &why))?;
+                report.tables_rebuilt = Some(why.to_string());
+                rebuilt
+            }
+        };
+        report.lsn = state.lsn;
+        report.replayed = replayed;
+        report.records = state.digests.values().map(|d| d.records).sum();
+        Ok((trees, state, report))
+    }
+
+    /// New trees from the newest snapshot that is whole and from which the journal leads on.
+    fn rebuild(
+        disk: &dyn Disk,
+        snapshots: &[(u64, PathBuf)],
+        log: &Log,
+        last: u64,
+        shelf: &mut dyn Shelf,
+    ) -> Result<(Arc<dyn Trees>, (State, u64))> {
+        let mut why = StoreError::Tables {
+            what: "нет снимка, от которого ведёт журнал".to_owned(),
+        };
+        let empty = (0, PathBuf::new());
+        for (lsn, path) in snapshots.iter().rev().chain([&empty]) {
+            if !log.reaches(*lsn, last) {
+                continue;
+            }
+            shelf.set_aside()?;
+            let trees = shelf.open()?;
+            let loaded = if *lsn == 0 { Ok(()) } else { load_snapshot(disk, path, &*trees) };
+            match loaded.and_then(|()| replay(log, &*trees, last)) {
+                Ok(found) => return Ok((trees, found)),
+                Err(error) => why = error,
+            }
+        }
+        Err(why)
+    }
+
+    /// Goes on writing where the journal ends, or begins a new one where it cannot be trusted.
+    fn resume_journal(&mut self, log: &Log, report: &mut OpenReport) -> Result<()> {
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
+        let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
+        let chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
+        report.journal_renewed = if let Some(fault) = &log.fault {
+            Some(fault.to_string())
+        } else if self.state.lsn > log.last().max(newest) {
+            Some("в журнале нет последних кадров".into())
+        } else if !chained.into_iter().any(|lsn| log.reaches(lsn, self.state.lsn)) {
+            Some("нет снимка, от которого ведёт журнал".into())
+        } else {
+            None
+        };
+        if report.journal_renewed.is_some() {
+            return self.renew_journal(log);
+        }
+        report.torn_bytes = log.torn;
+        let Some((_, path, bytes)) = log.files.last() else { return self.begin_journal() };
+        if log.end == 0 {
+            self.remove(path)?;
+            return self.begin_journal();
+        }
+        let mut file = self.disk.appender(path).map_err(StoreError::io("открыть", path))?;
+        if log.end < bytes.len() as u64 {
+            file.cut(log.end).map_err(StoreError::io("укоротить", path))?;
+        }
+        self.journal = Some(Journal { file, path: path.clone(), length: log.end });
+        Ok(())
+    }
+
+    /// Writes a snapshot of the trees, a journal after it, and puts the broken one aside.
+    fn renew_journal(&mut self, log: &Log) -> Result<()> {
+        self.write_snapshot()?;
+        let aside = self.dir.join("aside");
+        self.disk.create_dir(&aside).map_err(StoreError::io("создать каталог", &aside))?;
+        for (first, path, _) in &log.files {
+            let to = numbered(&aside, *first, "journal");
+            self.disk.rename(path, &to).map_err(StoreError::io("переименовать", path))?;
+        }
+        let dir = journal_dir(&self.dir);
+        self.disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
+        self.begin_journal()
+    }
+
+    fn remove(&self, path: &Path) -> Result<()> {
+        self.disk.remove(path).map_err(StoreError::io("удалить", path))
+    }
+
+    fn begin_journal(&mut self) -> Result<()> {
+        self.journal = Some(begin_journal(&*self.disk, &self.dir, self.state.lsn + 1)?);
+        Ok(())
+    }
+
+    pub(crate) fn trees(&self) -> &Arc<dyn Trees> {
+        &self.trees
+    }
+
+    /// A record as it stands; does not ask a tree that is empty.
+    pub(crate) fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
+        if self.state.digests.contains_key(&tree) { self.trees.get(tree, key) } else { Ok(None) }
+    }
+
+    pub(crate) fn disk(&self) -> &dyn Disk {
+        &*self.disk
+    }
+
+    #[cfg(test)]
+    pub(crate) fn lsn(&self) -> u64 {
+        self.state.lsn
+    }
+
+    pub(crate) fn read_only(&self) -> Option<&str> {
+        self.read_only.as_deref()
+    }
+
+    /// One transaction: on the disk when this returns.
+    pub(crate) fn commit(&mut self, changes: &[Change]) -> Result<()> {
+        if let Some(reason) = &self.read_only {
+            return Err(StoreError::ReadOnly { reason: reason.clone() });
+        }
+        let ops: Vec<Op> = changes.iter().map(|c| c.op.clone()).collect();
+        let touched = self.digests_after(changes);
+        let lsn = self.state.lsn + 1;
+        let frame = encode_frame(lsn, &ops, &touched);
+        self.append(&frame)?;
+        self.state.advance(lsn, touched);
+        if let Err(error) = self.trees.apply(&ops, &self.state) {
+            // The frame is safe, the trees are not: opening the store anew applies it.
+            self.read_only = Some(error.to_string());
+            return Err(error);
+        }
+        self.checkpoint_if_due();
+        Ok(())
+    }
+
+    fn digests_after(&self, changes: &[Change]) -> Digests {
+        let mut touched = Digests::new();
+        for Change { op, old } in changes {
+            let before = self.state.digests.get(&op.tree).copied().unwrap_or_default();
+            let digest = touched.entry(op.tree).or_insert(before);
+            if let Some(old) = old {
+                digest.remove(&op.key, old);
+            }
+            if let Some(new) = &op.value {
+                digest.add(&op.key, new);
+            }
+        }
+        touched
+    }
+
+    fn append(&mut self, frame: &[u8]) -> Result<()> {
+        let journal = self.journal.as_mut().expect("a store open for writing has its journal");
+        let written = journal.file.append(frame).and_then(|()| journal.file.sync());
+        if let Err(error) = written {
+            // After a failed sync nobody knows what the disk holds. Whatever of the frame is there goes, if it
+            // can; and nothing is written after it.
+            let _ = journal.file.cut(journal.length);
+            self.read_only = Some(format!("журнал не записывается ({error})"));
+            return Err(StoreError::io("записать", &journal.path)(error));
+        }
+        journal.length += frame.len() as u64;
+        self.journal_bytes += frame.len() as u64;
+        Ok(())
+    }
+
+    fn checkpoint_if_due(&mut self) {
+        if self.journal_bytes < self.checkpoint_at {
+            return;
+        }
+        if let Err(error) = self.checkpoint() {
+            // Nothing is lost: the old journal goes on. Tried again when it has grown once more.
+            tracing::warn!(%error, "снимок хранилища не удался");
+            self.checkpoint_at = self.journal_bytes * 2;
+        }
+    }
+
+    /// Takes a snapshot, begins a new journal, and drops what three snapshots no longer need.
+    pub(crate) fn checkpoint(&mut self) -> Result<()> {
+        if let Some(reason) = &self.read_only {
+            return Err(StoreError::ReadOnly { reason: reason.clone() });
+        }
+        self.trees.flush()?;
+        let size = self.write_snapshot()?;
+        let empty = self.journal.as_ref().is_some_and(|j| {
+            j.path == numbered(&journal_dir(&self.dir), self.state.lsn + 1, "journal")
+        });
+        if !empty && let Err(error) = self.begin_journal() {
+            // Two journals that both go on from here would not be told apart.
+            self.read_only = Some(error.to_string());
+            return Err(error);
+        }
+        self.drop_old_files()?;
+        self.journal_bytes = 0;
+        self.checkpoint_at = CHECKPOINT_BYTES.max(2 * size);
+        Ok(())
+    }
+
+    fn write_snapshot(&self) -> Result<u64> {
+        let path = numbered(&snapshot_dir(&self.dir), self.state.lsn, "snapshot");
+        write_snapshot(&*self.disk, &path, &*self.trees, &self.state)
+    }
+
+    fn drop_old_files(&self) -> Result<()> {
+        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
+        let Some(dropped) = snapshots.len().checked_sub(SNAPSHOTS_KEPT) else { return Ok(()) };
+        for (_, path) in &snapshots[..dropped] {
+            self.remove(path)?;
+        }
+        let oldest = snapshots[dropped].0;
+        let journals = numbered_files(&*self.disk, &journal_dir(&self.dir), "journal")?;
+        for pair in journals.windows(2) {
+            // All frames of a file lie before the first of the next one.
+            if pair[1].0 <= oldest + 1 {
+                self.remove(&pair[0].1)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Writes the records of some trees as a snapshot file; returns its size.
+pub(crate) fn write_snapshot(
+    disk: &dyn Disk,
+    path: &Path,
+    trees: &dyn Trees,
+    state: &State,
+) -> Result<u64> {
+    let mut chunks = vec![file_header(SNAPSHOT, state.lsn)];
+    let (mut ops, mut size) = (Vec::new(), 0);
+    for (tree, _) in tree_names() {
+        trees.scan(tree, &[], &mut |key, value| {
+            size += key.len() + value.len();
+            ops.push(Op { tree, key: key.to_vec(), value: Some(value.to_vec()) });
+            if size > CHUNK_BYTES {
+                chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
+                ops.clear();
+                size = 0;
+            }
+            Ok(true)
+        })?;
+    }
+    chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
+    chunks.push(encode_frame(state.lsn, &[], &state.digests));
+    let total = chunks.iter().map(|c| c.len() as u64).sum();
+    disk.replace(path, &chunks).map_err(StoreError::io("записать снимок", path))?;
+    Ok(total)
+}
+
+fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError) -> StoreError {
+    let journal = log.fault.as_ref().unwrap_or(rebuild);
+    StoreError::BothCorrupt {
+        dir: dir.display().to_string(),
+        journal: journal.to_string(),
+        tables: trees.to_string(),
+    }
+}
