@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use serde::Deserialize;
 
-use super::decode::decode;
+use super::decode::{LONGEST_WORD, decode, likely, shortened};
 use super::node::{Entry, Misprint, Node, Span};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, FORMAT, ItemFile, ItemLinkFile, MountFile,
@@ -24,6 +24,9 @@ use crate::units::{
 
 const SECTIONS: [&str; 9] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map"];
+
+/// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
+const MOST_GUESSES: usize = 30;
 
 /// A world as far as it could be read, its faults, and where its records stand in the tree.
 pub(super) struct Draft<'n> {
@@ -52,6 +55,7 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
         origins: BTreeMap::new(),
         broken: BTreeSet::new(),
         left_out: HashSet::new(),
+        guesses_left: MOST_GUESSES,
         names: Names::default(),
     };
     let world = reader.world();
@@ -65,6 +69,8 @@ struct Reader<'n> {
     origins: BTreeMap<Record, Origin<'n>>,
     broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
+    /// Names for which a likely one is still looked for among all there are.
+    guesses_left: usize,
     names: Names,
 }
 
@@ -234,8 +240,8 @@ impl<'n> Reader<'n> {
             if !SECTIONS.contains(&entry.key.as_str()) {
                 misprints.push(Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, SECTIONS).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &SECTIONS),
                         expected: SECTIONS.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
@@ -336,13 +342,13 @@ impl<'n> Reader<'n> {
         let index = index(&self.names);
         let found = index.get(name);
         if found.is_none() && !index.broken.contains(&name_key(name)) {
-            let nearest = nearest_name(name, index.spellings.iter().map(String::as_str));
-            let error = MapError::UnknownReference {
-                what,
-                name: name.to_owned(),
-                nearest: nearest.map(str::to_owned),
-            };
-            self.fault(error, spot);
+            let may_guess = self.guesses_left > 0 && name.len() <= 2 * LONGEST_WORD;
+            let nearest = may_guess
+                .then(|| nearest_name(name, index.spellings.iter().map(String::as_str)))
+                .flatten()
+                .map(str::to_owned);
+            self.guesses_left = self.guesses_left.saturating_sub(1);
+            self.fault(MapError::UnknownReference { what, name: shortened(name), nearest }, spot);
         }
         found
     }
@@ -372,8 +378,8 @@ impl<'n> Reader<'n> {
                 let fields = TypeKind::ALL.map(TypeKind::field);
                 self.misprints(vec![Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, fields).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &fields),
                         expected: fields.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
