@@ -8,7 +8,6 @@ mod facts_naive;
 mod floor_properties;
 mod floors;
 mod generated_worlds;
-mod generated_worlds;
 mod maps;
 mod planning;
 mod relations;
