@@ -154,7 +154,7 @@ fn number(given: &[Option<u32>]) -> Vec<u32> {
     let mut used: HashSet<u32> = given.iter().flatten().copied().collect();
     let mut highest = used.iter().copied().max().unwrap_or(0);
     let mut last = 0;
-    let mut next = |given: &Option<u32>| {
+    let next = |given: &Option<u32>| {
         last = given.unwrap_or_else(|| {
             let follows = u32::saturating_add(last, 1);
             // Saturation ends in a duplicate, which is reported.
@@ -164,7 +164,7 @@ fn number(given: &[Option<u32>]) -> Vec<u32> {
         highest = highest.max(last);
         last
     };
-    given.iter().map(|given| next(given)).collect()
+    given.iter().map(next).collect()
 }
 
 impl<'n> Reader<'n> {
