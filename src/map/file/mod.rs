@@ -7,6 +7,7 @@ mod decode;
 mod misprint;
 mod node;
 mod read;
+mod records;
 mod schema;
 mod text;
 mod write;

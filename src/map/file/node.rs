@@ -74,7 +74,7 @@ pub(super) struct Misprint {
 pub(super) fn parse(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
     match format {
         Format::Toml => parse_toml(text),
-        Format::Yaml | Format::Json => parse_yaml(text, format).map_err(|fault| vec![fault]),
+        Format::Yaml | Format::Json => parse_yaml(text, format),
     }
 }
 
@@ -134,7 +134,7 @@ fn toml_value(value: DeValue<'_>) -> Value {
 const MOST_DEPTH: usize = 16;
 
 /// YAML, and JSON as its subset.
-fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
+fn parse_yaml(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
     let name = if format == Format::Json { "JSON" } else { "YAML" };
     let options = serde_saphyr::options! {
         // A room may be named «Y» or «No»: only true and false are truth values.
@@ -152,10 +152,10 @@ fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
     };
     let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
-        Misprint {
+        vec![Misprint {
             error: MapError::Syntax { format: name, message: e.to_string() },
             span: e.location().map(|at| span_in(text, at)),
-        }
+        }]
     })?;
     Ok(root.into())
 }
