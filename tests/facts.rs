@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use orthoframe::facts::{Because, Database, Derived, Premise, Program, Value, WhyNot};
+use orthoframe::facts::{Because, Database, Derived, Live, Premise, Program, Value, WhyNot};
 use orthoframe::units::Source;
 
 use crate::facts_naive::{Dice, Facts, Model, Tuple, heights, random_facts, random_tuple, show};
@@ -115,6 +115,56 @@ fn every_missing_tuple_has_a_failed_premise() {
                         "seed {seed}: {name}{tuple:?}\n{model}\n{rule:?}"
                     );
                 }
+            }
+        }
+    }
+}
+
+#[test]
+fn edits_lead_where_a_fresh_evaluation_leads() {
+    for seed in 0..300 {
+        let mut dice = Dice::new(seed);
+        let model = Model::random(&mut dice);
+        let program = parse(&model);
+        let mut facts = random_facts(&model, &mut dice);
+        let mut live = Live::new(program.clone(), database(&program, &facts))
+            .expect("random programs are finite");
+        let inputs = model.input_names();
+        for _ in 0..6 {
+            let before = tuples(live.derived(), &model);
+            for _ in 0..1 + dice.roll(3) {
+                let (name, columns) = &inputs[dice.roll(inputs.len())];
+                let tuple = random_tuple(*columns, &mut dice);
+                let known = facts.get_mut(name).expect("inputs are there");
+                let present = known.iter().nth(dice.roll(known.len().max(1))).cloned();
+                match present {
+                    Some(tuple) if dice.one_in(2) => {
+                        assert_eq!(
+                            live.remove(name.as_str(), &values(&tuple)),
+                            Ok(known.remove(&tuple))
+                        );
+                    }
+                    _ => assert_eq!(
+                        live.insert(name.as_str(), &values(&tuple)),
+                        Ok(known.insert(tuple))
+                    ),
+                }
+            }
+            let changed = live.update().expect("random programs are finite");
+            let (found, expected) = (tuples(live.derived(), &model), model.evaluate(&facts));
+            assert!(
+                found == expected,
+                "seed {seed}\n{model}\nfound\n{}expected\n{}",
+                show(&found),
+                show(&expected)
+            );
+            for (name, ..) in &model.relations {
+                let id = program.relation(name).expect("declared");
+                assert_eq!(
+                    changed.contains(&id),
+                    before[name] != found[name],
+                    "seed {seed}: {name}\n{model}"
+                );
             }
         }
     }

@@ -8,6 +8,7 @@ mod facts_naive;
 mod floor_cases;
 mod floor_properties;
 mod floors;
+mod generated_worlds;
 mod maps;
 mod planning;
 mod relations;

@@ -55,9 +55,14 @@ pub(super) fn describe(
     pose: Pose,
     scene: Option<&Scene>,
 ) -> Option<Whereabout> {
-    let openings: Vec<_> = relations.openings().map(|(_, o)| o.clone()).collect();
-    let terms =
-        whereabouts(world, relations.measurements(), &openings, map, &pose, &Nearness::default())?;
+    let terms = whereabouts(
+        world,
+        relations.measurements(),
+        relations.openings(),
+        map,
+        &pose,
+        &Nearness::default(),
+    )?;
     let area = |id: AreaId| named(world, Entity::Area(id));
     let spot = match terms.spot {
         semantics::Spot::InDoorway(way) => Spot::InDoorway(doorway(world, relations, way)),
@@ -147,8 +152,7 @@ fn facing(
 fn way_through(relations: &Relations, area: AreaId, middle: Point) -> Option<Way> {
     let near =
         |o: &&semantics::Opening| (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm() < 1.0;
-    let opening =
-        relations.openings().map(|(_, o)| o).filter(near).min_by_key(|o| o.area != area)?;
+    let opening = relations.openings().iter().filter(near).min_by_key(|o| o.area != area)?;
     let behind = opening.leads_to();
     let to = if opening.area == area { behind } else { Some(opening.area) };
     Some(Way {

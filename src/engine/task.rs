@@ -195,6 +195,7 @@ impl Engine {
             | Command::SwitchOff(_)
             | Command::Tidy(_)
             | Command::CallOperator
+            | Command::Stop
             | Command::Report => {
                 return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
             }

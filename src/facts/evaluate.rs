@@ -171,7 +171,7 @@ fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
 }
 
 /// A program under way.
-struct Evaluation<'a> {
+pub(super) struct Evaluation<'a> {
     program: &'a Program,
     finished: Finished,
     /// Facts of the text and the database, by relation.
@@ -179,19 +179,32 @@ struct Evaluation<'a> {
 }
 
 impl<'a> Evaluation<'a> {
-    fn new(program: &'a Program, database: &Database) -> Self {
+    pub(super) fn new(program: &'a Program, database: &Database) -> Self {
         let given = given(program, database);
         let finished = Finished::new(database.words.share(), vec![None; given.len()]);
         Self { program, finished, given }
     }
 
-    fn derived(self) -> Derived {
+    pub(super) fn derived(self) -> Derived {
         let rows = self.finished.rows.into_iter().zip(&self.given);
         let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
         let mut words = self.finished.words;
         words.settle();
         let (program, schema) = (self.program.clone(), Schema::of(self.program));
         Derived { program, schema, words, rows, given: self.given }
+    }
+
+    /// Takes a stratum's relations from an earlier result.
+    pub(super) fn keep(&mut self, stratum: &Stratum, from: &Derived) {
+        for relation in &stratum.relations {
+            self.finished.rows[relation.index()] = Some(from.rows[relation.index()].clone());
+        }
+    }
+
+    /// Whether a finished relation has the rows of an earlier result.
+    pub(super) fn is_same(&self, relation: RelationId, as_in: &Derived) -> bool {
+        let (now, before) = (self.finished.relation(relation), &as_in.rows[relation.index()]);
+        now.len() == before.len() && (0..now.len()).all(|at| now.row(at) == before.row(at))
     }
 
     fn limit(&self, relation: RelationId) -> usize {
@@ -206,7 +219,7 @@ impl<'a> Evaluation<'a> {
         Err(EvaluateError::TooMany { relation, limit: MAX_ROWS })
     }
 
-    fn stratum(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
+    pub(super) fn stratum(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
         let program = self.program;
         let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &program.clauses[*n]).collect();
         let is_own = |relation: RelationId| stratum.relations.contains(&relation);

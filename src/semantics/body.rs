@@ -157,13 +157,6 @@ fn front_of(world: &World, object: &Object) -> Option<Vector> {
         .or_else(|| object.back.as_ref().and_then(normal).map(|n| -n))
 }
 
-/// Which way a point lies, seen from a thing that has a front.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Sector {
-    /// Degrees from the front, counter-clockwise positive, in (-180, 180].
-    pub(super) bearing: f64,
-}
-
 /// A replica as it stands in its Map.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Body {
@@ -222,17 +215,21 @@ impl Body {
         largest.map_or(self.centre, Footprint::interior_point)
     }
 
-    /// Where `p` lies as seen from this thing's front; none without a front, or for a point within its own extents.
+    /// Degrees from the front at which `p` lies, counter-clockwise positive; none without a front.
+    pub(super) fn bearing_of(&self, p: Point) -> Option<f64> {
+        self.bearing_from(self.front?, p)
+    }
+
+    /// Degrees from `ahead` at which `p` lies, in (-180, 180]; none for a point within the thing's own extents.
     ///
     /// ```text
     ///   left 135° \        / 45° left      the four sectors start at the corners of the thing's
-    ///              +------+                extents along and across its front
-    ///        behind |      |  front  →
+    ///              +------+                extents along and across the way ahead
+    ///        behind |      |  ahead  →
     ///              +------+
     ///             /        \
     /// ```
-    pub(super) fn sector_of(&self, p: Point) -> Option<Sector> {
-        let ahead = self.front?;
+    pub(super) fn bearing_from(&self, ahead: Vector, p: Point) -> Option<f64> {
         let left = Vector::new(-ahead.y, ahead.x);
         let beyond = |along: Vector| {
             let (low, high) = extent(&self.hull.polygon.corners, along);
@@ -240,7 +237,6 @@ impl Body {
             (at - high).max(0.0) + (at - low).min(0.0)
         };
         let (forward, sideways) = (beyond(ahead), beyond(left));
-        let apart = forward.hypot(sideways) > 1e-6;
-        apart.then(|| Sector { bearing: sideways.atan2(forward).to_degrees() })
+        (forward.hypot(sideways) > 1e-6).then(|| sideways.atan2(forward).to_degrees())
     }
 }

@@ -11,7 +11,7 @@ use crate::map::{DoorState, DoorStatus, Entity, Permeability, World};
 use crate::units::{Cm, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
-use super::measure::{Between, Directed, Located, Measurements, Opening as Into, Pair, Single};
+use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
 use super::names::{Subject, Symbols};
 use super::openings::Opening;
 

@@ -77,7 +77,7 @@ pub struct Below {
 
 /// Through what a thing got into another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Opening {
+pub enum Into {
     /// The type of the Object says that it holds things.
     Container,
     /// Some face of the block is permeable or a door.
@@ -91,7 +91,7 @@ pub enum Opening {
 pub struct Within {
     /// None for the whole of a container.
     pub block: Option<usize>,
-    pub opening: Opening,
+    pub opening: Into,
     /// How far `a` sticks out sideways.
     pub escape: i64,
     /// How far `a` reaches below the bottom; negative above it.
@@ -470,9 +470,8 @@ impl Measurements {
             pair.second = self.contacts(b, a);
         }
         if in_sector(distance) {
-            let bearing = |seen: &Body, anchor: &Body| {
-                anchor.sector_of(seen.centre).map(|s| hundredths(s.bearing))
-            };
+            let bearing =
+                |seen: &Body, anchor: &Body| anchor.bearing_of(seen.centre).map(hundredths);
             pair.first.bearing = bearing(a, b);
             pair.second.bearing = bearing(b, a);
         }
@@ -504,7 +503,7 @@ impl Measurements {
             }
             if block.hollow {
                 let hold = std::slice::from_ref(block.widest());
-                let opening = if block.open_top { Opening::OpenTop } else { Opening::Hollow };
+                let opening = if block.open_top { Into::OpenTop } else { Into::Hollow };
                 let volume = block.widest().area * (block.top - block.bottom);
                 let within = self.within(a, kind_a, hold, (block.bottom, block.top), volume);
                 found.within.extend(within.map(|w| Within { block: Some(index), opening, ..w }));
@@ -531,7 +530,8 @@ impl Measurements {
         if !fits || bottom - a.bottom > reach || a.bottom > top {
             return None;
         }
-        let sticks_out = a.outline.iter().map(|f| escape(f, hold.iter())).fold(0.0, f64::max);
+        let held_by: Vec<&Footprint> = hold.iter().collect();
+        let sticks_out = a.outline.iter().map(|f| escape(f, &held_by)).fold(0.0, f64::max);
         let height = a.top - a.bottom;
         let upright = if height > 0.0 {
             (a.top.min(top) - a.bottom.max(bottom)).max(0.0) / height
@@ -543,7 +543,7 @@ impl Measurements {
         let held = upright * (flat.sum::<f64>() / kind.outline_area).min(1.0);
         (sticks_out <= reach).then(|| Within {
             block: None,
-            opening: Opening::Container,
+            opening: Into::Container,
             escape: tenths(sticks_out),
             beneath: tenths(bottom - a.bottom),
             above: tenths(a.top - top),
@@ -587,8 +587,9 @@ impl Measurements {
         if let [Some(area), Some(other)] = areas
             && area == other
         {
-            let floor = self.rooms[&area].parts.iter().map(|(f, _, _)| f);
-            if !stays_within(from, to, floor, 0.5) {
+            let floor: Vec<&Footprint> =
+                self.rooms[&area].parts.iter().map(|(f, _, _)| f).collect();
+            if !stays_within(from, to, &floor, 0.5) {
                 found.insert(Between::Wall(area), 1000);
             }
         }
@@ -711,7 +712,7 @@ fn below(a: &Body, kind: &Kind, index: usize, block: &Block) -> Option<Below> {
 }
 
 /// Common height of two things as a share of the lower one; none when one ends where the other begins.
-fn level(a: &Body, b: &Body) -> Option<i64> {
+pub(super) fn level(a: &Body, b: &Body) -> Option<i64> {
     let common = a.top.min(b.top) - a.bottom.max(b.bottom);
     let lower = (a.top - a.bottom).min(b.top - b.bottom);
     if lower <= 0.0 {
@@ -722,7 +723,7 @@ fn level(a: &Body, b: &Body) -> Option<i64> {
 }
 
 /// Shortest distance in space, and the way in the plan between the two nearest Orthoframes.
-fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
+pub(super) fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
     let mut best: Option<(f64, Gap)> = None;
     for p in &a.blocks {
         for q in &b.blocks {
@@ -742,15 +743,15 @@ fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
     best.expect("a body has at least one Orthoframe")
 }
 
-fn tenths(length: f64) -> i64 {
+pub(super) fn tenths(length: f64) -> i64 {
     Cm::of(length).to_tenths_mm()
 }
 
-fn cm(tenths: i64) -> f64 {
+pub(super) fn cm(tenths: i64) -> f64 {
     tenths as f64 / 100.0
 }
 
-fn hundredths(degrees: f64) -> i64 {
+pub(super) fn hundredths(degrees: f64) -> i64 {
     (degrees * 100.0).round() as i64
 }
 

@@ -25,7 +25,7 @@ pub struct Nearness {
 
 impl Default for Nearness {
     fn default() -> Self {
-        Self { doorway: 15.0, door: 100.0, object: 70.0, wall: 70.0, wall_thickness: 60.0 }
+        Self { doorway: 15.0, door: 130.0, object: 70.0, wall: 70.0, wall_thickness: 60.0 }
     }
 }
 

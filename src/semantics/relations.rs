@@ -8,7 +8,8 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{
-    Database, Derived, EvaluateError, FactError, Faults, Program, RelationId, RelationInfo, Value,
+    Database, Derived, EvaluateError, FactError, Faults, Program, Proof, RelationId, RelationInfo,
+    Value, WhyNot,
 };
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
@@ -144,6 +145,12 @@ impl RelationRules {
         Ok(rules)
     }
 
+    /// How far measuring must look for these rules.
+    #[must_use]
+    pub fn reach(&self) -> Reach {
+        self.reach
+    }
+
     #[must_use]
     pub fn program(&self) -> &Program {
         &self.program
@@ -250,13 +257,13 @@ fn note(kept: &mut Option<FactError>, fault: FactError) {
 }
 
 /// Rows on their way into the database; the first that does not fit is kept.
-struct Rows {
-    database: Database,
-    fault: Option<FactError>,
+pub(super) struct Rows {
+    pub(super) database: Database,
+    pub(super) fault: Option<FactError>,
 }
 
 impl Rows {
-    fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
+    pub(super) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
         let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
         if let Err(fault) = self.database.insert(relation, &tuple) {
             note(&mut self.fault, fault);
@@ -324,13 +331,8 @@ impl Relations {
     /// # Errors
     /// [`RelationError::UnknownRelation`] with the nearest name.
     pub fn tuples(&self, name: &str) -> Result<Vec<Vec<Value>>, RelationError> {
-        self.derived.sorted(name).map_err(|_| {
-            let names = self.public().flat_map(|(_, i)| {
-                std::iter::once(i.name.as_str()).chain(i.second_name.as_deref())
-            });
-            let nearest = nearest_name(name, names).map(str::to_owned);
-            RelationError::UnknownRelation { name: name.to_owned(), nearest }
-        })
+        let relation = self.rules.program.relation(name).ok_or_else(|| self.unknown(name))?;
+        self.derived.sorted(relation).map_err(|fault| RelationError::Schema { fault })
     }
 
     /// Every tuple that speaks of a thing, with its relation. What is true of its Object as a kind counts too.
@@ -373,6 +375,47 @@ impl Relations {
     pub fn holds(&self, name: &str, symbols: &[&str]) -> bool {
         let tuple: Vec<Value> = symbols.iter().map(|&s| Value::from(s)).collect();
         self.derived.contains(name, &tuple).unwrap_or(false)
+    }
+
+    /// Why a tuple holds: its rules and premises, down to what was measured. None when it does not hold.
+    ///
+    /// # Errors
+    /// [`RelationError::UnknownRelation`], [`RelationError::Schema`] for too many or too few names.
+    pub fn why(&self, name: &str, symbols: &[&str]) -> Result<Option<Proof>, RelationError> {
+        let (relation, tuple) = self.question(name, symbols)?;
+        self.derived.why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// Why a tuple does not hold: the rule that came closest and the premise that failed, with its numbers.
+    ///
+    /// # Errors
+    /// As [`Relations::why`].
+    pub fn why_not(&self, name: &str, symbols: &[&str]) -> Result<WhyNot, RelationError> {
+        let (relation, tuple) = self.question(name, symbols)?;
+        let answer = self.derived.explain().why_not(relation, &tuple);
+        answer.map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// A tuple as people spell it.
+    fn question(
+        &self,
+        name: &str,
+        symbols: &[&str],
+    ) -> Result<(RelationId, Vec<Value>), RelationError> {
+        let relation = self.rules.program.relation(name).ok_or_else(|| self.unknown(name))?;
+        let symbol = |&s: &&str| match self.symbols.find(s) {
+            Some(subject) => Value::Symbol(Arc::clone(self.symbols.symbol(subject))),
+            None => Value::from(s),
+        };
+        Ok((relation, symbols.iter().map(symbol).collect()))
+    }
+
+    fn unknown(&self, name: &str) -> RelationError {
+        let names = self
+            .public()
+            .flat_map(|(_, i)| std::iter::once(i.name.as_str()).chain(i.second_name.as_deref()));
+        let nearest = nearest_name(name, names).map(str::to_owned);
+        RelationError::UnknownRelation { name: name.to_owned(), nearest }
     }
 
     /// The Area in which a thing is.

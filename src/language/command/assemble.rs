@@ -20,6 +20,10 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
     }
     let items = items(&sentence, listener.index);
     let mut reader = Reader { sentence: &sentence, listener, last: listener.last.clone() };
+    // «Стоп, не едь!» must stop, whatever else is in the sentence.
+    if items.iter().any(|item| matches!(item, Item::Verb(Verb::Stop, _))) {
+        return Ok(vec![Command::Stop]);
+    }
     if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
         return Err(
             reader.not_understood(words, "скажите, что сделать, а не чего не делать".into())
@@ -134,6 +138,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         match verb {
             Verb::CallOperator => return Ok(vec![Command::CallOperator]),
             Verb::Report => return Ok(vec![Command::Report]),
+            Verb::Stop => return Ok(vec![Command::Stop]),
             Verb::Tidy | Verb::Clear
                 if to.is_none() && (verb == Verb::Tidy || objects.is_empty()) =>
             {
@@ -165,7 +170,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         objects
             .into_iter()
-            .map(|id| self.one(verb, words, Thing { id, at: at.clone() }, to.clone(), to_me))
+            .map(|id| {
+                self.one(verb, words, Thing { id, at: at.clone(), toward: None }, to.clone(), to_me)
+            })
             .collect()
     }
 
@@ -187,14 +194,15 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::Put | Verb::Clear, None) => {
                 return Err(self.incomplete(words, ("куда положить", "where to put it")));
             }
-            (Verb::Open, _) => Command::Open(what),
-            (Verb::Close, _) => Command::Close(what),
-            (Verb::Lock, _) => Command::Lock(what),
-            (Verb::Unlock, _) => Command::Unlock(what),
-            (Verb::SwitchOn, _) => Command::SwitchOn(what),
-            (Verb::SwitchOff, _) => Command::SwitchOff(what),
-            (Verb::Find, _) => Command::Find(what),
-            (Verb::GoTo | Verb::Tidy | Verb::CallOperator | Verb::Report, _) => {
+            // «дверь из кухни в коридор»: the place belongs to the thing.
+            (Verb::Open, toward) => Command::Open(Thing { toward, ..what }),
+            (Verb::Close, toward) => Command::Close(Thing { toward, ..what }),
+            (Verb::Lock, toward) => Command::Lock(Thing { toward, ..what }),
+            (Verb::Unlock, toward) => Command::Unlock(Thing { toward, ..what }),
+            (Verb::SwitchOn, toward) => Command::SwitchOn(Thing { toward, ..what }),
+            (Verb::SwitchOff, toward) => Command::SwitchOff(Thing { toward, ..what }),
+            (Verb::Find, toward) => Command::Find(Thing { toward, ..what }),
+            (Verb::GoTo | Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop, _) => {
                 return Err(self.incomplete(words, question(verb)));
             }
         })
@@ -213,7 +221,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 roles.to_me = true;
                 continue;
             }
-            let anchor = self.resolve(argument, cases_after(link), None)?;
+            let anchor = self.resolve(argument, cases_after(link), (None, None))?;
             let place = Placement { relation: link.relation, anchor, within: None };
             let role = direction(verb, link, argument);
             match (role, latest_is_to) {
@@ -223,7 +231,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 }
                 // «со стола в кухне»: a place said after a place is where that place is.
                 (Role::Where, Some(true)) => within(&mut roles.to, place.anchor),
-                (Role::Where, Some(false)) => within(&mut roles.at, place.anchor),
+                (Role::Where | Role::Whence, Some(false)) => within(&mut roles.at, place.anchor),
+                (Role::Whither, Some(true)) => within(&mut roles.to, place.anchor),
                 (Role::Where | Role::Whence | Role::WhereOrWhither, _) => {
                     roles.at = Some(place);
                     latest_is_to = Some(false);
@@ -237,12 +246,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         for argument in
             arguments.iter().filter(|a| a.link.is_none() && !matches!(a.reference, Reference::Me))
         {
-            let object = self.resolve(
-                argument,
-                &[Case::Accusative, Case::Genitive, Case::Nominative],
-                roles.at.as_ref(),
-            )?;
-            roles.objects.push(object);
+            let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
+            let place = (roles.at.as_ref(), roles.to.as_ref());
+            let objects = match &argument.reference {
+                Reference::Known(hits) if argument.all => self.choose(hits, &cases, place),
+                _ => vec![self.resolve(argument, &cases, place)?],
+            };
+            roles.objects.extend(objects);
         }
         Ok(roles)
     }
@@ -252,7 +262,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         &self,
         argument: &Argument<'_, T>,
         cases: &[Case],
-        at: Option<&Placement<T>>,
+        place: Place<'_, T>,
     ) -> Result<T, Misheard> {
         let hits = match &argument.reference {
             Reference::Known(hits) => hits,
@@ -263,27 +273,29 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             }
             Reference::Unknown | Reference::Me => return Err(self.unknown(argument)),
         };
-        let suiting = in_case(hits, cases);
-        let mut ids: Vec<T> = suiting.iter().map(|hit| hit.id.clone()).collect();
-        if ids.len() > 1
-            && let Some(narrow) = self.listener.narrow
-        {
-            let narrowed = narrow(&ids, at);
-            if !narrowed.is_empty() {
-                ids = narrowed;
-            }
-        }
+        let ids = self.choose(hits, cases, place);
         if let [only] = &ids[..] {
             return Ok(only.clone());
         }
         // «чашка или чашка?» tells nothing: then each by its title.
-        let meant: Vec<&Hit<'_, T>> =
-            suiting.into_iter().filter(|hit| ids.contains(hit.id)).collect();
+        let meant: Vec<&Hit<'_, T>> = hits.iter().filter(|hit| ids.contains(hit.id)).collect();
         let alike = meant.iter().any(|hit| hit.name == meant[0].name && hit.id != meant[0].id);
         let candidates =
             meant.iter().map(|hit| if alike { hit.title } else { hit.name }.to_owned()).collect();
         let (reference, at) = self.shown(&argument.words);
         Err(Misheard::Ambiguous { reference, candidates, text: self.source(), at })
+    }
+
+    /// All that a name may mean in these cases, narrowed by what the caller knows of the place.
+    fn choose(&self, hits: &[Hit<'_, T>], cases: &[Case], (at, toward): Place<'_, T>) -> Vec<T> {
+        let ids: Vec<T> = in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect();
+        match self.listener.narrow {
+            Some(narrow) if ids.len() > 1 => {
+                let narrowed = narrow(&ids, at, toward);
+                if narrowed.is_empty() { ids } else { narrowed }
+            }
+            _ => ids,
+        }
     }
 
     fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {
@@ -335,6 +347,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         Source::new("задание", self.sentence.text)
     }
 }
+
+/// Where a thing was said to be, and whither it leads or goes.
+type Place<'p, T> = (Option<&'p Placement<T>>, Option<&'p Placement<T>>);
 
 fn within<T>(place: &mut Option<Placement<T>>, outer: T) {
     if let Some(place) = place {
@@ -405,6 +420,8 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::SwitchOff => ("что выключить", "what to switch off"),
         Verb::Find => ("что найти", "what to find"),
         Verb::GoTo => ("куда ехать", "where to go"),
-        Verb::Tidy | Verb::CallOperator | Verb::Report => ("что сделать", "what to do"),
+        Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop => {
+            ("что сделать", "what to do")
+        }
     }
 }

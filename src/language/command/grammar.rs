@@ -135,6 +135,8 @@ pub(super) struct Argument<'s, T> {
     pub(super) reference: Reference<'s, T>,
     /// The words of the reference, without the link.
     pub(super) words: Range<usize>,
+    /// «все»: all that the name may mean.
+    pub(super) all: bool,
 }
 
 #[derive(Debug, Clone)]
@@ -193,15 +195,18 @@ fn control<'s, 't, T: Clone + Eq + Hash>(
         Meaning::And => Item::And,
         Meaning::Not => Item::Not(words),
         Meaning::Filler => Item::Filler,
-        Meaning::Link(_) | Meaning::Me | Meaning::Pronoun => {
+        Meaning::All | Meaning::Link(_) | Meaning::Me | Meaning::Pronoun => {
             return Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Alt)));
         }
     };
     Ok((rest, item))
 }
 
-fn filler<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, ()> {
-    map(verify(meaning, |(meaning, _)| *meaning == Meaning::Filler), |_| ()).parse(input)
+/// What may stand between a link and its name: articles, «этот», «все».
+fn determiner<'s, 't, T: Clone + Eq + Hash>(input: Words<'s, 't, T>) -> Parsed<'s, 't, T, Meaning> {
+    let is_determiner =
+        |(meaning, _): &(Meaning, Range<usize>)| matches!(meaning, Meaning::Filler | Meaning::All);
+    map(verify(meaning, is_determiner), |(meaning, _)| meaning).parse(input)
 }
 
 fn link<'s, 't, T: Clone + Eq + Hash>(
@@ -218,11 +223,12 @@ fn argument<'s, 't, T: Clone + Eq + Hash>(
     input: Words<'s, 't, T>,
 ) -> Parsed<'s, 't, T, Item<'s, T>> {
     let (rest, link) = opt(link).parse(input)?;
-    let (rest, _) = many0(filler).parse(rest)?;
+    let (rest, determiners) = many0(determiner).parse(rest)?;
     let from = rest.at;
-    let (rest, reference) = alt((personal, mistagged, known, unknown)).parse(rest)?;
-    let words = from..rest.at;
-    Ok((rest, Item::Argument(Argument { link: link.map(|(link, _)| link), reference, words })))
+    let (rest, reference) = alt((personal, mistagged, postposed, known, unknown)).parse(rest)?;
+    let (link, words) = (link.map(|(link, _)| link), from..rest.at);
+    let all = determiners.contains(&Meaning::All);
+    Ok((rest, Item::Argument(Argument { link, reference, words, all })))
 }
 
 fn dangling<'s, 't, T: Clone + Eq + Hash>(
@@ -263,10 +269,26 @@ fn mistagged<'s, 't, T: Clone + Eq + Hash>(
     let between = &sentence.text[sentence.words[first - 1].end..sentence.words[first].start];
     let word = &sentence.text[sentence.words[first].clone()];
     let tag = word.chars().count() < 4 && word.chars().all(|c| c.is_uppercase() || c.is_numeric());
-    if tag || word.chars().count() == 1 || between.chars().all(is_hyphen) {
+    if tag || word.chars().count() < 3 || between.chars().all(is_hyphen) {
         Ok((input.take_from(first + 1 - input.at), Reference::Unknown))
     } else {
         Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Verify)))
+    }
+}
+
+/// An adjective after its noun: «чашку красную» is «красную чашку».
+fn postposed<'s, 't, T: Clone + Eq + Hash>(
+    input: Words<'s, 't, T>,
+) -> Parsed<'s, 't, T, Reference<'s, T>> {
+    let (rest, _) = known(input.clone())?;
+    let noun = input.sentence.span(&(input.at..rest.at));
+    let (rest, adjectives) = many1(unknown_word).parse(rest)?;
+    let adjective = input.sentence.span(&(rest.at - adjectives.len()..rest.at));
+    let text = input.sentence.text;
+    let hits = input.index.find(&format!("{} {}", &text[adjective], &text[noun]));
+    match hits.is_empty() {
+        false => Ok((rest, Reference::Known(hits))),
+        true => Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Verify))),
     }
 }
 

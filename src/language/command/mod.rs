@@ -4,7 +4,7 @@
 //! case, ё and politeness do not matter; a name is found by any form ([`FormIndex`]).
 //!
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map does not have are
-//! three different errors ([`Misheard`]), and a command comes out only when every word of the sentence was used.
+//! three different errors ([`Misheard`]); a negation is refused, and «стоп» stops whatever else was said.
 //!
 //! ```
 //! use orthoframe::language::command::{Command, Listener};
@@ -56,6 +56,8 @@ pub struct Placement<T> {
 pub struct Thing<T> {
     pub id: T,
     pub at: Option<Placement<T>>,
+    /// Whither it leads, of a door: «дверь из кухни в коридор».
+    pub toward: Option<Placement<T>>,
 }
 
 /// What a person wants done.
@@ -90,6 +92,8 @@ pub enum Command<T> {
     Tidy(Option<T>),
     CallOperator,
     Report,
+    /// Whatever the robot does now, it is to leave off.
+    Stop,
 }
 
 /// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
@@ -189,8 +193,9 @@ pub struct Listener<'i, T> {
     narrow: Option<&'i Narrow<T>>,
 }
 
-/// Of several things that a word may mean, those that may be meant where the thing is said to be.
-pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>) -> Vec<T>;
+/// Of several things that a word may mean, those that may be meant: where the thing is said to be, and whither it is
+/// said to lead or to go.
+pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>, Option<&Placement<T>>) -> Vec<T>;
 
 impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     /// Characters of the longest command that is read.
@@ -334,17 +339,17 @@ mod tests {
             ],
             &expect![[r#"
                 Принеси лекарство
-                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Поезжай в Комнату-Y
                     GoTo { to: Placement { relation: In, anchor: "Комната-Y", within: None }, via: None }
                 Открой Дверь-ВZ
-                    Open(Thing { id: "Дверь-ВZ", at: None })
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None })
                 Положи книгу на стол
-                    Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
                 Положи книгу на письменный стол
-                    Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
                 Bring the medicine
-                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Go to Room-Y
                     GoTo { to: Placement { relation: At, anchor: "Комната-Y", within: None }, via: None }
             "#]],
@@ -368,25 +373,25 @@ mod tests {
             ],
             &expect![[r#"
                 пожалуйста, лекарство мне принеси!
-                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Не могли бы вы открыть дверь bz?
-                    Open(Thing { id: "Дверь-ВZ", at: None })
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None })
                 ЗАКРОЙ ДВЕРЬ ВZ
-                    Close(Thing { id: "Дверь-ВZ", at: None })
+                    Close(Thing { id: "Дверь-ВZ", at: None, toward: None })
                 Робот, будь добр, поезжай на кухню
                     GoTo { to: Placement { relation: On, anchor: "Кухня", within: None }, via: None }
                 Could you please bring me the red cup?
-                    Bring { what: Thing { id: "Красная чашка", at: None }, to: None }
+                    Bring { what: Thing { id: "Красная чашка", at: None, toward: None }, to: None }
                 мне нужно лекарство
-                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Я хочу, чтобы ты принёс лекарство
-                    Bring { what: Thing { id: "Лекарство", at: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Дверь-ZY запри
-                    Lock(Thing { id: "Дверь-ZY", at: None })
+                    Lock(Thing { id: "Дверь-ZY", at: None, toward: None })
                 закрой дверь-zy на ключ
-                    Lock(Thing { id: "Дверь-ZY", at: None })
+                    Lock(Thing { id: "Дверь-ZY", at: None, toward: None })
                 открой ворота
-                    Open(Thing { id: "Ворота", at: None })
+                    Open(Thing { id: "Ворота", at: None, toward: None })
             "#]],
         );
     }
@@ -413,16 +418,22 @@ mod tests {
                 "Принеси книгу и белую чашку",
                 "go to the kitchen, then open Door-ZY",
                 "put the book under the chair",
+                "Принеси лекарство с тумбочки-1 из комнаты-y",
+                "Убери чашку красную в шкаф",
+                "Закрой все двери",
+                "Открой Дверь-ВZ из кухни в коридор",
+                "Открой дверь-вZ и дверь-zy",
+                "Стоп, не едь!",
             ],
             &expect![[r#"
                 Возьми красную чашку со стола в кухне
-                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня") }) } }
+                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня") }), toward: None } }
                 Возьми книгу с полки и положи её на тумбочку 1
-                    Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None }) } }; Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None } }
+                    Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None }), toward: None } }; Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None } }
                 Принеси книгу из шкафа в Комнату-В
-                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Шкаф", within: None }) }, to: Some(Placement { relation: In, anchor: "Комната-В", within: None }) }
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Шкаф", within: None }), toward: None }, to: Some(Placement { relation: In, anchor: "Комната-В", within: None }) }
                 Take the book from the shelf to the kitchen
-                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: At, anchor: "Полка", within: None }) }, to: Some(Placement { relation: At, anchor: "Кухня", within: None }) }
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: At, anchor: "Полка", within: None }), toward: None }, to: Some(Placement { relation: At, anchor: "Кухня", within: None }) }
                 Поезжай в коридор через дверь-вz
                     GoTo { to: Placement { relation: In, anchor: "Коридор", within: None }, via: Some("Дверь-ВZ") }
                 Подъедь ко мне
@@ -432,13 +443,13 @@ mod tests {
                 Поезжай в лобби
                     GoTo { to: Placement { relation: In, anchor: "Лобби", within: None }, via: None }
                 Включи лампу на письменном столе
-                    SwitchOn(Thing { id: "Лампа", at: Some(Placement { relation: On, anchor: "Письменный стол", within: None }) })
+                    SwitchOn(Thing { id: "Лампа", at: Some(Placement { relation: On, anchor: "Письменный стол", within: None }), toward: None })
                 Найди книгу в комнате-в
-                    Find(Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Комната-В", within: None }) })
+                    Find(Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Комната-В", within: None }), toward: None })
                 Приберись на кухне
                     Tidy(Some("Кухня"))
                 убери книгу в шкаф
-                    Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
                 Позови оператора
                     CallOperator
                 Где ты?
@@ -446,11 +457,23 @@ mod tests {
                 Report your position
                     Report
                 Принеси книгу и белую чашку
-                    Bring { what: Thing { id: "Книга", at: None }, to: None }; Bring { what: Thing { id: "Белая чашка", at: None }, to: None }
+                    Bring { what: Thing { id: "Книга", at: None, toward: None }, to: None }; Bring { what: Thing { id: "Белая чашка", at: None, toward: None }, to: None }
                 go to the kitchen, then open Door-ZY
-                    GoTo { to: Placement { relation: At, anchor: "Кухня", within: None }, via: None }; Open(Thing { id: "Дверь-ZY", at: None })
+                    GoTo { to: Placement { relation: At, anchor: "Кухня", within: None }, via: None }; Open(Thing { id: "Дверь-ZY", at: None, toward: None })
                 put the book under the chair
-                    Put { what: Thing { id: "Книга", at: None }, to: Placement { relation: Under, anchor: "Стул", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: Under, anchor: "Стул", within: None } }
+                Принеси лекарство с тумбочки-1 из комнаты-y
+                    Bring { what: Thing { id: "Лекарство", at: Some(Placement { relation: On, anchor: "Тумбочка-1", within: Some("Комната-Y") }), toward: None }, to: None }
+                Убери чашку красную в шкаф
+                    Put { what: Thing { id: "Красная чашка", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                Закрой все двери
+                    Close(Thing { id: "Дверь-ВZ", at: None, toward: None }); Close(Thing { id: "Дверь-ZY", at: None, toward: None })
+                Открой Дверь-ВZ из кухни в коридор
+                    Open(Thing { id: "Дверь-ВZ", at: Some(Placement { relation: In, anchor: "Кухня", within: None }), toward: Some(Placement { relation: In, anchor: "Коридор", within: None }) })
+                Открой дверь-вZ и дверь-zy
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None }); Open(Thing { id: "Дверь-ZY", at: None, toward: None })
+                Стоп, не едь!
+                    Stop
             "#]],
         );
     }
@@ -467,6 +490,9 @@ mod tests {
                 "Принеси",
                 "Дверь-ВZ",
                 "Открой на",
+                "Иди к двери вз",
+                "Открой дверь в коридор",
+                "Принеси 2 книги",
                 "не открывай Дверь-ВZ",
                 "абракадабра",
                 "Go to Room-Q",
@@ -493,6 +519,12 @@ mod tests {
                     language::incomplete: Не сказано, что с этим сделать. Дополните задание.
                 Открой на
                     language::incomplete: Не сказано, где или куда. Дополните задание.
+                Иди к двери вз
+                    language::unknown_name: На карте нет «двери вз». Есть «Дверь-ВZ» или «Дверь-ZY».
+                Открой дверь в коридор
+                    language::ambiguous: «дверь» – это «Дверь-ВZ» или «Дверь-ZY»? Назовите одно из них полностью.
+                Принеси 2 книги
+                    language::unknown_name: На карте нет «2 книги». Есть «Книга».
                 не открывай Дверь-ВZ
                     language::not_understood: Слово «не» непонятно. Скажите, что сделать, а не чего не делать.
                 абракадабра
@@ -517,7 +549,7 @@ mod tests {
     fn what_the_map_knows_narrows_the_choice() {
         let index = index();
         let white_is_in_the_kitchen =
-            |cups: &[&'static str], at: Option<&Placement<&'static str>>| match at {
+            |cups: &[&'static str], at: Option<&Placement<_>>, _: Option<&Placement<_>>| match at {
                 Some(place) if place.anchor == "Кухня" => {
                     cups.iter().copied().filter(|cup| *cup == "Белая чашка").collect()
                 }

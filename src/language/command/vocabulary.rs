@@ -15,6 +15,8 @@ pub(super) enum Meaning {
     /// «на ключ»: closing becomes locking.
     WithKey,
     And,
+    /// «все двери»
+    All,
     Not,
     /// «мне», "me"
     Me,
@@ -42,6 +44,7 @@ pub(super) enum Verb {
     Tidy,
     CallOperator,
     Report,
+    Stop,
 }
 
 /// A preposition: how the thing after it lies to the rest.
@@ -79,7 +82,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "принеси|принесите|принёс|принесла|привёз|достал|подал|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\
         подать|дай|дайте|дать|достань|достаньте|bring|fetch|get me|give|deliver|hand|carry|pass",
     ),
-    (Meaning::Verb(Verb::Need), "нужен|нужна|нужно|нужны|need|want"),
+    (Meaning::Verb(Verb::Need), "нужен|нужна|нужно|нужны|хочу|хотел бы|хотела бы|need|want"),
     (
         Meaning::Verb(Verb::Take),
         "возьми|возьмите|взял|взять|бери|забери|заберите|забрать|подними|поднимите|поднять|схвати|захвати|take|pick up|pick|grab|grasp|lift",
@@ -123,6 +126,11 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         позвони оператору|call operator|call the operator|call an operator|ask the operator",
     ),
     (
+        Meaning::Verb(Verb::Stop),
+        "стоп|стой|стойте|остановись|остановитесь|остановиться|хватит|прекрати|прекратите|отмена|отмени|отмени задание|\
+        stop|halt|cancel|abort|freeze",
+    ),
+    (
         Meaning::Verb(Verb::Report),
         "доложи|доложите|доложить|доложи обстановку|доложи о состоянии|доложи где ты|отчитайся|сообщи где ты|сообщи где ты находишься|\
         сообщи своё положение|сообщи положение|сообщи местоположение|где ты|где ты находишься|где ты сейчас|report|report your position|report position|where are you|\
@@ -152,7 +160,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Filler,
         "пожалуйста|плиз|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
-        могли бы вы|не мог бы ты|не могли бы вы|не можешь|не можете|ты не мог бы|ты|вы|бы|ли|надо|необходимо|хочу|хочу чтобы ты|чтобы|чтобы ты|я|мы|нам|быстро|быстрее|скорее|срочно|осторожно|сейчас|теперь|\
+        могли бы вы|не мог бы ты|не могли бы вы|не можешь|не можете|ты не мог бы|ты|вы|бы|ли|надо|необходимо|чтобы|чтобы ты|я|мы|нам|быстро|быстрее|скорее|срочно|осторожно|сейчас|теперь|\
         тут|там|сюда|туда|вот|ка|же|ну|ладно|хорошо|привет|здравствуй|здравствуйте|робот|рб|рб 2|этот|эту|это|эти|тот|ту|те|мой|мою|моё|мои|свой|свою|своё|для меня|\
         какой нибудь|какую нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
         a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|here|there|for me|kindly|i|d like|d like you to|like|you",
@@ -161,6 +169,10 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::And,
         "и|а затем|затем|потом|после этого|а потом|и потом|и затем|then|and|and then|after that",
+    ),
+    (
+        Meaning::All,
+        "все|всю|всё|весь|всех|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
     (Meaning::Me, "мне|меня|ко мне|до меня|me|to me"),

@@ -325,7 +325,7 @@ impl Spelled {
         let mut key = String::with_capacity(text.len());
         let (mut exact, mut spaced) = (Mark::new(), Mark::new());
         let (mut blank, mut joint) = (false, false);
-        let mut before = ' ';
+        let (mut before, mut small_before) = (' ', 0_usize);
         for (at, c) in text.char_indices() {
             if c.is_whitespace() {
                 (blank, joint) = (!key.is_empty(), true);
@@ -334,8 +334,9 @@ impl Spelled {
             if std::mem::take(&mut blank) {
                 exact.add(' ');
             }
-            joint |= !c.is_alphanumeric() || is_joint(before, &text[at..]);
+            joint |= !c.is_alphanumeric() || is_joint(before, small_before, &text[at..]);
             before = c;
+            small_before = if c.is_lowercase() { small_before + 1 } else { 0 };
             for small in c.to_lowercase().map(without_yo) {
                 exact.add(small);
                 if !c.is_alphanumeric() {
@@ -362,7 +363,7 @@ fn without_yo(c: char) -> char {
 }
 
 /// Whether a word ends between two letters that nothing separates.
-fn is_joint(before: char, rest: &str) -> bool {
+fn is_joint(before: char, small_before: usize, rest: &str) -> bool {
     let Some(next) = rest.chars().next() else { return false };
     if before.is_numeric() != next.is_numeric()
         && before.is_alphanumeric()
@@ -370,8 +371,8 @@ fn is_joint(before: char, rest: &str) -> bool {
     {
         return true;
     }
-    // «КомнатаВ»: three capitals at most, and nothing small after them.
-    before.is_lowercase() && next.is_uppercase() && {
+    // «КомнатаВ», not «вZ»: three capitals at most after a word, and nothing small after them.
+    small_before > 2 && next.is_uppercase() && {
         let tag = rest.chars().take_while(|c| c.is_alphanumeric()).take(4);
         tag.clone().count() < 4 && tag.clone().all(|c| !c.is_lowercase())
     }
@@ -464,6 +465,7 @@ mod tests {
             check(&rooms, text, &["Комната-В"]);
         }
         check(&rooms, "дверь bz", &["Дверь-ВZ"]);
+        check(&rooms, "дверь-вZ", &["Дверь-ВZ"]);
         check(&rooms, "тумбочке 1", &["Тумбочка-1"]);
         check(&rooms, "ковер", &["Ковёр"]);
         check(&rooms, "Комнату-Z", &[]);
