@@ -150,7 +150,10 @@ impl Site<'_> {
     }
 
     /// The doorways of an Area, each with the Area's index in it.
-    pub(super) fn doorways_of(&self, area: AreaId) -> impl Iterator<Item = (usize, &Doorway, usize)> {
+    pub(super) fn doorways_of(
+        &self,
+        area: AreaId,
+    ) -> impl Iterator<Item = (usize, &Doorway, usize)> {
         let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
         own.iter().map(|&(doorway, side)| (doorway, &self.doorways[doorway], side))
     }

@@ -18,7 +18,10 @@ use super::route::{Method, Target};
 pub enum Remedy {
     Open(Vec<DoorId>),
     /// Push a thing by a displacement in the Map's frame, in cm.
-    Move { replica: ReplicaId, by: Vector },
+    Move {
+        replica: ReplicaId,
+        by: Vector,
+    },
 }
 
 /// Nobody pushes furniture further than this for a robot, in cm.
@@ -30,7 +33,13 @@ impl FloorPlan {
     /// The smallest change that opens a way where [`FloorPlan::route`] found none: doors that only need opening
     /// before things that need pushing, and the shortest push of the things that may move.
     #[must_use]
-    pub fn remedy(&self, world: &World, from: Point, target: Target, no: &NoRoute) -> Option<Remedy> {
+    pub fn remedy(
+        &self,
+        world: &World,
+        from: Point,
+        target: Target,
+        no: &NoRoute,
+    ) -> Option<Remedy> {
         let doors: Vec<DoorId> = no
             .barriers()
             .iter()
@@ -99,9 +108,8 @@ impl FloorPlan {
         let frame = home.frame.compose(&trial.replicas[&replica].frame);
         let placed = super::PlacedReplica::new(trial, replica, frame);
         let corners = placed.prisms.iter().flat_map(|p| p.polygon.corners.iter());
-        let on_floor = corners
-            .clone()
-            .all(|&c| home.prisms.iter().any(|base| base.polygon.contains(c, 1e-6)));
+        let on_floor =
+            corners.clone().all(|&c| home.prisms.iter().any(|base| base.polygon.contains(c, 1e-6)));
         on_floor
             && self.scene().replicas_in(area).filter(|r| r.id != replica).all(|other| {
                 !other.bounds.meets(&placed.bounds)
@@ -124,7 +132,9 @@ fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
     });
     blockers
         .filter_map(|b| match b {
-            Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => Some(replica),
+            Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => {
+                Some(replica)
+            }
             _ => None,
         })
         .filter(|id| world.replicas.get(id).is_some_and(|r| r.move_prob > 0))

@@ -16,9 +16,9 @@ use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
 use super::floor::{Blocker, FragmentFloor};
+use super::nearest_on_segment;
 use super::plan::FloorPlan;
 use super::scene::Prism;
-use super::nearest_on_segment;
 
 /// A face that a beam can meet.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -90,7 +90,8 @@ impl FloorPlan {
 
     /// The side of the Area on which a piece of wall lies.
     fn wall_face(&self, fragment: &FragmentFloor, a: Point, b: Point) -> SeenFace {
-        let near = |p: Point, (u, v): (Point, Point)| (p - nearest_on_segment(p, u, v)).norm() < 0.01;
+        let near =
+            |p: Point, (u, v): (Point, Point)| (p - nearest_on_segment(p, u, v)).norm() < 0.01;
         let prisms = self.scene().areas.get(&fragment.area).map_or(&[][..], |p| &p.prisms);
         let side = prisms.iter().enumerate().find_map(|(item, prism)| {
             let side = prism.polygon.edges().position(|e| near(a, e) && near(b, e))?;
@@ -136,7 +137,8 @@ impl Sight {
     fn of(found: Vec<(SeenFace, (Point, Point))>) -> Self {
         let (faces, ends): (Vec<_>, Vec<_>) =
             found.into_iter().filter(|(_, (a, b))| (b - a).norm() > 1e-9).unzip();
-        let vertices = ends.iter().flat_map(|&(a, b)| [a, b]).map(|p| Vec2::new(p.x, p.y)).collect();
+        let vertices =
+            ends.iter().flat_map(|&(a, b)| [a, b]).map(|p| Vec2::new(p.x, p.y)).collect();
         let indices = (0..ends.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
         let shape = (!ends.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
         Self { faces, ends, shape }
@@ -147,7 +149,10 @@ impl Sight {
     pub fn beam(&self, from: Point, direction: f64, range: f64) -> Beam {
         let (sin, cos) = direction.sin_cos();
         let ray = Ray::new(Vec2::new(from.x, from.y), Vec2::new(cos, sin));
-        let hit = self.shape.as_ref().and_then(|s| CompositeShapeRef(s).cast_local_ray(&ray, range, true));
+        let hit = self
+            .shape
+            .as_ref()
+            .and_then(|s| CompositeShapeRef(s).cast_local_ray(&ray, range, true));
         match hit {
             Some((segment, distance)) => {
                 Beam { direction, distance, face: Some(self.faces[segment as usize]) }
