@@ -129,9 +129,16 @@ fn quick_table(only: Option<&str>) {
 
 /// Processor time, so that other load on the machine counts little.
 fn timed(run: impl Fn() -> usize) -> Duration {
-    let start = processor_time();
-    black_box(run());
-    processor_time() - start
+    // The system counts in ticks of several milliseconds.
+    let (start, mut runs) = (processor_time(), 0);
+    loop {
+        black_box(run());
+        runs += 1;
+        let spent = processor_time() - start;
+        if spent >= Duration::from_millis(100) {
+            return spent / runs;
+        }
+    }
 }
 
 /// Of this thread; the time of day where the system does not tell.

@@ -70,6 +70,8 @@ macro_rules! at_width {
 pub(super) trait RowSet {
     fn len(&self) -> usize;
     fn row(&self, at: usize) -> &[Word];
+    /// One column of all rows.
+    fn column(&self, column: usize) -> Vec<Word>;
     /// The rows that start with the key.
     fn range(&self, key: &[Word]) -> Range<usize>;
 
@@ -88,6 +90,10 @@ impl<const N: usize> RowSet for Relation<Row<N>> {
 
     fn row(&self, at: usize) -> &[Word] {
         &self.elements[at].0
+    }
+
+    fn column(&self, column: usize) -> Vec<Word> {
+        self.elements.iter().map(|row| row.0[column]).collect()
     }
 
     fn range(&self, key: &[Word]) -> Range<usize> {

@@ -141,11 +141,14 @@ impl<'a> Machine<'a, '_> {
                 }
                 None => false,
             },
-            Step::Absent { source, key } => match self.key(key) {
-                Some(key) => !self.has_row(*source, key.words()) && self.run(at + 1),
+            Step::Absent { source, key } => {
+                let has_row = match key.as_slice() {
+                    [one] => self.compute(one).map(|word| self.has_row(*source, &[word])),
+                    many => self.key(many).map(|key| self.has_row(*source, key.words())),
+                };
                 // A key without a value is in no relation.
-                None => self.run(at + 1),
-            },
+                !has_row.unwrap_or(false) && self.run(at + 1)
+            }
             Step::Aggregate { function, value, register, end } => {
                 match self.aggregate(*function, value.as_ref(), at + 1, *end) {
                     Some(number) => {
