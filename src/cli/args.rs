@@ -13,7 +13,7 @@ use crate::graphplan::Limits;
 #[command(
     after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 internal error."
 )]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(flatten)]
     pub common: Common,
     #[command(subcommand)]
@@ -22,7 +22,7 @@ pub struct Arguments {
 
 /// What every command takes.
 #[derive(Debug, Clone, Args)]
-pub struct Common {
+pub(super) struct Common {
     /// Store directory
     #[arg(long, global = true, env = "ORTHO_STORE", value_name = "DIR")]
     pub store: Option<PathBuf>,
@@ -47,13 +47,13 @@ pub struct Common {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Lang {
+pub(super) enum Lang {
     Ru,
     En,
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(super) enum Command {
     /// The whole way once: import the rb2 map, derive, plan "Принеси лекарство", drive, report, draw
     Demo {
         /// Store directory to use and keep; a temporary one when absent
@@ -122,7 +122,7 @@ pub enum Command {
 }
 
 #[derive(Debug, Args)]
-pub struct PlanArgs {
+pub(super) struct PlanArgs {
     /// Scenario file (.strips)
     #[arg(required_unless_present = "problem")]
     pub scenario: Option<PathBuf>,
@@ -141,7 +141,7 @@ pub struct PlanArgs {
 }
 
 impl PlanArgs {
-    pub fn limits(&self) -> Limits {
+    pub(super) fn limits(&self) -> Limits {
         let deadline =
             self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
         Limits { deadline, ..Limits::default() }
@@ -149,7 +149,7 @@ impl PlanArgs {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RouteMethod {
+pub(super) enum RouteMethod {
     /// The shortest way that keeps the robot's clearance
     Shortest,
     /// Depth-first over Passframes, midpoints of their borders (paper 1 §8)
@@ -157,7 +157,7 @@ pub enum RouteMethod {
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Drawing {
+pub(super) enum Drawing {
     /// Rooms, doors, furniture
     Map {
         /// The map; may be left out when there is only one

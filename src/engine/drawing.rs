@@ -48,8 +48,7 @@ fn door_glyphs(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
             return Vec::new();
         };
         let leaves = doorway.leaves(door, door.state);
-        let swept =
-            (door.kind == DoorKind::Hinged).then(|| doorway.swept(door)).unwrap_or_default();
+        let swept = if door.kind == DoorKind::Hinged { doorway.swept(door) } else { Vec::new() };
         let mut swept = swept.into_iter();
         leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next() }).collect()
     };
