@@ -18,7 +18,8 @@ pub struct FloorLayer {
 /// A drivable line, cut into the directives' legs.
 #[derive(Debug, Clone, Default)]
 pub struct RouteLayer {
-    pub legs: Vec<Vec<Point>>,
+    /// The number of the directive, and its way.
+    pub legs: Vec<(usize, Vec<Point>)>,
     pub start: Option<Pose>,
     /// Radius of the robot's disc, cm.
     pub robot_radius: f64,
@@ -114,7 +115,7 @@ impl PlanDrawing<'_> {
     }
 
     fn route(&self, canvas: &mut Canvas) {
-        for leg in &self.route.legs {
+        for (_, leg) in &self.route.legs {
             canvas.polyline(leg, ROUTE);
         }
         if let Some(pose) = self.route.start {
@@ -132,11 +133,11 @@ impl PlanDrawing<'_> {
     /// Numbers of the directives at the ends of their legs; those that end at one point share a badge.
     fn badges(&self, canvas: &mut Canvas) -> Vec<Bounds> {
         let mut badges: Vec<(Point, String)> = Vec::new();
-        for (number, leg) in self.route.legs.iter().enumerate() {
+        for (number, leg) in &self.route.legs {
             let Some(&end) = leg.last() else { continue };
             match badges.iter_mut().find(|(at, _)| (at - end).norm() < 16.0) {
-                Some((_, text)) => text.push_str(&format!(" · {}", number + 1)),
-                None => badges.push((end, (number + 1).to_string())),
+                Some((_, text)) => text.push_str(&format!(" · {number}")),
+                None => badges.push((end, number.to_string())),
             }
         }
         let mut taken = Vec::new();
@@ -151,9 +152,11 @@ impl PlanDrawing<'_> {
 
     /// Names of places, rooms and furniture, the large before the small, none over another.
     fn labels(&self, canvas: &mut Canvas) {
+        for (p, _) in &self.places {
+            canvas.circle(*p, 3.2, Style::fill("#b3261e"));
+        }
         let mut taken = self.badges(canvas);
         for (p, name) in &self.places {
-            canvas.circle(*p, 3.2, Style::fill("#b3261e"));
             place_label(
                 canvas,
                 &mut taken,

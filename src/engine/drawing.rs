@@ -12,8 +12,8 @@ use super::{Engine, Error};
 pub struct Drawing {
     /// Passframes and dead zones.
     pub floor: bool,
-    /// The legs of a way, one a directive.
-    pub legs: Vec<Vec<Point>>,
+    /// The legs of a way, each with its directive's number.
+    pub legs: Vec<(usize, Vec<Point>)>,
     /// Where the robot stands.
     pub robot: Option<Pose>,
 }

@@ -159,7 +159,6 @@ pub fn nearest_on_segment(p: Point, a: Point, b: Point) -> Point {
 }
 
 #[cfg(test)]
-#[expect(clippy::float_cmp, reason = "exactness is what these tests are about")]
 mod tests {
     use super::*;
 
