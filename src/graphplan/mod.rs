@@ -115,7 +115,7 @@ pub fn solve(task: &Task, limits: &Limits) -> Outcome {
 }
 
 /// What a conflict of the solver takes the time of, near enough.
-const CHOICES_A_CONFLICT: u64 = 50;
+const CHOICES_A_CONFLICT: u64 = 1_000;
 
 /// What each way of extraction may spend in its first turn at a level.
 #[derive(Debug, Clone, Copy)]
@@ -128,7 +128,7 @@ struct Turn {
 
 impl Default for Turn {
     fn default() -> Self {
-        Self { choices: 1 << 16, conflicts: 1 << 10 }
+        Self { choices: 1 << 18, conflicts: 1 << 9 }
     }
 }
 
