@@ -141,3 +141,27 @@ fn a_plan_text_breaks_where_it_is_wrong() {
     );
     assert_eq!(check("0: 0: )"), Err(vec!["strips::syntax".into()]));
 }
+
+#[test]
+fn things_that_no_plan_needs_leave_the_task() {
+    let problem = |things: usize, held: &str| {
+        let things: Vec<String> =
+            (0..things).map(|n| format!("НА(Вещь-{n}, Стол) НА(Вещь-{n}, Пол)")).collect();
+        let text = format!(
+            "Действие: Взять (Параметры: вещь ?t, опора ?s)
+             (Предусловие: НА(?t, ?s) РУКА-СВОБОДНА()) (Эффект+: ДЕРЖИТ(?t)) (Эффект-: НА(?t, ?s) РУКА-СВОБОДНА())
+             Действие: Положить (Параметры: вещь ?t, опора ?s)
+             (Предусловие: ДЕРЖИТ(?t) ЕСТЬ(?s)) (Эффект+: НА(?t, ?s) РУКА-СВОБОДНА()) (Эффект-: ДЕРЖИТ(?t))
+             Факты: НА(Чашка, Стол) ЕСТЬ(Стол) ЕСТЬ(Пол) {held} {}
+             Цель: НА(Чашка, Пол)",
+            things.join(" ")
+        );
+        Scenario::parse(&Source::new("вещи", text)).unwrap().ground().unwrap()
+    };
+    let free = "РУКА-СВОБОДНА()";
+    assert_eq!(problem(40, free).operators.len(), problem(0, free).operators.len());
+    // What the robot holds at first it must put down: that one thing is no bystander, the others are.
+    let held = problem(3, "ДЕРЖИТ(Вещь-0)");
+    assert_eq!(directives(&held).len(), 3);
+    assert!(held.operators.iter().all(|operator| !operator.args.contains(&"Вещь-1".into())));
+}
