@@ -1,7 +1,10 @@
 //! orthoframe: an embedded knowledge base and logic engine for robots that work inside buildings.
 
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod corridor;
 pub mod draw;
+pub mod engine;
 pub mod exchange;
 pub mod facts;
 pub mod geometry;
@@ -13,3 +16,5 @@ pub mod semantics;
 pub mod store;
 pub mod strips;
 pub mod units;
+
+pub use engine::Engine;

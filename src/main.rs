@@ -1,3 +1,7 @@
 //! `ortho`: the command line of orthoframe.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    orthoframe::cli::run()
+}

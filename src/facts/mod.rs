@@ -1,1 +1,65 @@
-//! (stands empty until its chapter is written)
+//! A general embedded Datalog engine: rule text read at run time, evaluated on datafrog.
+//!
+//! The text is Soufflé's dialect (`.decl` with types, `:-`, `!`, comparisons, arithmetic, string functors,
+//! `count`, `sum`, `min`, `max`, `mean`), with identifiers in any alphabet and a second name for a relation
+//! after its declaration. Symbols and numbers become 32-bit words, tuples rows of words; each rule becomes
+//! nested loops over indexes, each recursive group of relations a semi-naive iteration with datafrog's
+//! variables. The engine knows nothing of maps or robots.
+//!
+//! **Invariant**: a [`Program`] that parses can be evaluated: its variables are bound, its negations stratified.
+//!
+//! ```
+//! use orthoframe::facts::{Program, Value};
+//! use orthoframe::units::Source;
+//!
+//! let rules = Source::new("опора.dl", r#"
+//!     .decl стоит_на(верх: symbol, низ: symbol) = stands_on
+//!     .decl держится_на(верх: symbol, низ: symbol) = held_by
+//!     .input стоит_на
+//!     .output держится_на
+//!     держится_на(X, Y) :- стоит_на(X, Y).
+//!     держится_на(X, Z) :- держится_на(X, Y), стоит_на(Y, Z).
+//! "#);
+//! let program = Program::parse(&rules)?;
+//! let mut facts = program.database();
+//! facts.insert("stands_on", &["чашка".into(), "блюдце".into()])?;
+//! facts.insert("стоит_на", &["блюдце".into(), "стол".into()])?;
+//!
+//! let derived = program.evaluate(&facts)?;
+//! assert_eq!(derived.len("держится_на")?, 3);
+//! assert!(derived.contains("held_by", &["чашка".into(), "стол".into()])?);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod check;
+mod clause;
+mod database;
+mod derived;
+mod evaluate;
+mod fault;
+mod files;
+mod index;
+mod lex;
+mod live;
+mod parse;
+mod plan;
+mod program;
+mod proof;
+mod rows;
+mod run;
+mod syntax;
+mod value;
+mod why_not;
+mod word;
+
+pub use database::{Database, FactError, RelationKey, Schema};
+pub use derived::{Derived, Tuple, Tuples};
+pub use evaluate::EvaluateError;
+pub use fault::{Faults, FileFaults, RuleError};
+pub use files::{FilesError, FilesReport, run_files};
+pub use live::Live;
+pub use program::{Column, Kind, Parameters, Program, RelationId, RelationInfo};
+pub use proof::{Because, Explainer, FactText, Premise, Proof, ProofStep, RuleInstance};
+pub use syntax::{Aggregation, Comparison};
+pub use why_not::{FailedRule, WhyNot};
+pub use word::Value;

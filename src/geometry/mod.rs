@@ -1,7 +1,43 @@
 //! What can be measured on a Map: prisms, distances, free floor, Passframes, routes, views.
+//!
+//! A [`Scene`] brings every Orthoframe into its Map's frame. A [`FloorPlan`] makes of it, Fragment by Fragment,
+//! the floor on which a given robot can drive ([`FragmentFloor`]), cut into [`Passframe`]s, and finds routes over
+//! it. All floors keep to paper 1, sections 7 and 8; each file says where it goes further.
+//!
+//! ```
+//! use orthoframe::geometry::{Polygon, Region};
+//! use orthoframe::units::Point;
+//!
+//! let square = |low: f64, high: f64| {
+//!     Polygon::new([(low, low), (high, low), (high, high), (low, high)].map(|(x, y)| Point::new(x, y)).to_vec())
+//! };
+//! let mut pillar = square(40.0, 60.0);
+//! pillar.corners.reverse(); // a hole runs clockwise
+//! let floor = Region { outer: square(0.0, 100.0), holes: vec![pillar] };
+//! assert_eq!(floor.area(), 100.0 * 100.0 - 20.0 * 20.0);
+//! assert!(!floor.contains(Point::new(50.0, 50.0), 0.0));
+//! ```
 
+mod blocked;
+pub mod contact;
+mod doors;
+mod floor;
+mod grid;
+mod mesh;
+mod offset;
+mod passframe;
+mod plan;
 mod polygon;
+mod route;
 mod scene;
+mod search;
 
+pub use blocked::{Barrier, NoRoute};
+pub use doors::{Doorway, doorways, object_leaves};
+pub use floor::{Blocker, DeadZone, FragmentFloor, Obstacle, SLACK};
+pub use grid::Region;
+pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
+pub use plan::{DoorStates, FloorPlan};
 pub use polygon::{Bounds, Polygon, nearest_on_segment};
+pub use route::{Method, Moved, Route, Target};
 pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};

@@ -50,7 +50,10 @@ impl Bounds {
 
     #[must_use]
     pub fn union(&self, other: &Self) -> Self {
-        Self::of([self.min, self.max, other.min, other.max])
+        Self {
+            min: Point::new(self.min.x.min(other.min.x), self.min.y.min(other.min.y)),
+            max: Point::new(self.max.x.max(other.max.x), self.max.y.max(other.max.y)),
+        }
     }
 }
 
@@ -71,6 +74,15 @@ impl Polygon {
     pub fn signed_area(&self) -> f64 {
         let Some(&o) = self.corners.first() else { return 0.0 };
         self.edges().map(|(a, b)| (a - o).perp(&(b - o))).sum::<f64>() / 2.0
+    }
+
+    /// The same polygon, run through counter-clockwise.
+    #[must_use]
+    pub fn counter_clockwise(mut self) -> Self {
+        if self.signed_area() < 0.0 {
+            self.corners.reverse();
+        }
+        self
     }
 
     /// Centre of the area; of the corners where the area is zero.
@@ -162,9 +174,15 @@ mod tests {
 
     #[test]
     fn area_and_centroid_of_an_ell() {
-        assert_eq!(ell().signed_area(), 300.0);
+        assert!((ell().signed_area() - 300.0).abs() < 1e-9);
         let c = ell().centroid();
         assert!((c - Point::new(25.0 / 3.0, 25.0 / 3.0)).norm() < 1e-9);
+    }
+
+    #[test]
+    fn nothing_joined_to_a_box_is_the_box() {
+        let bounds = ell().bounds();
+        assert_eq!(Bounds::EMPTY.union(&bounds), bounds);
     }
 
     #[test]

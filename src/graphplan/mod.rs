@@ -1,1 +1,237 @@
-//! (stands empty until its chapter is written)
+//! GraphPlan (A. Blum, M. Furst, 1997): the planner that the source paper names (paper 1, section 8).
+//!
+//! The planning graph alternates levels of facts with levels of actions, from the initial state forward,
+//! and marks pairs that exclude each other (*mutex*). A plan is then sought backward from the goal. The first
+//! level at which one is found is the fewest parallel steps there can be; when the graph has leveled off
+//! and the same sets of goals keep failing, there is no plan, and that is an answer, not an error.
+//!
+//! ```
+//! use orthoframe::graphplan::{Limits, Outcome, solve};
+//! use orthoframe::strips::Scenario;
+//! use orthoframe::units::Source;
+//!
+//! let task = Scenario::parse(&Source::new("дверь", "
+//! Действие: Открыть (Параметры: дверь ?y)
+//! (Предусловие: ЗАКРЫТА_(?y)) (Эффект+: ОТКРЫТА_(?y)) (Эффект-: ЗАКРЫТА_(?y))
+//! Факты: ЗАКРЫТА_(Дверь-ВZ)   Цель: ОТКРЫТА_(Дверь-ВZ)"))?.ground()?;
+//! let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("дверь открывается") };
+//! assert_eq!(task.operator(plan.steps[0][0]).to_string(), "Открыть_(Дверь-ВZ)");
+//! # Ok::<(), orthoframe::strips::RuleFaults>(())
+//! ```
+
+mod extract;
+mod graph;
+mod no_good;
+mod plan;
+mod sat;
+mod solver;
+mod symmetry;
+
+use std::time::Instant;
+
+pub use plan::{Flaw, Plan, validate};
+
+use crate::strips::{FactId, Task};
+use extract::{Extraction, Search};
+use graph::PlanningGraph;
+use sat::{Encoding, Verdict};
+
+/// What the search for a plan came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Outcome {
+    /// A plan with the fewest parallel steps.
+    Plan(Plan),
+    /// Proven: no plan of any length.
+    NoPlan {
+        /// The level from which on the graph stays the same.
+        leveled_off_at: usize,
+        reason: NoPlanReason,
+    },
+    /// Given up; nothing is known.
+    LimitReached(Limit),
+}
+
+/// Why there is no plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum NoPlanReason {
+    /// Facts of the goal that no action can reach.
+    Unreachable(Vec<FactId>),
+    /// Pairs of the goal that never hold at once.
+    Exclusive(Vec<(FactId, FactId)>),
+    /// Facts of the goal that pairwise may hold, but not all together.
+    Together(Vec<FactId>),
+}
+
+/// Which limit ended the search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    Time,
+    Memory,
+    Steps,
+}
+
+/// How far the search may go.
+#[derive(Debug, Clone, Copy)]
+pub struct Limits {
+    pub deadline: Option<Instant>,
+    pub memory_bytes: usize,
+    pub parallel_steps: usize,
+}
+
+impl Default for Limits {
+    /// No deadline, a gigabyte, and more steps than a robot takes in a day.
+    fn default() -> Self {
+        Self { deadline: None, memory_bytes: 1 << 30, parallel_steps: 10_000 }
+    }
+}
+
+impl Limits {
+    pub(super) fn check(&self, bytes: usize) -> Result<(), Limit> {
+        if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
+            return Err(Limit::Time);
+        }
+        if bytes > self.memory_bytes { Err(Limit::Memory) } else { Ok(()) }
+    }
+}
+
+/// Finds a plan with the fewest parallel steps, or proves that there is none.
+///
+/// Equal tasks give equal plans.
+#[must_use]
+pub fn solve(task: &Task, limits: &Limits) -> Outcome {
+    // The search goes as deep as a plan has goals and steps; its stack must not depend on the caller's.
+    const STACK_BYTES: usize = 1 << 29;
+    std::thread::scope(|scope| {
+        std::thread::Builder::new()
+            .name("graphplan".to_owned())
+            .stack_size(STACK_BYTES)
+            .spawn_scoped(scope, || {
+                search(task, limits, Turn::default()).unwrap_or_else(Outcome::LimitReached)
+            })
+            .map_or(Outcome::LimitReached(Limit::Memory), |search| {
+                search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+            })
+    })
+}
+
+/// What a conflict of the solver takes the time of, near enough.
+const CHOICES_A_CONFLICT: u64 = 50;
+
+/// What each way of extraction may spend in its first turn at a level.
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    /// Choices of the backward search.
+    choices: u64,
+    /// Conflicts of the solver.
+    conflicts: u64,
+}
+
+impl Default for Turn {
+    fn default() -> Self {
+        Self { choices: 1 << 16, conflicts: 1 << 10 }
+    }
+}
+
+fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
+    let mut graph = PlanningGraph::new(task);
+    let mut extractor = Extractor {
+        search: Search::new(task, *limits),
+        encoding: Encoding::new(task, limits),
+        limits,
+        turn,
+        solver_leads: false,
+        refuted: 0,
+    };
+    loop {
+        limits.check(graph.bytes() + extractor.bytes())?;
+        if graph.is_possible(&task.goal) {
+            match extractor.extract(&graph)? {
+                Extraction::Plan(plan) => return Ok(Outcome::Plan(plan)),
+                Extraction::None | Extraction::Open => {}
+                Extraction::Never(goals) => {
+                    let leveled_off_at =
+                        graph.leveled_off_at().expect("never is said after level-off");
+                    let reason = NoPlanReason::Together(goals);
+                    return Ok(Outcome::NoPlan { leveled_off_at, reason });
+                }
+            }
+        } else if let Some(leveled_off_at) = graph.leveled_off_at() {
+            return Ok(Outcome::NoPlan { leveled_off_at, reason: graph.conflict_of(&task.goal) });
+        }
+        if graph.top() >= limits.parallel_steps {
+            return Err(Limit::Steps);
+        }
+        graph.expand(limits)?;
+    }
+}
+
+/// The two ways to look for a plan of a given length, taking turns.
+///
+/// Search is strong where a deep serial chain rules, the solver where many choices interact. Turns are counted in
+/// choices and conflicts, not in seconds: the same task always goes the same way.
+struct Extractor<'a> {
+    search: Search<'a>,
+    encoding: Encoding<'a>,
+    limits: &'a Limits,
+    turn: Turn,
+    /// Who decided the level before goes first.
+    solver_leads: bool,
+    /// The last number of steps that the search refuted.
+    refuted: usize,
+}
+
+impl Extractor<'_> {
+    fn bytes(&self) -> usize {
+        self.search.bytes() + self.encoding.bytes()
+    }
+
+    fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
+        if self.solver_leads
+            && let Some(extraction) = self.prove(graph)?
+        {
+            return Ok(extraction);
+        }
+        let mut round = 0;
+        loop {
+            if self.solver_leads || round > 0 {
+                match self.encoding.extract(graph, self.turn.conflicts << round, self.limits)? {
+                    Verdict::Plan(plan) => return Ok(Extraction::Plan(plan)),
+                    Verdict::None => {
+                        self.solver_leads = true;
+                        return Ok(Extraction::None);
+                    }
+                    Verdict::Open => {}
+                }
+            }
+            let extraction = self.search.extract(graph, graph.top(), self.turn.choices << round)?;
+            if !matches!(extraction, Extraction::Open) {
+                self.solver_leads = false;
+                self.refuted = graph.top();
+                return Ok(extraction);
+            }
+            round += 1;
+        }
+    }
+
+    /// The solver never proves that no length will do. Once the graph has leveled off, the search gets a share
+    /// of the effort for that, on the first length that it has not refuted itself; what it says of the present
+    /// length is an answer.
+    fn prove(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
+        let share = self.turn.choices * (graph.top() - leveled_off_at) as u64
+            + CHOICES_A_CONFLICT * self.encoding.conflicts();
+        self.refuted = self.refuted.max(leveled_off_at);
+        while self.refuted < graph.top() && self.search.choices() < share {
+            let allowed = share - self.search.choices();
+            match self.search.extract(graph, self.refuted + 1, allowed)? {
+                Extraction::None => self.refuted += 1,
+                Extraction::Open => return Ok(None),
+                answer => return Ok(Some(answer)),
+            }
+        }
+        Ok((self.refuted == graph.top()).then_some(Extraction::None))
+    }
+}
+
+#[cfg(test)]
+mod tests;

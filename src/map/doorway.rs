@@ -1,45 +1,8 @@
 //! Where doors are: which Areas they join, and the segment of floor that each of them leaves to go through.
 
-use crate::units::{AreaId, DoorId, Frame, Point};
+use crate::units::{AreaId, DoorId, Point};
 
 use super::{Door, DoorMount, World};
-
-/// A door as one Area sees it, in that Area's frame.
-///
-/// ```text
-///        the other Area
-///   -----left  right-----      side vector: <-----
-///        this Area
-/// ```
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Doorway {
-    pub area: AreaId,
-    pub door: DoorId,
-    /// The jamb on the right hand of one who stands in the Area and looks at the door.
-    pub right: Point,
-    pub left: Point,
-    /// Height of the threshold, in the frame of the Area, cm.
-    pub floor: f64,
-}
-
-impl Doorway {
-    /// The middle of the threshold.
-    #[must_use]
-    pub fn middle(&self) -> Point {
-        nalgebra::center(&self.right, &self.left)
-    }
-
-    /// The same doorway in the frame in which the Area stands at `frame`.
-    #[must_use]
-    pub fn seen_from(&self, frame: &Frame) -> Self {
-        Self {
-            right: frame.apply(self.right),
-            left: frame.apply(self.left),
-            floor: self.floor + frame.z.get(),
-            ..*self
-        }
-    }
-}
 
 impl World {
     /// The Areas that mount a door, in the order of their ids: two, or one when it leads outside, or none when it
@@ -63,21 +26,28 @@ impl World {
         self.doors.values().filter(|door| self.door_mounts(door.id).next().is_some())
     }
 
-    /// A door as an Area sees it; in the middle of its side where the side is longer than the door is wide.
-    /// None when the Area does not mount it.
+    /// The right and the left jamb of a door in the frame of an Area, seen from within that Area. In the middle of
+    /// its side where the side is longer than the door is wide. None when the Area does not mount the door.
+    ///
+    /// ```text
+    ///   -----left  right-----      side vector: <-----
+    ///          this Area
+    /// ```
     #[must_use]
-    pub fn doorway(&self, area: AreaId, door: DoorId) -> Option<Doorway> {
+    pub fn threshold(&self, area: AreaId, door: DoorId) -> Option<(Point, Point)> {
         let group = self.areas.get(&area)?;
         let mount = group.doors.iter().find(|mount| mount.door == door)?;
         let item = group.item(&mount.item)?;
         let (_, side) = self.orthoframes.get(&item.orthoframe)?.side(&mount.side)?;
-        let (start, end) = (item.frame.apply(side.start), item.frame.apply(side.end));
-        let along = end - start;
         // The base runs counter-clockwise: seen from within, a side runs from right to left.
-        let margin = (along.norm() - self.doors.get(&door)?.width.get()).max(0.0) / 2.0;
+        let (right, left) = (item.frame.apply(side.start), item.frame.apply(side.end));
+        let along = left - right;
+        let margin = (along.norm() - self.doors.get(&door)?.width.get()) / 2.0;
+        if margin <= 0.0 {
+            return Some((right, left));
+        }
         let inset = along.normalize() * margin;
-        let [right, left] = if margin > 0.0 { [start + inset, end - inset] } else { [start, end] };
-        Some(Doorway { area, door, right, left, floor: item.frame.z.get() })
+        Some((right + inset, left - inset))
     }
 
     /// The bases of an Area's items, counter-clockwise, in the Area's frame.
@@ -114,11 +84,12 @@ mod tests {
             assert_eq!(areas.iter().map(|a| &world.areas[a].name).collect::<Vec<_>>(), joins);
             let seen = areas.iter().map(|&area| {
                 let (_, frame) = world.placement(area).expect("every room stands on the map");
-                world.doorway(area, door).expect("mounted there").seen_from(&frame)
+                let (right, left) = world.threshold(area, door).expect("mounted there");
+                (frame.apply(right), frame.apply(left))
             });
             if let [one, other] = seen.collect::<Vec<_>>()[..] {
-                assert_eq!((one.right, one.left), (other.left, other.right), "{name}");
-                assert_eq!((one.left - one.right).norm(), world.doors[&door].width.get());
+                assert_eq!(one, (other.1, other.0), "{name}");
+                assert_eq!((one.0 - one.1).norm(), world.doors[&door].width.get());
             }
         }
     }

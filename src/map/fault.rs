@@ -4,7 +4,10 @@
 
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, Severity, SourceCode, SourceSpan};
+use miette::{
+    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, Severity, SourceCode, SourceSpan,
+    SpanContents,
+};
 use thiserror::Error;
 
 use crate::units::{
@@ -52,8 +55,8 @@ pub enum MapError {
     #[diagnostic(code(map::missing_field), help("добавьте поле «{field}»"))]
     MissingField { field: &'static str },
     /// A text where a number belongs, and the like.
-    #[error("{found} вместо ожидаемого: {expected}")]
-    #[diagnostic(code(map::wrong_kind), help("замените значение: здесь нужно {expected}"))]
+    #[error("{found}, а нужно: {expected}")]
+    #[diagnostic(code(map::wrong_kind), help("замените значение; нужно: {expected}"))]
     WrongKind { found: String, expected: String },
     /// None of the words that may stand here.
     #[error("неизвестное слово «{word}»{}", perhaps(.nearest))]
@@ -64,8 +67,8 @@ pub enum MapError {
     #[diagnostic(code(map::bad_value), help("исправьте значение"))]
     BadValue { message: String },
     /// A number out of its range.
-    #[error("{what}: {value} вне пределов {range}")]
-    #[diagnostic(code(map::out_of_range), help("задайте {what} в пределах {range}"))]
+    #[error("{what} = {value}, а нужно {range}")]
+    #[diagnostic(code(map::out_of_range), help("задайте {what} {range}"))]
     OutOfRange { what: &'static str, value: f64, range: &'static str },
     /// A name that nothing bears.
     #[error("{what} «{name}» не существует{}", perhaps(.nearest))]
@@ -85,7 +88,7 @@ pub enum MapError {
     DanglingId { owner: String, what: &'static str, id: u32 },
     /// One name for two things.
     #[error("имя «{name}» носят двое: {first} и {second}")]
-    #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{name}-2»"))]
+    #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{}-2»", name.trim()))]
     DuplicateName { name: String, first: String, second: String },
     /// A record without a name.
     #[error("{what} без имени")]
@@ -402,9 +405,11 @@ pub enum Record {
 }
 
 /// One step from a record to what lies within it, in the words of the map file.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Step {
     Field(&'static str),
+    /// Of a table whose keys the map chooses: the id of a side, the key of a door.
+    Key(String),
     Index(usize),
 }
 
@@ -424,6 +429,12 @@ impl Spot {
     #[must_use]
     pub fn field(mut self, name: &'static str) -> Self {
         self.steps.push(Step::Field(name));
+        self
+    }
+
+    #[must_use]
+    pub fn key(mut self, key: &str) -> Self {
+        self.steps.push(Step::Key(key.to_owned()));
         self
     }
 
@@ -450,6 +461,7 @@ impl fmt::Display for Spot {
         }
         self.steps.iter().try_for_each(|step| match step {
             Step::Field(name) => write!(f, ".{name}"),
+            Step::Key(key) => write!(f, ".{key}"),
             Step::Index(index) => write!(f, "[{index}]"),
         })
     }
@@ -550,12 +562,53 @@ impl fmt::Display for MapErrors {
 
 impl std::error::Error for MapErrors {}
 
+/// The text, for excerpts beside the faults. A line may be a whole file long: then only what is near is shown.
+impl SourceCode for MapErrors {
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        let source = self.source.as_ref().ok_or(MietteError::OutOfBounds)?;
+        let contents = source.read_span(span, lines_before, lines_after)?;
+        if contents.data().len() <= LONGEST_EXCERPT {
+            return Ok(contents);
+        }
+        let text = source.text();
+        let line_start = text[..span.offset()].rfind('\n').map_or(0, |at| at + 1);
+        let start = boundary(text, span.offset().saturating_sub(EXCERPT_MARGIN)).max(line_start);
+        let end = boundary(text, span.offset() + span.len().min(EXCERPT_MARGIN) + EXCERPT_MARGIN);
+        let (line, column) = source.position(start);
+        let excerpt = &text.as_bytes()[start..end];
+        let lines = text[start..end].lines().count();
+        let name = source.name().to_owned();
+        let place = (start, end - start).into();
+        let contents =
+            MietteSpanContents::new_named(name, excerpt, place, line - 1, column - 1, lines);
+        Ok(Box::new(contents))
+    }
+}
+
+/// Bytes of the text that are shown beside one fault.
+const LONGEST_EXCERPT: usize = 4000;
+const EXCERPT_MARGIN: usize = 200;
+
+/// The nearest place at or before `at` where a character begins.
+fn boundary(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
 impl Diagnostic for MapErrors {
     fn severity(&self) -> Option<Severity> {
         Some(if self.has_errors() { Severity::Error } else { Severity::Warning })
     }
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source.as_ref().map(|source| source as _)
+        self.source.as_ref().map(|_| self as _)
     }
     fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
         Some(Box::new(self.faults.iter().map(|fault| fault as _)))

@@ -1,1 +1,23 @@
-//! (stands empty until its chapter is written)
+//! From a goal to a driven way: mission, directives, the drive and what it observes (SPEC X; paper 1 §8).
+//!
+//! A mission plans, turns each directive into a motion and gives it to a [`Drive`]. The simulator is one
+//! drive; a vehicle is another (X3). What a drive meets that the Map did not tell comes back as an
+//! [`Obstruction`], changes what the mission believes, and leads to a new plan (X2).
+
+mod belief;
+mod directive;
+mod drive;
+mod mission;
+mod placing;
+mod simulator;
+mod solve;
+
+pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
+pub use directive::{Deed, Directive, Effect};
+pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
+pub use mission::{
+    Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
+};
+pub use placing::spot_on;
+pub use simulator::{Moment, Simulator};
+pub use solve::{Solved, solve};

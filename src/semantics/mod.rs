@@ -1,1 +1,69 @@
-//! (stands empty until its chapter is written)
+//! What the geometry of a Map means: measurements, relations by rules, positions, initial facts of a plan (paper 1 §5).
+//!
+//! Rust measures, rules decide. [`Measurements`] holds integers – tenths of a millimetre, hundredths of a degree, per
+//! mille – about each thing and each pair of things that are near; they become the input facts of a Datalog program,
+//! `rules/relations.dl`, which says what they mean. Every threshold and every relation stands in that text, which is
+//! read at run time: a user adds a relation without recompiling.
+//!
+//! **Invariant:** no code here compares a measurement with a meaning; only the reach of measuring is known, and that
+//! too is read from the rule text.
+//!
+//! ```
+//! use orthoframe::map::{Format, World};
+//! use orthoframe::semantics::{Profile, RelationRules, derive};
+//! use orthoframe::units::Source;
+//!
+//! let map = Source::new("дом.toml", r#"
+//! format = 1
+//! [orthoframe]
+//! floor = { name = "Пол", rect = [400, 300], height = 270 }
+//! top = { name = "Плита", rect = [80, 60], height = 75 }
+//! cup = { name = "Стакан", rect = [8, 8], height = 10 }
+//! [object]
+//! table = { name = "Стол", items = [{ id = "A", orthoframe = "top" }] }
+//! cup = { name = "Чашка", items = [{ id = "A", orthoframe = "cup" }] }
+//! [area.room]
+//! name = "Комната"
+//! items = [{ id = "A", orthoframe = "floor" }]
+//! replicas = [
+//!   { name = "Стол-1", object = "table", at = [100, 100] },
+//!   { name = "Чашка-1", object = "cup", at = [120, 120, 75] },
+//! ]
+//! [map.flat]
+//! name = "Квартира"
+//! items = [{ area = "room" }]
+//! "#);
+//! let world = World::parse(&map, Format::Toml)?;
+//! let relations = derive(&world, &RelationRules::standard(), Profile::Surveyed)?;
+//!
+//! assert!(relations.holds("ON_TOP_OF", &["Чашка-1", "Стол-1"]));
+//! assert!(relations.holds("НАХОДИТСЯ_ВНУТРИ", &["Чашка-1", "Комната"]));
+//! let proof = relations.why("ON_TOP_OF", &["чашка-1", "стол-1"])?.expect("it holds");
+//! assert!(proof.steps.iter().any(|step| step.fact.name == "over")); // down to the measurement
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod body;
+mod feed;
+mod grid;
+mod measure;
+mod names;
+mod openings;
+pub mod planning;
+mod position;
+pub mod predicate;
+mod relations;
+mod view;
+
+pub use measure::{
+    Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
+    Single, Within,
+};
+pub use names::{Subject, Symbols};
+pub use openings::{Opening, clear_width};
+pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
+pub use relations::{
+    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
+    derive_from,
+};
+pub use view::Seen;

@@ -35,6 +35,15 @@ pub struct Store {
     _lock: Option<File>,
 }
 
+impl std::fmt::Debug for Store {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Store")
+            .field("dir", &self.dir)
+            .field("revision", &self.revision)
+            .finish_non_exhaustive()
+    }
+}
+
 impl Store {
     /// Opens the store in a directory, or makes a new one there.
     ///

@@ -1,1 +1,53 @@
-//! (stands empty until its chapter is written)
+//! Rule files: the paper's STRIPS text and PDDL, checked and grounded (paper 1, section 8).
+//!
+//! A text becomes a checked [`Domain`] and a [`Problem`]; facts from elsewhere may be added to the problem;
+//! [`ground`] turns the two into a [`Task`] of numbered facts and operators, all that a planner sees.
+//!
+//! ```
+//! use orthoframe::strips::Scenario;
+//! use orthoframe::units::Source;
+//!
+//! let text = "
+//! Действие: Движение-из_в
+//! (Параметры: помещение ?x, помещение ?z)
+//! (Предусловие: РОБОТ-НАХОДИТСЯ-В_(помещение ?x) ПРОХОД_ИЗ_В(?x, ?z))
+//! (Эффект+: РОБОТ-НАХОДИТСЯ-В_(помещение ?z))
+//! (Эффект-: РОБОТ-НАХОДИТСЯ-В_(помещение ?x))
+//!
+//! Исходная позиция: РОБОТ-НАХОДИТСЯ-В_(Комната-В)
+//! Целевая позиция:  РОБОТ-НАХОДИТСЯ-В_(Комната-Z)
+//! Факты:            ПРОХОД_ИЗ_В_(Комната-В, Комната-Z)";
+//! let task = Scenario::parse(&Source::new("пример", text))?.ground()?;
+//! assert_eq!(task.operators[0].to_string(), "Движение-из_в_(Комната-В, Комната-Z)");
+//! # Ok::<(), orthoframe::strips::RuleFaults>(())
+//! ```
+
+mod check;
+mod domain;
+mod error;
+mod explain;
+mod ground;
+mod load;
+mod pddl;
+mod plan_text;
+mod problem;
+mod rule_text;
+mod simplify;
+mod syntax;
+mod task;
+mod token;
+
+pub use domain::{
+    ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
+    SchemaCost, SchemaTerm,
+};
+pub use error::{Place, RuleError, RuleFault, RuleFaults};
+pub use explain::{Missing, Obstacle, explain_unreachable};
+pub use ground::ground;
+pub use load::{MAX_FILE_BYTES, Scenario};
+pub use plan_text::{Directive, PlanText};
+pub use problem::{Problem, Standing};
+pub use task::{Fact, FactId, Operator, OperatorId, Task};
+
+#[cfg(test)]
+mod tests;

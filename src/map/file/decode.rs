@@ -106,16 +106,16 @@ impl de::Error for DecodeError {
 
     fn unknown_variant(word: &str, expected: &'static [&'static str]) -> Self {
         Self::new(MapError::UnknownWord {
-            word: word.to_owned(),
-            nearest: nearest_name(word, expected.iter().copied()).map(str::to_owned),
+            word: shortened(word),
+            nearest: likely(word, expected),
             expected: expected.join(", "),
         })
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
         Self::new(MapError::UnknownField {
-            field: field.to_owned(),
-            nearest: nearest_name(field, expected.iter().copied()).map(str::to_owned),
+            field: shortened(field),
+            nearest: likely(field, expected),
             expected: expected.join(", "),
         })
     }
@@ -162,14 +162,21 @@ fn expected_words(expected: &str) -> String {
     words.to_owned()
 }
 
+/// Longer words are nobody's slip of the pen, and comparing them takes long.
+pub(super) const LONGEST_WORD: usize = 80;
+
 /// A text fit for a message.
-fn shortened(text: &str) -> String {
-    const LIMIT: usize = 40;
-    if text.chars().count() <= LIMIT {
-        text.to_owned()
-    } else {
-        text.chars().take(LIMIT).chain(['…']).collect()
+pub(super) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_WORD) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", &text[..end]),
     }
+}
+
+/// What was meant, if anything was.
+pub(super) fn likely(word: &str, known: &[&str]) -> Option<String> {
+    let is_word = word.len() <= 2 * LONGEST_WORD;
+    is_word.then(|| nearest_name(word, known.iter().copied()).map(str::to_owned)).flatten()
 }
 
 /// A value, and what is left out of it.
@@ -239,6 +246,22 @@ impl<'de> Deserializer<'de> for Reader<'de, '_> {
         }
     }
 
+    /// By names only; serde would take a list for a struct too, by position.
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        _fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, DecodeError> {
+        match &self.node.value {
+            Value::List(_) => {
+                let fault: DecodeError = de::Error::invalid_type(Unexpected::Seq, &visitor);
+                Err(self.placed(fault))
+            }
+            _ => self.deserialize_any(visitor),
+        }
+    }
+
     fn deserialize_newtype_struct<V: Visitor<'de>>(
         self,
         _name: &'static str,
@@ -264,7 +287,7 @@ impl<'de> Deserializer<'de> for Reader<'de, '_> {
 
     serde::forward_to_deserialize_any! {
         bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf
-        unit unit_struct seq tuple_struct map struct identifier ignored_any
+        unit unit_struct seq tuple_struct map identifier ignored_any
     }
 }
 
@@ -288,7 +311,10 @@ impl<'n> de::SeqAccess<'n> for Elements<'n, '_> {
         // A coordinate cannot be left out of a point, a line can be left out of a list.
         let is_line = matches!(node.value, Value::Table(_));
         let read = seed.deserialize(self.reader.inner(node)).map(Some);
-        read.map_err(|fault| if is_line { fault.without(&node.span) } else { fault })
+        read.map_err(|fault| {
+            let fault = fault.at(&node.span);
+            if is_line { fault.without(&node.span) } else { fault }
+        })
     }
 }
 
@@ -320,6 +346,6 @@ impl<'n> de::MapAccess<'n> for Fields<'n, '_> {
     ) -> Result<V::Value, DecodeError> {
         let entry = self.current.take().expect("serde asks for a value after its key");
         let value = seed.deserialize(self.reader.inner(&entry.node));
-        value.map_err(|fault| fault.without(&entry.key_span))
+        value.map_err(|fault| fault.at(&entry.node.span).without(&entry.key_span))
     }
 }

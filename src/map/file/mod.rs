@@ -4,13 +4,14 @@
 //! written reads as the same [`World`], ids included.
 
 mod decode;
+mod misprint;
 mod node;
 mod read;
 mod schema;
 mod text;
 mod write;
 
-use std::collections::HashSet;
+use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
 
 use miette::SourceSpan;
@@ -18,7 +19,7 @@ use miette::SourceSpan;
 use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
-use super::fault::{Fault, MapError, MapErrors, Spot, Step};
+use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::Source;
 
 pub use schema::json_schema;
@@ -80,18 +81,54 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }
-    let Draft { world, mut faults, origins, left_out } = read::build(&root);
-    faults.extend(super::check(&world));
-    for fault in &mut faults {
-        let places = fault.spots.iter().filter_map(|spot| {
-            let origin = origins.get(&spot.record)?;
-            Some(SourceSpan::from(place(origin, spot, &left_out)))
-        });
-        let places: Vec<_> = places.collect();
-        fault.spans.extend(places);
+    let Draft { world, mut faults, origins, broken, left_out } = read::build(&root);
+    for mut fault in super::check::check_except(&world, &broken) {
+        fault.locate(&origins, &left_out);
+        faults.push(fault);
     }
     let faults = report(source, faults);
     Reading { world: (!faults.has_errors()).then_some(world), faults }
+}
+
+impl Step {
+    fn name(&self) -> Option<&str> {
+        match self {
+            Self::Field(name) => Some(name),
+            Self::Key(key) => Some(key),
+            Self::Index(_) => None,
+        }
+    }
+}
+
+impl Fault {
+    /// Finds the places in the text of the places in the model.
+    fn locate(&mut self, origins: &BTreeMap<Record, Origin<'_>>, left_out: &HashSet<Span>) {
+        let place = |spot: &Spot| {
+            origins.get(&spot.record).map(|o| SourceSpan::from(place(o, spot, left_out)))
+        };
+        self.spans = self.spots.iter().filter_map(place).collect();
+    }
+}
+
+/// Reads a map file with all its faults, warnings included; its notation follows from its name.
+#[must_use]
+pub fn read_file(path: &Path) -> Reading {
+    let fail = |error| Reading { world: None, faults: MapErrors::of(error) };
+    let unreadable = |e: std::io::Error| {
+        let path = path.to_string_lossy().into_owned();
+        fail(MapError::Unreadable { path, message: e.to_string() })
+    };
+    match std::fs::metadata(path) {
+        Err(e) => return unreadable(e),
+        Ok(data) if data.len() > LIMIT => {
+            return fail(MapError::TooLarge { bytes: data.len(), limit: LIMIT });
+        }
+        Ok(_) => {}
+    }
+    match Source::read(path) {
+        Ok(source) => read(&source, Format::of(path)),
+        Err(e) => unreadable(e),
+    }
 }
 
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
@@ -106,13 +143,14 @@ fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
                 .iter()
                 .find_map(|way| node.entry(way).map(|entry| &entry.node)),
             Step::Field(name) => node.entry(name).map(|entry| &entry.node),
+            Step::Key(key) => node.entry(key).map(|entry| &entry.node),
             Step::Index(index) => {
                 node.elements().iter().filter(|e| !left_out.contains(&e.span)).nth(*index)
             }
         };
         let Some(inner) = inner else { break };
         if let (Value::Table(_), None) = (&inner.value, steps.peek())
-            && let Step::Field(name) = step
+            && let Some(name) = step.name()
             && let Some(entry) = node.entry(name)
         {
             // The name of a table says where it is; its extent may be pages.
@@ -148,17 +186,8 @@ impl World {
     /// # Errors
     /// [`MapErrors`] with every fault of the file. Warnings alone are no error; [`read`] shows them.
     pub fn load(path: impl AsRef<Path>) -> Result<Self, MapErrors> {
-        let path = path.as_ref();
-        let unreadable = |e: std::io::Error| {
-            let path = path.to_string_lossy().into_owned();
-            MapErrors::of(MapError::Unreadable { path, message: e.to_string() })
-        };
-        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-        if bytes > LIMIT {
-            return Err(MapErrors::of(MapError::TooLarge { bytes, limit: LIMIT }));
-        }
-        let source = Source::read(path).map_err(unreadable)?;
-        Self::parse(&source, Format::of(path))
+        let reading = read_file(path.as_ref());
+        reading.world.ok_or(reading.faults)
     }
 
     /// Reads a map from a text.
@@ -184,17 +213,54 @@ impl World {
 mod tests {
     use super::*;
 
+    fn example(name: &str) -> World {
+        let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
+        World::load(path).expect("the examples are sound")
+    }
+
+    fn check_reads_back(world: &World, text: &str, format: Format) {
+        let again = World::parse(&Source::new("copy", text), format);
+        let again = again.unwrap_or_else(|e| panic!("{e:#?}\n{text}"));
+        assert_eq!(again, *world, "{text}");
+    }
+
     #[test]
-    fn the_worked_examples_read_and_write_without_loss() {
+    fn one_world_in_three_notations() {
         for name in ["rb2", "box", "room"] {
-            let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
-            let world =
-                World::load(&path).unwrap_or_else(|e| panic!("{:#?}", miette::Report::new(e)));
-            let text = world.to_toml();
-            let again = World::parse(&Source::new("copy.toml", &text), Format::Toml);
-            let again = again.unwrap_or_else(|e| panic!("{e:#?}\n{text}"));
-            assert_eq!(again, world, "{text}");
-            assert_eq!(again.to_toml(), text);
+            let world = example(name);
+            let file = write::to_file(&world);
+            check_reads_back(&world, &world.to_toml(), Format::Toml);
+            let yaml = serde_saphyr::to_string(&file).expect("YAML can say it");
+            check_reads_back(&world, &yaml, Format::Yaml);
+            #[cfg(feature = "cli")]
+            {
+                let json = serde_json::to_string_pretty(&file).expect("JSON can say it");
+                check_reads_back(&world, &json, Format::Json);
+                let in_tabs = json.replace("  ", "\t");
+                check_reads_back(&world, &in_tabs, Format::Json);
+            }
         }
+    }
+
+    #[test]
+    fn a_replica_takes_one_line() {
+        let text = example("rb2").to_toml();
+        let chair = text.lines().find(|line| line.contains("Стул-3")).expect("rb2 has this chair");
+        let line = "  { name = \"Стул-3\", object = \"chair\", at = [129, 332], name_en = \"Chair 3\", move_prob = 80, \
+                    properties = { \"ЦВЕТ\" = \"Белый\" } },";
+        assert_eq!(chair, line);
+    }
+
+    #[test]
+    fn the_schema_forbids_what_the_reader_refuses() {
+        let schema = json_schema();
+        for word in
+            ["\"orthoframe\"", "\"replicas\"", "\"conditional\"", "\"hinged\"", "\"gender\""]
+        {
+            assert!(schema.contains(word), "{word}");
+        }
+        let tables = schema.matches("\"deny_unknown_fields\"").count()
+            + schema.matches("\"additionalProperties\": false").count();
+        assert!(tables >= 20, "{tables} closed tables");
     }
 }

@@ -9,6 +9,7 @@ use serde_saphyr::{Location, Spanned};
 use toml::de::{DeTable, DeValue};
 
 use super::Format;
+use super::misprint::in_russian;
 use crate::map::fault::MapError;
 
 /// Bytes of the text.
@@ -83,7 +84,7 @@ fn parse_toml(text: &str) -> Result<Node, Vec<Misprint>> {
         return Err(errors
             .into_iter()
             .map(|e| Misprint {
-                error: MapError::Syntax { format: "TOML", message: e.message().to_owned() },
+                error: MapError::Syntax { format: "TOML", message: in_russian(e.message()) },
                 span: e.span(),
             })
             .collect());
@@ -129,19 +130,47 @@ fn toml_value(value: DeValue<'_>) -> Value {
     }
 }
 
+/// How deep tables may lie within tables: twice what the format needs. The reader's recursion takes much of the stack.
+const MOST_DEPTH: usize = 16;
+
 /// YAML, and JSON as its subset.
 fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
     let name = if format == Format::Json { "JSON" } else { "YAML" };
-    // A room may be named «Y» or «No»: only true and false are truth values.
-    let options = serde_saphyr::options! { strict_booleans: true };
+    let options = serde_saphyr::options! {
+        // A room may be named «Y» or «No»: only true and false are truth values.
+        strict_booleans: true,
+        budget: serde_saphyr::budget! {
+            max_depth: MOST_DEPTH,
+            flow_nesting_limit: MOST_DEPTH,
+            // Forty thousand replicas, two dozen values each.
+            max_nodes: 2_000_000,
+            max_events: 4_000_000,
+            max_aliases: 1_000,
+        },
+        // Anchors spare a person repetitions; they need not multiply a text.
+        alias_limits: serde_saphyr::alias_limits! { max_total_replayed_events: 10_000 },
+    };
     let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
         Misprint {
             error: MapError::Syntax { format: name, message: e.to_string() },
-            span: e.location().map(|at| span(at)),
+            span: e.location().map(|at| span_in(text, at)),
         }
     })?;
     Ok(root.into())
+}
+
+/// The place of a fault, which the reader may know by line and column only.
+fn span_in(text: &str, at: Location) -> Span {
+    if at.span().byte_offset().is_some() && at.span().byte_len().is_some() {
+        return span(at);
+    }
+    let line_start: usize =
+        text.split_inclusive('\n').take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
+    let line = &text[line_start..];
+    let column = (at.column() as usize).saturating_sub(1);
+    let start = line_start + line.char_indices().nth(column).map_or(line.len(), |(i, _)| i);
+    start..start
 }
 
 fn span(at: Location) -> Span {

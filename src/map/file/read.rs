@@ -1,10 +1,10 @@
 //! From the types of the file to a [`World`]: numbers ids in the order of the file and turns names into ids.
 
-use std::collections::{BTreeMap, HashMap, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use serde::Deserialize;
 
-use super::decode::decode;
+use super::decode::{LONGEST_WORD, decode, likely, shortened};
 use super::node::{Entry, Misprint, Node, Span};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, FORMAT, ItemFile, ItemLinkFile, MountFile,
@@ -25,11 +25,16 @@ use crate::units::{
 const SECTIONS: [&str; 9] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map"];
 
+/// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
+const MOST_GUESSES: usize = 30;
+
 /// A world as far as it could be read, its faults, and where its records stand in the tree.
 pub(super) struct Draft<'n> {
     pub(super) world: World,
     pub(super) faults: Vec<Fault>,
     pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    /// Records of which something could not be read: what they lack is no second fault.
+    pub(super) broken: BTreeSet<Record>,
     /// Entries and lines that could not be read.
     pub(super) left_out: HashSet<Span>,
 }
@@ -48,18 +53,24 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
         root,
         faults: Vec::new(),
         origins: BTreeMap::new(),
+        broken: BTreeSet::new(),
         left_out: HashSet::new(),
+        guesses_left: MOST_GUESSES,
         names: Names::default(),
     };
     let world = reader.world();
-    Draft { world, faults: reader.faults, origins: reader.origins, left_out: reader.left_out }
+    let Reader { faults, origins, broken, left_out, .. } = reader;
+    Draft { world, faults, origins, broken, left_out }
 }
 
 struct Reader<'n> {
     root: &'n Node,
     faults: Vec<Fault>,
     origins: BTreeMap<Record, Origin<'n>>,
+    broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
+    /// Names for which a likely one is still looked for among all there are.
+    guesses_left: usize,
     names: Names,
 }
 
@@ -138,24 +149,22 @@ macro_rules! keyed {
 }
 keyed!(OrthoframeFile, DoorFile, ObjectFile, AreaFile, PlanFile, PlaceFile, ReplicaFile, TypeFile);
 
-/// Ids for records in file order: the given one, else the next free one after its predecessor's.
+/// Ids for records in file order: the given one, else the one after its predecessor's, else a new highest one.
 fn number(given: &[Option<u32>]) -> Vec<u32> {
-    let taken: HashSet<u32> = given.iter().flatten().copied().collect();
+    let mut used: HashSet<u32> = given.iter().flatten().copied().collect();
+    let mut highest = used.iter().copied().max().unwrap_or(0);
     let mut last = 0;
-    given
-        .iter()
-        .map(|given| {
-            last = given.unwrap_or_else(|| {
-                // At most `taken.len()` numbers are passed over, and saturation only ends in a duplicate, which is reported.
-                let mut next = u32::saturating_add(last, 1);
-                while taken.contains(&next) && next < u32::MAX {
-                    next += 1;
-                }
-                next
-            });
-            last
-        })
-        .collect()
+    let mut next = |given: &Option<u32>| {
+        last = given.unwrap_or_else(|| {
+            let follows = u32::saturating_add(last, 1);
+            // Saturation ends in a duplicate, which is reported.
+            if used.contains(&follows) { highest.saturating_add(1) } else { follows }
+        });
+        used.insert(last);
+        highest = highest.max(last);
+        last
+    };
+    given.iter().map(|given| next(given)).collect()
 }
 
 impl<'n> Reader<'n> {
@@ -205,8 +214,12 @@ impl<'n> Reader<'n> {
         raw.into_iter().map(|raw| (raw.id, convert(self, raw))).collect()
     }
 
+    /// A fault of a record, which is checked no further.
     fn fault(&mut self, error: MapError, spot: Spot) {
-        self.faults.push(Fault::new(error, vec![spot]));
+        self.broken.insert(spot.record);
+        let mut fault = Fault::new(error, vec![spot]);
+        fault.locate(&self.origins, &self.left_out);
+        self.faults.push(fault);
     }
 
     fn misprints(&mut self, misprints: Vec<Misprint>) {
@@ -227,8 +240,8 @@ impl<'n> Reader<'n> {
             if !SECTIONS.contains(&entry.key.as_str()) {
                 misprints.push(Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, SECTIONS).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &SECTIONS),
                         expected: SECTIONS.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
@@ -277,15 +290,19 @@ impl<'n> Reader<'n> {
         }
         let mut read = Vec::new();
         for entry in entries {
+            let faults_before = self.faults.len();
             if let Some(file) = self.decode::<T>(&entry.node, &entry.key_span) {
-                read.push((entry, file));
+                read.push((entry, file, self.faults.len() > faults_before));
             }
         }
-        let ids = number(&read.iter().map(|(_, file)| file.id()).collect::<Vec<_>>());
+        let ids = number(&read.iter().map(|(_, file, _)| file.id()).collect::<Vec<_>>());
         let mut seen = HashSet::new();
         let mut records = Vec::new();
-        for ((entry, file), number) in read.into_iter().zip(ids) {
+        for ((entry, file, is_broken), number) in read.into_iter().zip(ids) {
             let id = id(number);
+            if is_broken {
+                self.broken.insert(record(id));
+            }
             if seen.insert(number) {
                 let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
                 self.origins.insert(record(id), origin);
@@ -325,13 +342,13 @@ impl<'n> Reader<'n> {
         let index = index(&self.names);
         let found = index.get(name);
         if found.is_none() && !index.broken.contains(&name_key(name)) {
-            let nearest = nearest_name(name, index.spellings.iter().map(String::as_str));
-            let error = MapError::UnknownReference {
-                what,
-                name: name.to_owned(),
-                nearest: nearest.map(str::to_owned),
-            };
-            self.fault(error, spot);
+            let may_guess = self.guesses_left > 0 && name.len() <= 2 * LONGEST_WORD;
+            let nearest = may_guess
+                .then(|| nearest_name(name, index.spellings.iter().map(String::as_str)))
+                .flatten()
+                .map(str::to_owned);
+            self.guesses_left = self.guesses_left.saturating_sub(1);
+            self.fault(MapError::UnknownReference { what, name: shortened(name), nearest }, spot);
         }
         found
     }
@@ -361,8 +378,8 @@ impl<'n> Reader<'n> {
                 let fields = TypeKind::ALL.map(TypeKind::field);
                 self.misprints(vec![Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, fields).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &fields),
                         expected: fields.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
@@ -545,8 +562,10 @@ impl<'n> Reader<'n> {
         let Raw { id, key, file, .. } = raw;
         let spot = Spot::of(Record::Orthoframe(id));
         let mut base = self.base(&key, &file, &spot);
-        for (side, traits) in file.side.0 {
-            let at = spot.clone().field("side");
+        // A base that could not be read has no sides to speak of.
+        let sides = if base.is_empty() { Vec::new() } else { file.side.0 };
+        for (side, traits) in sides {
+            let at = spot.clone().field("side").key(&side);
             match base.iter_mut().find(|v| v.id == side) {
                 Some(vector) => self.apply_traits(vector, traits, at),
                 None => {
@@ -590,8 +609,11 @@ impl<'n> Reader<'n> {
             + usize::from(!file.points.is_empty())
             + usize::from(!file.sides.is_empty());
         if ways != 1 {
-            let error = MapError::BaseForm { name: key.to_owned(), count: ways };
-            self.fault(error, spot.clone());
+            // A base that could not be read is one already.
+            if ways > 1 || !self.broken.contains(&spot.record) {
+                let error = MapError::BaseForm { name: key.to_owned(), count: ways };
+                self.fault(error, spot.clone());
+            }
             return Vec::new();
         }
         if let Some([w, d]) = file.rect {
@@ -599,16 +621,19 @@ impl<'n> Reader<'n> {
             return lettered(&corners.map(|(x, y)| Point::new(x, y)));
         }
         if let Some(regular) = &file.regular {
-            if !(3..=360).contains(&regular.corners) || regular.radius.0 <= 0.0 {
-                let error = MapError::OutOfRange {
-                    what: "число углов и радиус правильного многоугольника",
-                    value: f64::from(regular.corners),
-                    range: "3..360, радиус больше 0",
-                };
-                self.fault(error, spot.clone().field("regular"));
+            let (corners, radius) = (regular.corners, regular.radius.0);
+            let at = |field| spot.clone().field("regular").field(field);
+            if !(3..=360).contains(&corners) {
+                let (value, range) = (f64::from(corners), "от 3 до 360");
+                self.fault(MapError::OutOfRange { what: "corners", value, range }, at("corners"));
                 return Vec::new();
             }
-            return lettered(&regular_corners(regular.corners, regular.radius.0));
+            if radius <= 0.0 {
+                let (value, range) = (radius, "больше 0");
+                self.fault(MapError::OutOfRange { what: "radius", value, range }, at("radius"));
+                return Vec::new();
+            }
+            return lettered(&regular_corners(corners, radius));
         }
         if !file.points.is_empty() {
             let corners: Vec<_> = file.points.iter().map(|p| Point::new(p[0].0, p[1].0)).collect();
@@ -638,7 +663,8 @@ impl<'n> Reader<'n> {
     }
 
     fn apply_traits(&mut self, vector: &mut BaseVector, traits: SideTraitsFile, spot: Spot) {
-        vector.side_type = self.type_of(TypeKind::Side, traits.r#type.as_deref(), spot);
+        vector.side_type =
+            self.type_of(TypeKind::Side, traits.r#type.as_deref(), spot.field("type"));
         vector.permeability = traits.permeability.into();
         vector.names = traits.names;
         vector.properties = traits.properties;
@@ -815,13 +841,14 @@ impl<'n> Reader<'n> {
             let error = MapError::OutOfRange {
                 what: "move_prob",
                 value: f64::from(file.move_prob),
-                range: "0..100",
+                range: "от 0 до 100",
             };
             self.fault(error, spot.clone().field("move_prob"));
         }
         let mut door_states = BTreeMap::new();
         for (door, state) in file.doors.0 {
-            let door = self.follow(|n| &n.doors, "Дверь", &door, spot.clone().field("doors"));
+            let at = spot.clone().field("doors").key(&door);
+            let door = self.follow(|n| &n.doors, "Дверь", &door, at);
             let DoorStateFile { state, opening } = state;
             door_states.extend(door.map(|door| (door, door_state(state, opening))));
         }

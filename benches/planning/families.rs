@@ -1,0 +1,602 @@
+//! Planning problems of the families that planners are measured on, written anew: the rules as the literature
+//! describes them, the instances drawn from a seed, of the sizes that competitions used.
+
+use std::fmt::Write;
+
+/// PDDL texts of a domain and a problem.
+pub struct Instance {
+    pub name: String,
+    pub domain: String,
+    pub problem: String,
+}
+
+/// xorshift64*: the same instances on every machine.
+struct Random(u64);
+
+impl Random {
+    fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
+    }
+
+    fn shuffled(&mut self, count: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..count).collect();
+        for at in (1..count).rev() {
+            order.swap(at, self.below(at + 1));
+        }
+        order
+    }
+}
+
+/// `a0 a1 a2 - kind`
+fn objects(prefix: &str, count: usize, kind: &str) -> String {
+    let mut text = String::new();
+    for number in 0..count {
+        write!(text, "{prefix}{number} ").expect("a string takes all text");
+    }
+    format!("{text}- {kind} ")
+}
+
+fn instance(name: String, domain: &str, objects: &str, init: &[String], goal: &[String]) -> Instance {
+    let problem = format!(
+        "(define (problem p) (:domain d)\n (:objects {objects})\n (:init {})\n (:goal (and {})))",
+        init.join(" "),
+        goal.join(" ")
+    );
+    Instance { name, domain: domain.to_owned(), problem }
+}
+
+/// A robot with two hands carries balls from one room to another.
+pub fn gripper(balls: usize) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types room ball gripper)
+ (:predicates (at-robby ?r - room) (at ?b - ball ?r - room) (free ?g - gripper) (carry ?b - ball ?g - gripper))
+ (:action move :parameters (?a ?b - room) :precondition (at-robby ?a) :effect (and (at-robby ?b) (not (at-robby ?a))))
+ (:action pick :parameters (?b - ball ?r - room ?g - gripper) :precondition (and (at ?b ?r) (at-robby ?r) (free ?g))
+  :effect (and (carry ?b ?g) (not (at ?b ?r)) (not (free ?g))))
+ (:action drop :parameters (?b - ball ?r - room ?g - gripper) :precondition (and (carry ?b ?g) (at-robby ?r))
+  :effect (and (at ?b ?r) (free ?g) (not (carry ?b ?g)))))";
+    let mut init: Vec<String> = ["(at-robby ra)", "(free left)", "(free right)"].map(String::from).into();
+    init.extend((0..balls).map(|b| format!("(at b{b} ra)")));
+    let goal: Vec<String> = (0..balls).map(|b| format!("(at b{b} rb)")).collect();
+    let all = format!("ra rb - room left right - gripper {}", objects("b", balls, "ball"));
+    instance(format!("gripper-{balls}"), domain, &all, &init, &goal)
+}
+
+/// Two rockets with fuel for one flight each bring cargo to two places.
+pub fn rocket(cargos: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types place - object rocket cargo - thing)
+ (:predicates (at ?x - thing ?p - place) (in ?c - cargo ?r - rocket) (has-fuel ?r - rocket))
+ (:action move :parameters (?r - rocket ?a ?b - place) :precondition (and (at ?r ?a) (has-fuel ?r) (not (= ?a ?b)))
+  :effect (and (at ?r ?b) (not (at ?r ?a)) (not (has-fuel ?r))))
+ (:action load :parameters (?c - cargo ?r - rocket ?p - place) :precondition (and (at ?c ?p) (at ?r ?p))
+  :effect (and (in ?c ?r) (not (at ?c ?p))))
+ (:action unload :parameters (?c - cargo ?r - rocket ?p - place) :precondition (and (in ?c ?r) (at ?r ?p))
+  :effect (and (at ?c ?p) (not (in ?c ?r)))))";
+    let mut random = Random::new(seed);
+    let mut init: Vec<String> =
+        (0..2).map(|r| format!("(at r{r} p{}) (has-fuel r{r})", r % 2)).collect();
+    let mut goal = Vec::new();
+    for cargo in 0..cargos {
+        init.push(format!("(at c{cargo} p{})", random.below(2)));
+        goal.push(format!("(at c{cargo} p{})", 2 + random.below(2)));
+    }
+    let all = format!(
+        "{}{}{}",
+        objects("p", 4, "place"),
+        objects("r", 2, "rocket"),
+        objects("c", cargos, "cargo")
+    );
+    instance(format!("rocket-{cargos}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Packages by trucks within cities and by airplanes between them.
+pub fn logistics(cities: usize, places: usize, planes: usize, packages: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing)
+ (:types city place thing - object airport - place vehicle package - thing truck plane - vehicle)
+ (:predicates (at ?x - thing ?p - place) (in ?x - package ?v - vehicle) (in-city ?p - place ?c - city))
+ (:action load :parameters (?x - package ?v - vehicle ?p - place) :precondition (and (at ?v ?p) (at ?x ?p))
+  :effect (and (in ?x ?v) (not (at ?x ?p))))
+ (:action unload :parameters (?x - package ?v - vehicle ?p - place) :precondition (and (at ?v ?p) (in ?x ?v))
+  :effect (and (at ?x ?p) (not (in ?x ?v))))
+ (:action drive :parameters (?t - truck ?a ?b - place ?c - city)
+  :precondition (and (at ?t ?a) (in-city ?a ?c) (in-city ?b ?c) (not (= ?a ?b))) :effect (and (at ?t ?b) (not (at ?t ?a))))
+ (:action fly :parameters (?p - plane ?a ?b - airport) :precondition (and (at ?p ?a) (not (= ?a ?b)))
+  :effect (and (at ?p ?b) (not (at ?p ?a)))))";
+    let mut random = Random::new(seed);
+    let (mut init, mut goal) = (Vec::new(), Vec::new());
+    let mut airports = String::new();
+    let mut others = String::new();
+    for city in 0..cities {
+        write!(airports, "l{city}x0 ").expect("a string takes all text");
+        for place in 0..places {
+            init.push(format!("(in-city l{city}x{place} c{city})"));
+            if place > 0 {
+                write!(others, "l{city}x{place} ").expect("a string takes all text");
+            }
+        }
+        init.push(format!("(at t{city} l{city}x{})", random.below(places)));
+    }
+    init.extend((0..planes).map(|p| format!("(at a{p} l{}x0)", random.below(cities))));
+    for package in 0..packages {
+        let mut spot = || format!("l{}x{}", random.below(cities), random.below(places));
+        init.push(format!("(at p{package} {})", spot()));
+        goal.push(format!("(at p{package} {})", spot()));
+    }
+    let all = format!(
+        "{airports}- airport {others}- place {}{}{}{}",
+        objects("c", cities, "city"),
+        objects("t", cities, "truck"),
+        objects("a", planes, "plane"),
+        objects("p", packages, "package")
+    );
+    instance(format!("logistics-{cities}x{places}-{packages}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Towers of blocks, moved by one hand.
+pub fn blocks(count: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips)
+ (:predicates (on ?x ?y) (ontable ?x) (clear ?x) (handempty) (holding ?x))
+ (:action pick-up :parameters (?x) :precondition (and (clear ?x) (ontable ?x) (handempty))
+  :effect (and (not (ontable ?x)) (not (clear ?x)) (not (handempty)) (holding ?x)))
+ (:action put-down :parameters (?x) :precondition (holding ?x)
+  :effect (and (not (holding ?x)) (clear ?x) (handempty) (ontable ?x)))
+ (:action stack :parameters (?x ?y) :precondition (and (holding ?x) (clear ?y))
+  :effect (and (not (holding ?x)) (not (clear ?y)) (clear ?x) (handempty) (on ?x ?y)))
+ (:action unstack :parameters (?x ?y) :precondition (and (on ?x ?y) (clear ?x) (handempty))
+  :effect (and (holding ?x) (clear ?y) (not (clear ?x)) (not (handempty)) (not (on ?x ?y)))))";
+    let mut random = Random::new(seed);
+    let mut towers = |random: &mut Random, whole: bool| {
+        let mut facts = Vec::new();
+        let mut top: Option<usize> = None;
+        for block in random.shuffled(count) {
+            match top {
+                Some(below) if random.below(4) > 0 => facts.push(format!("(on b{block} b{below})")),
+                _ => {
+                    if let (Some(top), true) = (top, whole) {
+                        facts.push(format!("(clear b{top})"));
+                    }
+                    if whole {
+                        facts.push(format!("(ontable b{block})"));
+                    }
+                }
+            }
+            top = Some(block);
+        }
+        if let (Some(top), true) = (top, whole) {
+            facts.push(format!("(clear b{top}) (handempty)"));
+        }
+        facts
+    };
+    let init = towers(&mut random, true);
+    let goal = towers(&mut random, false);
+    instance(format!("blocks-{count}/{seed}"), domain, &objects("b", count, "object"), &init, &goal)
+}
+
+/// Crates on pallets, hoisted onto trucks.
+pub fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing)
+ (:types place truck hoist surface - object pallet crate - surface)
+ (:predicates (at ?t - truck ?p - place) (hoist-at ?h - hoist ?p - place) (rests ?s - surface ?p - place)
+  (on ?c - crate ?s - surface) (in ?c - crate ?t - truck) (lifting ?h - hoist ?c - crate) (available ?h - hoist) (clear ?s - surface))
+ (:action drive :parameters (?t - truck ?a ?b - place) :precondition (and (at ?t ?a) (not (= ?a ?b))) :effect (and (at ?t ?b) (not (at ?t ?a))))
+ (:action lift :parameters (?h - hoist ?c - crate ?s - surface ?p - place)
+  :precondition (and (hoist-at ?h ?p) (available ?h) (rests ?c ?p) (on ?c ?s) (clear ?c))
+  :effect (and (not (rests ?c ?p)) (lifting ?h ?c) (not (clear ?c)) (not (available ?h)) (clear ?s) (not (on ?c ?s))))
+ (:action drop :parameters (?h - hoist ?c - crate ?s - surface ?p - place)
+  :precondition (and (hoist-at ?h ?p) (rests ?s ?p) (clear ?s) (lifting ?h ?c))
+  :effect (and (available ?h) (not (lifting ?h ?c)) (rests ?c ?p) (not (clear ?s)) (clear ?c) (on ?c ?s)))
+ (:action load :parameters (?h - hoist ?c - crate ?t - truck ?p - place)
+  :precondition (and (hoist-at ?h ?p) (at ?t ?p) (lifting ?h ?c)) :effect (and (not (lifting ?h ?c)) (in ?c ?t) (available ?h)))
+ (:action unload :parameters (?h - hoist ?c - crate ?t - truck ?p - place)
+  :precondition (and (hoist-at ?h ?p) (at ?t ?p) (available ?h) (in ?c ?t))
+  :effect (and (not (in ?c ?t)) (not (available ?h)) (lifting ?h ?c))))";
+    let mut random = Random::new(seed);
+    let mut init = Vec::new();
+    for place in 0..places {
+        init.push(format!("(hoist-at h{place} p{place}) (available h{place}) (rests s{place} p{place})"));
+    }
+    init.extend((0..trucks).map(|t| format!("(at t{t} p{})", random.below(places))));
+    let mut stack = |random: &mut Random, init: Option<&mut Vec<String>>| {
+        let mut top: Vec<String> = (0..places).map(|p| format!("s{p}")).collect();
+        let mut facts = Vec::new();
+        for number in random.shuffled(crates) {
+            let place = random.below(places);
+            let below = std::mem::replace(&mut top[place], format!("c{number}"));
+            facts.push((format!("(on c{number} {below})"), format!("(rests c{number} p{place})")));
+        }
+        if let Some(init) = init {
+            init.extend(top.iter().map(|surface| format!("(clear {surface})")));
+            init.extend(facts.iter().map(|(on, rests)| format!("{on} {rests}")));
+        }
+        facts
+    };
+    stack(&mut random, Some(&mut init));
+    let goal: Vec<String> = stack(&mut random, None).into_iter().map(|(on, _)| on).collect();
+    let all = format!(
+        "{}{}{}{}{}",
+        objects("p", places, "place"),
+        objects("t", trucks, "truck"),
+        objects("h", places, "hoist"),
+        objects("s", places, "pallet"),
+        objects("c", crates, "crate")
+    );
+    instance(format!("depot-{places}-{trucks}-{crates}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Drivers walk to trucks and drive packages.
+pub fn driverlog(places: usize, drivers: usize, trucks: usize, packages: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types place thing - object driver truck package - thing)
+ (:predicates (at ?x - thing ?p - place) (in ?x - package ?t - truck) (driving ?d - driver ?t - truck) (empty ?t - truck)
+  (link ?a ?b - place) (path ?a ?b - place))
+ (:action load :parameters (?x - package ?t - truck ?p - place) :precondition (and (at ?t ?p) (at ?x ?p)) :effect (and (not (at ?x ?p)) (in ?x ?t)))
+ (:action unload :parameters (?x - package ?t - truck ?p - place) :precondition (and (at ?t ?p) (in ?x ?t)) :effect (and (not (in ?x ?t)) (at ?x ?p)))
+ (:action board :parameters (?d - driver ?t - truck ?p - place) :precondition (and (at ?t ?p) (at ?d ?p) (empty ?t))
+  :effect (and (not (at ?d ?p)) (driving ?d ?t) (not (empty ?t))))
+ (:action leave :parameters (?d - driver ?t - truck ?p - place) :precondition (and (at ?t ?p) (driving ?d ?t))
+  :effect (and (not (driving ?d ?t)) (at ?d ?p) (empty ?t)))
+ (:action drive :parameters (?t - truck ?a ?b - place ?d - driver) :precondition (and (at ?t ?a) (driving ?d ?t) (link ?a ?b))
+  :effect (and (not (at ?t ?a)) (at ?t ?b)))
+ (:action walk :parameters (?d - driver ?a ?b - place) :precondition (and (at ?d ?a) (path ?a ?b)) :effect (and (not (at ?d ?a)) (at ?d ?b))))";
+    let mut random = Random::new(seed);
+    let mut init = Vec::new();
+    for kind in ["link", "path"] {
+        for place in 1..places {
+            let other = random.below(place);
+            init.push(format!("({kind} p{place} p{other}) ({kind} p{other} p{place})"));
+        }
+        for _ in 0..places / 2 {
+            let (a, b) = (random.below(places), random.below(places));
+            init.push(format!("({kind} p{a} p{b}) ({kind} p{b} p{a})"));
+        }
+    }
+    init.extend((0..drivers).map(|d| format!("(at d{d} p{})", random.below(places))));
+    init.extend((0..trucks).map(|t| format!("(at t{t} p{}) (empty t{t})", random.below(places))));
+    let mut goal = Vec::new();
+    for package in 0..packages {
+        init.push(format!("(at x{package} p{})", random.below(places)));
+        goal.push(format!("(at x{package} p{})", random.below(places)));
+    }
+    goal.push(format!("(at d0 p{})", random.below(places)));
+    goal.push(format!("(at t0 p{})", random.below(places)));
+    let all = format!(
+        "{}{}{}{}",
+        objects("p", places, "place"),
+        objects("d", drivers, "driver"),
+        objects("t", trucks, "truck"),
+        objects("x", packages, "package")
+    );
+    instance(format!("driverlog-{places}-{drivers}-{trucks}-{packages}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Rovers sample rocks and soil, take images and send them to a lander.
+pub fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types rover place store camera mode lander objective)
+ (:predicates (at ?r - rover ?p - place) (lander-at ?l - lander ?p - place) (road ?r - rover ?a ?b - place) (visible ?a ?b - place)
+  (store-of ?s - store ?r - rover) (empty ?s - store) (full ?s - store) (soil ?p - place) (rock ?p - place) (for-soil ?r - rover) (for-rock ?r - rover)
+  (has-soil ?r - rover ?p - place) (has-rock ?r - rover ?p - place) (on-board ?c - camera ?r - rover) (supports ?c - camera ?m - mode)
+  (calibrated ?c - camera ?r - rover) (target ?c - camera ?o - objective) (seen-from ?o - objective ?p - place)
+  (image ?r - rover ?o - objective ?m - mode) (sent-soil ?p - place) (sent-rock ?p - place) (sent-image ?o - objective ?m - mode) (channel ?l - lander))
+ (:action drive :parameters (?r - rover ?a ?b - place) :precondition (and (at ?r ?a) (road ?r ?a ?b)) :effect (and (not (at ?r ?a)) (at ?r ?b)))
+ (:action dig :parameters (?r - rover ?s - store ?p - place) :precondition (and (at ?r ?p) (soil ?p) (for-soil ?r) (store-of ?s ?r) (empty ?s))
+  :effect (and (not (empty ?s)) (full ?s) (has-soil ?r ?p) (not (soil ?p))))
+ (:action drill :parameters (?r - rover ?s - store ?p - place) :precondition (and (at ?r ?p) (rock ?p) (for-rock ?r) (store-of ?s ?r) (empty ?s))
+  :effect (and (not (empty ?s)) (full ?s) (has-rock ?r ?p) (not (rock ?p))))
+ (:action dump :parameters (?r - rover ?s - store) :precondition (and (store-of ?s ?r) (full ?s)) :effect (and (not (full ?s)) (empty ?s)))
+ (:action calibrate :parameters (?r - rover ?c - camera ?o - objective ?p - place)
+  :precondition (and (on-board ?c ?r) (target ?c ?o) (at ?r ?p) (seen-from ?o ?p)) :effect (calibrated ?c ?r))
+ (:action shoot :parameters (?r - rover ?p - place ?o - objective ?c - camera ?m - mode)
+  :precondition (and (calibrated ?c ?r) (on-board ?c ?r) (supports ?c ?m) (seen-from ?o ?p) (at ?r ?p))
+  :effect (and (image ?r ?o ?m) (not (calibrated ?c ?r))))
+ (:action send-soil :parameters (?r - rover ?l - lander ?x ?a ?b - place)
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-soil ?r ?x) (visible ?a ?b) (channel ?l)) :effect (sent-soil ?x))
+ (:action send-rock :parameters (?r - rover ?l - lander ?x ?a ?b - place)
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-rock ?r ?x) (visible ?a ?b) (channel ?l)) :effect (sent-rock ?x))
+ (:action send-image :parameters (?r - rover ?l - lander ?o - objective ?m - mode ?a ?b - place)
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (image ?r ?o ?m) (visible ?a ?b) (channel ?l)) :effect (sent-image ?o ?m)))";
+    let mut random = Random::new(seed);
+    let objectives = goals.max(2);
+    let mut init = vec![format!("(lander-at l0 p{}) (channel l0)", random.below(places))];
+    for place in 1..places {
+        let other = random.below(place);
+        init.push(format!("(visible p{place} p{other}) (visible p{other} p{place})"));
+    }
+    for _ in 0..2 * places {
+        let (a, b) = (random.below(places), random.below(places));
+        init.push(format!("(visible p{a} p{b}) (visible p{b} p{a})"));
+    }
+    for rover in 0..rovers {
+        init.push(format!("(at r{rover} p{}) (store-of s{rover} r{rover}) (empty s{rover})", random.below(places)));
+        init.push(format!("(for-soil r{rover}) (for-rock r{rover}) (on-board c{rover} r{rover})"));
+        init.push(format!("(target c{rover} o{})", random.below(objectives)));
+        init.extend((0..2).map(|m| format!("(supports c{rover} m{m})")));
+        for place in 1..places {
+            let other = random.below(place);
+            init.push(format!("(road r{rover} p{place} p{other}) (road r{rover} p{other} p{place})"));
+        }
+    }
+    for objective in 0..objectives {
+        for _ in 0..2 {
+            init.push(format!("(seen-from o{objective} p{})", random.below(places)));
+        }
+    }
+    let mut goal = Vec::new();
+    for number in 0..goals {
+        let (a, b) = (random.below(places), random.below(places));
+        init.push(format!("(soil p{a}) (rock p{b})"));
+        goal.push(format!("(sent-soil p{a})"));
+        goal.push(format!("(sent-rock p{b})"));
+        goal.push(format!("(sent-image o{number} m{})", random.below(2)));
+    }
+    let all = format!(
+        "{}{}{}{}{}{}l0 - lander",
+        objects("r", rovers, "rover"),
+        objects("p", places, "place"),
+        objects("s", rovers, "store"),
+        objects("c", rovers, "camera"),
+        objects("m", 2, "mode"),
+        objects("o", objectives, "objective")
+    );
+    instance(format!("rovers-{rovers}-{places}-{goals}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Satellites turn, calibrate instruments and take images.
+pub fn satellite(satellites: usize, instruments: usize, directions: usize, images: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types satellite direction instrument mode)
+ (:predicates (on-board ?i - instrument ?s - satellite) (supports ?i - instrument ?m - mode) (pointing ?s - satellite ?d - direction)
+  (power ?s - satellite) (on ?i - instrument) (calibrated ?i - instrument) (image ?d - direction ?m - mode) (target ?i - instrument ?d - direction))
+ (:action turn :parameters (?s - satellite ?a ?b - direction) :precondition (and (pointing ?s ?b) (not (= ?a ?b)))
+  :effect (and (pointing ?s ?a) (not (pointing ?s ?b))))
+ (:action switch-on :parameters (?i - instrument ?s - satellite) :precondition (and (on-board ?i ?s) (power ?s))
+  :effect (and (on ?i) (not (calibrated ?i)) (not (power ?s))))
+ (:action switch-off :parameters (?i - instrument ?s - satellite) :precondition (and (on-board ?i ?s) (on ?i)) :effect (and (not (on ?i)) (power ?s)))
+ (:action calibrate :parameters (?s - satellite ?i - instrument ?d - direction)
+  :precondition (and (on-board ?i ?s) (target ?i ?d) (pointing ?s ?d) (on ?i)) :effect (calibrated ?i))
+ (:action take :parameters (?s - satellite ?d - direction ?i - instrument ?m - mode)
+  :precondition (and (calibrated ?i) (on-board ?i ?s) (supports ?i ?m) (on ?i) (pointing ?s ?d)) :effect (image ?d ?m)))";
+    let mut random = Random::new(seed);
+    let mut init = Vec::new();
+    for satellite in 0..satellites {
+        init.push(format!("(power s{satellite}) (pointing s{satellite} d{})", random.below(directions)));
+    }
+    for number in 0..instruments {
+        init.push(format!("(on-board i{number} s{}) (target i{number} d{})", number % satellites, random.below(directions)));
+        init.push(format!("(supports i{number} m{}) (supports i{number} m{})", number % 3, random.below(3)));
+    }
+    let mut goal: Vec<String> =
+        (0..images).map(|_| format!("(image d{} m{})", random.below(directions), random.below(3.min(instruments)))).collect();
+    goal.push(format!("(pointing s0 d{})", random.below(directions)));
+    let all = format!(
+        "{}{}{}{}",
+        objects("s", satellites, "satellite"),
+        objects("d", directions, "direction"),
+        objects("i", instruments, "instrument"),
+        objects("m", 3, "mode")
+    );
+    instance(format!("satellite-{satellites}-{instruments}-{images}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Aircraft with levels of fuel carry people between cities.
+pub fn zenotravel(planes: usize, people: usize, cities: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types city level thing - object plane person - thing)
+ (:predicates (at ?x - thing ?c - city) (in ?p - person ?a - plane) (fuel ?a - plane ?l - level) (next ?a ?b - level))
+ (:action board :parameters (?p - person ?a - plane ?c - city) :precondition (and (at ?p ?c) (at ?a ?c)) :effect (and (not (at ?p ?c)) (in ?p ?a)))
+ (:action debark :parameters (?p - person ?a - plane ?c - city) :precondition (and (in ?p ?a) (at ?a ?c)) :effect (and (not (in ?p ?a)) (at ?p ?c)))
+ (:action fly :parameters (?a - plane ?x ?y - city ?f ?g - level) :precondition (and (at ?a ?x) (fuel ?a ?f) (next ?g ?f) (not (= ?x ?y)))
+  :effect (and (not (at ?a ?x)) (at ?a ?y) (not (fuel ?a ?f)) (fuel ?a ?g)))
+ (:action zoom :parameters (?a - plane ?x ?y - city ?f ?g ?h - level)
+  :precondition (and (at ?a ?x) (fuel ?a ?f) (next ?g ?f) (next ?h ?g) (not (= ?x ?y)))
+  :effect (and (not (at ?a ?x)) (at ?a ?y) (not (fuel ?a ?f)) (fuel ?a ?h)))
+ (:action refuel :parameters (?a - plane ?c - city ?f ?g - level) :precondition (and (fuel ?a ?f) (next ?f ?g) (at ?a ?c))
+  :effect (and (fuel ?a ?g) (not (fuel ?a ?f)))))";
+    let mut random = Random::new(seed);
+    let mut init: Vec<String> = (1..7).map(|l| format!("(next f{} f{l})", l - 1)).collect();
+    let mut goal = Vec::new();
+    for plane in 0..planes {
+        init.push(format!("(at a{plane} c{}) (fuel a{plane} f{})", random.below(cities), random.below(4)));
+    }
+    for person in 0..people {
+        init.push(format!("(at p{person} c{})", random.below(cities)));
+        goal.push(format!("(at p{person} c{})", random.below(cities)));
+    }
+    goal.push(format!("(at a0 c{})", random.below(cities)));
+    let all = format!(
+        "{}{}{}{}",
+        objects("a", planes, "plane"),
+        objects("p", people, "person"),
+        objects("c", cities, "city"),
+        objects("f", 7, "level")
+    );
+    instance(format!("zenotravel-{planes}-{people}-{cities}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// A lift serves passengers.
+pub fn miconic(passengers: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types floor passenger)
+ (:predicates (origin ?p - passenger ?f - floor) (destination ?p - passenger ?f - floor) (above ?a ?b - floor)
+  (boarded ?p - passenger) (served ?p - passenger) (lift-at ?f - floor))
+ (:action board :parameters (?f - floor ?p - passenger) :precondition (and (lift-at ?f) (origin ?p ?f)) :effect (boarded ?p))
+ (:action depart :parameters (?f - floor ?p - passenger) :precondition (and (lift-at ?f) (destination ?p ?f) (boarded ?p))
+  :effect (and (not (boarded ?p)) (served ?p)))
+ (:action up :parameters (?a ?b - floor) :precondition (and (lift-at ?a) (above ?a ?b)) :effect (and (lift-at ?b) (not (lift-at ?a))))
+ (:action down :parameters (?a ?b - floor) :precondition (and (lift-at ?a) (above ?b ?a)) :effect (and (lift-at ?b) (not (lift-at ?a)))))";
+    let mut random = Random::new(seed);
+    let floors = 2 * passengers;
+    let mut init = vec!["(lift-at f0)".to_owned()];
+    for a in 0..floors {
+        init.extend((a + 1..floors).map(|b| format!("(above f{a} f{b})")));
+    }
+    for passenger in 0..passengers {
+        let (from, to) = (random.below(floors), random.below(floors - 1));
+        let to = if to >= from { to + 1 } else { to };
+        init.push(format!("(origin p{passenger} f{from}) (destination p{passenger} f{to})"));
+    }
+    let goal: Vec<String> = (0..passengers).map(|p| format!("(served p{p})")).collect();
+    let all = format!("{}{}", objects("f", floors, "floor"), objects("p", passengers, "passenger"));
+    instance(format!("miconic-{passengers}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Vehicles with room for few, fuel that places run out of.
+pub fn mystery(places: usize, vehicles: usize, cargos: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types place fuel space thing - object vehicle cargo - thing)
+ (:predicates (at ?x - thing ?p - place) (road ?a ?b - place) (has-fuel ?p - place ?f - fuel) (less-fuel ?a ?b - fuel)
+  (in ?c - cargo ?v - vehicle) (has-space ?v - vehicle ?s - space) (less-space ?a ?b - space))
+ (:action move :parameters (?v - vehicle ?a ?b - place ?f ?g - fuel)
+  :precondition (and (at ?v ?a) (road ?a ?b) (has-fuel ?a ?f) (less-fuel ?g ?f))
+  :effect (and (not (at ?v ?a)) (at ?v ?b) (not (has-fuel ?a ?f)) (has-fuel ?a ?g)))
+ (:action load :parameters (?c - cargo ?v - vehicle ?p - place ?s ?r - space)
+  :precondition (and (at ?c ?p) (at ?v ?p) (has-space ?v ?s) (less-space ?r ?s))
+  :effect (and (not (at ?c ?p)) (in ?c ?v) (not (has-space ?v ?s)) (has-space ?v ?r)))
+ (:action unload :parameters (?c - cargo ?v - vehicle ?p - place ?s ?r - space)
+  :precondition (and (in ?c ?v) (at ?v ?p) (has-space ?v ?r) (less-space ?r ?s))
+  :effect (and (not (in ?c ?v)) (at ?c ?p) (not (has-space ?v ?r)) (has-space ?v ?s))))";
+    let mut random = Random::new(seed);
+    let mut init: Vec<String> = (1..4).map(|l| format!("(less-fuel f{} f{l})", l - 1)).collect();
+    init.extend((1..4).map(|l| format!("(less-space s{} s{l})", l - 1)));
+    for place in 1..places {
+        let other = random.below(place);
+        init.push(format!("(road p{place} p{other}) (road p{other} p{place})"));
+    }
+    for _ in 0..places / 2 {
+        let (a, b) = (random.below(places), random.below(places));
+        init.push(format!("(road p{a} p{b}) (road p{b} p{a})"));
+    }
+    init.extend((0..places).map(|p| format!("(has-fuel p{p} f{})", random.below(4))));
+    init.extend((0..vehicles).map(|v| format!("(at v{v} p{}) (has-space v{v} s{})", random.below(places), 1 + random.below(3))));
+    init.extend((0..cargos).map(|c| format!("(at c{c} p{})", random.below(places))));
+    let goal: Vec<String> = (0..3).map(|c| format!("(at c{c} p{})", random.below(places))).collect();
+    let all = format!(
+        "{}{}{}{}{}",
+        objects("p", places, "place"),
+        objects("f", 4, "fuel"),
+        objects("s", 4, "space"),
+        objects("v", vehicles, "vehicle"),
+        objects("c", cargos, "cargo")
+    );
+    instance(format!("mystery-{places}-{vehicles}-{cargos}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Trucks buy goods at markets and store them at a depot, by levels of stock.
+pub fn tpp(goods: usize, markets: usize, trucks: usize, levels: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types place truck goods level - object depot market - place)
+ (:predicates (loaded ?g - goods ?t - truck ?l - level) (ready ?g - goods ?m - market ?l - level) (stored ?g - goods ?l - level)
+  (sale ?g - goods ?m - market ?l - level) (next ?a ?b - level) (at ?t - truck ?p - place) (road ?a ?b - place))
+ (:action drive :parameters (?t - truck ?a ?b - place) :precondition (and (at ?t ?a) (road ?a ?b)) :effect (and (not (at ?t ?a)) (at ?t ?b)))
+ (:action load :parameters (?g - goods ?t - truck ?m - market ?l1 ?l2 ?l3 ?l4 - level)
+  :precondition (and (at ?t ?m) (loaded ?g ?t ?l3) (ready ?g ?m ?l2) (next ?l2 ?l1) (next ?l4 ?l3))
+  :effect (and (loaded ?g ?t ?l4) (not (loaded ?g ?t ?l3)) (ready ?g ?m ?l1) (not (ready ?g ?m ?l2))))
+ (:action unload :parameters (?g - goods ?t - truck ?d - depot ?l1 ?l2 ?l3 ?l4 - level)
+  :precondition (and (at ?t ?d) (loaded ?g ?t ?l2) (stored ?g ?l3) (next ?l2 ?l1) (next ?l4 ?l3))
+  :effect (and (loaded ?g ?t ?l1) (not (loaded ?g ?t ?l2)) (stored ?g ?l4) (not (stored ?g ?l3))))
+ (:action buy :parameters (?t - truck ?g - goods ?m - market ?l1 ?l2 ?l3 ?l4 - level)
+  :precondition (and (at ?t ?m) (sale ?g ?m ?l2) (ready ?g ?m ?l3) (next ?l2 ?l1) (next ?l4 ?l3))
+  :effect (and (sale ?g ?m ?l1) (not (sale ?g ?m ?l2)) (ready ?g ?m ?l4) (not (ready ?g ?m ?l3)))))";
+    let mut random = Random::new(seed);
+    let mut init: Vec<String> = (1..=levels).map(|l| format!("(next l{l} l{})", l - 1)).collect();
+    init.extend((0..markets).map(|m| format!("(road m{m} d0) (road d0 m{m})")));
+    init.extend((1..markets).map(|m| format!("(road m{m} m{0}) (road m{0} m{m})", m - 1)));
+    init.extend((0..trucks).map(|t| format!("(at t{t} d0)")));
+    let mut goal = Vec::new();
+    for good in 0..goods {
+        init.push(format!("(stored g{good} l0)"));
+        init.extend((0..trucks).map(|t| format!("(loaded g{good} t{t} l0)")));
+        let source = random.below(markets);
+        for market in 0..markets {
+            let level = if market == source { levels } else { random.below(levels) };
+            init.push(format!("(ready g{good} m{market} l0) (sale g{good} m{market} l{level})"));
+        }
+        goal.push(format!("(stored g{good} l{})", 1 + random.below(levels)));
+    }
+    let all = format!(
+        "d0 - depot {}{}{}{}",
+        objects("m", markets, "market"),
+        objects("t", trucks, "truck"),
+        objects("g", goods, "goods"),
+        objects("l", levels + 1, "level")
+    );
+    instance(format!("tpp-{goods}-{markets}-{trucks}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// Solitaire with cells: every card home, suit by suit.
+pub fn freecell(ranks: usize, suits: usize, cells: usize, columns: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types card num suit)
+ (:predicates (on ?a ?b - card) (incell ?c - card) (clear ?c - card) (cellspace ?n - num) (colspace ?n - num) (home ?c - card)
+  (bottom ?c - card) (canstack ?a ?b - card) (suit ?c - card ?s - suit) (value ?c - card ?n - num) (successor ?a ?b - num))
+ (:action move :parameters (?c ?o ?n - card) :precondition (and (clear ?c) (clear ?n) (canstack ?c ?n) (on ?c ?o))
+  :effect (and (on ?c ?n) (clear ?o) (not (on ?c ?o)) (not (clear ?n))))
+ (:action move-b :parameters (?c ?n - card ?x ?y - num) :precondition (and (clear ?c) (bottom ?c) (clear ?n) (canstack ?c ?n) (colspace ?x) (successor ?y ?x))
+  :effect (and (on ?c ?n) (colspace ?y) (not (bottom ?c)) (not (clear ?n)) (not (colspace ?x))))
+ (:action tocell :parameters (?c ?o - card ?x ?y - num) :precondition (and (clear ?c) (on ?c ?o) (cellspace ?x) (successor ?x ?y))
+  :effect (and (clear ?o) (incell ?c) (cellspace ?y) (not (on ?c ?o)) (not (clear ?c)) (not (cellspace ?x))))
+ (:action tocell-b :parameters (?c - card ?x ?y ?u ?v - num)
+  :precondition (and (clear ?c) (bottom ?c) (cellspace ?x) (successor ?x ?y) (colspace ?u) (successor ?v ?u))
+  :effect (and (incell ?c) (colspace ?v) (cellspace ?y) (not (bottom ?c)) (not (clear ?c)) (not (colspace ?u)) (not (cellspace ?x))))
+ (:action column :parameters (?c ?o - card ?x ?y - num) :precondition (and (clear ?c) (on ?c ?o) (colspace ?x) (successor ?x ?y))
+  :effect (and (clear ?o) (bottom ?c) (colspace ?y) (not (on ?c ?o)) (not (colspace ?x))))
+ (:action column-b :parameters (?c - card ?x ?y ?u ?v - num)
+  :precondition (and (incell ?c) (colspace ?x) (successor ?x ?y) (cellspace ?u) (successor ?v ?u))
+  :effect (and (bottom ?c) (clear ?c) (colspace ?y) (cellspace ?v) (not (incell ?c)) (not (colspace ?x)) (not (cellspace ?u))))
+ (:action uncell :parameters (?c ?n - card ?x ?y - num) :precondition (and (incell ?c) (clear ?n) (canstack ?c ?n) (cellspace ?x) (successor ?y ?x))
+  :effect (and (on ?c ?n) (clear ?c) (cellspace ?y) (not (incell ?c)) (not (clear ?n)) (not (cellspace ?x))))
+ (:action gohome :parameters (?c ?o - card ?s - suit ?v - num ?h - card ?w - num)
+  :precondition (and (clear ?c) (on ?c ?o) (home ?h) (suit ?c ?s) (suit ?h ?s) (value ?c ?v) (value ?h ?w) (successor ?v ?w))
+  :effect (and (home ?c) (clear ?o) (not (on ?c ?o)) (not (home ?h)) (not (clear ?c))))
+ (:action gohome-b :parameters (?c - card ?s - suit ?v - num ?h - card ?w ?x ?y - num)
+  :precondition (and (clear ?c) (bottom ?c) (home ?h) (suit ?c ?s) (suit ?h ?s) (value ?c ?v) (value ?h ?w) (successor ?v ?w) (colspace ?x) (successor ?y ?x))
+  :effect (and (home ?c) (colspace ?y) (not (home ?h)) (not (clear ?c)) (not (bottom ?c)) (not (colspace ?x))))
+ (:action gohome-c :parameters (?c - card ?s - suit ?v - num ?h - card ?w ?x ?y - num)
+  :precondition (and (incell ?c) (home ?h) (suit ?c ?s) (suit ?h ?s) (value ?c ?v) (value ?h ?w) (successor ?v ?w) (cellspace ?x) (successor ?y ?x))
+  :effect (and (home ?c) (cellspace ?y) (not (home ?h)) (not (incell ?c)) (not (cellspace ?x)))))";
+    let mut random = Random::new(seed);
+    let numbers = (ranks + 1).max(cells + 1).max(columns + 1);
+    let mut init: Vec<String> = (1..numbers).map(|n| format!("(successor n{n} n{})", n - 1)).collect();
+    init.push(format!("(cellspace n{cells})"));
+    let mut cards = String::new();
+    for suit in 0..suits {
+        for rank in 0..=ranks {
+            write!(cards, "k{suit}x{rank} ").expect("a string takes all text");
+            init.push(format!("(suit k{suit}x{rank} s{suit}) (value k{suit}x{rank} n{rank})"));
+            for other in (0..suits).filter(|other| other % 2 != suit % 2 && rank > 0 && rank < ranks) {
+                init.push(format!("(canstack k{suit}x{rank} k{other}x{})", rank + 1));
+            }
+        }
+        init.push(format!("(home k{suit}x0)"));
+    }
+    let mut column: Vec<Option<String>> = vec![None; columns];
+    for (at, number) in random.shuffled(suits * ranks).into_iter().enumerate() {
+        let card = format!("k{}x{}", number / ranks, number % ranks + 1);
+        match column[at % columns].replace(card.clone()) {
+            None => init.push(format!("(bottom {card})")),
+            Some(below) => init.push(format!("(on {card} {below})")),
+        }
+    }
+    init.extend(column.iter().flatten().map(|card| format!("(clear {card})")));
+    init.push(format!("(colspace n{})", column.iter().filter(|top| top.is_none()).count()));
+    let goal: Vec<String> = (0..suits).map(|s| format!("(home k{s}x{ranks})")).collect();
+    let all = format!("{cards}- card {}{}", objects("n", numbers, "num"), objects("s", suits, "suit"));
+    instance(format!("freecell-{ranks}x{suits}/{seed}"), domain, &all, &init, &goal)
+}
+
+/// All sizes that are measured, smaller first within each family.
+pub fn all() -> Vec<Instance> {
+    let mut all: Vec<Instance> = [4, 6, 8, 12, 16].map(gripper).into();
+    all.extend([rocket(10, 1), rocket(10, 2)]);
+    all.extend([logistics(3, 3, 1, 8, 1), logistics(4, 3, 2, 9, 2), logistics(5, 3, 2, 11, 3), logistics(7, 3, 2, 14, 4)]);
+    all.extend([logistics(2, 2, 1, 6, 5), logistics(3, 2, 1, 9, 6), logistics(4, 2, 1, 12, 7)]);
+    all.extend([blocks(8, 1), blocks(10, 2), blocks(14, 3)]);
+    all.extend([depot(3, 2, 4, 1), depot(3, 2, 6, 2), depot(6, 2, 6, 3)]);
+    all.extend([driverlog(6, 2, 2, 4, 1), driverlog(7, 3, 3, 6, 2), driverlog(10, 3, 3, 9, 3)]);
+    all.extend([rovers(2, 4, 1, 1), rovers(2, 4, 2, 2), rovers(4, 6, 3, 3)]);
+    all.extend([satellite(2, 4, 8, 4, 1), satellite(3, 6, 12, 7, 2), satellite(3, 6, 14, 9, 3)]);
+    all.extend([zenotravel(2, 4, 4, 1), zenotravel(3, 6, 5, 2), zenotravel(3, 8, 8, 3)]);
+    all.extend([freecell(2, 4, 4, 4, 1), freecell(3, 4, 4, 4, 2)]);
+    all.extend([miconic(4, 1), miconic(6, 2)]);
+    all.extend([mystery(6, 3, 4, 1), mystery(10, 4, 8, 2), mystery(8, 3, 6, 4)]);
+    all.extend([tpp(5, 2, 2, 2, 1), tpp(6, 2, 2, 2, 2), tpp(8, 3, 2, 2, 3)]);
+    all
+}

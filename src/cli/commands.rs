@@ -1,0 +1,290 @@
+//! One function a command.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::engine::{
+    Drawing as Sheet, Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose,
+    plan_alone,
+};
+use crate::graphplan::{Limits, Outcome};
+use crate::map::MapErrors;
+use crate::strips::Scenario;
+use crate::units::MapId;
+
+use super::args::{Common, Drawing, PlanArgs, RouteMethod};
+use super::fault::{Failure, drawn};
+use super::{Answer, json, say, text};
+
+const DEFAULT_STORE: &str = "ortho-store";
+
+/// The store in force: the one named, or `./ortho-store`.
+fn store_dir(common: &Common) -> PathBuf {
+    common.store.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_STORE))
+}
+
+pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
+    common.rules.clone().or_else(Rules::default_dir)
+}
+
+/// Opens a store that is there already.
+fn open(common: &Common) -> Result<Engine, Failure> {
+    let engine = Engine::open_existing(&store_dir(common), rules_dir(common).as_deref())?;
+    note_repairs(&engine);
+    Ok(engine)
+}
+
+#[expect(clippy::print_stderr, reason = "notes go to standard error")]
+pub(super) fn note(text: &str) {
+    eprintln!("{text}");
+}
+
+fn note_repairs(engine: &Engine) {
+    let opened = &engine.opened;
+    if opened.torn_bytes > 0 {
+        note(&format!(
+            "Хранилище: последняя запись была прервана и не подтверждена; отброшено {} байт.",
+            opened.torn_bytes
+        ));
+    }
+    for (what, why) in [
+        ("таблицы построены заново по журналу", &opened.tables_rebuilt),
+        ("журнал записан заново по таблицам", &opened.journal_renewed),
+    ] {
+        if let Some(why) = why {
+            note(&format!("Хранилище: {what}: {why}."));
+        }
+    }
+}
+
+fn warn(warnings: &MapErrors) {
+    if !warnings.faults.is_empty() {
+        note(drawn(warnings).trim_end());
+    }
+}
+
+pub(super) fn import(common: &Common, file: &Path) -> Result<Answer, Failure> {
+    // The file is read before the store is opened or made, so that a faulty map leaves no trace.
+    check_map(file)?;
+    let mut engine = Engine::open(&store_dir(common), rules_dir(common).as_deref())?;
+    note_repairs(&engine);
+    let reason = format!("импорт {}", file.display());
+    let imported = engine.import(file, &change_now(&common.user, &reason))?;
+    warn(&imported.warnings);
+    let world = engine.world()?;
+    let counts = imported.report.counts;
+    if common.json {
+        return say(&json!({
+            "outcome": "imported",
+            "revision": imported.report.revision,
+            "created": counts.created,
+            "changed": counts.changed,
+            "deleted": counts.deleted,
+            "warnings": imported.warnings.faults.len(),
+            "world": size(world),
+        })
+        .to_string());
+    }
+    let what = match counts.total() {
+        0 => "ничего не изменилось".to_owned(),
+        _ => format!(
+            "записей создано {}, изменено {}, удалено {}",
+            counts.created, counts.changed, counts.deleted
+        ),
+    };
+    say(&format!("{}\nРевизия {}: {what}.", described(world), imported.report.revision))
+}
+
+pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
+    let (world, warnings) = check_map(file)?;
+    warn(&warnings);
+    if common.json {
+        let count = warnings.faults.len();
+        return say(
+            &json!({ "outcome": "sound", "warnings": count, "world": size(&world) }).to_string()
+        );
+    }
+    say(&format!("Карта исправна. {}", described(&world)))
+}
+
+fn size(world: &World) -> serde_json::Value {
+    json!({
+        "maps": world.maps.len(),
+        "areas": world.areas.len(),
+        "doors": world.doors.len(),
+        "objects": world.objects.len(),
+        "orthoframes": world.orthoframes.len(),
+        "replicas": world.replicas.len(),
+        "places": world.places.len(),
+    })
+}
+
+/// «Дом РБ-2»: карт 1, помещений 4 …
+pub(super) fn described(world: &World) -> String {
+    format!(
+        "«{}»: карт {}, помещений {}, дверей и проходов {}, экземпляров {} (объектов {}, ортофреймов {}), точек {}.",
+        world.domain.name,
+        world.maps.len(),
+        world.areas.len(),
+        world.doors.len(),
+        world.replicas.len(),
+        world.objects.len(),
+        world.orthoframes.len(),
+        world.places.len(),
+    )
+}
+
+pub(super) fn relations(
+    common: &Common,
+    name: Option<&str>,
+    of: Option<&str>,
+) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let relations = engine.relations()?;
+    if name.is_none() && of.is_none() {
+        return if common.json {
+            say(&json::counts(relations).to_string())
+        } else {
+            say(&text::counts(relations, common.lang))
+        };
+    }
+    let rows = engine.facts(name, of)?;
+    if common.json {
+        let rows: Vec<_> = rows
+            .iter()
+            .map(|(relation, values)| json!({"relation": relation, "args": json::tuple(values)}))
+            .collect();
+        return say(&json!({ "facts": rows }).to_string());
+    }
+    if rows.is_empty() {
+        return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
+    }
+    say(&text::facts(&rows))
+}
+
+pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
+    let answer = match (&args.scenario, &args.domain, &args.problem) {
+        (None, Some(domain), Some(problem)) => {
+            plan_alone(Scenario::read_pddl(domain, problem)?, &args.limits())?
+        }
+        (Some(scenario), _, _) => plan_scenario(common, scenario, &args.limits())?,
+        _ => unreachable!("clap asks for a scenario or for both PDDL files"),
+    };
+    for warning in &answer.warnings {
+        note(drawn(warning).trim_end());
+    }
+    if let (Some(path), Outcome::Plan(plan)) = (&args.out, &answer.solved.outcome) {
+        let text = crate::strips::PlanText::write(&answer.solved.task, &plan.steps);
+        std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
+    }
+    if common.json {
+        say(&json::plan(&answer.solved).to_string())?;
+    } else {
+        say(&text::plan(&answer.solved, common.lang))?;
+    }
+    Ok(if matches!(answer.solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })
+}
+
+/// With the facts of the store that was named; else of the map that the scenario names; else of the default
+/// store, if there is one; else with the scenario's own facts alone.
+fn plan_scenario(
+    common: &Common,
+    path: &Path,
+    limits: &Limits,
+) -> Result<crate::engine::PlanAnswer, Failure> {
+    let scenario = Scenario::read(path)?;
+    if common.store.is_some() {
+        return Ok(open(common)?.plan(scenario, limits)?);
+    }
+    if let Some(map) = scenario.map.clone() {
+        let (world, _) = check_map(&map)?;
+        return Ok(Engine::in_memory(world, rules_dir(common).as_deref())?.plan(scenario, limits)?);
+    }
+    if Path::new(DEFAULT_STORE).is_dir() {
+        return Ok(open(common)?.plan(scenario, limits)?);
+    }
+    Ok(plan_alone(scenario, limits)?)
+}
+
+pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let answer = super::demo::perform(common, &engine, task)?;
+    if let Some(path) = draw {
+        super::demo::draw(&engine, &answer, path)?;
+    }
+    Ok(match answer.ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,
+        TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
+    })
+}
+
+pub(super) fn route(
+    common: &Common,
+    from: &str,
+    to: &str,
+    method: RouteMethod,
+) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let method = match method {
+        RouteMethod::Shortest => Method::Shortest,
+        RouteMethod::Paper => Method::Paper,
+    };
+    let answer = engine.route(from, to, method)?;
+    let world = engine.world()?;
+    if common.json {
+        say(&json::route(world, &answer).to_string())?;
+    } else {
+        say(&text::route(world, engine.floor(answer.map)?, &answer, common.lang))?;
+    }
+    Ok(if answer.route.is_ok() { Answer::Yes } else { Answer::No })
+}
+
+pub(super) fn locate(common: &Common, map: Option<&str>, at: &str) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let map = engine.map_named(map)?;
+    let pose = parse_pose(at)?;
+    let facing = at.split(',').count() == 3;
+    let found = engine.locate(map, pose, facing)?;
+    if common.json {
+        return say(&json::whereabout(engine.world()?, &found).to_string());
+    }
+    say(&found.position.say(common.lang.language()))
+}
+
+pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let (map, sheet) = match what {
+        Drawing::Map { name } => (engine.map_named(name.as_deref())?, Sheet::default()),
+        Drawing::Floor { name } => {
+            (engine.map_named(name.as_deref())?, Sheet { floor: true, ..Sheet::default() })
+        }
+        Drawing::Route { from, to } => {
+            let answer = engine.route(from, to, Method::Shortest)?;
+            match answer.route {
+                Ok(route) => (answer.map, Sheet { legs: vec![route.points], ..Sheet::default() }),
+                Err(why) => {
+                    note(&why.to_string());
+                    return Ok(Answer::No);
+                }
+            }
+        }
+    };
+    write(&engine, map, &sheet, out)
+}
+
+fn write(
+    engine: &Engine,
+    map: MapId,
+    sheet: &Sheet,
+    out: Option<&Path>,
+) -> Result<Answer, Failure> {
+    let svg = engine.draw(map, sheet)?;
+    match out {
+        Some(path) => {
+            std::fs::write(path, svg).map_err(|e| Failure::file(path, &e))?;
+            Ok(Answer::Yes)
+        }
+        None => say(&svg),
+    }
+}

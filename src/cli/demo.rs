@@ -1,0 +1,203 @@
+//! The main job, told as it goes: a task in words, planned, driven, reported, drawn.
+
+use std::path::Path;
+use std::time::Duration;
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::engine::{Drawing, Engine, Progress, TaskAnswer, TaskEnding, World, change_now};
+use crate::graphplan::Outcome;
+
+use super::args::{Common, Lang};
+use super::commands::{described, rules_dir};
+use super::fault::Failure;
+use super::text::decimal;
+use super::{Answer, json, say, text};
+
+/// The map of the papers, for a program that was installed without its files.
+const RB2: (&str, &str) = ("maps/rb2.toml", include_str!("../../maps/rb2.toml"));
+
+pub(super) fn run(
+    common: &Common,
+    dir: Option<&Path>,
+    map: Option<&Path>,
+    task: &str,
+    out: &Path,
+) -> Result<Answer, Failure> {
+    let scratch = Scratch::new().map_err(|e| Failure::file(&std::env::temp_dir(), &e))?;
+    let map = match map {
+        Some(path) => path.to_owned(),
+        None => scratch.map()?,
+    };
+    let store = dir.or(common.store.as_deref()).unwrap_or(&scratch.store);
+    let mut engine = Engine::open(store, rules_dir(common).as_deref())?;
+    let imported = engine.import(&map, &change_now(&common.user, "demo"))?;
+    if !common.json {
+        let world = engine.world()?;
+        say(&format!("{} {}", common.lang.pick("Карта", "Map"), described(world)))?;
+        say(&match common.lang {
+            Lang::Ru => format!("Записана в хранилище, ревизия {}.\n", imported.report.revision),
+            Lang::En => format!("Stored as revision {}.\n", imported.report.revision),
+        })?;
+        say(common.lang.pick("Выведено из геометрии:", "Derived from the geometry:"))?;
+        say(&text::counts(engine.relations()?, common.lang))?;
+        say("")?;
+    }
+    let answer = perform(common, &engine, task)?;
+    let drawing = out.join("plan.svg");
+    draw(&engine, &answer, &drawing)?;
+    if !common.json {
+        say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawing.display()))?;
+    }
+    Ok(match answer.ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,
+        TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
+    })
+}
+
+/// Carries out a task and tells of it.
+pub(super) fn perform(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnswer, Failure> {
+    let world = engine.world()?;
+    if common.json {
+        let answer = engine.perform(task, &mut |_| {})?;
+        say(&json::task(world, &answer).to_string())?;
+        return Ok(answer);
+    }
+    let mut teller = Teller::new(world, common.lang);
+    say(&format!("{} «{task}»", common.lang.pick("Задание:", "Task:")))?;
+    let answer = engine.perform(task, &mut |progress| teller.tell(progress))?;
+    teller.bar.finish_and_clear();
+    say(&ending(world, &answer, common.lang))?;
+    Ok(answer)
+}
+
+/// The map with Passframes and the way driven.
+pub(super) fn draw(engine: &Engine, answer: &TaskAnswer, path: &Path) -> Result<(), Failure> {
+    let legs =
+        answer.reports.iter().filter(|r| !r.points.is_empty()).map(|r| r.points.clone()).collect();
+    let svg = engine.draw(answer.map, &Drawing { floor: true, legs, robot: Some(answer.start) })?;
+    if let Some(dir) = path.parent() {
+        std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
+    }
+    std::fs::write(path, svg).map_err(|e| Failure::file(path, &e))
+}
+
+/// Tells a run as it happens: reports on standard output, a bar on the terminal.
+struct Teller<'w> {
+    world: &'w World,
+    lang: Lang,
+    bar: ProgressBar,
+}
+
+impl<'w> Teller<'w> {
+    fn new(world: &'w World, lang: Lang) -> Self {
+        let bar = ProgressBar::new(0);
+        let style = ProgressStyle::with_template("{bar:30} {pos}/{len}  {wide_msg}")
+            .expect("the template is a constant and sound");
+        bar.set_style(style);
+        Self { world, lang, bar }
+    }
+
+    fn tell(&mut self, progress: &Progress<'_>) {
+        match progress {
+            Progress::Planned(planned) => {
+                if matches!(planned.solved.outcome, Outcome::Plan(_)) && !planned.steps.is_empty() {
+                    self.line(&format!("{}\n", text::plan(&planned.solved, self.lang)));
+                }
+                self.bar.set_length(planned.steps.iter().map(Vec::len).sum::<usize>() as u64);
+                self.bar.set_position(0);
+            }
+            Progress::Started { directive, .. } => {
+                self.bar.set_message(directive.to_string());
+                self.bar.tick();
+            }
+            Progress::Finished(report) => {
+                self.bar.inc(1);
+                let way = if report.points.is_empty() {
+                    String::new()
+                } else {
+                    format!(
+                        "{}, ",
+                        decimal(report.length / 100.0, self.lang.pick("м", "m"), self.lang)
+                    )
+                };
+                let time = decimal(report.seconds, self.lang.pick("с", "s"), self.lang);
+                self.line(&format!(
+                    "{:>4} {} – {way}{time}",
+                    format!("{}.", report.number),
+                    report.directive
+                ));
+                if let Some(position) = &report.position {
+                    self.line(&format!("     {}", position.say(self.lang.language())));
+                }
+            }
+            Progress::Surprised { directive, surprise } => {
+                let what = text::surprise(self.world, surprise);
+                self.line(&format!("   ! {directive}: {what}"));
+                self.line(self.lang.pick("     Новый план.", "     Planning anew."));
+            }
+        }
+    }
+
+    fn line(&self, line: &str) {
+        // A closed pipe is noticed by the command's last words.
+        self.bar.suspend(|| drop(say(line)));
+    }
+}
+
+fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
+    let length = answer.reports.iter().map(|r| r.length).sum::<f64>() / 100.0;
+    let spent = format!(
+        "{}, {}",
+        decimal(length, lang.pick("м", "m"), lang),
+        decimal(answer.seconds, lang.pick("с", "s"), lang)
+    );
+    match &answer.ending {
+        TaskEnding::Done => match lang {
+            Lang::Ru => format!("\nСделано: {spent} пути."),
+            Lang::En => format!("\nDone: {spent} on the way."),
+        },
+        TaskEnding::AlreadyTrue => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
+        TaskEnding::NoPlan(planned) => text::plan(&planned.solved, lang),
+        TaskEnding::Stuck(surprise) => match lang {
+            Lang::Ru => format!("Не выходит: {}.", text::surprise(world, surprise)),
+            Lang::En => format!("Stuck: {}.", text::surprise(world, surprise)),
+        },
+    }
+}
+
+/// A directory for the time of one run.
+struct Scratch {
+    dir: std::path::PathBuf,
+    store: std::path::PathBuf,
+}
+
+impl Scratch {
+    fn new() -> std::io::Result<Self> {
+        let stamp = std::time::SystemTime::now()
+            .duration_since(std::time::UNIX_EPOCH)
+            .unwrap_or(Duration::ZERO);
+        let name = format!("ortho-demo-{}-{}", std::process::id(), stamp.as_nanos());
+        let dir = std::env::temp_dir().join(name);
+        std::fs::create_dir_all(&dir)?;
+        Ok(Self { store: dir.join("store"), dir })
+    }
+
+    /// The papers' map: the file beside the program's sources, else the copy built in.
+    fn map(&self) -> Result<std::path::PathBuf, Failure> {
+        let file = Path::new(RB2.0);
+        if file.is_file() {
+            return Ok(file.to_owned());
+        }
+        let copy = self.dir.join("rb2.toml");
+        std::fs::write(&copy, RB2.1).map_err(|e| Failure::file(&copy, &e))?;
+        Ok(copy)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // A directory that cannot be removed is the system's to clean.
+        let _ = std::fs::remove_dir_all(&self.dir);
+    }
+}

@@ -1,0 +1,231 @@
+//! Engine values as JSON. The field names are documented in docs/cli.md and stay.
+
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::engine::{
+    PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout, World,
+    steps,
+};
+use crate::facts;
+use crate::geometry::Route;
+use crate::graphplan::{Limit, NoPlanReason, Outcome};
+use crate::language::Language;
+use crate::map::Entity;
+use crate::semantics::Spot;
+use crate::units::{Point, Pose};
+
+#[derive(Debug, Serialize)]
+struct StepView {
+    action: String,
+    args: Vec<String>,
+}
+
+pub(super) fn plan(solved: &Solved) -> Value {
+    let steps: Vec<Vec<StepView>> = steps(solved)
+        .into_iter()
+        .map(|step| {
+            step.into_iter().map(|PlanStep { action, args }| StepView { action, args }).collect()
+        })
+        .collect();
+    let mut view = json!({
+        "outcome": outcome(&solved.outcome),
+        "parallel_steps": steps.len(),
+        "actions": steps.iter().map(Vec::len).sum::<usize>(),
+        "steps": steps,
+        "optimal": matches!(solved.outcome, Outcome::Plan(_)),
+        "assumptions": solved.assumptions,
+        "explanation": solved.explanation,
+    });
+    match &solved.outcome {
+        Outcome::NoPlan { leveled_off_at, reason } => {
+            let fact = |id: &_| solved.task.fact(*id).to_string();
+            view["leveled_off_at"] = json!(leveled_off_at);
+            view["reason"] = match reason {
+                NoPlanReason::Unreachable(facts) => {
+                    json!({"unreachable": facts.iter().map(fact).collect::<Vec<_>>()})
+                }
+                NoPlanReason::Exclusive(pairs) => {
+                    json!({"exclusive": pairs.iter().map(|(a, b)| [fact(a), fact(b)]).collect::<Vec<_>>()})
+                }
+                NoPlanReason::Together(facts) => {
+                    json!({"together": facts.iter().map(fact).collect::<Vec<_>>()})
+                }
+            };
+        }
+        Outcome::LimitReached(limit) => {
+            view["limit"] = json!(match limit {
+                Limit::Time => "time",
+                Limit::Memory => "memory",
+                Limit::Steps => "steps",
+            });
+        }
+        Outcome::Plan(_) => {}
+    }
+    view
+}
+
+fn outcome(outcome: &Outcome) -> &'static str {
+    match outcome {
+        Outcome::Plan(_) => "plan",
+        Outcome::NoPlan { .. } => "no_plan",
+        Outcome::LimitReached(_) => "limit",
+    }
+}
+
+pub(super) fn counts(relations: &Relations) -> Value {
+    let rows: Vec<Value> = relations
+        .counts()
+        .into_iter()
+        .map(|c| json!({"name": c.name, "name_en": c.name_en, "count": c.count}))
+        .collect();
+    json!({ "relations": rows })
+}
+
+pub(super) fn tuple(values: &[facts::Value]) -> Vec<Value> {
+    values
+        .iter()
+        .map(|value| match value {
+            facts::Value::Symbol(symbol) => json!(symbol.as_ref()),
+            other => other
+                .to_string()
+                .parse::<i64>()
+                .map_or_else(|_| json!(other.to_string()), |n| json!(n)),
+        })
+        .collect()
+}
+
+pub(super) fn route(world: &World, answer: &RouteAnswer) -> Value {
+    let mut view = json!({
+        "from": answer.from,
+        "to": answer.to,
+        "map": world.maps[&answer.map].name,
+    });
+    match &answer.route {
+        Ok(route) => {
+            view["outcome"] = json!("route");
+            view["areas"] =
+                json!(answer.stages.iter().map(|s| &world.areas[&s.area].name).collect::<Vec<_>>());
+            merge(&mut view, way(world, route));
+        }
+        Err(why) => {
+            view["outcome"] = json!("no_route");
+            view["explanation"] = json!(why.to_string());
+        }
+    }
+    view
+}
+
+fn way(world: &World, route: &Route) -> Value {
+    let moved = |m: &Option<crate::geometry::Moved>| {
+        m.as_ref().map(|m| json!({"from": point(m.from), "to": point(m.to)}))
+    };
+    json!({
+        "length_cm": round(route.length),
+        "points": route.points.iter().map(|&p| point(p)).collect::<Vec<_>>(),
+        "heading_deg": route.heading.map(|h| round(h.get())),
+        "passframes": route
+            .chain
+            .iter()
+            .map(|(area, id)| json!({"area": world.areas[area].name, "id": id.to_string()}))
+            .collect::<Vec<_>>(),
+        "moved_start": moved(&route.moved_start),
+        "moved_goal": moved(&route.moved_goal),
+    })
+}
+
+pub(super) fn whereabout(world: &World, found: &Whereabout) -> Value {
+    let terms = &found.terms;
+    let mut view = json!({
+        "map": world.maps[&found.map].name,
+        "pose": pose(found.pose),
+        "area": world.areas[&terms.area].name,
+        "ru": found.position.say(Language::Russian),
+        "en": found.position.say(Language::English),
+    });
+    let spot = match terms.spot {
+        Spot::InDoorway(way) => json!({"kind": "in_doorway", "way": self::passage(world, &way)}),
+        Spot::AtDoor { way, distance } => {
+            json!({"kind": "at_door", "way": self::passage(world, &way), "distance_cm": round(distance)})
+        }
+        Spot::NextTo { replica, distance } => {
+            json!({"kind": "next_to", "thing": world.name(Entity::Replica(replica)), "distance_cm": round(distance)})
+        }
+        Spot::InCorner => json!({"kind": "in_corner"}),
+        Spot::AlongWall => json!({"kind": "along_wall"}),
+        Spot::InMiddle => json!({"kind": "in_middle"}),
+    };
+    view["spot"] = spot;
+    view
+}
+
+fn passage(world: &World, way: &crate::semantics::Way) -> Value {
+    json!({
+        "door": way.door.map(|d| world.name(Entity::Door(d))),
+        "is_passage": way.is_passage,
+        "from": world.name(Entity::Area(way.from)),
+        "to": way.to.map(|a| world.name(Entity::Area(a))),
+    })
+}
+
+pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
+    let goal: Vec<Value> =
+        answer.goal.iter().map(|g| json!({"predicate": g.predicate, "args": g.args})).collect();
+    let mut view = json!({
+        "outcome": match &answer.ending {
+            TaskEnding::Done => "done",
+            TaskEnding::AlreadyTrue => "already_true",
+            TaskEnding::NoPlan(planned) => outcome(&planned.solved.outcome),
+            TaskEnding::Stuck(_) => "stuck",
+        },
+        "map": world.maps[&answer.map].name,
+        "goal": goal,
+        "start": pose(answer.start),
+        "end": pose(answer.end),
+        "seconds": round(answer.seconds),
+        "length_cm": round(answer.reports.iter().map(|r| r.length).sum()),
+        "replans": answer.replans,
+        "directives": answer.reports.iter().map(report).collect::<Vec<_>>(),
+    });
+    match &answer.ending {
+        TaskEnding::NoPlan(planned) => view["plan"] = plan(&planned.solved),
+        TaskEnding::Stuck(surprise) => {
+            view["explanation"] = json!(super::text::surprise(world, surprise))
+        }
+        TaskEnding::Done | TaskEnding::AlreadyTrue => {}
+    }
+    view
+}
+
+fn report(report: &Report) -> Value {
+    json!({
+        "number": report.number,
+        "action": report.directive.action.as_ref(),
+        "args": report.directive.args.iter().map(AsRef::as_ref).collect::<Vec<&str>>(),
+        "pose": pose(report.pose),
+        "length_cm": round(report.length),
+        "seconds": round(report.seconds),
+        "points": report.points.iter().map(|&p| point(p)).collect::<Vec<_>>(),
+        "ru": report.position.as_ref().map(|p| p.say(Language::Russian)),
+        "en": report.position.as_ref().map(|p| p.say(Language::English)),
+    })
+}
+
+fn point(p: Point) -> [f64; 2] {
+    [round(p.x), round(p.y)]
+}
+
+fn pose(pose: Pose) -> Value {
+    json!({"x": round(pose.at.x), "y": round(pose.at.y), "heading_deg": round(pose.heading.get())})
+}
+
+/// Hundredths: a tenth of a millimetre, a hundredth of a degree.
+fn round(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+fn merge(view: &mut Value, more: Value) {
+    if let (Value::Object(view), Value::Object(more)) = (view, more) {
+        view.extend(more);
+    }
+}

@@ -1,0 +1,68 @@
+//! The command line: arguments in, engine, text or JSON out.
+//!
+//! Results go to standard output, faults and progress to standard error. Exit codes: 0 done, 1 the answer is
+//! no, 2 the input is wrong, 3 internal.
+
+mod args;
+mod commands;
+mod demo;
+mod fault;
+mod json;
+mod text;
+
+use std::io::Write;
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Arguments, Command};
+use fault::Failure;
+
+/// What a command came to.
+enum Answer {
+    Yes,
+    No,
+}
+
+/// Runs the program.
+#[must_use]
+pub fn run() -> ExitCode {
+    let arguments = Arguments::parse();
+    // A pipe that is closed early (`ortho relations | head`) ends the output, not the program's good name.
+    let outcome = std::panic::catch_unwind(|| dispatch(&arguments));
+    match outcome {
+        Ok(Ok(Answer::Yes)) => ExitCode::SUCCESS,
+        Ok(Ok(Answer::No)) => ExitCode::from(1),
+        Ok(Err(failure)) => failure.show(arguments.common.json),
+        Err(_) => ExitCode::from(3),
+    }
+}
+
+fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
+    let common = &arguments.common;
+    match &arguments.command {
+        Command::Demo { dir, map, task, out } => {
+            demo::run(common, dir.as_deref(), map.as_deref(), task, out)
+        }
+        Command::Import { file } => commands::import(common, file),
+        Command::Check { file } => commands::check(common, file),
+        Command::Schema => say(&crate::map::json_schema()),
+        Command::Relations { name, of } => {
+            commands::relations(common, name.as_deref(), of.as_deref())
+        }
+        Command::Plan(plan) => commands::plan(common, plan),
+        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
+        Command::Route { from, to, method } => commands::route(common, from, to, *method),
+        Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
+        Command::Draw { what, out } => commands::draw(common, what, out.as_deref()),
+    }
+}
+
+/// Prints a text with a line end.
+fn say(text: &str) -> Result<Answer, Failure> {
+    let mut out = std::io::stdout().lock();
+    match writeln!(out, "{text}").and_then(|()| out.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(Failure::output(&e)),
+        _ => Ok(Answer::Yes),
+    }
+}

@@ -1,0 +1,197 @@
+//! Engine values as text for a person.
+
+use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::{CellAlignment, ContentArrangement, Table};
+
+use crate::engine::{Relations, RouteAnswer, Solved, World, steps};
+use crate::facts::Value;
+use crate::geometry::FloorPlan;
+use crate::graphplan::Outcome;
+use crate::language::Language;
+use crate::map::Entity;
+use crate::robot::{Obstruction, Refusal, Surprise};
+
+use super::args::Lang;
+
+impl Lang {
+    pub(super) fn pick<'a>(self, russian: &'a str, english: &'a str) -> &'a str {
+        match self {
+            Self::Ru => russian,
+            Self::En => english,
+        }
+    }
+
+    pub(super) fn language(self) -> Language {
+        match self {
+            Self::Ru => Language::Russian,
+            Self::En => Language::English,
+        }
+    }
+}
+
+/// How often each relation holds.
+pub(super) fn counts(relations: &Relations, lang: Lang) -> String {
+    let mut table = table();
+    table.set_header([
+        lang.pick("Отношение", "Russian name"),
+        "English name",
+        lang.pick("Число", "Count"),
+    ]);
+    for row in relations.counts() {
+        table.add_row([row.name, row.name_en, row.count.to_string()]);
+    }
+    if let Some(column) = table.column_mut(2) {
+        column.set_cell_alignment(CellAlignment::Right);
+    }
+    table.to_string()
+}
+
+fn table() -> Table {
+    let mut table = Table::new();
+    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Disabled);
+    table
+}
+
+/// Facts, one a line: `Чашка-1 НАХОДИТСЯ_СВЕРХУ_НА Стол-1`.
+pub(super) fn facts(rows: &[(String, Vec<Value>)]) -> String {
+    rows.iter().map(|(relation, values)| fact(relation, values)).collect::<Vec<_>>().join("\n")
+}
+
+fn fact(relation: &str, values: &[Value]) -> String {
+    let words: Vec<String> = values.iter().map(ToString::to_string).collect();
+    match &words[..] {
+        [x, y] => format!("{x}  {relation}  {y}"),
+        [x, property, value] => format!("{x}  {relation}  {property} = {value}"),
+        _ => format!("{relation}({})", words.join(", ")),
+    }
+}
+
+/// A plan as the paper prints it, one directive a line, parallel ones under one number.
+pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
+    let steps = steps(solved);
+    if !matches!(solved.outcome, Outcome::Plan(_)) {
+        let head = match solved.outcome {
+            Outcome::LimitReached(_) => lang.pick("План не найден", "No plan was found"),
+            _ => lang.pick("Плана нет, и это доказано", "There is no plan; this is proven"),
+        };
+        return format!("{head}: {}", solved.explanation.as_deref().unwrap_or_default());
+    }
+    if steps.is_empty() {
+        return lang.pick("Цель уже достигнута.", "The goal holds already.").to_owned();
+    }
+    let actions: usize = steps.iter().map(Vec::len).sum();
+    let mut text = match lang {
+        Lang::Ru => format!(
+            "План: шагов {}, действий {actions}; меньше шагов нельзя, это доказано.",
+            steps.len()
+        ),
+        Lang::En => format!(
+            "Plan: {} steps, {actions} actions; fewer steps are proven impossible.",
+            steps.len()
+        ),
+    };
+    for (number, step) in steps.iter().enumerate() {
+        for (i, action) in step.iter().enumerate() {
+            let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
+            text.push_str(&format!("\n{label:>4} {}_({})", action.action, action.args.join(", ")));
+        }
+    }
+    if !solved.assumptions.is_empty() {
+        let head =
+            lang.pick("Предположения, на которых он держится:", "It rests on the assumptions:");
+        text.push_str(&format!("\n{head}\n     {}", solved.assumptions.join("\n     ")));
+    }
+    text
+}
+
+/// A way in words: through which rooms and doors, how long, and where it bends.
+pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang: Lang) -> String {
+    let route = match &answer.route {
+        Ok(route) => route,
+        Err(why) => return capitalized(&why.to_string()),
+    };
+    let mut stages = String::new();
+    for stage in &answer.stages {
+        stages.push_str(&world.areas[&stage.area].name);
+        if let Some(door) = stage.leaves_by.and_then(|d| floor.doorways()[d].door) {
+            stages.push_str(&format!(" → {} → ", world.name(Entity::Door(door))));
+        } else if stage.leaves_by.is_some() {
+            stages.push_str(" → ");
+        }
+    }
+    let meters = route.length / 100.0;
+    let mut text = match lang {
+        Lang::Ru => {
+            format!("{} → {}: {}\n{stages}", answer.from, answer.to, decimal(meters, "м", lang))
+        }
+        Lang::En => {
+            format!("{} → {}: {}\n{stages}", answer.from, answer.to, decimal(meters, "m", lang))
+        }
+    };
+    let frames: Vec<String> = route.chain.iter().map(|(_, id)| id.to_string()).collect();
+    text.push_str(&format!("\n{} {}", lang.pick("Пассфреймы:", "Passframes:"), frames.join(" → ")));
+    let points: Vec<String> =
+        route.points.iter().map(|p| format!("({:.1}, {:.1})", p.x, p.y)).collect();
+    text.push_str(&format!("\n{} {}", lang.pick("Точки, см:", "Points, cm:"), points.join(" → ")));
+    for (moved, what) in [
+        (&route.moved_start, lang.pick("Начало", "The start")),
+        (&route.moved_goal, lang.pick("Цель", "The goal")),
+    ] {
+        if let Some(moved) = moved {
+            let to = format!("({:.1}, {:.1})", moved.to.x, moved.to.y);
+            text.push_str(&match lang {
+                Lang::Ru => {
+                    format!("\n{what} занято: робот там не помещается; взято ближайшее место {to}.")
+                }
+                Lang::En => format!(
+                    "\n{what} is taken: the robot does not fit there; the nearest place is {to}."
+                ),
+            });
+        }
+    }
+    text
+}
+
+/// A number with one decimal, its mark as the language has it.
+pub(super) fn decimal(value: f64, unit: &str, lang: Lang) -> String {
+    let text = format!("{value:.1} {unit}");
+    if lang == Lang::Ru { text.replacen('.', ",", 1) } else { text }
+}
+
+fn capitalized(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map(|c| c.to_uppercase().chain(chars).collect()).unwrap_or_default()
+}
+
+/// What went otherwise than believed.
+pub(super) fn surprise(world: &World, surprise: &Surprise) -> String {
+    let thing = |what: Obstruction| match what {
+        Obstruction::Wall(area) => format!("стена ({})", world.name(Entity::Area(area))),
+        Obstruction::Door(door) => world.name(Entity::Door(door)).to_owned(),
+        Obstruction::Replica(id) => {
+            world.replicas.get(&id).map_or_else(String::new, |r| r.name.clone())
+        }
+    };
+    match surprise {
+        Surprise::Blocked { bump, .. } => format!("путь преграждает {}", thing(bump.against)),
+        Surprise::NoWay { to, why } => format!("«{to}»: {why}"),
+        Surprise::Unknown { name } => format!("на карте нет «{name}»"),
+        Surprise::Refused { refusal, .. } => match *refusal {
+            Refusal::Locked(door) => format!("{} заперта", thing(Obstruction::Door(door))),
+            Refusal::DoorJammed(door) => {
+                format!("{} не открывается: створке мешает робот", thing(Obstruction::Door(door)))
+            }
+            Refusal::OutOfReach(id) => {
+                format!("до «{}» не дотянуться", thing(Obstruction::Replica(id)))
+            }
+            Refusal::NotThere(id) => format!("«{}» нет на месте", thing(Obstruction::Replica(id))),
+            Refusal::HandFull(id) => {
+                format!("рука занята: в ней «{}»", thing(Obstruction::Replica(id)))
+            }
+            Refusal::NotHeld(id) => format!("«{}» нет в руке", thing(Obstruction::Replica(id))),
+            Refusal::NoRoom(id) => {
+                format!("на «{}» нет свободного места", thing(Obstruction::Replica(id)))
+            }
+        },
+    }
+}

@@ -1,0 +1,203 @@
+//! A sheet with the Map's coordinates: cm, y up.
+
+use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text, Title, path::Data};
+use svg::{Document, Node};
+
+use crate::geometry::{Bounds, Polygon};
+use crate::units::Point;
+
+/// How a shape is filled and outlined. `None` is not painted.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Style {
+    pub fill: Option<&'static str>,
+    pub stroke: Option<&'static str>,
+    /// cm on the sheet.
+    pub width: f64,
+    /// Lengths of dashes and gaps, as SVG writes them.
+    pub dash: Option<&'static str>,
+    pub opacity: f64,
+}
+
+impl Style {
+    pub(super) const fn fill(color: &'static str) -> Self {
+        Self { fill: Some(color), stroke: None, width: 0.0, dash: None, opacity: 1.0 }
+    }
+
+    pub(super) const fn line(color: &'static str, width: f64) -> Self {
+        Self { fill: None, stroke: Some(color), width, dash: None, opacity: 1.0 }
+    }
+
+    pub(super) const fn outlined(mut self, color: &'static str, width: f64) -> Self {
+        self.stroke = Some(color);
+        self.width = width;
+        self
+    }
+
+    pub(super) const fn dashed(mut self, dash: &'static str) -> Self {
+        self.dash = Some(dash);
+        self
+    }
+
+    pub(super) const fn faint(mut self, opacity: f64) -> Self {
+        self.opacity = opacity;
+        self
+    }
+
+    fn apply<N: Node>(&self, node: &mut N) {
+        node.assign("fill", self.fill.unwrap_or("none"));
+        if let Some(stroke) = self.stroke {
+            node.assign("stroke", stroke);
+            node.assign("stroke-width", number(self.width));
+            node.assign("stroke-linejoin", "round");
+            node.assign("stroke-linecap", "round");
+        }
+        if let Some(dash) = self.dash {
+            node.assign("stroke-dasharray", dash);
+        }
+        if self.opacity < 1.0 {
+            node.assign("opacity", number(self.opacity));
+        }
+    }
+}
+
+/// Where a text stands against its point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Anchor {
+    Start,
+    Middle,
+}
+
+/// Collects shapes; [`Canvas::into_svg`] frames them.
+pub(super) struct Canvas {
+    bounds: Bounds,
+    nodes: Group,
+}
+
+impl Canvas {
+    /// A sheet that shows `bounds` of the Map.
+    pub(super) fn new(bounds: Bounds) -> Self {
+        Self {
+            bounds,
+            nodes: Group::new()
+                .set("font-family", "DejaVu Sans, Liberation Sans, Arial, sans-serif"),
+        }
+    }
+
+    fn at(&self, p: Point) -> (f64, f64) {
+        (round(p.x - self.bounds.min.x), round(self.bounds.max.y - p.y))
+    }
+
+    pub(super) fn polygons<'a>(
+        &mut self,
+        rings: impl IntoIterator<Item = &'a [Point]>,
+        style: Style,
+        title: Option<&str>,
+    ) {
+        let data = rings.into_iter().fold(Data::new(), |data, ring| self.trace(data, ring).close());
+        let mut path = Path::new().set("d", data).set("fill-rule", "evenodd");
+        style.apply(&mut path);
+        if let Some(title) = title {
+            path = path.add(Title::new(title));
+        }
+        self.nodes.append(path);
+    }
+
+    pub(super) fn polygon(&mut self, polygon: &Polygon, style: Style, title: Option<&str>) {
+        self.polygons([polygon.corners.as_slice()], style, title);
+    }
+
+    pub(super) fn polyline(&mut self, points: &[Point], style: Style) {
+        let mut path = Path::new().set("d", self.trace(Data::new(), points));
+        style.apply(&mut path);
+        self.nodes.append(path);
+    }
+
+    fn trace(&self, data: Data, points: &[Point]) -> Data {
+        points.iter().enumerate().fold(data, |data, (i, &p)| {
+            if i == 0 { data.move_to(self.at(p)) } else { data.line_to(self.at(p)) }
+        })
+    }
+
+    pub(super) fn segment(&mut self, a: Point, b: Point, style: Style) {
+        let ((x1, y1), (x2, y2)) = (self.at(a), self.at(b));
+        let mut line = Line::new().set("x1", x1).set("y1", y1).set("x2", x2).set("y2", y2);
+        style.apply(&mut line);
+        self.nodes.append(line);
+    }
+
+    pub(super) fn circle(&mut self, center: Point, radius: f64, style: Style) {
+        let (x, y) = self.at(center);
+        let mut circle = Circle::new().set("cx", x).set("cy", y).set("r", number(radius));
+        style.apply(&mut circle);
+        self.nodes.append(circle);
+    }
+
+    pub(super) fn rectangle(&mut self, bounds: Bounds, style: Style, rounding: f64) {
+        let (x, y) = self.at(Point::new(bounds.min.x, bounds.max.y));
+        let mut rectangle = Rectangle::new()
+            .set("x", x)
+            .set("y", y)
+            .set("width", number(bounds.max.x - bounds.min.x))
+            .set("height", number(bounds.max.y - bounds.min.y))
+            .set("rx", number(rounding));
+        style.apply(&mut rectangle);
+        self.nodes.append(rectangle);
+    }
+
+    /// A line of text with a light halo, its baseline a third of the size below `p`.
+    pub(super) fn text(
+        &mut self,
+        p: Point,
+        text: &str,
+        size: f64,
+        color: &'static str,
+        anchor: Anchor,
+        bold: bool,
+    ) {
+        let (x, y) = self.at(p);
+        let mut node = Text::new(text)
+            .set("x", x)
+            .set("y", round(y + size * 0.36))
+            .set("font-size", number(size))
+            .set("fill", color)
+            .set("stroke", "#ffffff")
+            .set("stroke-opacity", "0.8")
+            .set("stroke-width", number(size * 0.22))
+            .set("stroke-linejoin", "round")
+            .set("paint-order", "stroke")
+            .set("text-anchor", if anchor == Anchor::Middle { "middle" } else { "start" });
+        if bold {
+            node = node.set("font-weight", "bold");
+        }
+        self.nodes.append(node);
+    }
+
+    /// The sheet as SVG text, one unit a centimetre, with the paper under it.
+    pub(super) fn into_svg(self, title: &str) -> String {
+        let (width, height) =
+            (self.bounds.max.x - self.bounds.min.x, self.bounds.max.y - self.bounds.min.y);
+        let mut paper = Rectangle::new().set("width", "100%").set("height", "100%");
+        Style::fill("#ffffff").apply(&mut paper);
+        Document::new()
+            .set("viewBox", (0, 0, round(width), round(height)))
+            .set("width", number(width.clamp(600.0, 1600.0)))
+            .add(Title::new(title))
+            .add(paper)
+            .add(self.nodes)
+            .to_string()
+    }
+}
+
+/// Width of a line of text, roughly: DejaVu Sans takes about 0.6 of the size a letter.
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    text.chars().count() as f64 * size * 0.62
+}
+
+/// Two decimals: a tenth of a millimetre is finer than any pen.
+fn round(value: f64) -> f64 {
+    (value * 100.0).round() / 100.0
+}
+
+fn number(value: f64) -> String {
+    round(value).to_string()
+}

@@ -1,0 +1,143 @@
+//! Everything that can go wrong, gathered from the folders below, and what a person asked that has no answer.
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use crate::language::command::Misheard;
+use crate::map::MapErrors;
+use crate::robot::MissionError;
+use crate::semantics::RelationError;
+use crate::store::StoreError;
+use crate::strips::RuleFaults;
+
+/// Why the engine could not do what it was asked.
+#[derive(Debug, Error, Diagnostic)]
+pub enum Error {
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Map(#[from] MapErrors),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Rules(#[from] RuleFaults),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Relations(#[from] RelationError),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Store(#[from] StoreError),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Misheard(#[from] Misheard),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Request(#[from] RequestError),
+}
+
+impl From<MissionError> for Error {
+    fn from(error: MissionError) -> Self {
+        match error {
+            MissionError::Rules(faults) => Self::Rules(faults),
+            MissionError::Relations(error) => Self::Relations(error),
+        }
+    }
+}
+
+/// A request that speaks of what is not there, or not clearly enough.
+#[derive(Debug, Error, Diagnostic)]
+pub enum RequestError {
+    /// The store holds no map yet.
+    #[error("в хранилище «{store}» нет карты")]
+    #[diagnostic(code(engine::no_map), help("импортируйте карту: ortho import maps/rb2.toml"))]
+    NoMap { store: String },
+
+    /// A name that nothing bears.
+    #[error("на карте нет имени «{name}»")]
+    #[diagnostic(code(engine::unknown_name))]
+    UnknownName {
+        name: String,
+        #[help]
+        help: Option<String>,
+    },
+
+    /// A name that several things bear, or that could be read in several ways.
+    #[error("имя «{name}» можно понять по-разному: {candidates}")]
+    #[diagnostic(code(engine::ambiguous_name), help("назовите одно из них полностью"))]
+    AmbiguousName { name: String, candidates: String },
+
+    /// A relation that the rules do not declare.
+    #[error("нет отношения «{name}»")]
+    #[diagnostic(code(engine::unknown_relation))]
+    UnknownRelation {
+        name: String,
+        #[help]
+        help: Option<String>,
+    },
+
+    /// Something that is no place to go to, or from.
+    #[error("«{name}» – не место, до которого можно доехать")]
+    #[diagnostic(code(engine::not_a_place), help("назовите точку, помещение, дверь или вещь"))]
+    NotAPlace { name: String },
+
+    /// Two places on different maps.
+    #[error("«{from}» и «{to}» находятся на разных картах")]
+    #[diagnostic(code(engine::other_map), help("назовите места одного этажа"))]
+    OtherMap { from: String, to: String },
+
+    /// A pose outside of every Area.
+    #[error("точка ({x}, {y}) не лежит ни в одном помещении карты «{map}»")]
+    #[diagnostic(
+        code(engine::nowhere),
+        help("координаты – в сантиметрах, в системе карты: карта занимает {extent}")
+    )]
+    Nowhere { x: f64, y: f64, map: String, extent: String },
+
+    /// Coordinates that are none.
+    #[error("«{text}» – не поза: {reason}")]
+    #[diagnostic(code(engine::bad_pose), help("напишите X,Y или X,Y,КУРС, например 250,380,90"))]
+    BadPose { text: String, reason: String },
+
+    /// Which of several maps is meant.
+    #[error("в домейне несколько карт: {candidates}")]
+    #[diagnostic(code(engine::which_map), help("назовите одну: --map ИМЯ"))]
+    WhichMap { candidates: String },
+
+    /// A command that no goal of the rules stands for.
+    #[error("«{command}»: у этой команды нет цели, которую знают правила робота")]
+    #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
+    NoGoal { command: String },
+
+    /// Something that is to be opened or shut and is no door between rooms.
+    #[error("«{name}» – не дверь между помещениями")]
+    #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
+    NotADoor { name: String },
+
+    /// The Map does not say where the robot is.
+    #[error("неизвестно, где робот")]
+    #[diagnostic(
+        code(engine::robot_nowhere),
+        help("назовите его место в карте: [robot] start = «точка»")
+    )]
+    RobotNowhere,
+
+    /// A file that cannot be read or written.
+    #[error("файл «{path}»: {reason}")]
+    #[diagnostic(code(engine::file))]
+    File { path: String, reason: String },
+}
+
+impl Error {
+    /// The input is at fault, not the program or the disk.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Map(_)
+            | Self::Rules(_)
+            | Self::Relations(_)
+            | Self::Misheard(_)
+            | Self::Request(_) => true,
+            Self::Store(error) => {
+                !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
+            }
+        }
+    }
+}

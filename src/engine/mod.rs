@@ -1,0 +1,287 @@
+//! The one object that a program holds: a store, and the map, relations and free floor kept in step with it.
+//!
+//! ```
+//! use orthoframe::Engine;
+//! # let dir = tempfile::tempdir().unwrap();
+//! # let dir = dir.path().join("store");
+//! # let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
+//! let mut engine = Engine::open(&dir, None)?;
+//! engine.import(map.as_ref(), &orthoframe::engine::change_now("operator", "survey"))?;
+//! let route = engine.route("Точка-А", "Комната-Y", orthoframe::engine::Method::Shortest)?;
+//! println!("{:.0} см", route.route.as_ref().unwrap().length);
+//! # Ok::<(), orthoframe::engine::Error>(())
+//! ```
+//!
+//! **Invariant.** Only the engine writes to the store; what it derives belongs to the map that it holds, and is
+//! derived anew when that map changes.
+
+mod drawing;
+mod error;
+mod lexicon;
+mod plan;
+mod position;
+mod route;
+mod rules;
+mod task;
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+pub use drawing::Drawing;
+pub use error::{Error, RequestError};
+pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
+pub use position::Whereabout;
+pub use route::{Located, RouteAnswer, Stage, parse_pose};
+pub use rules::Rules;
+pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
+
+pub use crate::facts::Value;
+pub use crate::geometry::Method;
+pub use crate::map::World;
+pub use crate::robot::Solved;
+pub use crate::semantics::Relations;
+pub use crate::store::{Change, Timestamp};
+
+use crate::geometry::{DoorStates, FloorPlan};
+use crate::map::{Entity, MapErrors, read_file};
+use crate::semantics::{Profile, derive};
+use crate::store::{ImportReport, OpenReport, Store, StoreError};
+use crate::units::{MapId, nearest_name};
+
+/// The knowledge of one building, and what follows from it.
+#[derive(Debug)]
+pub struct Engine {
+    store: Option<Store>,
+    rules: Rules,
+    world: Option<World>,
+    relations: OnceCell<Relations>,
+    floors: OnceCell<BTreeMap<MapId, FloorPlan>>,
+    /// What opening the store found and mended.
+    pub opened: OpenReport,
+}
+
+/// What an import did.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    pub report: ImportReport,
+    /// Warnings of the map file.
+    pub warnings: MapErrors,
+}
+
+/// A change made at this moment by this user.
+#[must_use]
+pub fn change_now(user: &str, reason: &str) -> Change {
+    Change::new(user, std::time::SystemTime::now().into(), reason)
+}
+
+impl Engine {
+    /// Opens the store in a directory, or makes one there. `rules` is a directory of rule files; the texts
+    /// built in serve where it has none.
+    ///
+    /// # Errors
+    /// The store is held by another process or damaged, or the rules are faulty.
+    pub fn open(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        let rules = Rules::read(rules)?;
+        let (store, opened) = Store::open(dir)?;
+        let world = store.world()?;
+        Ok(Self {
+            store: Some(store),
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            opened,
+        })
+    }
+
+    /// Opens a store that is there already.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_existing(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        if !dir.is_dir() {
+            return Err(StoreError::Missing { dir: dir.display().to_string() }.into());
+        }
+        Self::open(dir, rules)
+    }
+
+    /// An engine without a store, on a map that stays in memory.
+    ///
+    /// # Errors
+    /// The rules are faulty.
+    pub fn in_memory(world: World, rules: Option<&Path>) -> Result<Self, Error> {
+        Ok(Self {
+            store: None,
+            rules: Rules::read(rules)?,
+            world: Some(world),
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            opened: OpenReport::default(),
+        })
+    }
+
+    /// Checks a map file and makes it the store's map, in one transaction that is on the disk when this returns.
+    ///
+    /// # Errors
+    /// All faults of the file; the store is then as it was.
+    pub fn import(&mut self, file: &Path, change: &Change) -> Result<Imported, Error> {
+        let reading = read_file(file);
+        let Some(world) = reading.world else { return Err(reading.faults.into()) };
+        let report = match &mut self.store {
+            Some(store) => {
+                let report = store.import(&world, change)?;
+                self.world = store.world()?;
+                report
+            }
+            None => {
+                self.world = Some(world);
+                ImportReport::default()
+            }
+        };
+        self.relations = OnceCell::new();
+        self.floors = OnceCell::new();
+        Ok(Imported { report, warnings: reading.faults })
+    }
+
+    /// The map.
+    ///
+    /// # Errors
+    /// [`RequestError::NoMap`].
+    pub fn world(&self) -> Result<&World, Error> {
+        self.world.as_ref().ok_or_else(|| {
+            let store =
+                self.store.as_ref().map(|s| s.dir().display().to_string()).unwrap_or_default();
+            RequestError::NoMap { store }.into()
+        })
+    }
+
+    #[must_use]
+    pub fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
+    /// The relations that hold on the map, derived when first asked for.
+    ///
+    /// # Errors
+    /// There is no map, or a rule of the user's own outgrows the memory.
+    pub fn relations(&self) -> Result<&Relations, Error> {
+        let world = self.world()?;
+        if let Some(relations) = self.relations.get() {
+            return Ok(relations);
+        }
+        let relations = derive(world, &self.rules.relations, Profile::Surveyed)?;
+        Ok(self.relations.get_or_init(|| relations))
+    }
+
+    /// Facts with their relations: those of one relation, those about one thing, or both.
+    ///
+    /// # Errors
+    /// The relation or the thing is unknown.
+    pub fn facts(
+        &self,
+        name: Option<&str>,
+        of: Option<&str>,
+    ) -> Result<Vec<(String, Vec<Value>)>, Error> {
+        let relations = self.relations()?;
+        let of = of
+            .map(|of| Ok::<_, Error>((of, self.world()?.name(self.find(of)?).to_owned())))
+            .transpose()?;
+        let Some(name) = name else {
+            return Ok(of.map(|(_, of)| relations.of(&of)).unwrap_or_default());
+        };
+        let tuples = relations.tuples(name)?;
+        let wanted = |t: &Vec<Value>| {
+            of.as_ref().is_none_or(|(_, of)| {
+                t.iter().any(|v| matches!(v, Value::Symbol(s) if **s == **of))
+            })
+        };
+        let label = relations.display_name(name);
+        Ok(tuples.into_iter().filter(wanted).map(|t| (label.clone(), t)).collect())
+    }
+
+    /// The free floor of every map, computed when first asked for.
+    ///
+    /// # Errors
+    /// [`RequestError::NoMap`].
+    pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+        let world = self.world()?;
+        Ok(self.floors.get_or_init(|| {
+            let plan = |&map: &MapId| {
+                (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()))
+            };
+            world.maps.keys().map(plan).collect()
+        }))
+    }
+
+    pub(crate) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {
+        Ok(self.floors()?.get(&map).expect("every map of the world has a floor"))
+    }
+
+    /// The map of this name; without a name, the only one.
+    ///
+    /// # Errors
+    /// There is none of this name, or a name is needed.
+    pub fn map_named(&self, name: Option<&str>) -> Result<MapId, Error> {
+        let world = self.world()?;
+        let Some(name) = name else {
+            let mut maps = world.maps.values();
+            return match (maps.next(), maps.next()) {
+                (Some(only), None) => Ok(only.id),
+                _ => {
+                    let candidates: Vec<&str> =
+                        world.maps.values().map(|m| m.name.as_str()).collect();
+                    Err(RequestError::WhichMap { candidates: candidates.join(", ") }.into())
+                }
+            };
+        };
+        let by_key = world.maps.values().find(|m| m.key == name).map(|m| m.id);
+        let by_name = || {
+            world
+                .find(name)
+                .into_iter()
+                .find_map(|e| if let Entity::Map(id) = e { Some(id) } else { None })
+        };
+        by_key.or_else(by_name).ok_or_else(|| {
+            let names = world.maps.values().flat_map(|m| [m.name.as_str(), m.key.as_str()]);
+            unknown_name(name, names).into()
+        })
+    }
+
+    /// What a name means, in any of its forms.
+    ///
+    /// # Errors
+    /// Nothing bears the name, or several things do.
+    pub fn find(&self, name: &str) -> Result<Entity, Error> {
+        let world = self.world()?;
+        match world.find(name)[..] {
+            [only] => Ok(only),
+            [] => Err(unknown_name(name, world.names().map(|(_, n)| n)).into()),
+            ref several => {
+                let candidates: Vec<&str> = several.iter().map(|&e| world.name(e)).collect();
+                Err(RequestError::AmbiguousName {
+                    name: name.to_owned(),
+                    candidates: candidates.join(", "),
+                }
+                .into())
+            }
+        }
+    }
+}
+
+/// Reads a map file, without touching any store. With the world come the warnings.
+///
+/// # Errors
+/// All faults of the file.
+pub fn check_map(file: &Path) -> Result<(World, MapErrors), MapErrors> {
+    let reading = read_file(file);
+    match reading.world {
+        Some(world) => Ok((world, reading.faults)),
+        None => Err(reading.faults),
+    }
+}
+
+fn unknown_name<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> RequestError {
+    let help = nearest_name(name, names).map(|near| format!("может быть, «{near}»?"));
+    RequestError::UnknownName { name: name.to_owned(), help }
+}

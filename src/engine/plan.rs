@@ -1,0 +1,70 @@
+//! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
+
+use crate::graphplan::{Limits, Outcome};
+use crate::robot::{Solved, facts_of_map, solve, state};
+use crate::strips::{RuleFault, Scenario};
+
+use super::{Engine, Error};
+
+/// One action of a plan.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PlanStep {
+    pub action: String,
+    pub args: Vec<String>,
+}
+
+/// A scenario's plan, or why it has none.
+#[derive(Debug, Clone)]
+pub struct PlanAnswer {
+    pub solved: Solved,
+    /// Harmless faults of the rule files.
+    pub warnings: Vec<RuleFault>,
+}
+
+impl PlanAnswer {
+    /// The parallel steps, empty unless there is a plan.
+    #[must_use]
+    pub fn steps(&self) -> Vec<Vec<PlanStep>> {
+        steps(&self.solved)
+    }
+}
+
+/// The parallel steps of a plan, empty unless there is one.
+#[must_use]
+pub fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
+    let Outcome::Plan(plan) = &solved.outcome else { return Vec::new() };
+    let step = |&id| {
+        let operator = solved.task.operator(id);
+        PlanStep {
+            action: operator.name.to_string(),
+            args: operator.args.iter().map(ToString::to_string).collect(),
+        }
+    };
+    plan.steps.iter().map(|parallel| parallel.iter().map(step).collect()).collect()
+}
+
+impl Engine {
+    /// Plans a scenario with the facts of the map that the engine holds, if it holds one.
+    ///
+    /// # Errors
+    /// All faults of the scenario.
+    pub fn plan(&self, scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
+        let mut problem = scenario.problem;
+        if let Ok(world) = self.world() {
+            for fact in facts_of_map(world, self.relations()?) {
+                state(&mut problem, &fact);
+            }
+        }
+        let solved = solve(&scenario.domain, &problem, limits)?;
+        Ok(PlanAnswer { solved, warnings: scenario.warnings })
+    }
+}
+
+/// Plans a scenario that needs no map.
+///
+/// # Errors
+/// All faults of the scenario.
+pub fn plan_alone(scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
+    let solved = solve(&scenario.domain, &scenario.problem, limits)?;
+    Ok(PlanAnswer { solved, warnings: scenario.warnings })
+}

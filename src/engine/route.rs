@@ -1,0 +1,135 @@
+//! Ways over the floor, and where things are to be stood at.
+
+use crate::geometry::{FloorPlan, Method, NoRoute, Route, Target};
+use crate::map::{Entity, World};
+use crate::units::{AreaId, Deg, MapId, Point, Pose};
+
+use super::{Engine, Error, RequestError};
+
+/// A way from one place to another, or why there is none.
+#[derive(Debug, Clone)]
+pub struct RouteAnswer {
+    pub map: MapId,
+    pub from: String,
+    pub to: String,
+    pub route: Result<Route, NoRoute>,
+    /// Names of the Areas passed, in order, and of the doors between them.
+    pub stages: Vec<Stage>,
+}
+
+/// A part of a way within one Area.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Stage {
+    pub area: AreaId,
+    /// Index in [`FloorPlan::doorways`] of the doorway by which the Area is left.
+    pub leaves_by: Option<usize>,
+}
+
+/// What a name of a place comes to on a floor.
+#[derive(Debug, Clone, Copy)]
+pub struct Located {
+    pub map: MapId,
+    /// A point at it, where a way may begin.
+    pub at: Point,
+    pub target: Target,
+}
+
+impl Engine {
+    /// A way between two places given by name or as `X,Y`.
+    ///
+    /// # Errors
+    /// A name that means nothing, or places on different maps. No way at all is an answer, not an error.
+    pub fn route(&self, from: &str, to: &str, method: Method) -> Result<RouteAnswer, Error> {
+        let world = self.world()?;
+        let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
+        if start.map != goal.map {
+            return Err(RequestError::OtherMap { from: from.to_owned(), to: to.to_owned() }.into());
+        }
+        let floor = self.floor(start.map)?;
+        let route = floor.route(world, start.at, goal.target, method);
+        let stages = route.as_ref().map(|r| stages(floor, r)).unwrap_or_default();
+        Ok(RouteAnswer { map: start.map, from: from.to_owned(), to: to.to_owned(), route, stages })
+    }
+
+    /// Where a named place is, or a point written as `X,Y`.
+    ///
+    /// # Errors
+    /// A name that means nothing, or something where one cannot stand.
+    pub fn locate_name(&self, name: &str) -> Result<Located, Error> {
+        let world = self.world()?;
+        if let Ok(pose) = parse_pose(name) {
+            let map = self.map_named(None)?;
+            return Ok(Located { map, at: pose.at, target: Target::Point(pose.at) });
+        }
+        let nowhere = || Error::from(RequestError::NotAPlace { name: name.to_owned() });
+        match self.find(name)? {
+            Entity::Map(_) => Err(nowhere()),
+            Entity::Place(id) => {
+                let place = &world.places[&id];
+                let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;
+                Ok(Located { map, at: frame.apply(place.at), target: Target::Place(id) })
+            }
+            Entity::Area(id) => {
+                let (map, at) = self.middle_of(world, id).ok_or_else(nowhere)?;
+                Ok(Located { map, at, target: Target::Area(id) })
+            }
+            Entity::Replica(id) => {
+                let (map, _) = world.placement(world.replicas[&id].area).ok_or_else(nowhere)?;
+                let floor = self.floor(map)?;
+                let bounds = floor.scene().replicas.get(&id).ok_or_else(nowhere)?.bounds;
+                let middle = nalgebra::center(&bounds.min, &bounds.max);
+                let target = Target::Replica(id);
+                // In front of the thing, where there is a way to that; else beside it.
+                let standing = floor.route(world, middle, target, Method::Shortest).ok();
+                let at = standing.and_then(|r| r.points.last().copied()).unwrap_or(middle);
+                Ok(Located { map, at, target })
+            }
+            Entity::Door(door) => {
+                let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
+                let (map, _) = world.placement(area).ok_or_else(nowhere)?;
+                let at = self.floor(map)?.stand_before(world, door, area).ok_or_else(nowhere)?.at;
+                Ok(Located { map, at, target: Target::Door { door, area } })
+            }
+        }
+    }
+
+    fn middle_of(&self, world: &World, area: AreaId) -> Option<(MapId, Point)> {
+        let (map, _) = world.placement(area)?;
+        let placed = self.floor(map).ok()?.scene().areas.get(&area)?;
+        Some((map, placed.prisms.first()?.polygon.centroid()))
+    }
+}
+
+/// The Areas of a way and the doorways between them.
+fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
+    let mut areas: Vec<AreaId> = route.chain.iter().map(|(area, _)| *area).collect();
+    areas.dedup();
+    let leaves_by = route.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));
+    debug_assert!(route.doorways.iter().all(|&d| d < floor.doorways().len()));
+    areas.into_iter().zip(leaves_by).map(|(area, leaves_by)| Stage { area, leaves_by }).collect()
+}
+
+/// Reads `X,Y` or `X,Y,HEADING` in cm and degrees.
+///
+/// # Errors
+/// [`RequestError::BadPose`].
+pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
+    let bad =
+        |reason: &str| RequestError::BadPose { text: text.to_owned(), reason: reason.to_owned() };
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect::<Result<_, _>>()
+        .map_err(|_| bad("нужны числа через запятую"))?;
+    let (x, y, heading) = match numbers[..] {
+        [x, y] => (x, y, 0.0),
+        [x, y, heading] => (x, y, heading),
+        _ => return Err(bad("нужны два или три числа")),
+    };
+    let length =
+        |v| crate::units::Cm::new(v).map(crate::units::Cm::get).map_err(|e| bad(&e.to_string()));
+    Ok(Pose {
+        at: Point::new(length(x)?, length(y)?),
+        heading: Deg::new(heading).map_err(|e| bad(&e.to_string()))?,
+    })
+}

@@ -1,0 +1,279 @@
+//! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
+
+use crate::graphplan::Limits;
+use crate::language::command::{Command, Listener, Relation};
+use crate::language::report::Position;
+use crate::map::{Entity, World};
+use crate::robot::{
+    Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station,
+    Surprise, starting_pose,
+};
+use crate::semantics::{Profile, derive, predicate};
+use crate::units::{MapId, Point, Pose};
+
+use super::lexicon::form_index;
+use super::position::describe;
+use super::{Engine, Error, RequestError};
+
+/// What a person who gives a task is called in plans.
+pub const OPERATOR: &str = "Оператор";
+
+/// What happens on the way, as it happens.
+#[derive(Debug)]
+pub enum Progress<'a> {
+    /// A plan was made, or found to be impossible.
+    Planned(&'a Planned),
+    Started {
+        number: usize,
+        of: usize,
+        directive: &'a Directive,
+    },
+    Finished(&'a Report),
+    /// The world was not as believed; a new plan follows.
+    Surprised {
+        directive: &'a Directive,
+        surprise: &'a Surprise,
+    },
+}
+
+/// Where the robot was when a directive was done.
+#[derive(Debug, Clone)]
+pub struct Report {
+    pub number: usize,
+    pub directive: Directive,
+    pub pose: Pose,
+    /// `None` when the robot was in no Area.
+    pub position: Option<Position>,
+    /// The way driven for it: points, cm.
+    pub points: Vec<Point>,
+    pub length: f64,
+    pub seconds: f64,
+}
+
+/// How a task ended.
+#[derive(Debug)]
+pub enum TaskEnding {
+    Done,
+    AlreadyTrue,
+    NoPlan(Box<Planned>),
+    Stuck(Surprise),
+}
+
+/// A task carried out, or shown impossible.
+#[derive(Debug)]
+pub struct TaskAnswer {
+    pub goal: Vec<GoalFact>,
+    pub map: MapId,
+    pub start: Pose,
+    pub end: Pose,
+    pub reports: Vec<Report>,
+    /// How often a new plan was needed.
+    pub replans: usize,
+    pub seconds: f64,
+    pub ending: TaskEnding,
+}
+
+impl Engine {
+    /// Carries out a command given in words, in the simulator, in a world that is as the Map says.
+    ///
+    /// # Errors
+    /// The command is not understood, or the Map lacks what it needs. That there is no plan is an answer.
+    pub fn perform(
+        &self,
+        command: &str,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        self.perform_in(command, self.world()?.clone(), tell)
+    }
+
+    /// Carries out a command in a world that may differ from the Map.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`].
+    pub fn perform_in(
+        &self,
+        command: &str,
+        truth: World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        let world = self.world()?;
+        let commands = self.understand(command)?;
+        let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
+        let floor = self.floor(map)?.clone();
+        let mut belief =
+            Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
+        let Station::Place(here) = belief.station.clone() else {
+            return Err(RequestError::RobotNowhere.into());
+        };
+        belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
+        let mut goal = Vec::new();
+        for command in &commands {
+            goal.extend(self.goal_of(command, &here)?);
+        }
+        let mut drive = Simulator::new(truth, map, start);
+        let mut mission =
+            Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
+        let mut reports = Vec::new();
+        let mut plans = 0;
+        let ending = mission.run(&goal, &mut drive, &mut |event| match event {
+            Event::Planned(planned) => {
+                plans += 1;
+                tell(&Progress::Planned(planned));
+            }
+            Event::Started { number, of, directive } => {
+                tell(&Progress::Started { number: *number, of: *of, directive });
+            }
+            Event::Finished { number, directive, belief, leg } => {
+                let report = self.report(*number, directive, belief, leg);
+                tell(&Progress::Finished(&report));
+                reports.push(report);
+            }
+            Event::Surprised { directive, surprise, .. } => {
+                tell(&Progress::Surprised { directive, surprise });
+            }
+        })?;
+        let ending = match ending {
+            Ending::Done => TaskEnding::Done,
+            Ending::AlreadyTrue => TaskEnding::AlreadyTrue,
+            Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
+            Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
+        };
+        let trace = drive.trace();
+        let last = trace.last().expect("a run begins with a moment");
+        Ok(TaskAnswer {
+            goal,
+            map,
+            start,
+            end: last.pose,
+            reports,
+            replans: plans - 1,
+            seconds: last.time,
+            ending,
+        })
+    }
+
+    /// The commands of a sentence, with everything that it names found on the map.
+    ///
+    /// # Errors
+    /// What was not understood, which candidates there are, or what the map lacks.
+    pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
+        let world = self.world()?;
+        let index = form_index(world);
+        Ok(Listener::new(&index).hear(sentence)?)
+    }
+
+    /// What is to hold when a command is done. `here` is the place where it was given.
+    fn goal_of(&self, command: &Command<Entity>, here: &str) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let name = |e: Entity| world.name(e).to_owned();
+        let fact =
+            |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
+        Ok(match command {
+            Command::GoTo { to, .. } => vec![self.being_at(to.anchor)?],
+            Command::ComeHere => vec![fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()])],
+            Command::Bring { what, to: None } => {
+                vec![fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()])]
+            }
+            Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
+                match (to.relation, to.anchor) {
+                    (Relation::On | Relation::In, Entity::Replica(_)) => {
+                        vec![fact(predicate::THING_ON, vec![name(what.id), name(to.anchor)])]
+                    }
+                    (_, Entity::Place(_)) => {
+                        vec![fact(predicate::THING_AT_PLACE, vec![name(what.id), name(to.anchor)])]
+                    }
+                    _ => return Err(RequestError::NoGoal { command: name(to.anchor) }.into()),
+                }
+            }
+            Command::Take { what } => vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])],
+            Command::Find(what) => vec![self.being_near(what.id)?],
+            Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
+            Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
+            Command::Lock(door) => self.door_facts(predicate::DOOR_LOCKED, door.id)?,
+            Command::Unlock(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
+            Command::SwitchOn(_)
+            | Command::SwitchOff(_)
+            | Command::Tidy(_)
+            | Command::CallOperator
+            | Command::Stop
+            | Command::Report => {
+                return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
+            }
+        })
+    }
+
+    fn being_at(&self, entity: Entity) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let predicate = match entity {
+            Entity::Area(_) => predicate::ROBOT_IN,
+            Entity::Door(_) => predicate::ROBOT_AT_DOOR,
+            Entity::Place(_) => predicate::ROBOT_AT_PLACE,
+            Entity::Replica(_) => return self.being_near(entity),
+            Entity::Map(_) => {
+                return Err(RequestError::NotAPlace { name: world.name(entity).to_owned() }.into());
+            }
+        };
+        Ok(GoalFact { predicate: predicate.to_owned(), args: vec![world.name(entity).to_owned()] })
+    }
+
+    /// At the place from which a thing is reached: the one that serves it or what it stands on.
+    fn being_near(&self, entity: Entity) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let relations = self.relations()?;
+        let name = world.name(entity);
+        let facts = crate::robot::facts_of_map(world, relations);
+        let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
+            facts
+                .iter()
+                .find(|f| {
+                    f.predicate.trim_end_matches('_') == predicate && f.arguments[at].name == wanted
+                })
+                .map(|f| f.arguments[give].name.clone())
+        };
+        let support = about(predicate::THING_ON, 0, name, 1);
+        let place = about(predicate::THING_AT_PLACE, 0, name, 1)
+            .or_else(|| about(predicate::PLACE_BY, 1, support.as_deref().unwrap_or(name), 0))
+            .ok_or_else(|| RequestError::NotAPlace { name: name.to_owned() })?;
+        Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
+    }
+
+    /// A state of a door, said for every pair of Areas that it joins.
+    fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let Entity::Door(door) = entity else {
+            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
+        };
+        let joins = self.relations()?.joins();
+        let facts: Vec<GoalFact> = joins
+            .iter()
+            .filter(|j| j.door == Some(door))
+            .map(|j| GoalFact {
+                predicate: predicate.to_owned(),
+                args: [Entity::Door(door), Entity::Area(j.from), Entity::Area(j.to)]
+                    .map(|e| world.name(e).to_owned())
+                    .into(),
+            })
+            .collect();
+        if facts.is_empty() {
+            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
+        }
+        Ok(facts)
+    }
+
+    fn report(&self, number: usize, directive: &Directive, belief: &Belief, leg: &Leg) -> Report {
+        let relations = derive(&belief.world, &self.rules.relations, Profile::Surveyed).ok();
+        let position = relations
+            .and_then(|r| describe(&belief.world, &r, belief.map, belief.pose, None))
+            .map(|w| w.position);
+        let points = leg.route.as_ref().map(|r| r.points.clone()).unwrap_or_default();
+        Report {
+            number,
+            directive: directive.clone(),
+            pose: belief.pose,
+            position,
+            length: leg.route.as_ref().map_or(0.0, |r| r.length),
+            points,
+            seconds: leg.seconds,
+        }
+    }
+}

@@ -1,0 +1,404 @@
+//! Items to a [`Program`]: names resolved, kinds inferred, groundedness and strata checked. Reports everything it finds.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
+
+use petgraph::algo::kosaraju_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use super::clause;
+use super::fault::RuleError;
+use super::program::{
+    Clause, Column, Fact, Found, Kind, Literal, Names, Program, RelationId, RelationInfo, Stratum,
+};
+use super::syntax::{Body, Expr, Item, Name, Role, Rule, Span};
+use super::word::Words;
+use crate::units::{Source, nearest_name};
+
+/// Tuples are kept in rows of at most so many words.
+pub(super) const MAX_COLUMNS: usize = 32;
+
+/// A type: its kind and the types that it is part of.
+#[derive(Debug, Clone)]
+pub(super) struct Type {
+    pub(super) name: String,
+    pub(super) kind: Kind,
+    above: BTreeSet<usize>,
+}
+
+/// What the declarations say.
+#[derive(Debug, Default)]
+pub(super) struct Declared {
+    pub(super) relations: Vec<RelationInfo>,
+    /// For each relation the types of its columns, by position in `types`.
+    pub(super) columns: Vec<Vec<usize>>,
+    pub(super) places: Vec<Span>,
+    pub(super) names: Names,
+    pub(super) types: Vec<Type>,
+    type_names: HashMap<String, usize>,
+}
+
+impl Declared {
+    /// Whether every value of type `a` is a value of type `b`.
+    pub(super) fn is_subtype(&self, a: usize, b: usize) -> bool {
+        a == b || self.types[a].above.contains(&b)
+    }
+
+    pub(super) fn relation(&self, name: &Name, faults: &mut Found) -> Option<RelationId> {
+        let found = self.names.find(&name.text);
+        if found.is_none() {
+            let nearest = nearest_name(&name.text, self.names.all()).map(str::to_owned);
+            let (at, name) = (name.at, name.text.clone());
+            faults.push(at, RuleError::UnknownRelation { name, nearest, at: at.into() });
+        }
+        found
+    }
+}
+
+pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) -> Program {
+    let mut declared = declare(&items, faults);
+    direct(&items, &mut declared, faults);
+    let mut words = Words::default();
+    let (mut clauses, mut facts) = (Vec::new(), Vec::new());
+    for item in items {
+        if let Item::Rule(rule) = item {
+            single_variables(&rule, faults);
+            for clause in clause::clauses(&rule, &declared, &mut words, faults) {
+                match constant_words(&clause) {
+                    Some(words) => facts.push(Fact { relation: clause.head, words, at: clause.at }),
+                    None => clauses.push(clause),
+                }
+            }
+        }
+    }
+    let strata = strata(&declared, &clauses, faults);
+    unused(&declared, &clauses, &facts, faults);
+    Program {
+        sources: sources.into(),
+        relations: Arc::new(declared.relations),
+        names: Arc::new(declared.names),
+        clauses: clauses.into(),
+        facts: facts.into(),
+        strata: strata.into(),
+        words,
+        warnings: [].into(),
+    }
+}
+
+/// A fact's words; none for a proper rule.
+fn constant_words(clause: &Clause) -> Option<Box<[u32]>> {
+    use super::program::Expr;
+    let constants = clause.args.iter().map(|arg| match arg {
+        Expr::Constant(word) => Some(*word),
+        _ => None,
+    });
+    clause.body.is_empty().then(|| constants.collect()).flatten()
+}
+
+fn declare(items: &[Item], faults: &mut Found) -> Declared {
+    let mut declared = Declared::default();
+    for (name, kind) in
+        [("symbol", Kind::Symbol), ("number", Kind::Number), ("unsigned", Kind::Unsigned)]
+    {
+        declared.type_names.insert(name.into(), declared.types.len());
+        declared.types.push(Type { name: name.into(), kind, above: BTreeSet::new() });
+    }
+    for item in items {
+        if let Item::Type { name, bases } = item {
+            declare_type(name, bases, &mut declared, faults);
+        }
+    }
+    for item in items {
+        if let Item::Relation { names, columns, second, roles } = item {
+            for name in names {
+                declare_relation(name, columns, second.as_ref(), roles, &mut declared, faults);
+            }
+        }
+    }
+    declared
+}
+
+/// `<:` puts the new type below its base; `=` with several bases puts it above all of them.
+fn declare_type(name: &Name, bases: &[Name], declared: &mut Declared, faults: &mut Found) {
+    let known: Vec<usize> =
+        bases.iter().filter_map(|base| type_named(base, declared, faults)).collect();
+    let Some(first) = known.first().copied() else { return };
+    let id = declared.types.len();
+    if declared.type_names.insert(name.text.clone(), id).is_some() {
+        let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+        faults.push(name.at, fault);
+        return;
+    }
+    let kind = declared.types[first].kind;
+    let mut above = BTreeSet::new();
+    if bases.len() == 1 {
+        above.extend(declared.types[first].above.iter().copied());
+        above.insert(first);
+    } else {
+        // The primitive type is above a union as it is above the union's parts.
+        above.insert(primitive(kind));
+    }
+    declared.types.push(Type { name: name.text.clone(), kind, above });
+    if bases.len() > 1 {
+        for (part, base) in known.iter().zip(bases) {
+            if declared.types[*part].kind != kind {
+                let expected = kind_name(kind).into();
+                let found = kind_name(declared.types[*part].kind).into();
+                let fault = RuleError::Types {
+                    what: base.text.clone(),
+                    expected,
+                    found,
+                    at: base.at.into(),
+                };
+                faults.push(base.at, fault);
+            }
+        }
+        for other in 0..id {
+            if known.iter().any(|part| declared.is_subtype(other, *part))
+                && *part_kind(declared, other) == kind
+            {
+                declared.types[other].above.insert(id);
+            }
+        }
+    }
+}
+
+fn part_kind(declared: &Declared, id: usize) -> &Kind {
+    &declared.types[id].kind
+}
+
+fn primitive(kind: Kind) -> usize {
+    match kind {
+        Kind::Symbol => 0,
+        Kind::Number => 1,
+        Kind::Unsigned => 2,
+    }
+}
+
+pub(super) fn kind_name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Symbol => "symbol",
+        Kind::Number => "number",
+        Kind::Unsigned => "unsigned",
+    }
+}
+
+fn type_named(name: &Name, declared: &Declared, faults: &mut Found) -> Option<usize> {
+    let found = declared.type_names.get(&name.text).copied();
+    if found.is_none() && name.text == "float" {
+        let help = "пишите целые в меньших единицах, например десятые доли миллиметра";
+        let fault =
+            RuleError::Unsupported { what: "тип float".into(), help, at: name.at.into() };
+        faults.push(name.at, fault);
+    } else if found.is_none() {
+        let nearest =
+            nearest_name(&name.text, declared.types.iter().map(|known| known.name.as_str()));
+        let nearest = nearest.map(str::to_owned);
+        let fault = RuleError::UnknownType { name: name.text.clone(), nearest, at: name.at.into() };
+        faults.push(name.at, fault);
+    }
+    found
+}
+
+fn declare_relation(
+    name: &Name,
+    columns: &[(Name, Name)],
+    second: Option<&Name>,
+    roles: &[Role],
+    declared: &mut Declared,
+    faults: &mut Found,
+) {
+    if columns.len() > MAX_COLUMNS {
+        let (what, limit) = ("столбцов отношения", MAX_COLUMNS);
+        faults.push(name.at, RuleError::TooLarge { what, limit, at: name.at.into() });
+        return;
+    }
+    let id = RelationId(declared.relations.len() as u32);
+    for name in std::iter::once(name).chain(second) {
+        if !declared.names.insert(&name.text, id) {
+            let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
+            faults.push(name.at, fault);
+        }
+    }
+    // A column of unknown type is taken for a symbol, so that the relation's other uses are still checked.
+    let types: Vec<usize> =
+        columns.iter().map(|(_, of)| type_named(of, declared, faults).unwrap_or(0)).collect();
+    let column = |((name, _), id): (&(Name, Name), &usize)| {
+        let Type { name: type_name, kind, .. } = &declared.types[*id];
+        Column { name: name.text.clone(), kind: *kind, type_name: type_name.clone() }
+    };
+    let mut info = RelationInfo {
+        name: name.text.clone(),
+        second_name: second.map(|name| name.text.clone()),
+        columns: columns.iter().zip(&types).map(column).collect(),
+        ..RelationInfo::default()
+    };
+    roles.iter().for_each(|role| give_role(*role, &[], &mut info));
+    declared.relations.push(info);
+    declared.columns.push(types);
+    declared.places.push(name.at);
+}
+
+fn direct(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    for item in items {
+        if let Item::Directive { role, relations, parameters } = item {
+            for name in relations {
+                if let Some(id) = declared.relation(name, faults) {
+                    give_role(*role, parameters, &mut declared.relations[id.index()]);
+                }
+            }
+        }
+    }
+}
+
+fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInfo) {
+    match role {
+        Role::Input => info.input = Some(parameters.to_vec()),
+        Role::Output => info.output = Some(parameters.to_vec()),
+        Role::PrintSize => info.print_size = true,
+        Role::LimitSize => {
+            let limit = parameters.iter().find(|(name, _)| name == "n");
+            info.limit_size = limit.and_then(|(_, n)| n.parse().ok()).or(info.limit_size);
+        }
+    }
+}
+
+/// Relations in groups that depend on each other, each group after those it reads.
+fn strata(declared: &Declared, clauses: &[Clause], faults: &mut Found) -> Vec<Stratum> {
+    let mut graph: DiGraph<(), ()> = DiGraph::new();
+    let nodes: Vec<NodeIndex> = declared.relations.iter().map(|_| graph.add_node(())).collect();
+    let mut edges: BTreeMap<(usize, usize), Option<Span>> = BTreeMap::new();
+    for clause in clauses {
+        reads(&clause.body, false, &mut |relation, not, at| {
+            let edge = edges.entry((clause.head.index(), relation.index())).or_insert(None);
+            *edge = edge.or(not.then_some(at));
+        });
+    }
+    for &(head, read) in edges.keys() {
+        graph.add_edge(nodes[head], nodes[read], ());
+    }
+    let groups = kosaraju_scc(&graph);
+    let mut group_of = vec![0; nodes.len()];
+    for (group, members) in groups.iter().enumerate() {
+        members.iter().for_each(|node| group_of[node.index()] = group);
+    }
+    for (&(head, read), not) in &edges {
+        if let Some(at) = not.filter(|_| group_of[head] == group_of[read]) {
+            let cycle = cycle_text(head, read, &edges, declared);
+            faults.push(at, RuleError::Cycle { cycle, at: at.into() });
+        }
+    }
+    let mut strata: Vec<Stratum> = Vec::with_capacity(groups.len());
+    for members in groups {
+        let mut relations: Vec<_> =
+            members.iter().map(|node| RelationId(node.index() as u32)).collect();
+        relations.sort();
+        strata.push(Stratum { relations, clauses: Vec::new() });
+    }
+    for (n, clause) in clauses.iter().enumerate() {
+        strata[group_of[clause.head.index()]].clauses.push(n);
+    }
+    strata
+}
+
+/// Every relation that a body reads, whether under a negation or aggregate, and where.
+pub(super) fn reads(body: &[Literal], not: bool, f: &mut impl FnMut(RelationId, bool, Span)) {
+    for literal in body {
+        match literal {
+            Literal::Atom(atom) => f(atom.relation, not, atom.at),
+            Literal::Not(atom) => f(atom.relation, true, atom.at),
+            Literal::Compare(_) => {}
+            Literal::Aggregate(aggregate) => reads(&aggregate.body, true, f),
+        }
+    }
+}
+
+/// `a → не b → c → a`: the shortest way back from `read` to `head`.
+fn cycle_text(
+    head: usize,
+    read: usize,
+    edges: &BTreeMap<(usize, usize), Option<Span>>,
+    declared: &Declared,
+) -> String {
+    let mut came_from = HashMap::from([(read, read)]);
+    let mut queue = std::collections::VecDeque::from([read]);
+    while let Some(at) = queue.pop_front() {
+        for (&(_, next), _) in edges.range((at, 0)..=(at, usize::MAX)) {
+            came_from.entry(next).or_insert_with(|| {
+                queue.push_back(next);
+                at
+            });
+        }
+    }
+    let mut way = vec![head];
+    while *way.last().expect("the way starts with its end") != read {
+        way.push(came_from[way.last().expect("the way starts with its end")]);
+    }
+    let mut text = declared.relations[head].name.clone();
+    let mut from = head;
+    for &to in way.iter().rev() {
+        let not = if edges.get(&(from, to)).is_some_and(Option::is_some) { "не " } else { "" };
+        text += &format!(" → {not}{}", declared.relations[to].name);
+        from = to;
+    }
+    text
+}
+
+fn unused(declared: &Declared, clauses: &[Clause], facts: &[Fact], faults: &mut Found) {
+    let mut read = vec![false; declared.relations.len()];
+    let mut filled = vec![false; declared.relations.len()];
+    for clause in clauses {
+        filled[clause.head.index()] = true;
+        reads(&clause.body, false, &mut |relation, _, _| read[relation.index()] = true);
+    }
+    facts.iter().for_each(|fact| filled[fact.relation.index()] = true);
+    for (n, info) in declared.relations.iter().enumerate() {
+        let (name, at) = (info.name.clone(), declared.places[n]);
+        let is_seen = info.output.is_some() || info.print_size;
+        if read[n] && !filled[n] && info.input.is_none() {
+            faults.push(at, RuleError::NeverDerived { name, at: at.into() });
+        } else if !read[n] && !is_seen {
+            faults.push(at, RuleError::NeverUsed { name, at: at.into() });
+        }
+    }
+}
+
+fn single_variables(rule: &Rule, faults: &mut Found) {
+    let mut seen: BTreeMap<&str, (Span, usize)> = BTreeMap::new();
+    for head in &rule.heads {
+        head.args.iter().for_each(|arg| count_in_expr(arg, &mut seen));
+    }
+    count_in_body(&rule.body, &mut seen);
+    for (name, (at, count)) in seen {
+        // A variable of a bodiless rule is reported as ungrounded.
+        if count == 1 && !name.starts_with('_') && rule.body != Body::All(Vec::new()) {
+            faults.push(at, RuleError::SingleVariable { variable: name.into(), at: at.into() });
+        }
+    }
+}
+
+fn count_in_body<'a>(body: &'a Body, seen: &mut BTreeMap<&'a str, (Span, usize)>) {
+    match body {
+        Body::All(parts) | Body::Any(parts) => {
+            parts.iter().for_each(|part| count_in_body(part, seen))
+        }
+        Body::Not(part) => count_in_body(part, seen),
+        Body::Atom(atom) => atom.args.iter().for_each(|arg| count_in_expr(arg, seen)),
+        Body::Compare { left, right, .. } => {
+            count_in_expr(left, seen);
+            count_in_expr(right, seen);
+        }
+    }
+}
+
+fn count_in_expr<'a>(expr: &'a Expr, seen: &mut BTreeMap<&'a str, (Span, usize)>) {
+    match expr {
+        Expr::Variable(name) => seen.entry(&name.text).or_insert((name.at, 0)).1 += 1,
+        Expr::Call { args, .. } => args.iter().for_each(|arg| count_in_expr(arg, seen)),
+        Expr::Aggregate { value, body, .. } => {
+            value.iter().for_each(|value| count_in_expr(value, seen));
+            count_in_body(body, seen);
+        }
+        Expr::Any(_) | Expr::Number(..) | Expr::Text(..) => {}
+    }
+}

@@ -1,0 +1,216 @@
+//! The input facts of a program: tuples by relation, inserted and removed one by one.
+
+use std::sync::Arc;
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use super::program::{Kind, Names, Program, RelationId, RelationInfo};
+use super::rows::{SharedRows, Table, table};
+use super::word::{NO_WORD, Value, Word, Words};
+use crate::units::nearest_name;
+
+/// A tuple or a relation that does not fit the program.
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+pub enum FactError {
+    /// No declaration has this name.
+    #[error("неизвестное отношение «{name}»")]
+    #[diagnostic(code(facts::unknown_relation), help("{}", nearest.as_ref().map_or_else(
+        || "объявите его в файле правил: .decl".to_owned(), |name| format!("может быть, «{name}»?"))))]
+    UnknownRelation { name: String, nearest: Option<String> },
+    /// A tuple that is too long or too short.
+    #[error("у «{relation}» столбцов {expected}, а дано значений {found}")]
+    #[diagnostic(code(facts::arity), help("сверьтесь с объявлением «{relation}»"))]
+    Arity { relation: String, expected: usize, found: usize },
+    /// A number for a symbol or a symbol for a number.
+    #[error("«{relation}», столбец «{column}»: нужен тип {expected}, а дано «{found}»")]
+    #[diagnostic(code(facts::types), help("сверьтесь с объявлением «{relation}»"))]
+    Types { relation: String, column: String, expected: String, found: String },
+}
+
+/// A relation by its id or by one of its names.
+pub trait RelationKey: Copy {
+    #[doc(hidden)]
+    fn find(&self, schema: &Schema) -> Result<RelationId, FactError>;
+}
+
+impl RelationKey for RelationId {
+    fn find(&self, schema: &Schema) -> Result<RelationId, FactError> {
+        let known = self.index() < schema.relations.len();
+        let unknown =
+            || FactError::UnknownRelation { name: format!("№ {}", self.0), nearest: None };
+        known.then_some(*self).ok_or_else(unknown)
+    }
+}
+
+impl RelationKey for &str {
+    fn find(&self, schema: &Schema) -> Result<RelationId, FactError> {
+        schema.names.find(self).ok_or_else(|| FactError::UnknownRelation {
+            name: (*self).to_owned(),
+            nearest: nearest_name(self, schema.names.all()).map(str::to_owned),
+        })
+    }
+}
+
+/// The relations of a program, shared by its databases and results.
+#[derive(Debug, Clone)]
+pub struct Schema {
+    pub(super) relations: Arc<Vec<RelationInfo>>,
+    pub(super) names: Arc<Names>,
+}
+
+impl Schema {
+    pub(super) fn of(program: &Program) -> Self {
+        Self { relations: Arc::clone(&program.relations), names: Arc::clone(&program.names) }
+    }
+
+    pub(super) fn info(&self, relation: RelationId) -> &RelationInfo {
+        &self.relations[relation.index()]
+    }
+
+    /// The words of a tuple; [`NO_WORD`] for values that no word stands for yet, when `words` may not grow.
+    pub(super) fn encode(
+        &self,
+        relation: RelationId,
+        tuple: &[Value],
+        mut word: impl FnMut(&Value) -> Word,
+    ) -> Result<Vec<Word>, FactError> {
+        let info = self.info(relation);
+        if tuple.len() != info.columns.len() {
+            let relation = info.name.clone();
+            return Err(FactError::Arity {
+                relation,
+                expected: info.columns.len(),
+                found: tuple.len(),
+            });
+        }
+        for (value, column) in tuple.iter().zip(&info.columns) {
+            let fits = match value {
+                Value::Number(number) => {
+                    column.kind == Kind::Number || column.kind == Kind::Unsigned && *number >= 0
+                }
+                Value::Symbol(_) => column.kind == Kind::Symbol,
+            };
+            if !fits {
+                return Err(FactError::Types {
+                    relation: info.name.clone(),
+                    column: column.name.clone(),
+                    expected: column.type_name.clone(),
+                    found: value.to_string(),
+                });
+            }
+        }
+        Ok(tuple.iter().map(&mut word).collect())
+    }
+}
+
+/// The input facts of one program.
+///
+/// Relations that rules derive may have input facts too; both count.
+#[derive(Debug)]
+pub struct Database {
+    pub(super) schema: Schema,
+    pub(super) words: Words,
+    tables: Vec<Box<dyn Table>>,
+}
+
+impl Clone for Database {
+    fn clone(&self) -> Self {
+        let tables = self.tables.iter().map(|table| table.boxed_clone()).collect();
+        Self { schema: self.schema.clone(), words: self.words.clone(), tables }
+    }
+}
+
+impl Program {
+    /// An empty database for this program.
+    #[must_use]
+    pub fn database(&self) -> Database {
+        let tables = self.relations.iter().map(|info| table(info.columns.len())).collect();
+        Database { schema: Schema::of(self), words: self.words.share(), tables }
+    }
+}
+
+impl Database {
+    /// Adds a tuple; false when it was there.
+    ///
+    /// # Errors
+    /// [`FactError`] when the relation is unknown or the tuple does not fit it.
+    pub fn insert(
+        &mut self,
+        relation: impl RelationKey,
+        tuple: &[Value],
+    ) -> Result<bool, FactError> {
+        let relation = relation.find(&self.schema)?;
+        let words = &mut self.words;
+        let row = self.schema.encode(relation, tuple, |value| match value {
+            Value::Number(number) => words.number(*number),
+            Value::Symbol(text) => words.symbol(text),
+        })?;
+        words.settle();
+        Ok(self.tables[relation.index()].insert(&row))
+    }
+
+    /// Takes a tuple out; false when it was not there.
+    ///
+    /// # Errors
+    /// [`FactError`] when the relation is unknown or the tuple does not fit it.
+    pub fn remove(
+        &mut self,
+        relation: impl RelationKey,
+        tuple: &[Value],
+    ) -> Result<bool, FactError> {
+        let relation = relation.find(&self.schema)?;
+        let row = self.find_row(relation, tuple)?;
+        Ok(self.tables[relation.index()].remove(&row))
+    }
+
+    /// # Errors
+    /// [`FactError`] when the relation is unknown or the tuple does not fit it.
+    pub fn contains(&self, relation: impl RelationKey, tuple: &[Value]) -> Result<bool, FactError> {
+        let relation = relation.find(&self.schema)?;
+        let row = self.find_row(relation, tuple)?;
+        Ok(self.tables[relation.index()].contains(&row))
+    }
+
+    /// Takes all tuples of a relation out.
+    ///
+    /// # Errors
+    /// [`FactError::UnknownRelation`].
+    pub fn clear(&mut self, relation: impl RelationKey) -> Result<(), FactError> {
+        let relation = relation.find(&self.schema)?;
+        self.tables[relation.index()].clear();
+        Ok(())
+    }
+
+    /// Number of input tuples of a relation.
+    ///
+    /// # Errors
+    /// [`FactError::UnknownRelation`].
+    pub fn len(&self, relation: impl RelationKey) -> Result<usize, FactError> {
+        let relation = relation.find(&self.schema)?;
+        Ok(self.tables[relation.index()].len())
+    }
+
+    /// Whether there is no input tuple at all.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.tables.iter().all(|table| table.len() == 0)
+    }
+
+    fn find_row(&self, relation: RelationId, tuple: &[Value]) -> Result<Vec<Word>, FactError> {
+        self.schema.encode(relation, tuple, |value| find_word(&self.words, value))
+    }
+
+    pub(super) fn rows(&self, relation: RelationId) -> SharedRows {
+        self.tables[relation.index()].rows()
+    }
+}
+
+/// The word of a value, [`NO_WORD`] when the table has never seen it.
+pub(super) fn find_word(words: &Words, value: &Value) -> Word {
+    let found = match value {
+        Value::Number(number) => words.find_number(*number),
+        Value::Symbol(text) => words.find_symbol(text),
+    };
+    found.unwrap_or(NO_WORD)
+}

@@ -1,0 +1,591 @@
+//! A program over a database, stratum by stratum, to the least fixpoint; recursive strata semi-naively.
+//!
+//! Within a recursive stratum each round joins what the last round found, with datafrog's variables
+//! keeping recent rows apart from stable ones. A rule with several atoms of the stratum runs once for each:
+//! that atom over the recent rows, those before it over the stable ones, those behind it over both.
+
+use std::cell::Ref;
+use std::collections::HashMap;
+
+use datafrog::Iteration;
+use miette::Diagnostic;
+use thiserror::Error;
+
+use super::database::{Database, Schema};
+use super::derived::Derived;
+use super::index::Index;
+use super::plan::{Plan, Request, Statistics, Task, Version, plan};
+use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum, VariableId};
+use super::rows::{Growing, RowSet, SharedRows, Sink, growing, heap};
+use super::run::{Goal, Source, Step, run};
+use super::value;
+use super::word::{Word, Words};
+
+/// Why a program has no result.
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+pub enum EvaluateError {
+    /// A rule that always finds something new, or more than memory should hold.
+    #[error("отношение «{relation}» больше {limit} строк")]
+    #[diagnostic(
+        code(facts::too_many),
+        help(
+            "правило, видимо, порождает новое без конца; ограничьте числа в нём сравнением или задайте .limitsize"
+        )
+    )]
+    TooMany { relation: String, limit: usize },
+}
+
+/// A relation's rows at most, unless `.limitsize` says less.
+const MAX_ROWS: usize = 1 << 27;
+
+impl Program {
+    /// Derives everything that follows from the database.
+    ///
+    /// # Errors
+    /// [`EvaluateError::TooMany`] when a relation outgrows the limit.
+    pub fn evaluate(&self, database: &Database) -> Result<Derived, EvaluateError> {
+        let mut evaluation = Evaluation::new(self, database);
+        for stratum in self.strata.iter() {
+            evaluation.stratum(stratum)?;
+        }
+        Ok(evaluation.derived())
+    }
+}
+
+/// Finished relations, and what is known and built about them.
+pub(super) struct Finished {
+    pub(super) words: Words,
+    pub(super) rows: Vec<Option<SharedRows>>,
+    indexes: HashMap<(RelationId, Vec<Expr>), Index>,
+    distinct: std::cell::RefCell<HashMap<(RelationId, usize), f64>>,
+}
+
+impl Finished {
+    pub(super) fn new(words: Words, rows: Vec<Option<SharedRows>>) -> Self {
+        Self { words, rows, indexes: HashMap::new(), distinct: std::cell::RefCell::default() }
+    }
+
+    fn relation(&self, relation: RelationId) -> &dyn RowSet {
+        self.rows[relation.index()].as_deref().expect("strata come after those they read")
+    }
+
+    /// Builds the indexes that a plan asks for, and points the plan's scans to their columns.
+    pub(super) fn provide(&mut self, plan: &mut Plan) {
+        let mut places: Vec<Option<Vec<usize>>> = Vec::with_capacity(plan.requests.len());
+        for request in &plan.requests {
+            let Request::Index { relation, key, columns } = request else {
+                places.push(None);
+                continue;
+            };
+            let rows =
+                self.rows[relation.index()].as_deref().expect("strata come after those they read");
+            let entry = self.indexes.entry((*relation, key.clone()));
+            let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
+            let place = columns.iter().map(|column| index.column(rows, column, &mut self.words));
+            places.push(Some(place.collect()));
+        }
+        for step in &mut plan.steps {
+            let Step::Scan(scan) = step else { continue };
+            let Some(place) = &places[scan.source] else { continue };
+            scan.loads.iter_mut().for_each(|(column, _)| *column = place[*column]);
+            scan.same.iter_mut().for_each(|(column, _)| *column = place[*column]);
+            scan.filters.iter_mut().for_each(|filter| filter.column = place[filter.column]);
+        }
+    }
+
+    /// The first rows whose key columns have these words.
+    pub(super) fn find(
+        &mut self,
+        relation: RelationId,
+        key: &[Expr],
+        word: &[Word],
+        limit: usize,
+    ) -> Vec<Vec<Word>> {
+        let rows = self.rows[relation.index()].as_deref().expect("all relations are finished");
+        let is_natural = key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32));
+        if is_natural {
+            return rows.range(word).take(limit).map(|at| rows.row(at).to_vec()).collect();
+        }
+        let entry = self.indexes.entry((relation, key.to_vec()));
+        let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
+        index.range(word).take(limit).map(|at| rows.row(index.row(at)).to_vec()).collect()
+    }
+
+    /// Runs a provided plan from the given registers.
+    pub(super) fn run(
+        &mut self,
+        plan: &Plan,
+        growing: &[Vec<Ref<'_, dyn RowSet>>],
+        registers: &mut [Word],
+        goal: &mut dyn Goal,
+    ) -> bool {
+        let mut sources = Vec::with_capacity(plan.requests.len());
+        for (request, parts) in plan.requests.iter().zip(growing) {
+            sources.push(match request {
+                Request::Whole(relation) => {
+                    let rows = self.rows[relation.index()].as_deref();
+                    let rows: &dyn RowSet = rows.expect("strata come after those they read");
+                    Source::Rows(vec![rows])
+                }
+                Request::Index { relation, key, .. } => {
+                    let index = self.indexes.get(&(*relation, key.clone()));
+                    Source::Index(index.expect("a provided plan has its indexes"))
+                }
+                Request::Growing { .. } => Source::Rows(parts.iter().map(|part| &**part).collect()),
+            });
+        }
+        run(&plan.steps, &sources, registers, &mut self.words, goal)
+    }
+}
+
+impl Statistics for Finished {
+    fn size(&self, relation: RelationId) -> f64 {
+        // A relation that is still growing may become large.
+        self.rows[relation.index()].as_ref().map_or(1e6, |rows| rows.len().max(1) as f64)
+    }
+
+    fn distinct(&self, relation: RelationId, column: usize) -> f64 {
+        if self.rows[relation.index()].is_none() {
+            return 1e3;
+        }
+        let mut known = self.distinct.borrow_mut();
+        *known
+            .entry((relation, column))
+            .or_insert_with(|| distinct(self.relation(relation), column))
+    }
+}
+
+/// Different words in a column, estimated from a sample where the relation is large.
+fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
+    const SAMPLE: usize = 4096;
+    let step = rows.len().div_ceil(SAMPLE).max(1);
+    let mut words: Vec<Word> =
+        (0..rows.len()).step_by(step).map(|at| rows.row(at)[column]).collect();
+    let sampled = words.len().max(1);
+    words.sort_unstable();
+    let unique = words.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).count();
+    words.dedup();
+    // Words seen once in the sample stand for others that were not seen.
+    let unseen = unique as f64 * (rows.len() as f64 / sampled as f64 - 1.0);
+    (words.len() as f64 + unseen).max(1.0)
+}
+
+/// A program under way.
+pub(super) struct Evaluation<'a> {
+    program: &'a Program,
+    finished: Finished,
+    /// Facts of the text and the database, by relation.
+    given: Vec<SharedRows>,
+}
+
+impl<'a> Evaluation<'a> {
+    pub(super) fn new(program: &'a Program, database: &Database) -> Self {
+        let given = given(program, database);
+        let finished = Finished::new(database.words.share(), vec![None; given.len()]);
+        Self { program, finished, given }
+    }
+
+    pub(super) fn derived(self) -> Derived {
+        let rows = self.finished.rows.into_iter().zip(&self.given);
+        let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
+        let mut words = self.finished.words;
+        words.settle();
+        let (program, schema) = (self.program.clone(), Schema::of(self.program));
+        Derived { program, schema, words, rows, given: self.given }
+    }
+
+    /// Takes a stratum's relations from an earlier result.
+    pub(super) fn keep(&mut self, stratum: &Stratum, from: &Derived) {
+        for relation in &stratum.relations {
+            self.finished.rows[relation.index()] = Some(from.rows[relation.index()].clone());
+        }
+    }
+
+    /// Whether a finished relation has the rows of an earlier result.
+    pub(super) fn is_same(&self, relation: RelationId, as_in: &Derived) -> bool {
+        let (now, before) = (self.finished.relation(relation), &as_in.rows[relation.index()]);
+        now.len() == before.len() && (0..now.len()).all(|at| now.row(at) == before.row(at))
+    }
+
+    fn limit(&self, relation: RelationId) -> usize {
+        self.program.info(relation).limit_size.unwrap_or(MAX_ROWS)
+    }
+
+    fn check_size(&self, relation: RelationId, size: usize) -> Result<(), EvaluateError> {
+        if size < MAX_ROWS {
+            return Ok(());
+        }
+        let relation = self.program.info(relation).name.clone();
+        Err(EvaluateError::TooMany { relation, limit: MAX_ROWS })
+    }
+
+    pub(super) fn stratum(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
+        let program = self.program;
+        let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &program.clauses[*n]).collect();
+        let is_own = |relation: RelationId| stratum.relations.contains(&relation);
+        let is_recursive = clauses.iter().any(|clause| own_atoms(clause, &is_own).next().is_some());
+        if is_recursive { self.fixpoint(stratum, &clauses) } else { self.once(stratum, &clauses) }
+    }
+
+    /// A stratum without recursion is one relation, and one run of each of its clauses.
+    fn once(&mut self, stratum: &Stratum, clauses: &[&Clause]) -> Result<(), EvaluateError> {
+        for relation in &stratum.relations {
+            let given = &self.given[relation.index()];
+            let rows = if clauses.is_empty() {
+                SharedRows::clone(given)
+            } else {
+                let mut new = heap(self.program.info(*relation).columns.len());
+                (0..given.len()).for_each(|at| new.push(given.row(at)));
+                for clause in clauses {
+                    let limit = self.limit(*relation);
+                    let versions = vec![Version::Finished; clause.body.len()];
+                    let mut plan = self.plan(clause, &versions, None);
+                    self.finished.provide(&mut plan);
+                    self.emit(clause, &plan, &no_parts(&plan), limit, new.as_sink());
+                }
+                self.check_size(*relation, new.len())?;
+                new.sort()
+            };
+            self.finished.rows[relation.index()] = Some(rows);
+        }
+        Ok(())
+    }
+
+    fn fixpoint(&mut self, stratum: &Stratum, clauses: &[&Clause]) -> Result<(), EvaluateError> {
+        let program = self.program;
+        let (mut iteration, mut orders) = (Iteration::new(), Iteration::new());
+        let mut growing: HashMap<RelationId, Box<dyn Growing>> = HashMap::new();
+        for relation in &stratum.relations {
+            let info = program.info(*relation);
+            let variable = growing_from(
+                &mut iteration,
+                &info.name,
+                info.columns.len(),
+                &self.given[relation.index()],
+            );
+            growing.insert(*relation, variable);
+        }
+        let is_own = |relation: RelationId| stratum.relations.contains(&relation);
+        let mut rounds: Vec<(&Clause, Plan)> = Vec::new();
+        for clause in clauses {
+            let own: Vec<usize> = own_atoms(clause, &is_own).collect();
+            if own.is_empty() {
+                let versions = vec![Version::Finished; clause.body.len()];
+                let mut plan = self.plan(clause, &versions, None);
+                self.finished.provide(&mut plan);
+                let limit = self.limit(clause.head);
+                self.emit(
+                    clause,
+                    &plan,
+                    &no_parts(&plan),
+                    limit,
+                    &mut *growing[&clause.head].sink(),
+                );
+            }
+            for recent in &own {
+                let mut versions = vec![Version::Finished; clause.body.len()];
+                for n in &own {
+                    versions[*n] = match n.cmp(recent) {
+                        std::cmp::Ordering::Less => Version::Stable,
+                        std::cmp::Ordering::Equal => Version::Recent,
+                        std::cmp::Ordering::Greater => Version::All,
+                    };
+                }
+                let mut plan = self.plan(clause, &versions, Some(*recent));
+                self.finished.provide(&mut plan);
+                rounds.push((clause, plan));
+            }
+        }
+        // The number of the order that each growing source is read in.
+        let orders_of: Vec<Vec<usize>> = rounds
+            .iter()
+            .map(|(_, plan)| {
+                let order = |request: &Request| match request {
+                    Request::Growing { relation, first, .. } => {
+                        growing.get_mut(relation).map_or(0, |rows| rows.order(&mut orders, first))
+                    }
+                    _ => 0,
+                };
+                plan.requests.iter().map(order).collect()
+            })
+            .collect();
+        loop {
+            growing.values_mut().for_each(|rows| rows.flush());
+            if !iteration.changed() {
+                break;
+            }
+            growing.values_mut().for_each(|rows| rows.follow());
+            orders.changed();
+            for ((clause, plan), orders) in rounds.iter().zip(&orders_of) {
+                let limit = self.limit(clause.head);
+                let room = limit.saturating_sub(growing[&clause.head].len());
+                let parts = parts(plan, orders, &growing);
+                self.emit(clause, plan, &parts, room, &mut *growing[&clause.head].sink());
+            }
+            for (relation, rows) in &growing {
+                self.check_size(*relation, rows.len() + rows.sink().len())?;
+            }
+        }
+        for (relation, rows) in growing {
+            self.finished.rows[relation.index()] = Some(rows.complete());
+        }
+        Ok(())
+    }
+
+    fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {
+        let mut wanted: Vec<VariableId> = Vec::new();
+        clause.args.iter().for_each(|arg| arg.for_each_variable(&mut |v| wanted.push(v)));
+        let task = Task { clause, versions, first, bound: &[], wanted: &wanted };
+        plan(&task, &self.finished)
+    }
+
+    fn emit(
+        &mut self,
+        clause: &Clause,
+        plan: &Plan,
+        parts: &[Vec<Ref<'_, dyn RowSet>>],
+        limit: usize,
+        sink: &mut dyn Sink,
+    ) {
+        let columns = &self.program.info(clause.head).columns;
+        let unsigned: Vec<usize> =
+            (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
+        let row = vec![0; clause.args.len()];
+        let mut head = Head { args: &clause.args, unsigned, limit, row, sink };
+        let mut registers = vec![0; clause.variables.len()];
+        self.finished.run(plan, parts, &mut registers, &mut head);
+    }
+}
+
+/// Every relation's facts of the text and the database.
+pub(super) fn given(program: &Program, database: &Database) -> Vec<SharedRows> {
+    let mut by_relation: HashMap<RelationId, Vec<&[Word]>> = HashMap::new();
+    for fact in program.facts.iter() {
+        by_relation.entry(fact.relation).or_default().push(&fact.words);
+    }
+    let rows = program.relations().map(|(relation, info)| {
+        let given = database.rows(relation);
+        let Some(facts) = by_relation.get(&relation) else { return given };
+        let mut all = heap(info.columns.len());
+        (0..given.len()).for_each(|at| all.push(given.row(at)));
+        facts.iter().for_each(|fact| all.push(fact));
+        all.sort()
+    });
+    rows.collect()
+}
+
+fn growing_from(
+    iteration: &mut Iteration,
+    name: &str,
+    columns: usize,
+    given: &SharedRows,
+) -> Box<dyn Growing> {
+    let rows = growing(iteration, name, columns);
+    let mut sink = rows.sink();
+    (0..given.len()).for_each(|at| sink.push(given.row(at)));
+    drop(sink);
+    rows
+}
+
+/// Positions of the atoms over relations of the stratum itself.
+fn own_atoms<'a>(
+    clause: &'a Clause,
+    is_own: &'a impl Fn(RelationId) -> bool,
+) -> impl Iterator<Item = usize> + 'a {
+    let is_own_atom =
+        move |literal: &Literal| matches!(literal, Literal::Atom(atom) if is_own(atom.relation));
+    clause.body.iter().enumerate().filter(move |(_, literal)| is_own_atom(literal)).map(|(n, _)| n)
+}
+
+pub(super) fn no_parts(plan: &Plan) -> Vec<Vec<Ref<'static, dyn RowSet>>> {
+    plan.requests.iter().map(|_| Vec::new()).collect()
+}
+
+/// The rows behind each growing source of a plan.
+fn parts<'a>(
+    plan: &Plan,
+    orders: &[usize],
+    growing: &'a HashMap<RelationId, Box<dyn Growing>>,
+) -> Vec<Vec<Ref<'a, dyn RowSet>>> {
+    let parts = plan.requests.iter().zip(orders).map(|(request, order)| {
+        let Request::Growing { relation, version, .. } = request else { return Vec::new() };
+        let rows = &growing[relation];
+        match version {
+            Version::Recent => vec![rows.recent(*order)],
+            Version::Stable => rows.stable(*order),
+            Version::All | Version::Finished => {
+                let mut all = rows.stable(*order);
+                all.push(rows.recent(*order));
+                all
+            }
+        }
+    });
+    parts.collect()
+}
+
+/// Puts the head's tuple for each solution into the sink.
+struct Head<'a> {
+    args: &'a [Expr],
+    /// Columns that hold no negative number; a solution that would put one there is none.
+    unsigned: Vec<usize>,
+    limit: usize,
+    row: Vec<Word>,
+    sink: &'a mut dyn Sink,
+}
+
+impl Goal for Head<'_> {
+    fn reached(&mut self, registers: &[Word], words: &mut Words) -> bool {
+        for (word, arg) in self.row.iter_mut().zip(self.args) {
+            *word = match arg {
+                Expr::Variable(v) => registers[*v as usize],
+                Expr::Constant(word) => *word,
+                Expr::Call(..) => match value::compute(arg, &|v| registers[v as usize], words) {
+                    Some(word) => word,
+                    None => return false,
+                },
+            };
+        }
+        if self.sink.len() >= self.limit
+            || self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0)
+        {
+            return false;
+        }
+        self.sink.push(&self.row);
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::units::Source;
+
+    /// The tuples of all `.output` relations.
+    fn check(text: &str, expected: &Expect) {
+        let program =
+            Program::parse(&Source::new("t.dl", text)).unwrap_or_else(|faults| panic!("{faults}"));
+        let derived = program.evaluate(&program.database()).unwrap();
+        let mut shown = String::new();
+        for (id, info) in program.relations().filter(|(_, info)| info.output.is_some()) {
+            for tuple in derived.sorted(id).unwrap() {
+                let values: Vec<String> = tuple.iter().map(ToString::to_string).collect();
+                shown += &format!("{}({})\n", info.name, values.join(", "));
+            }
+        }
+        expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn recursion_reaches_what_is_reachable() {
+        let rules = "
+            .decl edge(a: number, b: number)
+            .decl path(a: number, b: number)
+            .output path
+            edge(1, 2). edge(2, 3). edge(3, 1).
+            path(A, B) :- edge(A, B).
+            path(A, C) :- path(A, B), path(B, C).";
+        check(
+            rules,
+            &expect![[r#"
+                path(1, 1)
+                path(1, 2)
+                path(1, 3)
+                path(2, 1)
+                path(2, 2)
+                path(2, 3)
+                path(3, 1)
+                path(3, 2)
+                path(3, 3)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn negation_sees_the_finished_relation() {
+        let rules = r#"
+            .decl комната(имя: symbol) .decl дверь(a: symbol, b: symbol)
+            .decl достижима(имя: symbol) .decl отрезана(имя: symbol)
+            .output отрезана
+            комната("А"). комната("Б"). комната("В").
+            дверь("А", "Б").
+            достижима("А").
+            достижима(Y) :- достижима(X), (дверь(X, Y) ; дверь(Y, X)).
+            отрезана(X) :- комната(X), !достижима(X)."#;
+        check(
+            rules,
+            &expect![[r#"
+                отрезана(В)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn aggregates_count_solutions() {
+        let rules = "
+            .decl r(a: number, b: number) .decl k(a: number)
+            .decl c(a: number, n: number, s: number, least: number, most: number, mean: number)
+            .decl total(n: number)
+            .output c .output total
+            k(1). k(2). k(3). r(1, 5). r(1, 7). r(2, -4).
+            c(A, N, S, L, M, E) :- k(A), N = count : { r(A, _) }, S = sum B : { r(A, B) },
+                L = min B : r(A, B), M = max B : r(A, B), E = mean B : { r(A, B) }.
+            total(count : { r(X, Y), Y > X }).";
+        check(
+            rules,
+            &expect![[r#"
+                c(1, 2, 12, 5, 7, 6)
+                c(2, 1, -4, -4, -4, -4)
+                total(2)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn values_are_computed_and_compared() {
+        let rules = r#"
+            .decl n(a: number) .decl out(a: number, t: symbol) .decl eq(a: number, b: number)
+            .output out .output eq
+            n(1). n(2). n(-7). n(9223372036854775807).
+            out(X + 1, cat("x", to_string(X), "y")) :- n(X), X % 2 != 0.
+            eq(X, Y) :- n(X), n(Y), X = -(Y - 1) * 8 + 1, strlen("ёж") = 2.
+            out(to_number("12") / 5 ^ 1, substr("Комната", 1, 2)).
+            out(1 / 0, "нет")."#;
+        check(
+            rules,
+            &expect![[r#"
+                out(-6, x-7y)
+                out(2, x1y)
+                out(2, ом)
+                eq(-7, 2)
+                eq(1, 1)
+            "#]],
+        );
+    }
+
+    #[test]
+    fn several_heads_and_repeated_variables() {
+        let rules = "
+            .decl r(a: number, b: number) .decl loop(a: number) .decl same(a: number) .decl flag()
+            .output loop .output same .output flag
+            r(1, 1). r(1, 2). r(2, 2).
+            loop(X), same(X) :- r(X, X), X < 2.
+            flag() :- r(_, 2).";
+        check(
+            rules,
+            &expect![[r#"
+                loop(1)
+                same(1)
+                flag()
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_program_without_end_is_stopped() {
+        let rules = ".decl n(a: number) .limitsize n(n=50) .output n n(0). n(X + 1) :- n(X).";
+        let program = Program::parse(&Source::new("t.dl", rules)).unwrap();
+        assert_eq!(program.evaluate(&program.database()).unwrap().len("n"), Ok(50));
+    }
+}

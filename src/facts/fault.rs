@@ -1,0 +1,403 @@
+//! What is wrong with a rule text, all of it at once, each fault with its place.
+
+use std::fmt;
+
+use miette::{Diagnostic, SourceSpan};
+use thiserror::Error;
+
+use crate::units::Source;
+
+/// One fault of a rule text, or a warning about it (see [`RuleError::is_warning`]).
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
+pub enum RuleError {
+    /// The text is no rule text here.
+    #[error("здесь ожидается {expected}, а стоит {found}")]
+    #[diagnostic(code(facts::syntax))]
+    Syntax {
+        expected: String,
+        found: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A character that no word of the language starts with.
+    #[error("символ «{character}» здесь ничего не значит")]
+    #[diagnostic(code(facts::character), help("строки пишутся в двойных кавычках"))]
+    Character {
+        character: char,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A text or a comment that is opened and never closed.
+    #[error("{what} не закрыт")]
+    #[diagnostic(code(facts::unclosed), help("поставьте {closing}"))]
+    Unclosed {
+        what: &'static str,
+        closing: &'static str,
+        #[label("открыт здесь")]
+        at: SourceSpan,
+    },
+    /// A number that does not fit into 64 bits.
+    #[error("число «{text}» не помещается в 64 бита")]
+    #[diagnostic(code(facts::number))]
+    Number {
+        text: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A part of Soufflé's language that this engine does not have.
+    #[error("не поддерживается: {what}")]
+    #[diagnostic(code(facts::unsupported), help("{help}"))]
+    Unsupported {
+        what: String,
+        help: &'static str,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// The text exceeds one of the limits that keep its reading bounded.
+    #[error("{what}: больше {limit}")]
+    #[diagnostic(code(facts::too_large), help("разбейте на несколько правил или отношений"))]
+    TooLarge {
+        what: &'static str,
+        limit: usize,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// Two declarations of one name.
+    #[error("«{name}» объявлено дважды")]
+    #[diagnostic(code(facts::duplicate), help("оставьте одно объявление"))]
+    Duplicate {
+        name: String,
+        #[label("второе объявление")]
+        at: SourceSpan,
+    },
+    /// A relation that no `.decl` introduces.
+    #[error("неизвестное отношение «{name}»")]
+    #[diagnostic(code(facts::unknown_relation), help("{}", did_you_mean(nearest.as_deref(), "объявите его: .decl")))]
+    UnknownRelation {
+        name: String,
+        nearest: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A type that no `.type` introduces.
+    #[error("неизвестный тип «{name}»")]
+    #[diagnostic(code(facts::unknown_type), help("{}", did_you_mean(nearest.as_deref(), "есть symbol, number, unsigned и объявленные: .type")))]
+    UnknownType {
+        name: String,
+        nearest: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A relation or functor with a wrong number of arguments.
+    #[error("у «{name}» аргументов {expected}, а дано {found}")]
+    #[diagnostic(code(facts::arity), help("сверьтесь с объявлением «{name}»"))]
+    Arity {
+        name: String,
+        expected: usize,
+        found: usize,
+        #[label("дано {found}")]
+        at: SourceSpan,
+    },
+    /// A value of one type where another is wanted.
+    #[error("«{what}»: нужен тип {expected}, а здесь {found}")]
+    #[diagnostic(
+        code(facts::types),
+        help("числа пишутся без кавычек, строки — в кавычках; to_number и to_string переводят")
+    )]
+    Types {
+        what: String,
+        expected: String,
+        found: String,
+        #[label("тип {found}")]
+        at: SourceSpan,
+    },
+    /// A variable that no positive premise gives a value.
+    #[error("переменная «{variable}» ничем не связана")]
+    #[diagnostic(
+        code(facts::ungrounded),
+        help("назовите её в утвердительной посылке правила или приравняйте к известному")
+    )]
+    Ungrounded {
+        variable: String,
+        #[label("нет значения")]
+        at: SourceSpan,
+    },
+    /// `_` where a value is needed.
+    #[error("«_» стоит там, где нужно значение")]
+    #[diagnostic(code(facts::wildcard), help("«_» годится только в посылках, на месте аргумента"))]
+    Wildcard {
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A relation that depends on its own negation or aggregate.
+    #[error("отношение зависит от собственного отрицания или счёта: {cycle}")]
+    #[diagnostic(
+        code(facts::cycle),
+        help("разорвите круг: отрицать и считать можно только выведенное раньше")
+    )]
+    Cycle {
+        cycle: String,
+        #[label("эта посылка замыкает круг")]
+        at: SourceSpan,
+    },
+    /// A relation that no rule reads and nobody outside sees.
+    #[error("отношение «{name}» нигде не используется")]
+    #[diagnostic(
+        code(facts::never_used),
+        severity(Warning),
+        help("покажите его наружу: .output {name}")
+    )]
+    NeverUsed {
+        name: String,
+        #[label("объявлено здесь")]
+        at: SourceSpan,
+    },
+    /// A relation that is read, but that no fact, rule or input fills.
+    #[error("отношение «{name}» всегда пусто: его ничто не выводит")]
+    #[diagnostic(
+        code(facts::never_derived),
+        severity(Warning),
+        help("допишите правило или .input {name}")
+    )]
+    NeverDerived {
+        name: String,
+        #[label("объявлено здесь")]
+        at: SourceSpan,
+    },
+    /// A variable that occurs once; often a slip of the pen.
+    #[error("переменная «{variable}» встречается один раз")]
+    #[diagnostic(
+        code(facts::single_variable),
+        severity(Warning),
+        help("если так и задумано, пишите «_»")
+    )]
+    SingleVariable {
+        variable: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+}
+
+impl RuleError {
+    /// A warning does not keep the program from running.
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        self.severity() == Some(miette::Severity::Warning)
+    }
+
+    /// Where in its text.
+    #[must_use]
+    pub fn span(&self) -> SourceSpan {
+        match self {
+            Self::Syntax { at, .. }
+            | Self::Character { at, .. }
+            | Self::Unclosed { at, .. }
+            | Self::Number { at, .. }
+            | Self::Unsupported { at, .. }
+            | Self::TooLarge { at, .. }
+            | Self::Duplicate { at, .. }
+            | Self::UnknownRelation { at, .. }
+            | Self::UnknownType { at, .. }
+            | Self::Arity { at, .. }
+            | Self::Types { at, .. }
+            | Self::Ungrounded { at, .. }
+            | Self::Wildcard { at }
+            | Self::Cycle { at, .. }
+            | Self::NeverUsed { at, .. }
+            | Self::NeverDerived { at, .. }
+            | Self::SingleVariable { at, .. } => *at,
+        }
+    }
+}
+
+/// The faults of one text.
+#[derive(Debug, Clone)]
+pub struct FileFaults {
+    pub source: Source,
+    pub faults: Vec<RuleError>,
+}
+
+impl FileFaults {
+    /// Line and character column of each fault, both from 1, in the order of the text.
+    pub fn placed(&self) -> impl Iterator<Item = (usize, usize, &RuleError)> {
+        self.faults.iter().map(|fault| {
+            let (line, column) = self.source.position(fault.span().offset());
+            (line, column, fault)
+        })
+    }
+}
+
+impl fmt::Display for FileFaults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (n, (line, column, fault)) in self.placed().enumerate() {
+            let end = if n == 0 { "" } else { "\n" };
+            write!(f, "{end}{}:{line}:{column}: {fault}", self.source.name())?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for FileFaults {}
+
+impl Diagnostic for FileFaults {
+    fn source_code(&self) -> Option<&dyn miette::SourceCode> {
+        Some(&self.source)
+    }
+
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.faults.iter().map(|fault| fault as &dyn Diagnostic)))
+    }
+}
+
+/// All faults of all texts of a program; never empty.
+#[derive(Debug, Clone, Error, Diagnostic)]
+#[error("{}", list(files))]
+#[diagnostic(code(facts::program))]
+pub struct Faults {
+    #[related]
+    pub files: Vec<FileFaults>,
+}
+
+impl Faults {
+    /// Every fault, file by file.
+    pub fn iter(&self) -> impl Iterator<Item = &RuleError> {
+        self.files.iter().flat_map(|file| &file.faults)
+    }
+}
+
+fn list(files: &[FileFaults]) -> String {
+    files.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+fn did_you_mean(nearest: Option<&str>, otherwise: &str) -> String {
+    nearest.map_or_else(|| otherwise.to_owned(), |name| format!("может быть, «{name}»?"))
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::facts::Program;
+
+    /// Every fault and warning with its place and code.
+    fn check(text: &str, expected: &Expect) {
+        let (found, is_sound) = match Program::parse(&Source::new("п.dl", text)) {
+            Ok(program) => (program.warnings().to_vec(), true),
+            Err(faults) => (faults.files, false),
+        };
+        let mut shown = String::new();
+        for (line, column, fault) in found.iter().flat_map(FileFaults::placed) {
+            let code = fault.code().map(|code| code.to_string()).unwrap_or_default();
+            shown += &format!("{line}:{column} {code} {fault}\n");
+        }
+        shown += if is_sound { "годится\n" } else { "" };
+        expected.assert_eq(&shown);
+    }
+
+    #[test]
+    fn all_faults_of_a_text_come_at_once() {
+        check(
+            ".decl стоит_на(а: symbol, б: symbol) .output стоит_на
+.decl n(x: number) .input n .output n
+стоит_на(A, B) :- стоит_нa(A, B).
+n(X) :- стоит_на(X, _).
+n(1, 2).
+n(Y) :- n(X), !n(Z).
+n(\"три\").
+n(_).",
+            &expect![[r#"
+                3:10 facts::ungrounded переменная «A» ничем не связана
+                3:13 facts::ungrounded переменная «B» ничем не связана
+                3:19 facts::unknown_relation неизвестное отношение «стоит_нa»
+                4:3 facts::types «X»: нужен тип number, а здесь symbol
+                5:1 facts::arity у «n» аргументов 1, а дано 2
+                6:3 facts::ungrounded переменная «Y» ничем не связана
+                6:18 facts::ungrounded переменная «Z» ничем не связана
+                7:3 facts::types «три»: нужен тип number, а здесь symbol
+                8:3 facts::wildcard «_» стоит там, где нужно значение
+            "#]],
+        );
+    }
+
+    #[test]
+    fn a_syntax_fault_says_what_was_expected() {
+        check(
+            ".decl a(x: number) .output a
+a(1) a(2).
+a(X) :- a(X), X > .
+a(3).
+.comp Дом
+a(99999999999999999999). a(1.5). a(\"без конца).
+a(№). a(4",
+            &expect![[r#"
+                2:6 facts::syntax здесь ожидается «,» или «:-» или «.», а стоит «a»
+                3:19 facts::syntax здесь ожидается действие или имя или число или текст в кавычках или «(», а стоит «.»
+                5:1 facts::unsupported не поддерживается: .comp
+                6:3 facts::number число «99999999999999999999» не помещается в 64 бита
+                6:28 facts::unsupported не поддерживается: дробное число «1.5»
+                6:36 facts::unclosed текст в кавычках не закрыт
+                7:1 facts::syntax здесь ожидается действие или «,» или «)», а стоит «a»
+                7:3 facts::character символ «№» здесь ничего не значит
+                7:10 facts::syntax здесь ожидается действие или «,» или «)», а стоит конец текста
+            "#]],
+        );
+    }
+
+    #[test]
+    fn negation_in_a_cycle_shows_the_cycle() {
+        check(
+            ".decl a(x: number) .decl b(x: number) .decl c(x: number) .output a
+a(1). a(X) :- b(X). b(X) :- c(X). c(X) :- a(X), !b(X).
+.decl d(x: number) .output d
+d(N) :- N = count : { d(_) }.",
+            &expect![[r#"
+                2:50 facts::cycle отношение зависит от собственного отрицания или счёта: c → не b → c
+                4:23 facts::cycle отношение зависит от собственного отрицания или счёта: d → не d
+            "#]],
+        );
+    }
+
+    #[test]
+    fn warnings_do_not_stop_a_program() {
+        check(
+            ".decl used(x: number) .decl idle(x: number) .decl empty(x: number) .output used
+used(X) :- empty(X).
+used(1) :- used(Y).",
+            &expect![[r#"
+                1:29 facts::never_used отношение «idle» нигде не используется
+                1:51 facts::never_derived отношение «empty» всегда пусто: его ничто не выводит
+                3:17 facts::single_variable переменная «Y» встречается один раз
+                годится
+            "#]],
+        );
+    }
+
+    #[test]
+    fn subtypes_keep_kinds_of_symbols_apart() {
+        check(
+            ".type Место <: symbol .type Вещь <: symbol .type Всё = Место | Вещь
+.decl где(в: Вещь, м: Место) .input где .decl есть(x: Всё) .output есть .decl любое(x: symbol) .output любое
+есть(X) :- где(X, _). есть(M) :- где(_, M). любое(X) :- где(X, _).
+где(M, M) :- где(_, M).
+есть(X) :- где(X, X).",
+            &expect![[r#"
+                4:5 facts::types «M»: нужен тип Вещь, а здесь Место
+                5:19 facts::types «X»: нужен тип Место, а здесь Вещь
+            "#]],
+        );
+    }
+
+    #[test]
+    fn rubbish_is_refused_and_nothing_more() {
+        let deep = "(".repeat(100_000);
+        let chain = format!("a(1{}).", "+1".repeat(100_000));
+        let tangled = format!("a(X) :- {}a(X){}.", "(".repeat(60), ")".repeat(60));
+        let nested = format!("a(X) :- X = {}1{}.", "count : { 1 = ".repeat(60), "}".repeat(60));
+        for text in [
+            "", "\0\0", ".", ":-", "/*", "\"", "a(", ".decl", &deep, &chain, &tangled, &nested, "−",
+        ] {
+            let _ = Program::parse(&Source::new("мусор", text));
+        }
+    }
+}

@@ -1,0 +1,165 @@
+//! A finished relation, sorted by a key and laid out by columns, so that a join finds its partners
+//! with one look and filters run over whole columns.
+//!
+//! Key and columns may be computed from a row's words: `AZ = BZ + BH` joins on the sum, and
+//! `AX <= BX + 50` compares with a column that holds `BX + 50`, computed once for each row.
+
+use std::collections::HashMap;
+use std::ops::Range;
+
+use super::program::Expr;
+use super::rows::RowSet;
+use super::value;
+use super::word::{NO_WORD, Word, Words, is_in_place};
+
+/// One column of an index, in the index's order.
+#[derive(Debug)]
+pub(super) struct IndexColumn {
+    pub(super) words: Vec<Word>,
+    /// Every word is a number in place, so that words compare as the numbers do.
+    pub(super) is_in_place: bool,
+}
+
+/// Rows of a relation, ordered by a key.
+#[derive(Debug)]
+pub(super) struct Index {
+    /// Positions of rows in the relation; none when they stand in the relation's own order.
+    order: Option<Vec<u32>>,
+    len: usize,
+    keys: Vec<Vec<Word>>,
+    directory: Directory,
+    columns: Vec<(Expr, IndexColumn)>,
+}
+
+/// Where the rows of each first key word stand.
+#[derive(Debug)]
+enum Directory {
+    /// No key: all rows.
+    None,
+    /// `starts[word - least]..starts[word - least + 1]`
+    Dense {
+        least: Word,
+        starts: Vec<u32>,
+    },
+    Sparse(HashMap<Word, (u32, u32)>),
+}
+
+impl Index {
+    /// `key` is over columns.
+    pub(super) fn new(rows: &dyn RowSet, key: &[Expr], words: &mut Words) -> Self {
+        let natural = key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32));
+        let mut keys: Vec<Vec<Word>> =
+            key.iter().map(|part| column(rows, None, part, words)).collect();
+        let mut order = None;
+        if !natural {
+            let sorted = sorted_order(&keys, rows.len());
+            for part in &mut keys {
+                *part = sorted.iter().map(|at| part[*at as usize]).collect();
+            }
+            order = Some(sorted);
+        }
+        let len = order.as_ref().map_or(rows.len(), Vec::len);
+        let directory = keys.first().map_or(Directory::None, |first| directory(first));
+        Self { order, len, keys, directory, columns: Vec::new() }
+    }
+
+    /// The number of the column that holds the expression, made if there is none yet.
+    pub(super) fn column(&mut self, rows: &dyn RowSet, expr: &Expr, words: &mut Words) -> usize {
+        if let Some(known) = self.columns.iter().position(|(known, _)| known == expr) {
+            return known;
+        }
+        let column = column(rows, self.order.as_deref(), expr, words);
+        let is_in_place = column.iter().all(|word| is_in_place(*word));
+        self.columns.push((expr.clone(), IndexColumn { words: column, is_in_place }));
+        self.columns.len() - 1
+    }
+
+    /// The place in the relation of the row at a place in the index.
+    pub(super) fn row(&self, at: usize) -> usize {
+        self.order.as_ref().map_or(at, |order| order[at] as usize)
+    }
+
+    pub(super) fn at(&self, column: usize) -> &IndexColumn {
+        &self.columns[column].1
+    }
+
+    /// The rows whose key starts so.
+    #[inline]
+    pub(super) fn range(&self, key: &[Word]) -> Range<usize> {
+        let Some((first, more)) = key.split_first() else { return 0..self.len };
+        let mut range = match &self.directory {
+            Directory::None => 0..self.len,
+            Directory::Dense { least, starts } => {
+                let at = first.wrapping_sub(*least) as usize;
+                if at + 1 >= starts.len() {
+                    return 0..0;
+                }
+                starts[at] as usize..starts[at + 1] as usize
+            }
+            Directory::Sparse(places) => match places.get(first) {
+                Some((start, end)) => *start as usize..*end as usize,
+                None => return 0..0,
+            },
+        };
+        for (part, word) in self.keys[1..].iter().zip(more) {
+            let here = &part[range.clone()];
+            let start = here.partition_point(|known| known < word);
+            let end = start + here[start..].partition_point(|known| known == word);
+            range = range.start + start..range.start + end;
+        }
+        range
+    }
+}
+
+/// The expression over each row, [`NO_WORD`] where it has no value.
+fn column(rows: &dyn RowSet, order: Option<&[u32]>, expr: &Expr, words: &mut Words) -> Vec<Word> {
+    let len = order.map_or(rows.len(), <[u32]>::len);
+    let row = |at: usize| rows.row(order.map_or(at, |order| order[at] as usize));
+    match expr {
+        Expr::Variable(c) => (0..len).map(|at| row(at)[*c as usize]).collect(),
+        _ => (0..len)
+            .map(|at| value::compute(expr, &|c| row(at)[c as usize], words).unwrap_or(NO_WORD))
+            .collect(),
+    }
+}
+
+/// Row positions by key, those without a key left out.
+fn sorted_order(keys: &[Vec<Word>], len: usize) -> Vec<u32> {
+    let has_key = |at: &usize| keys.iter().all(|part| part[*at] != NO_WORD);
+    let first = |at: usize| (u64::from(keys[0][at]) << 32) | at as u64;
+    let mut packed: Vec<u64> = (0..len).filter(has_key).map(first).collect();
+    packed.sort_unstable();
+    let mut order: Vec<u32> = packed.into_iter().map(|packed| packed as u32).collect();
+    if keys.len() > 1 {
+        let rest = |at: u32| keys[1..].iter().map(move |part| part[at as usize]);
+        for same in order.chunk_by_mut(|a, b| keys[0][*a as usize] == keys[0][*b as usize]) {
+            same.sort_by(|a, b| rest(*a).cmp(rest(*b)));
+        }
+    }
+    order
+}
+
+fn directory(keys: &[Word]) -> Directory {
+    let (Some(least), Some(most)) = (keys.first(), keys.last()) else {
+        return Directory::Dense { least: 0, starts: Vec::new() };
+    };
+    let span = (most - least) as usize;
+    if span <= 4 * keys.len() + 1024 {
+        let mut starts = vec![0; span + 2];
+        for word in keys {
+            starts[(word - least) as usize + 1] += 1;
+        }
+        for at in 1..starts.len() {
+            starts[at] += starts[at - 1];
+        }
+        return Directory::Dense { least: *least, starts };
+    }
+    let mut places = HashMap::new();
+    let mut start = 0;
+    for same in keys.chunk_by(|a, b| a == b) {
+        let end = start + same.len() as u32;
+        places.insert(same[0], (start, end));
+        start = end;
+    }
+    Directory::Sparse(places)
+}

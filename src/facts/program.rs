@@ -1,0 +1,311 @@
+//! A checked program: relations, clauses over numbered variables, strata.
+//!
+//! **Invariant**: every variable of a clause gets its value from a positive premise or an equality,
+//! and no relation depends on its own negation or aggregate, so evaluation always has an order to run in.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::fault::{Faults, FileFaults, RuleError};
+use super::syntax::{Aggregation, Comparison, Functor, Span};
+use super::word::{Word, Words};
+use super::{check, parse};
+use crate::units::{Source, name_key};
+
+/// A relation of a program, by position.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct RelationId(pub(super) u32);
+
+impl RelationId {
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a column holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Kind {
+    Symbol,
+    Number,
+    /// A number that is never negative.
+    Unsigned,
+}
+
+impl Kind {
+    pub(super) fn is_number(self) -> bool {
+        self != Self::Symbol
+    }
+}
+
+/// A column of a relation, as declared.
+#[derive(Debug, Clone)]
+pub struct Column {
+    pub name: String,
+    pub kind: Kind,
+    /// The declared type: `symbol`, `number`, `unsigned` or one that `.type` introduced.
+    pub type_name: String,
+}
+
+/// A relation, as declared.
+#[derive(Debug, Clone, Default)]
+pub struct RelationInfo {
+    pub name: String,
+    /// The name in a second language, where the declaration gives one.
+    pub second_name: Option<String>,
+    pub columns: Vec<Column>,
+    /// `.input`, with its parameters.
+    pub input: Option<Parameters>,
+    /// `.output`, with its parameters.
+    pub output: Option<Parameters>,
+    pub print_size: bool,
+    /// `.limitsize`: evaluation of the relation stops at so many tuples.
+    pub limit_size: Option<usize>,
+}
+
+/// `filename="…"`, `delimiter="…"` and the like.
+pub type Parameters = Vec<(String, String)>;
+
+/// A rule for one head and one choice of each disjunction.
+#[derive(Debug, Clone)]
+pub(super) struct Clause {
+    pub(super) head: RelationId,
+    pub(super) args: Vec<Expr>,
+    pub(super) body: Vec<Literal>,
+    pub(super) variables: Vec<Variable>,
+    /// The whole rule in its text.
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Variable {
+    /// As written; empty for one that stands for an expression among an atom's arguments.
+    pub(super) name: String,
+    pub(super) is_number: bool,
+}
+
+pub(super) type VariableId = u32;
+
+#[derive(Debug, Clone)]
+pub(super) enum Literal {
+    Atom(Atom),
+    Not(Atom),
+    Compare(Compare),
+    Aggregate(Aggregate),
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Atom {
+    pub(super) relation: RelationId,
+    pub(super) args: Vec<Term>,
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Term {
+    Any,
+    Variable(VariableId),
+    Constant(Word),
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Compare {
+    pub(super) op: Comparison,
+    pub(super) left: Expr,
+    pub(super) right: Expr,
+    pub(super) is_number: bool,
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone)]
+pub(super) struct Aggregate {
+    pub(super) target: VariableId,
+    pub(super) function: Aggregation,
+    pub(super) value: Option<Expr>,
+    pub(super) body: Vec<Literal>,
+    /// Variables of the rule outside that the body reads.
+    pub(super) shared: Vec<VariableId>,
+    pub(super) at: Span,
+}
+
+/// A computed value; its variables are a clause's, or an index's columns.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) enum Expr {
+    Variable(VariableId),
+    Constant(Word),
+    Call(Functor, Vec<Self>),
+}
+
+impl Expr {
+    pub(super) fn for_each_variable(&self, f: &mut dyn FnMut(VariableId)) {
+        match self {
+            Self::Variable(v) => f(*v),
+            Self::Constant(_) => {}
+            Self::Call(_, args) => args.iter().for_each(|arg| arg.for_each_variable(f)),
+        }
+    }
+
+    pub(super) fn all_variables(&self, mut f: impl FnMut(VariableId) -> bool) -> bool {
+        let mut all = true;
+        self.for_each_variable(&mut |v| all &= f(v));
+        all
+    }
+
+    pub(super) fn has_variables(&self) -> bool {
+        !self.all_variables(|_| false)
+    }
+}
+
+/// Relations that depend on each other, and what derives them.
+#[derive(Debug, Clone)]
+pub(super) struct Stratum {
+    pub(super) relations: Vec<RelationId>,
+    /// Positions in [`Program::clauses`].
+    pub(super) clauses: Vec<usize>,
+}
+
+/// A fact in the text.
+#[derive(Debug, Clone)]
+pub(super) struct Fact {
+    pub(super) relation: RelationId,
+    pub(super) words: Box<[Word]>,
+    pub(super) at: Span,
+}
+
+/// A rule text that was read and found sound, ready to be evaluated over any number of databases. Cheap to clone.
+#[derive(Debug, Clone)]
+pub struct Program {
+    pub(super) sources: Arc<[Source]>,
+    pub(super) relations: Arc<Vec<RelationInfo>>,
+    pub(super) names: Arc<Names>,
+    pub(super) clauses: Arc<[Clause]>,
+    pub(super) facts: Arc<[Fact]>,
+    pub(super) strata: Arc<[Stratum]>,
+    /// The constants of the text; a database starts with them.
+    pub(super) words: Words,
+    pub(super) warnings: Arc<[FileFaults]>,
+}
+
+impl Program {
+    /// Reads one rule text.
+    ///
+    /// # Errors
+    /// All [`Faults`] of the text.
+    pub fn parse(source: &Source) -> Result<Self, Faults> {
+        Self::parse_all(std::slice::from_ref(source))
+    }
+
+    /// Reads several rule texts as one program: rules of one may use relations that another declares.
+    ///
+    /// # Errors
+    /// All [`Faults`] of all texts.
+    pub fn parse_all(sources: &[Source]) -> Result<Self, Faults> {
+        let mut faults = Found::default();
+        let mut items = Vec::new();
+        for (file, source) in sources.iter().enumerate() {
+            let mut here = Vec::new();
+            items.extend(parse::items(source.text(), file as u32, &mut here));
+            faults.all.extend(here.into_iter().map(|fault| (file as u32, fault)));
+        }
+        let mut program = check::program(sources, items, &mut faults);
+        let (warnings, errors): (Vec<_>, Vec<_>) =
+            faults.all.into_iter().partition(|(_, fault)| fault.is_warning());
+        if !errors.is_empty() {
+            return Err(Faults { files: by_file(sources, errors) });
+        }
+        program.warnings = by_file(sources, warnings).into();
+        Ok(program)
+    }
+
+    /// What is odd about the text without being wrong: relations never used, never derived.
+    #[must_use]
+    pub fn warnings(&self) -> &[FileFaults] {
+        &self.warnings
+    }
+
+    /// The relation of either of its names. Spellings that differ in case or ё find it too,
+    /// unless they fit several.
+    #[must_use]
+    pub fn relation(&self, name: &str) -> Option<RelationId> {
+        self.names.find(name)
+    }
+
+    #[must_use]
+    pub fn info(&self, relation: RelationId) -> &RelationInfo {
+        &self.relations[relation.index()]
+    }
+
+    /// All relations, in the order of their declarations.
+    pub fn relations(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
+        self.relations.iter().enumerate().map(|(n, info)| (RelationId(n as u32), info))
+    }
+
+    /// A rule's text, its source and its line, for proofs.
+    pub(super) fn excerpt(&self, at: Span) -> (&Source, usize, &str) {
+        let source = &self.sources[at.file as usize];
+        let (line, _) = source.position(at.start as usize);
+        (source, line, &source.text()[at.range()])
+    }
+}
+
+/// Faults with the number of their text.
+#[derive(Debug, Default)]
+pub(super) struct Found {
+    pub(super) all: Vec<(u32, RuleError)>,
+}
+
+impl Found {
+    pub(super) fn push(&mut self, at: Span, fault: RuleError) {
+        // A rule with several heads is checked once for each.
+        if !self.all.iter().rev().take(16).any(|(file, known)| *file == at.file && *known == fault)
+        {
+            self.all.push((at.file, fault));
+        }
+    }
+}
+
+fn by_file(sources: &[Source], mut faults: Vec<(u32, RuleError)>) -> Vec<FileFaults> {
+    faults.sort_by_key(|(file, fault)| (*file, fault.span().offset()));
+    let mut files: Vec<(u32, FileFaults)> = Vec::new();
+    for (file, fault) in faults {
+        match files.last_mut() {
+            Some((last, here)) if *last == file => here.faults.push(fault),
+            _ => {
+                let source = sources[file as usize].clone();
+                files.push((file, FileFaults { source, faults: vec![fault] }));
+            }
+        }
+    }
+    files.into_iter().map(|(_, file)| file).collect()
+}
+
+/// Relations by both names.
+#[derive(Debug, Default)]
+pub(super) struct Names {
+    exact: HashMap<String, RelationId>,
+    /// By [`name_key`]; none where several relations share the key.
+    keys: HashMap<String, Option<RelationId>>,
+}
+
+impl Names {
+    pub(super) fn find(&self, name: &str) -> Option<RelationId> {
+        let exact = self.exact.get(name).copied();
+        exact.or_else(|| self.keys.get(&name_key(name)).copied().flatten())
+    }
+
+    /// False when the very name is taken.
+    pub(super) fn insert(&mut self, name: &str, relation: RelationId) -> bool {
+        if self.exact.contains_key(name) {
+            return false;
+        }
+        self.exact.insert(name.to_owned(), relation);
+        let key = self.keys.entry(name_key(name)).or_insert(Some(relation));
+        if *key != Some(relation) {
+            *key = None;
+        }
+        true
+    }
+
+    pub(super) fn all(&self) -> impl Iterator<Item = &str> {
+        self.exact.keys().map(String::as_str)
+    }
+}

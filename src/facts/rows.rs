@@ -1,0 +1,318 @@
+//! Rows of words, their sets, and the variables that grow by them: datafrog's, at a width chosen at run time.
+//!
+//! datafrog's relations are generic over the tuple; here the tuple is a [`Row`] of one of a few widths,
+//! and [`RowSet`] and [`Growing`] are what the rest of the engine sees of any width.
+
+use std::cell::{Ref, RefCell, RefMut};
+use std::collections::BTreeSet;
+use std::fmt::Debug;
+use std::ops::Range;
+use std::sync::{Arc, OnceLock};
+
+use datafrog::{Iteration, Relation, Variable};
+
+use super::word::Word;
+
+/// A tuple, filled up with zeros to its width.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Row<const N: usize>(pub(super) [Word; N]);
+
+impl<const N: usize> Row<N> {
+    fn of(words: &[Word]) -> Self {
+        let mut row = [0; N];
+        row[..words.len()].copy_from_slice(words);
+        Self(row)
+    }
+
+    /// Two words compare faster as one number than one after the other.
+    #[inline]
+    fn pair(&self) -> u64 {
+        (u64::from(self.0[0]) << 32) | u64::from(self.0[N - 1])
+    }
+}
+
+impl<const N: usize> PartialOrd for Row<N> {
+    #[inline]
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+
+    #[inline]
+    fn lt(&self, other: &Self) -> bool {
+        if N == 2 { self.pair() < other.pair() } else { self.0 < other.0 }
+    }
+}
+
+impl<const N: usize> Ord for Row<N> {
+    #[inline]
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        if N == 2 { self.pair().cmp(&other.pair()) } else { self.0.cmp(&other.0) }
+    }
+}
+
+/// Runs an expression with the constant `$n` set to the width that holds `$columns` columns.
+macro_rules! at_width {
+    ($columns:expr, $n:ident => $body:expr) => {
+        at_width!(@arms $columns, $n, $body, 0..=1 => 1, 2 => 2, 3 => 3, 4 => 4, 5 => 5, 6 => 6, 7..=8 => 8,
+            9..=12 => 12, 13..=16 => 16, _ => 32)
+    };
+    (@arms $columns:expr, $n:ident, $body:expr, $($columns_of:pat => $width:literal),+) => {
+        match $columns {
+            $($columns_of => { const $n: usize = $width; $body })+
+        }
+    };
+}
+
+/// Distinct rows in ascending order.
+pub(super) trait RowSet {
+    fn len(&self) -> usize;
+    fn row(&self, at: usize) -> &[Word];
+    /// The rows that start with the key.
+    fn range(&self, key: &[Word]) -> Range<usize>;
+
+    fn contains(&self, row: &[Word]) -> bool {
+        !self.range(row).is_empty()
+    }
+}
+
+/// A set of rows that evaluations share.
+pub(super) type SharedRows = Arc<dyn RowSet + Send + Sync>;
+
+impl<const N: usize> RowSet for Relation<Row<N>> {
+    fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn row(&self, at: usize) -> &[Word] {
+        &self.elements[at].0
+    }
+
+    fn range(&self, key: &[Word]) -> Range<usize> {
+        let start = self.elements.partition_point(|row| row.0[..key.len()] < *key);
+        let rest = &self.elements[start..];
+        // Most keys have few rows, so the end is near the start.
+        let mut step = 1;
+        while step < rest.len() && rest[step].0[..key.len()] == *key {
+            step *= 2;
+        }
+        let near = &rest[..rest.len().min(step)];
+        start..start + near.partition_point(|row| row.0[..key.len()] == *key)
+    }
+}
+
+/// What takes new rows.
+pub(super) trait Sink {
+    fn push(&mut self, row: &[Word]);
+    /// Rows pushed so far.
+    fn len(&self) -> usize;
+}
+
+/// Rows in any order, to become a [`RowSet`].
+pub(super) trait Heap: Sink {
+    fn as_sink(&mut self) -> &mut dyn Sink;
+    fn sort(self: Box<Self>) -> SharedRows;
+}
+
+impl<const N: usize> Sink for Vec<Row<N>> {
+    fn push(&mut self, row: &[Word]) {
+        let row = Row::of(row);
+        // Projections give the same row many times in succession.
+        if self.last() != Some(&row) {
+            self.push(row);
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.len()
+    }
+}
+
+impl<const N: usize> Heap for Vec<Row<N>> {
+    fn as_sink(&mut self) -> &mut dyn Sink {
+        self
+    }
+
+    fn sort(self: Box<Self>) -> SharedRows {
+        Arc::new(sorted(*self))
+    }
+}
+
+/// An empty heap for rows of so many columns.
+pub(super) fn heap(columns: usize) -> Box<dyn Heap> {
+    at_width!(columns, N => Box::new(Vec::<Row<N>>::new()))
+}
+
+fn sorted<const N: usize>(mut rows: Vec<Row<N>>) -> Relation<Row<N>> {
+    rows.sort_unstable();
+    rows.dedup();
+    Relation { elements: rows }
+}
+
+/// A relation under semi-naive evaluation: datafrog's variable, and one more for each other order of its columns.
+pub(super) trait Growing {
+    /// Takes new rows, also while the old ones are read.
+    fn sink(&self) -> RefMut<'_, dyn Sink>;
+    /// Hands the rows pushed since to the variable.
+    fn flush(&mut self);
+    /// After a step of the iteration: brings the other orders up to it.
+    fn follow(&mut self);
+    /// The number of the order that starts with these columns.
+    fn order(&mut self, iteration: &mut Iteration, columns: &[usize]) -> usize;
+    fn recent(&self, order: usize) -> Ref<'_, dyn RowSet>;
+    fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>>;
+    fn len(&self) -> usize;
+    fn complete(self: Box<Self>) -> SharedRows;
+}
+
+struct GrowingRows<const N: usize> {
+    columns: usize,
+    rows: Variable<Row<N>>,
+    orders: Vec<(Vec<usize>, Variable<Row<N>>)>,
+    pushed: RefCell<Vec<Row<N>>>,
+}
+
+/// A growing relation of so many columns.
+pub(super) fn growing(iteration: &mut Iteration, name: &str, columns: usize) -> Box<dyn Growing> {
+    at_width!(columns, N => Box::new(GrowingRows::<N> {
+        columns,
+        rows: iteration.variable(name),
+        orders: Vec::new(),
+        pushed: RefCell::default(),
+    }))
+}
+
+impl<const N: usize> GrowingRows<N> {
+    fn variable(&self, order: usize) -> &Variable<Row<N>> {
+        if order == 0 { &self.rows } else { &self.orders[order - 1].1 }
+    }
+}
+
+impl<const N: usize> Growing for GrowingRows<N> {
+    fn sink(&self) -> RefMut<'_, dyn Sink> {
+        RefMut::map(self.pushed.borrow_mut(), |pushed| pushed as &mut dyn Sink)
+    }
+
+    fn flush(&mut self) {
+        let pushed = self.pushed.take();
+        self.rows.insert(sorted(pushed));
+    }
+
+    fn follow(&mut self) {
+        for (columns, variable) in &self.orders {
+            let turn = |row: &Row<N>| {
+                let mut turned = [0; N];
+                for (to, from) in columns.iter().enumerate() {
+                    turned[to] = row.0[*from];
+                }
+                Row(turned)
+            };
+            let turned = self.rows.recent.borrow().iter().map(turn).collect();
+            variable.insert(sorted(turned));
+        }
+    }
+
+    fn order(&mut self, iteration: &mut Iteration, columns: &[usize]) -> usize {
+        let mut order = columns.to_vec();
+        order.extend((0..self.columns).filter(|column| !columns.contains(column)));
+        if order.iter().copied().eq(0..self.columns) {
+            return 0;
+        }
+        if let Some(known) = self.orders.iter().position(|(known, _)| *known == order) {
+            return known + 1;
+        }
+        self.orders.push((order, iteration.variable_indistinct("order")));
+        self.orders.len()
+    }
+
+    fn recent(&self, order: usize) -> Ref<'_, dyn RowSet> {
+        Ref::map(self.variable(order).recent.borrow(), |rows| rows as &dyn RowSet)
+    }
+
+    fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>> {
+        let stable = self.variable(order).stable.borrow();
+        let batch = |at: usize| {
+            let stable = Ref::clone(&stable);
+            Ref::map(stable, |batches| &batches[at] as &dyn RowSet)
+        };
+        (0..stable.len()).map(batch).collect()
+    }
+
+    fn len(&self) -> usize {
+        let stable: usize = self.rows.stable.borrow().iter().map(|batch| batch.len()).sum();
+        stable + self.rows.recent.borrow().len()
+    }
+
+    fn complete(self: Box<Self>) -> SharedRows {
+        Arc::new(self.rows.complete())
+    }
+}
+
+/// A set of rows that is edited one by one.
+pub(super) trait Table: Send + Sync + Debug {
+    /// False when it was there.
+    fn insert(&mut self, row: &[Word]) -> bool;
+    /// False when it was not there.
+    fn remove(&mut self, row: &[Word]) -> bool;
+    fn contains(&self, row: &[Word]) -> bool;
+    fn len(&self) -> usize;
+    fn clear(&mut self);
+    /// All rows; made once after each edit.
+    fn rows(&self) -> SharedRows;
+    fn boxed_clone(&self) -> Box<dyn Table>;
+}
+
+#[derive(Clone)]
+struct TableRows<const N: usize> {
+    rows: BTreeSet<Row<N>>,
+    shared: OnceLock<Arc<Relation<Row<N>>>>,
+}
+
+impl<const N: usize> Debug for TableRows<N> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.rows.fmt(f)
+    }
+}
+
+impl<const N: usize> TableRows<N> {
+    fn new() -> Self {
+        Self { rows: BTreeSet::new(), shared: OnceLock::new() }
+    }
+}
+
+/// An empty table for rows of so many columns.
+pub(super) fn table(columns: usize) -> Box<dyn Table> {
+    at_width!(columns, N => Box::new(TableRows::<N>::new()))
+}
+
+impl<const N: usize> Table for TableRows<N> {
+    fn insert(&mut self, row: &[Word]) -> bool {
+        self.shared.take();
+        self.rows.insert(Row::of(row))
+    }
+
+    fn remove(&mut self, row: &[Word]) -> bool {
+        self.shared.take();
+        self.rows.remove(&Row::of(row))
+    }
+
+    fn contains(&self, row: &[Word]) -> bool {
+        self.rows.contains(&Row::of(row))
+    }
+
+    fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn clear(&mut self) {
+        *self = Self::new();
+    }
+
+    fn rows(&self) -> SharedRows {
+        let shared = || Arc::new(Relation { elements: self.rows.iter().copied().collect() });
+        self.shared.get_or_init(shared).clone()
+    }
+
+    fn boxed_clone(&self) -> Box<dyn Table> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,353 @@
+//! A planned rule body, run: nested loops over indexed sources, depth first.
+//!
+//! Registers are the clause's variables. A step either fails, or runs the steps behind it once for each
+//! of its partners; the last step hands the registers to a [`Goal`].
+
+use super::index::{Index, IndexColumn};
+use super::program::{Compare, Expr};
+use super::rows::RowSet;
+use super::syntax::{Aggregation, Comparison};
+use super::value;
+use super::word::{Word, Words, is_in_place};
+
+/// Where a scan finds its rows.
+pub(super) enum Source<'a> {
+    Index(&'a Index),
+    /// Parts of one relation, each in the order of the scan's key.
+    Rows(Vec<&'a dyn RowSet>),
+}
+
+#[derive(Debug, Clone)]
+pub(super) enum Step {
+    Scan(Scan),
+    Filter(Compare),
+    /// The register takes the expression's value.
+    Let {
+        register: u32,
+        value: Expr,
+    },
+    /// No row of the source has the key.
+    Absent {
+        source: usize,
+        key: Vec<Expr>,
+    },
+    /// The steps behind, up to `end`, find what is counted and end with `Reached`; the run goes on at `end`.
+    Aggregate {
+        function: Aggregation,
+        value: Option<Expr>,
+        register: u32,
+        end: usize,
+    },
+    Reached,
+}
+
+#[derive(Debug, Clone, Default)]
+pub(super) struct Scan {
+    pub(super) source: usize,
+    pub(super) key: Vec<Expr>,
+    /// Columns of the source that must equal a register that an earlier load of this scan has set.
+    pub(super) same: Vec<(usize, u32)>,
+    pub(super) loads: Vec<(usize, u32)>,
+    pub(super) filters: Vec<ColumnFilter>,
+    /// Nothing that is found from here on can be told apart later: one success is enough.
+    pub(super) once: bool,
+}
+
+/// `column op value`, where the value is known before the scan.
+#[derive(Debug, Clone)]
+pub(super) struct ColumnFilter {
+    pub(super) column: usize,
+    pub(super) op: Comparison,
+    pub(super) value: Expr,
+    pub(super) is_number: bool,
+}
+
+/// What a body's solutions are for; true when one was accepted.
+pub(super) trait Goal {
+    fn reached(&mut self, registers: &[Word], words: &mut Words) -> bool;
+}
+
+impl<F: FnMut(&[Word], &mut Words) -> bool> Goal for F {
+    fn reached(&mut self, registers: &[Word], words: &mut Words) -> bool {
+        self(registers, words)
+    }
+}
+
+/// Runs the steps from the given registers; true when the goal accepted something.
+pub(super) fn run(
+    steps: &[Step],
+    sources: &[Source<'_>],
+    registers: &mut [Word],
+    words: &mut Words,
+    goal: &mut dyn Goal,
+) -> bool {
+    Machine { steps, sources, registers, words, goal, spare: Vec::new() }.run(0)
+}
+
+struct Machine<'a, 'b> {
+    steps: &'a [Step],
+    sources: &'a [Source<'b>],
+    registers: &'a mut [Word],
+    words: &'a mut Words,
+    goal: &'a mut dyn Goal,
+    /// Buffers for selected rows, one for each scan that is not using one now.
+    spare: Vec<Vec<u32>>,
+}
+
+/// What an aggregate has seen so far.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Count {
+    count: i64,
+    /// i128 holds any sum of fewer than 2^64 numbers.
+    sum: i128,
+    least: Option<i64>,
+    most: Option<i64>,
+}
+
+impl Count {
+    pub(super) fn add(&mut self, number: i64) {
+        self.count += 1;
+        self.sum += i128::from(number);
+        self.least = Some(self.least.map_or(number, |least| least.min(number)));
+        self.most = Some(self.most.map_or(number, |most| most.max(number)));
+    }
+
+    /// No value for the extremes and the mean of nothing, or for a sum beyond `i64`.
+    pub(super) fn value(&self, function: Aggregation) -> Option<i64> {
+        match function {
+            Aggregation::Count => Some(self.count),
+            Aggregation::Sum => i64::try_from(self.sum).ok(),
+            Aggregation::Min => self.least,
+            Aggregation::Max => self.most,
+            // Rounded towards zero: numbers are integers here.
+            Aggregation::Mean => i64::try_from(self.sum.checked_div(self.count.into())?).ok(),
+        }
+    }
+}
+
+impl<'a> Machine<'a, '_> {
+    fn run(&mut self, at: usize) -> bool {
+        match &self.steps[at] {
+            Step::Scan(scan) => self.scan(scan, at + 1),
+            Step::Filter(compare) => self.holds(compare) && self.run(at + 1),
+            Step::Let { register, value } => match self.compute(value) {
+                Some(word) => {
+                    self.registers[*register as usize] = word;
+                    self.run(at + 1)
+                }
+                None => false,
+            },
+            Step::Absent { source, key } => match self.key(key) {
+                Some(key) => !self.has_row(*source, key.words()) && self.run(at + 1),
+                // A key without a value is in no relation.
+                None => self.run(at + 1),
+            },
+            Step::Aggregate { function, value, register, end } => {
+                match self.aggregate(*function, value.as_ref(), at + 1, *end) {
+                    Some(number) => {
+                        self.registers[*register as usize] = self.words.number(number);
+                        self.run(*end)
+                    }
+                    None => false,
+                }
+            }
+            Step::Reached => self.goal.reached(self.registers, self.words),
+        }
+    }
+
+    fn compute(&mut self, expr: &Expr) -> Option<Word> {
+        match expr {
+            Expr::Variable(v) => Some(self.registers[*v as usize]),
+            Expr::Constant(word) => Some(*word),
+            Expr::Call(..) => value::compute(expr, &|v| self.registers[v as usize], self.words),
+        }
+    }
+
+    fn holds(&mut self, compare: &Compare) -> bool {
+        match (self.compute(&compare.left), self.compute(&compare.right)) {
+            (Some(left), Some(right)) => {
+                value::holds(compare.op, compare.is_number, left, right, self.words)
+            }
+            _ => false,
+        }
+    }
+
+    fn key(&mut self, exprs: &[Expr]) -> Option<Key> {
+        let mut key = Key { words: [0; MAX_KEY], len: exprs.len() };
+        for (word, expr) in key.words.iter_mut().zip(exprs) {
+            *word = self.compute(expr)?;
+        }
+        Some(key)
+    }
+
+    fn has_row(&self, source: usize, key: &[Word]) -> bool {
+        match &self.sources[source] {
+            Source::Index(index) => !index.range(key).is_empty(),
+            Source::Rows(parts) => parts.iter().any(|rows| !rows.range(key).is_empty()),
+        }
+    }
+
+    fn scan(&mut self, scan: &'a Scan, next: usize) -> bool {
+        let Some(key) = self.key(&scan.key) else { return false };
+        match &self.sources[scan.source] {
+            Source::Index(index) => self.scan_index(scan, index, key.words(), next),
+            Source::Rows(_) => self.scan_rows(scan, key.words(), next),
+        }
+    }
+
+    fn scan_rows(&mut self, scan: &'a Scan, key: &[Word], next: usize) -> bool {
+        let Source::Rows(parts) = &self.sources[scan.source] else { return false };
+        let mut found = false;
+        for rows in parts {
+            for at in rows.range(key) {
+                let row = rows.row(at);
+                for (column, register) in &scan.loads {
+                    self.registers[*register as usize] = row[*column];
+                }
+                let same =
+                    scan.same.iter().all(|(column, v)| self.registers[*v as usize] == row[*column]);
+                if same && self.run(next) {
+                    found = true;
+                    if scan.once {
+                        return true;
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    fn scan_index(&mut self, scan: &'a Scan, index: &Index, key: &[Word], next: usize) -> bool {
+        let range = index.range(key);
+        let mut found = false;
+        if scan.filters.is_empty() {
+            for at in range {
+                if self.visit(scan, index, at, next) {
+                    found = true;
+                    if scan.once {
+                        return true;
+                    }
+                }
+            }
+            return found;
+        }
+        let mut chosen = self.spare.pop().unwrap_or_default();
+        chosen.clear();
+        chosen.extend(range.start as u32..range.end as u32);
+        for filter in &scan.filters {
+            if chosen.is_empty() {
+                break;
+            }
+            match self.compute(&filter.value) {
+                Some(word) => {
+                    retain(&mut chosen, index.at(filter.column), filter, word, self.words)
+                }
+                None => chosen.clear(),
+            }
+        }
+        for at in &chosen {
+            if self.visit(scan, index, *at as usize, next) {
+                found = true;
+                if scan.once {
+                    break;
+                }
+            }
+        }
+        self.spare.push(chosen);
+        found
+    }
+
+    fn visit(&mut self, scan: &'a Scan, index: &Index, at: usize, next: usize) -> bool {
+        for (column, register) in &scan.loads {
+            self.registers[*register as usize] = index.at(*column).words[at];
+        }
+        let same =
+            |(column, v): &(usize, u32)| self.registers[*v as usize] == index.at(*column).words[at];
+        scan.same.iter().all(same) && self.run(next)
+    }
+
+    /// None where the aggregate has no value.
+    fn aggregate(
+        &mut self,
+        function: Aggregation,
+        value: Option<&Expr>,
+        first: usize,
+        end: usize,
+    ) -> Option<i64> {
+        let mut count = Count::default();
+        let mut each = |registers: &[Word], words: &mut Words| {
+            let number = match value {
+                Some(value) => value::number(value, &|v| registers[v as usize], words),
+                None => Some(0),
+            };
+            if let Some(number) = number {
+                count.add(number);
+            }
+            true
+        };
+        let steps = &self.steps[..end];
+        let mut inner = Machine {
+            steps,
+            sources: self.sources,
+            registers: &mut *self.registers,
+            words: &mut *self.words,
+            goal: &mut each,
+            spare: Vec::new(),
+        };
+        inner.run(first);
+        count.value(function)
+    }
+}
+
+/// Keeps the positions whose column compares so with the word.
+fn retain(
+    chosen: &mut Vec<u32>,
+    column: &IndexColumn,
+    filter: &ColumnFilter,
+    word: Word,
+    words: &Words,
+) {
+    let of = &column.words[..];
+    let op = filter.op;
+    match op {
+        Comparison::Equal => keep(chosen, |at| of[at] == word),
+        Comparison::NotEqual if column.is_in_place => keep(chosen, |at| of[at] != word),
+        _ if filter.is_number && column.is_in_place && is_in_place(word) => match op {
+            Comparison::Less => keep(chosen, |at| of[at] < word),
+            Comparison::LessOrEqual => keep(chosen, |at| of[at] <= word),
+            Comparison::Greater => keep(chosen, |at| of[at] > word),
+            _ => keep(chosen, |at| of[at] >= word),
+        },
+        _ => {
+            let has_value = |at: usize| of[at] != super::word::NO_WORD;
+            keep(chosen, |at| {
+                has_value(at) && value::holds(op, filter.is_number, of[at], word, words)
+            });
+        }
+    }
+}
+
+/// `Vec::retain` without branches.
+fn keep(chosen: &mut Vec<u32>, holds: impl Fn(usize) -> bool) {
+    let mut kept = 0;
+    for n in 0..chosen.len() {
+        let at = chosen[n];
+        chosen[kept] = at;
+        kept += usize::from(holds(at as usize));
+    }
+    chosen.truncate(kept);
+}
+
+/// A key has at most the words of a row.
+const MAX_KEY: usize = super::check::MAX_COLUMNS;
+
+struct Key {
+    words: [Word; MAX_KEY],
+    len: usize,
+}
+
+impl Key {
+    fn words(&self) -> &[Word] {
+        &self.words[..self.len]
+    }
+}

@@ -1,0 +1,236 @@
+//! A rule text as it stands: items, rules and expressions with their places, names not yet resolved.
+
+use std::ops::Range;
+
+use miette::SourceSpan;
+
+/// Byte range in one of the program's texts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(super) struct Span {
+    pub(super) file: u32,
+    pub(super) start: u32,
+    pub(super) end: u32,
+}
+
+impl Span {
+    pub(super) fn range(self) -> Range<usize> {
+        self.start as usize..self.end as usize
+    }
+
+    /// From the start of this span to the end of the other.
+    pub(super) fn to(self, other: Self) -> Self {
+        Self { end: other.end.max(self.end), ..self }
+    }
+}
+
+impl From<Span> for SourceSpan {
+    fn from(span: Span) -> Self {
+        span.range().into()
+    }
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Item {
+    /// `.type Place <: symbol`; with `=` the base may be several types.
+    Type { name: Name, bases: Vec<Name> },
+    /// `.decl above(a: symbol, b: symbol) = НАД`; several names may share one list of columns.
+    Relation {
+        names: Vec<Name>,
+        columns: Vec<(Name, Name)>,
+        second: Option<Name>,
+        roles: Vec<Role>,
+    },
+    /// `.input`, `.output`, `.printsize`, `.limitsize`.
+    Directive { role: Role, relations: Vec<Name>, parameters: Vec<(String, String)> },
+    /// A fact is a rule without a body.
+    Rule(Rule),
+    /// Read over on purpose, such as `.pragma`.
+    Nothing,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    Input,
+    Output,
+    PrintSize,
+    LimitSize,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Rule {
+    pub(super) heads: Vec<Atom>,
+    pub(super) body: Body,
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Body {
+    All(Vec<Self>),
+    Any(Vec<Self>),
+    Not(Box<Self>),
+    Atom(Atom),
+    Compare { op: Comparison, left: Expr, right: Expr, at: Span },
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Atom {
+    pub(super) relation: Name,
+    pub(super) args: Vec<Expr>,
+    pub(super) at: Span,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Expr {
+    Any(Span),
+    Variable(Name),
+    Number(i64, Span),
+    Text(String, Span),
+    Call { functor: Functor, args: Vec<Self>, at: Span },
+    Aggregate { function: Aggregation, value: Option<Box<Self>>, body: Box<Body>, at: Span },
+}
+
+impl Expr {
+    pub(super) fn at(&self) -> Span {
+        match self {
+            Self::Variable(name) => name.at,
+            Self::Any(at)
+            | Self::Number(_, at)
+            | Self::Text(_, at)
+            | Self::Call { at, .. }
+            | Self::Aggregate { at, .. } => *at,
+        }
+    }
+}
+
+/// How two values are compared; `Contains` is Soufflé's `contains(part, whole)`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Comparison {
+    Equal,
+    NotEqual,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
+    Contains,
+    NotContains,
+}
+
+impl Comparison {
+    /// The comparison that holds exactly when this one does not.
+    pub(super) fn negated(self) -> Self {
+        match self {
+            Self::Equal => Self::NotEqual,
+            Self::NotEqual => Self::Equal,
+            Self::Less => Self::GreaterOrEqual,
+            Self::LessOrEqual => Self::Greater,
+            Self::Greater => Self::LessOrEqual,
+            Self::GreaterOrEqual => Self::Less,
+            Self::Contains => Self::NotContains,
+            Self::NotContains => Self::Contains,
+        }
+    }
+
+    /// The comparison with its sides exchanged; none for the two that are not about order.
+    pub(super) fn mirrored(self) -> Option<Self> {
+        Some(match self {
+            Self::Equal => Self::Equal,
+            Self::NotEqual => Self::NotEqual,
+            Self::Less => Self::Greater,
+            Self::LessOrEqual => Self::GreaterOrEqual,
+            Self::Greater => Self::Less,
+            Self::GreaterOrEqual => Self::LessOrEqual,
+            Self::Contains | Self::NotContains => return None,
+        })
+    }
+
+    pub(super) fn sign(self) -> &'static str {
+        match self {
+            Self::Equal => "=",
+            Self::NotEqual => "!=",
+            Self::Less => "<",
+            Self::LessOrEqual => "<=",
+            Self::Greater => ">",
+            Self::GreaterOrEqual => ">=",
+            Self::Contains => "contains",
+            Self::NotContains => "!contains",
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Aggregation {
+    Count,
+    Sum,
+    Min,
+    Max,
+    Mean,
+}
+
+impl Aggregation {
+    pub(super) fn word(self) -> &'static str {
+        match self {
+            Self::Count => "count",
+            Self::Sum => "sum",
+            Self::Min => "min",
+            Self::Max => "max",
+            Self::Mean => "mean",
+        }
+    }
+}
+
+macro_rules! functors {
+    ($($name:ident $word:literal $result:ident ($($arg:ident),*);)+) => {
+        /// What computes a value from values. The list gives word, result and arguments (`N` number, `S` symbol).
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+        pub(super) enum Functor { $($name),+ }
+
+        impl Functor {
+            pub(super) const ALL: &[Self] = &[$(Self::$name),+];
+
+            pub(super) fn word(self) -> &'static str {
+                match self { $(Self::$name => $word),+ }
+            }
+
+            pub(super) fn is_number(self) -> bool {
+                match self { $(Self::$name => functors!(@is_number $result)),+ }
+            }
+
+            /// For each argument, whether it is a number.
+            pub(super) fn takes_numbers(self) -> &'static [bool] {
+                match self { $(Self::$name => &[$(functors!(@is_number $arg)),*]),+ }
+            }
+        }
+    };
+    (@is_number N) => { true };
+    (@is_number S) => { false };
+}
+
+functors! {
+    Add "+" N(N, N);
+    Subtract "-" N(N, N);
+    Multiply "*" N(N, N);
+    Divide "/" N(N, N);
+    Remainder "%" N(N, N);
+    Power "^" N(N, N);
+    Negate "neg" N(N);
+    Smaller "min" N(N, N);
+    Larger "max" N(N, N);
+    BitAnd "band" N(N, N);
+    BitOr "bor" N(N, N);
+    BitXor "bxor" N(N, N);
+    BitNot "bnot" N(N);
+    ShiftLeft "bshl" N(N, N);
+    ShiftRight "bshr" N(N, N);
+    Concatenate "cat" S(S, S);
+    Length "strlen" N(S);
+    Part "substr" S(S, N, N);
+    ToText "to_string" S(N);
+    ToNumber "to_number" N(S);
+    Ordinal "ord" N(S);
+}

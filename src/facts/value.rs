@@ -1,0 +1,133 @@
+//! Computing and comparing values.
+//!
+//! A computation may have no result: division by zero, overflow, `to_number` of no number. The premise
+//! in which it stands then does not hold; evaluation goes on.
+
+use std::cmp::Ordering;
+
+use super::program::{Expr, VariableId};
+use super::syntax::{Comparison, Functor};
+use super::word::{Word, Words, is_in_place};
+
+/// The word of an expression's value; none where there is no value.
+pub(super) fn compute(
+    expr: &Expr,
+    variable: &impl Fn(VariableId) -> Word,
+    words: &mut Words,
+) -> Option<Word> {
+    match expr {
+        Expr::Variable(v) => Some(variable(*v)),
+        Expr::Constant(word) => Some(*word),
+        Expr::Call(functor, _) if functor.is_number() => {
+            let number = number(expr, variable, words)?;
+            Some(words.number(number))
+        }
+        Expr::Call(..) => {
+            let text = text(expr, variable, words)?;
+            Some(words.symbol(&text))
+        }
+    }
+}
+
+/// The number that an expression of a number kind stands for.
+pub(super) fn number(
+    expr: &Expr,
+    variable: &impl Fn(VariableId) -> Word,
+    words: &mut Words,
+) -> Option<i64> {
+    let (functor, args) = match expr {
+        Expr::Variable(v) => return Some(words.to_number(variable(*v))),
+        Expr::Constant(word) => return Some(words.to_number(*word)),
+        Expr::Call(functor, args) => (*functor, args.as_slice()),
+    };
+    match (functor, args) {
+        (Functor::Length, [a]) => text(a, variable, words).map(|text| text.chars().count() as i64),
+        (Functor::ToNumber, [a]) => text(a, variable, words)?.trim().parse().ok(),
+        (Functor::Ordinal, [a]) => compute(a, variable, words).map(i64::from),
+        (Functor::Negate, [a]) => number(a, variable, words)?.checked_neg(),
+        (Functor::BitNot, [a]) => Some(!number(a, variable, words)?),
+        (_, [a, b]) => {
+            let a = number(a, variable, words)?;
+            let b = number(b, variable, words)?;
+            arithmetic(functor, a, b)
+        }
+        _ => None,
+    }
+}
+
+fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
+    match functor {
+        Functor::Add => a.checked_add(b),
+        Functor::Subtract => a.checked_sub(b),
+        Functor::Multiply => a.checked_mul(b),
+        Functor::Divide => a.checked_div(b),
+        Functor::Remainder => a.checked_rem(b),
+        Functor::Power => a.checked_pow(u32::try_from(b).ok()?),
+        Functor::Smaller => Some(a.min(b)),
+        Functor::Larger => Some(a.max(b)),
+        Functor::BitAnd => Some(a & b),
+        Functor::BitOr => Some(a | b),
+        Functor::BitXor => Some(a ^ b),
+        Functor::ShiftLeft => a.checked_shl(u32::try_from(b).ok()?),
+        Functor::ShiftRight => a.checked_shr(u32::try_from(b).ok()?),
+        _ => None,
+    }
+}
+
+fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) -> Option<String> {
+    let (functor, args) = match expr {
+        Expr::Variable(v) => return Some(words.text(variable(*v)).to_string()),
+        Expr::Constant(word) => return Some(words.text(*word).to_string()),
+        Expr::Call(functor, args) => (*functor, args.as_slice()),
+    };
+    match (functor, args) {
+        (Functor::Concatenate, [a, b]) => {
+            let joined = text(a, variable, words)? + &text(b, variable, words)?;
+            (joined.len() <= MAX_TEXT).then_some(joined)
+        }
+        (Functor::Part, [whole, from, length]) => {
+            let whole = text(whole, variable, words)?;
+            let from = usize::try_from(number(from, variable, words)?).ok()?;
+            let length = usize::try_from(number(length, variable, words)?).ok()?;
+            Some(whole.chars().skip(from).take(length).collect())
+        }
+        (Functor::ToText, [a]) => number(a, variable, words).map(|number| number.to_string()),
+        _ => None,
+    }
+}
+
+/// Longer texts are no values: a recursive rule with `cat` would fill the memory.
+const MAX_TEXT: usize = 1 << 16;
+
+/// Whether two words of one kind compare so.
+pub(super) fn holds(op: Comparison, is_number: bool, a: Word, b: Word, words: &Words) -> bool {
+    match op {
+        Comparison::Equal => a == b,
+        Comparison::NotEqual => a != b,
+        Comparison::Contains => words.text(b).contains(words.text(a).as_ref()),
+        Comparison::NotContains => !words.text(b).contains(words.text(a).as_ref()),
+        _ => is_ordered(op, order(is_number, a, b, words)),
+    }
+}
+
+fn order(is_number: bool, a: Word, b: Word, words: &Words) -> Ordering {
+    if !is_number {
+        words.text(a).cmp(words.text(b))
+    } else if is_in_place(a) && is_in_place(b) {
+        a.cmp(&b)
+    } else {
+        words.to_number(a).cmp(&words.to_number(b))
+    }
+}
+
+pub(super) fn is_ordered(op: Comparison, order: Ordering) -> bool {
+    match op {
+        Comparison::Less => order.is_lt(),
+        Comparison::LessOrEqual => order.is_le(),
+        Comparison::Greater => order.is_gt(),
+        Comparison::GreaterOrEqual => order.is_ge(),
+        Comparison::Equal => order.is_eq(),
+        Comparison::NotEqual => order.is_ne(),
+        Comparison::Contains | Comparison::NotContains => false,
+    }
+}

@@ -1,0 +1,186 @@
+//! Values and the 32-bit words that stand for them in tuples.
+//!
+//! A column holds either symbols or numbers, so one word needs no tag. A symbol is its number in the
+//! order of first sight. A number within ±2^30 stands in place, shifted so that words compare as the
+//! numbers do; any other `i64` is kept in a list and its word, with the top bit set, is the position there.
+//! Lengths in hundredths of a centimetre stay in place up to a hundred kilometres.
+//!
+//! **Invariant**: equal values have equal words, so joins compare words alone.
+
+use std::collections::HashMap;
+use std::fmt;
+use std::sync::Arc;
+
+/// One word of a tuple.
+pub(super) type Word = u32;
+
+/// No value has this word; a computed column holds it where the computation has no result.
+pub(super) const NO_WORD: Word = u32::MAX;
+
+/// Words from here on are positions in the list of large numbers.
+const LARGE: Word = 1 << 31;
+const IN_PLACE: i64 = 1 << 30;
+
+/// A value of a tuple, as callers see it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Value {
+    Number(i64),
+    Symbol(Arc<str>),
+}
+
+impl From<i64> for Value {
+    fn from(number: i64) -> Self {
+        Self::Number(number)
+    }
+}
+
+impl From<&str> for Value {
+    fn from(text: &str) -> Self {
+        Self::Symbol(text.into())
+    }
+}
+
+impl From<String> for Value {
+    fn from(text: String) -> Self {
+        Self::Symbol(text.into())
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{number}"),
+            Self::Symbol(text) => write!(f, "{text}"),
+        }
+    }
+}
+
+/// Whether a number's word compares as the number does.
+pub(super) fn is_in_place(word: Word) -> bool {
+    word < LARGE
+}
+
+/// The word of a number that needs no list.
+pub(super) fn small_number(number: i64) -> Option<Word> {
+    (-IN_PLACE..IN_PLACE).contains(&number).then(|| (number + IN_PLACE) as Word)
+}
+
+/// One layer of interned symbols and large numbers.
+#[derive(Debug, Clone, Default)]
+struct Layer {
+    symbols: Vec<Arc<str>>,
+    symbol_words: HashMap<Arc<str>, Word>,
+    numbers: Vec<i64>,
+    number_words: HashMap<i64, Word>,
+}
+
+/// Symbols and large numbers by word: a layer shared with others and one of its own.
+///
+/// An evaluation shares the layer of its input and adds what its rules compute.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Words {
+    shared: Arc<Layer>,
+    own: Layer,
+}
+
+impl Words {
+    /// Another table that starts with the shared words of this one; costs nothing after [`Self::settle`].
+    pub(super) fn share(&self) -> Self {
+        if self.own.symbols.is_empty() && self.own.numbers.is_empty() {
+            return Self { shared: Arc::clone(&self.shared), own: Layer::default() };
+        }
+        let mut all = self.clone();
+        all.settle();
+        all
+    }
+
+    /// Moves all words into the layer that [`Self::share`] shares.
+    pub(super) fn settle(&mut self) {
+        if self.own.symbols.is_empty() && self.own.numbers.is_empty() {
+            return;
+        }
+        let own = std::mem::take(&mut self.own);
+        let shared = Arc::make_mut(&mut self.shared);
+        shared.symbols.extend(own.symbols);
+        shared.symbol_words.extend(own.symbol_words);
+        shared.numbers.extend(own.numbers);
+        shared.number_words.extend(own.number_words);
+    }
+
+    pub(super) fn symbol(&mut self, text: &str) -> Word {
+        if let Some(word) = self.find_symbol(text) {
+            return word;
+        }
+        let word = (self.shared.symbols.len() + self.own.symbols.len()) as Word;
+        assert!(word < NO_WORD, "fewer than 2^32 - 1 symbols fit into the memory that holds them");
+        let text: Arc<str> = text.into();
+        self.own.symbols.push(Arc::clone(&text));
+        self.own.symbol_words.insert(text, word);
+        word
+    }
+
+    pub(super) fn find_symbol(&self, text: &str) -> Option<Word> {
+        let known = self.shared.symbol_words.get(text).or_else(|| self.own.symbol_words.get(text));
+        known.copied()
+    }
+
+    pub(super) fn text(&self, word: Word) -> &Arc<str> {
+        let word = word as usize;
+        let shared = self.shared.symbols.len();
+        if word < shared { &self.shared.symbols[word] } else { &self.own.symbols[word - shared] }
+    }
+
+    pub(super) fn number(&mut self, number: i64) -> Word {
+        if let Some(word) = self.find_number(number) {
+            return word;
+        }
+        let word = LARGE + (self.shared.numbers.len() + self.own.numbers.len()) as Word;
+        self.own.numbers.push(number);
+        self.own.number_words.insert(number, word);
+        word
+    }
+
+    pub(super) fn find_number(&self, number: i64) -> Option<Word> {
+        small_number(number).or_else(|| {
+            let large = &self.shared.number_words;
+            large.get(&number).or_else(|| self.own.number_words.get(&number)).copied()
+        })
+    }
+
+    pub(super) fn to_number(&self, word: Word) -> i64 {
+        if is_in_place(word) {
+            return i64::from(word) - IN_PLACE;
+        }
+        let at = (word - LARGE) as usize;
+        let shared = self.shared.numbers.len();
+        if at < shared { self.shared.numbers[at] } else { self.own.numbers[at - shared] }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_return_as_they_went() {
+        let mut words = Words::default();
+        for n in [0, 1, -1, IN_PLACE - 1, IN_PLACE, -IN_PLACE, -IN_PLACE - 1, i64::MAX, i64::MIN] {
+            let word = words.number(n);
+            assert_eq!((words.to_number(word), words.number(n)), (n, word));
+        }
+        assert!(words.number(-5) < words.number(3));
+    }
+
+    #[test]
+    fn an_extension_knows_what_the_original_knew_and_leaves_it_alone() {
+        let mut words = Words::default();
+        let table = words.symbol("стол");
+        let large = words.number(i64::MAX);
+        words.settle();
+        let mut more = words.share();
+        assert_eq!((more.symbol("стол"), more.number(i64::MAX)), (table, large));
+        let chair = more.symbol("стул");
+        assert_eq!(more.text(chair).as_ref(), "стул");
+        assert_eq!(words.find_symbol("стул"), None);
+    }
+}

@@ -1,0 +1,473 @@
+//! Doors and passages: where they are, what their leaves occupy, and how wide they stand open (M7).
+//!
+//! A doorway joins a side of one Area to a side of another across the wall between them, which may be thin as a
+//! line. Its own coordinates: `t` runs along the side of the first Area (from the right jamb to the left one,
+//! seen from inside), `s` leads out of that Area:
+//!
+//! ```text
+//!              second Area
+//!   s = gap  ▔▔▔▔▔┐         ┌▔▔▔▔▔▔   its side
+//!              wall│- - - - -│ wall    the doorway's line, s = gap / 2
+//!   s = 0    ▁▁▁▁▁┘         └▁▁▁▁▁▁   the side of the first Area
+//!                 t0        t1
+//!              first Area
+//! ```
+//!
+//! A hinged leaf turns about the corner of its jamb on the face towards which it opens; closed, it lies within
+//! the wall. A sliding leaf runs along the doorway's line into its pocket.
+
+use std::f64::consts::PI;
+
+use crate::map::{
+    Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo, Permeability,
+    SideRef, World,
+};
+use crate::units::{AreaId, DoorId, MapId, Point, Vector};
+
+use super::scene::{PlacedArea, Scene};
+use super::{Polygon, nearest_on_segment};
+
+/// An opening between two Areas of a Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Doorway {
+    /// The Area that mounts the door first, then the other.
+    pub areas: [AreaId; 2],
+    pub sides: [SideRef; 2],
+    /// None for an open passage.
+    pub door: Option<DoorId>,
+    pub permeability: Permeability,
+    /// Towards which Area the leaves swing: 0 or 1, an index of `areas`.
+    pub opens_to: usize,
+    /// Depth of the wall between the sides, in cm.
+    pub gap: f64,
+    /// Floor of the second Area less floor of the first, in cm.
+    pub rise: f64,
+    origin: Point,
+    along: Vector,
+    span: (f64, f64),
+}
+
+impl Doorway {
+    /// The point at `t` along the first Area's side, `s` out of that Area.
+    #[must_use]
+    pub fn at(&self, t: f64, s: f64) -> Point {
+        self.origin + self.along * t + self.out() * s
+    }
+
+    /// Unit vector out of the first Area into the second.
+    #[must_use]
+    pub fn out(&self) -> Vector {
+        Vector::new(self.along.y, -self.along.x)
+    }
+
+    /// Width between the jambs, in cm.
+    #[must_use]
+    pub fn width(&self) -> f64 {
+        self.span.1 - self.span.0
+    }
+
+    /// The right and the left jamb, as `t`.
+    #[must_use]
+    pub fn span(&self) -> (f64, f64) {
+        self.span
+    }
+
+    /// The line on which the Fragments meet, right jamb first, seen from the first Area.
+    #[must_use]
+    pub fn line(&self) -> (Point, Point) {
+        (self.at(self.span.0, self.gap / 2.0), self.at(self.span.1, self.gap / 2.0))
+    }
+
+    #[must_use]
+    pub fn middle(&self) -> Point {
+        self.at((self.span.0 + self.span.1) / 2.0, self.gap / 2.0)
+    }
+
+    /// Which of the two Areas: 0 or 1.
+    #[must_use]
+    pub fn index_of(&self, area: AreaId) -> Option<usize> {
+        self.areas.iter().position(|&a| a == area)
+    }
+
+    /// The middle of the opening, `distance` cm before the face of the wall on the side of an Area (0 or 1).
+    #[must_use]
+    pub fn before(&self, side: usize, distance: f64) -> Point {
+        self.at(
+            (self.span.0 + self.span.1) / 2.0,
+            if side == 0 { -distance } else { self.gap + distance },
+        )
+    }
+
+    /// The rectangle between the jambs from `s = from` to `s = to`, widened by `by` on both sides.
+    pub(super) fn rectangle(&self, from: f64, to: f64, by: f64) -> Polygon {
+        let (t0, t1) = (self.span.0 - by, self.span.1 + by);
+        let (low, high) = (from.min(to), from.max(to));
+        // `along` × `out` is negative, so this order is counter-clockwise.
+        Polygon::new(vec![self.at(t0, low), self.at(t0, high), self.at(t1, high), self.at(t1, low)])
+            .counter_clockwise()
+    }
+
+    /// What the leaves occupy.
+    #[must_use]
+    pub fn leaves(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
+        let bay = Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap };
+        leaves(door)
+            .map(|(leaf, share)| bay.leaf(door, leaf, share, self.opens_to, state))
+            .collect()
+    }
+
+    /// What the leaves occupy outside of their pockets in the wall: the obstacles that they are.
+    #[must_use]
+    pub fn leaf_obstacles(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
+        let leaves = self.leaves(door, state);
+        match door.kind {
+            DoorKind::Hinged | DoorKind::Passage => leaves,
+            DoorKind::Sliding => {
+                leaves.iter().filter_map(|leaf| self.between_jambs(leaf)).collect()
+            }
+        }
+    }
+
+    fn between_jambs(&self, leaf: &Polygon) -> Option<Polygon> {
+        let corners: Vec<Point> = leaf
+            .corners
+            .iter()
+            .map(|&p| {
+                let v = p - self.origin;
+                self.at(v.dot(&self.along).clamp(self.span.0, self.span.1), v.dot(&self.out()))
+            })
+            .collect();
+        let cut = Polygon::new(corners);
+        (cut.signed_area().abs() > 1e-6).then_some(cut)
+    }
+
+    /// All that a leaf passes over between closed and fully open.
+    #[must_use]
+    pub fn swept(&self, door: &Door) -> Vec<Polygon> {
+        let bay = Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap };
+        leaves(door).map(|(leaf, share)| bay.swept(door, leaf, share, self.opens_to)).collect()
+    }
+
+    /// The widest gap that the leaves leave between each other and the jambs, in cm; the width for a passage.
+    #[must_use]
+    pub fn clear_width(&self, door: Option<&Door>, state: DoorState) -> f64 {
+        let Some(door) = door else { return self.width() };
+        if door.kind == DoorKind::Passage {
+            return self.width();
+        }
+        if state.status != DoorStatus::Open {
+            return 0.0;
+        }
+        let jamb = |t: f64| Polygon::new(vec![self.at(t, 0.0), self.at(t, self.gap)]);
+        let solids: Vec<Polygon> = std::iter::once(jamb(self.span.0))
+            .chain(self.leaf_obstacles(door, state))
+            .chain([jamb(self.span.1)])
+            .collect();
+        let gaps = solids.windows(2).map(|pair| distance(&pair[0], &pair[1]));
+        gaps.fold(0.0, f64::max).min(self.width())
+    }
+}
+
+/// Leaves of a door fixed to a side of an Object's placed Orthoframe: a wardrobe's. They open outwards or inwards
+/// of the Object; `a` to `b` is the side, counter-clockwise round the Object.
+#[must_use]
+pub fn object_leaves(
+    door: &Door,
+    mount: &DoorMount,
+    a: Point,
+    b: Point,
+    state: DoorState,
+) -> Vec<Polygon> {
+    let Some(along) = (b - a).try_normalize(0.0) else { return Vec::new() };
+    let bay = Bay { origin: a, along, span: (0.0, (b - a).norm()), gap: 0.0 };
+    let opens_to = usize::from(mount.opens == OpensTo::Outside);
+    leaves(door).map(|(leaf, share)| bay.leaf(door, leaf, share, opens_to, state)).collect()
+}
+
+/// Every leaf with the stretch of the width that it closes, as shares from the right.
+fn leaves(door: &Door) -> impl Iterator<Item = (&DoorLeaf, (f64, f64))> {
+    door.leaves.iter().scan(0.0, |from, leaf| {
+        let share = (*from, *from + leaf.share);
+        *from = share.1;
+        Some((leaf, share))
+    })
+}
+
+/// The hole in the wall that leaves close.
+struct Bay {
+    origin: Point,
+    along: Vector,
+    span: (f64, f64),
+    gap: f64,
+}
+
+impl Bay {
+    fn at(&self, t: f64, s: f64) -> Point {
+        self.origin + self.along * t + Vector::new(self.along.y, -self.along.x) * s
+    }
+
+    fn stretch(&self, share: (f64, f64)) -> (f64, f64) {
+        let width = self.span.1 - self.span.0;
+        (self.span.0 + width * share.0, self.span.0 + width * share.1)
+    }
+
+    fn leaf(
+        &self,
+        door: &Door,
+        leaf: &DoorLeaf,
+        share: (f64, f64),
+        opens_to: usize,
+        state: DoorState,
+    ) -> Polygon {
+        let opening = if state.status == DoorStatus::Open { state.opening / 100.0 } else { 0.0 };
+        match door.kind {
+            DoorKind::Hinged => {
+                let swing = self.swing(leaf, share, opens_to);
+                swing.leaf_at((leaf.max_open * opening).to_radians(), leaf.thickness.get())
+            }
+            DoorKind::Sliding | DoorKind::Passage => {
+                self.slid(leaf, share, leaf.max_open / 100.0 * opening)
+            }
+        }
+        .counter_clockwise()
+    }
+
+    fn swing(&self, leaf: &DoorLeaf, share: (f64, f64), opens_to: usize) -> Swing {
+        let (right, left) = self.stretch(share);
+        let out = Vector::new(self.along.y, -self.along.x);
+        let (face, opens) = if opens_to == 0 { (0.0, -out) } else { (self.gap, out) };
+        let (t, closed) = match leaf.hinge {
+            HingeSide::Right => (right, self.along),
+            HingeSide::Left => (left, -self.along),
+        };
+        Swing { hinge: self.at(t, face), closed, opens, length: left - right }
+    }
+
+    /// A sliding leaf, `shift` of its length withdrawn.
+    fn slid(&self, leaf: &DoorLeaf, share: (f64, f64), shift: f64) -> Polygon {
+        let (right, left) = self.stretch(share);
+        let way = (left - right) * shift * if leaf.hinge == HingeSide::Right { -1.0 } else { 1.0 };
+        let (t0, t1) = (right + way, left + way);
+        let (s0, s1) = (
+            self.gap / 2.0 - leaf.thickness.get() / 2.0,
+            self.gap / 2.0 + leaf.thickness.get() / 2.0,
+        );
+        Polygon::new(vec![self.at(t0, s0), self.at(t0, s1), self.at(t1, s1), self.at(t1, s0)])
+    }
+
+    fn swept(&self, door: &Door, leaf: &DoorLeaf, share: (f64, f64), opens_to: usize) -> Polygon {
+        match door.kind {
+            DoorKind::Hinged => self
+                .swing(leaf, share, opens_to)
+                .sector(leaf.max_open.to_radians(), leaf.thickness.get()),
+            DoorKind::Sliding | DoorKind::Passage => self.slid(leaf, share, 0.0),
+        }
+        .counter_clockwise()
+    }
+}
+
+/// A leaf on its hinge.
+struct Swing {
+    hinge: Point,
+    /// From the hinge along the closed leaf.
+    closed: Vector,
+    opens: Vector,
+    length: f64,
+}
+
+impl Swing {
+    fn leaf_at(&self, angle: f64, thickness: f64) -> Polygon {
+        let (sin, cos) = angle.sin_cos();
+        let along = self.closed * cos + self.opens * sin;
+        // The leaf's body lies behind the face that shuts flush with the wall.
+        let back = (self.closed * sin - self.opens * cos) * thickness;
+        let tip = self.hinge + along * self.length;
+        Polygon::new(vec![self.hinge, tip, tip + back, self.hinge + back])
+    }
+
+    /// The leaf's way, its arc by tangents from outside.
+    fn sector(&self, angle: f64, thickness: f64) -> Polygon {
+        let reach = self.length.hypot(thickness);
+        let steps = (angle / (PI / 12.0)).ceil().max(1.0);
+        let half = angle / steps / 2.0;
+        let ray = |a: f64, r: f64| self.hinge + (self.closed * a.cos() + self.opens * a.sin()) * r;
+        let mut corners = vec![self.hinge, ray(0.0, reach)];
+        corners.extend(
+            (0..steps as usize).map(|k| ray(half * (2 * k + 1) as f64, reach / half.cos())),
+        );
+        corners.push(ray(angle, reach));
+        Polygon::new(corners)
+    }
+}
+
+/// Distance between two polygons, 0 where they meet. Two corners make a segment.
+pub(super) fn distance(a: &Polygon, b: &Polygon) -> f64 {
+    let inside = |p: &Polygon, q: &Polygon| {
+        p.corners.len() > 2 && q.corners.first().is_some_and(|&c| p.contains(c, 0.0))
+    };
+    if inside(a, b) || inside(b, a) {
+        return 0.0;
+    }
+    let mut least = f64::INFINITY;
+    for (p, q) in a.edges() {
+        for (u, v) in b.edges() {
+            least = least.min(segment_distance(p, q, u, v));
+        }
+    }
+    least
+}
+
+pub(super) fn segment_distance(p: Point, q: Point, u: Point, v: Point) -> f64 {
+    let side = |a: Point, b: Point, c: Point| (b - a).perp(&(c - a));
+    let crosses = side(p, q, u) * side(p, q, v) < 0.0 && side(u, v, p) * side(u, v, q) < 0.0;
+    if crosses {
+        return 0.0;
+    }
+    [
+        (p - nearest_on_segment(p, u, v)).norm(),
+        (q - nearest_on_segment(q, u, v)).norm(),
+        (u - nearest_on_segment(u, p, q)).norm(),
+        (v - nearest_on_segment(v, p, q)).norm(),
+    ]
+    .into_iter()
+    .fold(f64::INFINITY, f64::min)
+}
+
+/// A side of an Area through which one may pass.
+struct OpenSide {
+    area: AreaId,
+    side: SideRef,
+    start: Point,
+    end: Point,
+    floor: f64,
+    permeability: Permeability,
+    mount: Option<DoorMount>,
+}
+
+/// All doorways of a Map: linked sides first, then doors that two Areas mount, then sides that face each other.
+#[must_use]
+pub fn doorways(world: &World, scene: &Scene, map: MapId) -> Vec<Doorway> {
+    let mut open: Vec<Option<OpenSide>> =
+        scene.areas.values().flat_map(|area| open_sides(world, area)).map(Some).collect();
+    let position = |open: &[Option<OpenSide>], area: AreaId, side: &SideRef| {
+        open.iter().position(|o| o.as_ref().is_some_and(|o| o.area == area && o.side == *side))
+    };
+    let mut found = Vec::new();
+    let mut pair = |open: &mut Vec<Option<OpenSide>>, i: usize, j: usize| {
+        let (Some(a), Some(b)) = (open[i].as_ref(), open[j].as_ref()) else { return };
+        if let Some(doorway) = join(world, a, b) {
+            found.push(doorway);
+            open[i] = None;
+            open[j] = None;
+        }
+    };
+    for link in world.maps.get(&map).map_or(&[][..], |m| &m.links) {
+        let ends =
+            (position(&open, link.area, &link.side), position(&open, link.to_area, &link.to_side));
+        if let (Some(i), Some(j)) = ends {
+            pair(&mut open, i, j);
+        }
+    }
+    for same_door in [true, false] {
+        for i in 0..open.len() {
+            for j in i + 1..open.len() {
+                let matches = match (&open[i], &open[j]) {
+                    (Some(a), Some(b)) if a.area != b.area => {
+                        let doors =
+                            (a.mount.as_ref().map(|m| m.door), b.mount.as_ref().map(|m| m.door));
+                        if same_door {
+                            doors.0.is_some() && doors.0 == doors.1
+                        } else {
+                            face_each_other(a, b)
+                        }
+                    }
+                    _ => false,
+                };
+                if matches {
+                    pair(&mut open, i, j);
+                }
+            }
+        }
+    }
+    found.sort_by(|a, b| (a.areas, &a.sides).cmp(&(b.areas, &b.sides)));
+    found
+}
+
+fn open_sides(world: &World, area: &PlacedArea) -> Vec<OpenSide> {
+    let model = &world.areas[&area.id];
+    let mut sides = Vec::new();
+    for (item, prism) in model.items.iter().zip(&area.prisms) {
+        for (i, side) in prism.sides.iter().enumerate() {
+            if side.permeability == Permeability::Impermeable {
+                continue;
+            }
+            let corners = &prism.polygon.corners;
+            let reference = SideRef { item: item.id.clone(), side: side.id.clone() };
+            let mount =
+                model.doors.iter().find(|m| m.item == reference.item && m.side == reference.side);
+            sides.push(OpenSide {
+                area: area.id,
+                start: corners[i],
+                end: corners[(i + 1) % corners.len()],
+                floor: prism.bottom,
+                permeability: side.permeability,
+                mount: mount.cloned(),
+                side: reference,
+            });
+        }
+    }
+    sides
+}
+
+/// Walls are no thicker than this where the Map has no link to tell that two sides belong together, in cm.
+const THICKEST_WALL: f64 = 60.0;
+
+/// Equal stretches of two parallel lines that look at each other through at most a wall.
+fn face_each_other(a: &OpenSide, b: &OpenSide) -> bool {
+    let (Some(u), Some(v)) =
+        ((a.end - a.start).try_normalize(0.0), (b.end - b.start).try_normalize(0.0))
+    else {
+        return false;
+    };
+    let (near, far) = (b.end - a.start, b.start - a.end);
+    u.dot(&v) < -0.999
+        && near.dot(&u).abs() < 1.0
+        && far.dot(&u).abs() < 1.0
+        && (-0.1..=THICKEST_WALL).contains(&Vector::new(u.y, -u.x).dot(&near))
+}
+
+/// The doorway between two sides; none when they do not overlap.
+fn join(world: &World, a: &OpenSide, b: &OpenSide) -> Option<Doorway> {
+    // The first Area is the one that mounts the door first.
+    let rank = |s: &OpenSide| (s.mount.is_none(), s.area);
+    let (a, b) = if rank(b) < rank(a) { (b, a) } else { (a, b) };
+    let along = (a.end - a.start).try_normalize(0.0)?;
+    let out = Vector::new(along.y, -along.x);
+    let (near, far) = (b.end - a.start, b.start - a.start);
+    let span = (near.dot(&along).max(0.0), far.dot(&along).min((a.end - a.start).norm()));
+    if span.1 - span.0 < 1e-3 {
+        return None;
+    }
+    let door = a.mount.as_ref().or(b.mount.as_ref()).map(|m| m.door);
+    // A door narrower than its side stands in the middle of it.
+    let width = door.and_then(|d| world.doors.get(&d)).map_or(0.0, |d| d.width.get());
+    let margin = if width > 0.0 { (span.1 - span.0 - width).max(0.0) / 2.0 } else { 0.0 };
+    let span = if margin > 1e-6 { (span.0 + margin, span.1 - margin) } else { span };
+    let opens_to = match (&a.mount, &b.mount) {
+        (Some(m), _) => usize::from(m.opens == OpensTo::Outside),
+        (None, Some(m)) => usize::from(m.opens == OpensTo::Inside),
+        (None, None) => 0,
+    };
+    Some(Doorway {
+        areas: [a.area, b.area],
+        sides: [a.side.clone(), b.side.clone()],
+        door,
+        permeability: a.permeability.max(b.permeability),
+        opens_to,
+        gap: ((near + far).dot(&out) / 2.0).max(0.0),
+        rise: b.floor - a.floor,
+        origin: a.start,
+        along,
+        span,
+    })
+}

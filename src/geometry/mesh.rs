@@ -1,0 +1,594 @@
+//! Convex partition of a floor, and what is needed to walk over it.
+//!
+//! Constrained Delaunay triangulation (i_triangle), then every edge is dropped whose removal leaves both of its
+//! ends convex, those first that serve no inward corner well (after Hertel and Mehlhorn 1983; never more than
+//! four times the fewest possible cells). All decisions are made on the integer grid, hence exact.
+//!
+//! **Invariant**: cells are convex and counter-clockwise, do not overlap, and fill the floor; where two share a
+//! border, both have it as one edge with the same two corners.
+
+use i_overlay::core::solver::Solver;
+use i_triangle::advanced::delaunay::IntDelaunay;
+use i_triangle::int::triangulator::IntTriangulator;
+use i_triangle::int::validation::Validation;
+
+use crate::units::Point;
+
+use super::grid::{Grid, Node, Shapes};
+use super::{Bounds, Polygon, nearest_on_segment};
+
+/// No cell: the edge is a border of the floor.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// A floor cut into convex cells.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Mesh {
+    pub(super) vertices: Vec<Point>,
+    /// Whether a shortest way may bend at the vertex: the floor's border turns inwards there.
+    pub(super) is_corner: Vec<bool>,
+    /// Where the corners of each cell begin in `ring`; one entry more than there are cells.
+    starts: Vec<u32>,
+    ring: Vec<u32>,
+    across: Vec<u32>,
+    /// Which cells hang together.
+    pub(super) component: Vec<u32>,
+    buckets: Buckets,
+}
+
+impl Mesh {
+    pub(super) fn of(grid: &Grid, shapes: &Shapes) -> Self {
+        if shapes.is_empty() {
+            return Self::default();
+        }
+        let mut edges = HalfEdges::of(shapes);
+        edges.merge();
+        let faces = edges.faces();
+        let vertices = edges.nodes.iter().map(|&n| grid.point(n)).collect();
+        let mut mesh = Self { vertices, starts: vec![0], ..Self::default() };
+        let mut face_of = vec![NONE; edges.origin.len()];
+        for (number, face) in faces.iter().enumerate() {
+            face.iter().for_each(|&h| face_of[h as usize] = number as u32);
+        }
+        let beyond = |h: u32| match edges.twin[h as usize] {
+            NONE => NONE,
+            twin => face_of[twin as usize],
+        };
+        for face in &faces {
+            mesh.ring.extend(face.iter().map(|&h| edges.origin[h as usize]));
+            mesh.across.extend(face.iter().map(|&h| beyond(h)));
+            mesh.starts.push(mesh.ring.len() as u32);
+        }
+        mesh.is_corner = edges.corners();
+        mesh.component = mesh.components();
+        mesh.buckets = Buckets::of(&mesh);
+        mesh
+    }
+
+    pub(super) fn len(&self) -> usize {
+        self.starts.len().saturating_sub(1)
+    }
+
+    pub(super) fn cells(&self) -> std::ops::Range<u32> {
+        0..self.len() as u32
+    }
+
+    fn span(&self, cell: u32) -> std::ops::Range<usize> {
+        self.starts[cell as usize] as usize..self.starts[cell as usize + 1] as usize
+    }
+
+    /// The vertices of a cell, counter-clockwise.
+    pub(super) fn ring(&self, cell: u32) -> &[u32] {
+        &self.ring[self.span(cell)]
+    }
+
+    /// The cell across each edge; edge `i` starts at vertex `i` of the ring.
+    pub(super) fn across(&self, cell: u32) -> &[u32] {
+        &self.across[self.span(cell)]
+    }
+
+    pub(super) fn edge(&self, cell: u32, edge: usize) -> (Point, Point) {
+        let ring = self.ring(cell);
+        (self.vertices[ring[edge] as usize], self.vertices[ring[(edge + 1) % ring.len()] as usize])
+    }
+
+    pub(super) fn polygon(&self, cell: u32) -> Polygon {
+        Polygon::new(self.ring(cell).iter().map(|&v| self.vertices[v as usize]).collect())
+    }
+
+    /// A cell that holds `p`, its border within `tolerance` cm; the lowest of several.
+    pub(super) fn locate(&self, p: Point, tolerance: f64) -> Option<u32> {
+        self.buckets.near(p).iter().copied().find(|&c| self.depth(c, p) >= -tolerance)
+    }
+
+    /// How far inside a cell a point lies, in cm; negative outside.
+    fn depth(&self, cell: u32, p: Point) -> f64 {
+        let ring = self.ring(cell);
+        let mut depth = f64::INFINITY;
+        for i in 0..ring.len() {
+            let (a, b) = self.edge(cell, i);
+            let along = b - a;
+            let length = along.norm();
+            if length > 0.0 {
+                depth = depth.min(along.perp(&(p - a)) / length);
+            }
+        }
+        depth
+    }
+
+    /// The place nearest to `p` in the cells that `admits` accepts, and its cell.
+    pub(super) fn nearest(&self, p: Point, admits: impl Fn(u32) -> bool) -> Option<(Point, u32)> {
+        let place = |cell: u32| {
+            if self.depth(cell, p) >= 0.0 {
+                return (0.0, p, cell);
+            }
+            let ring = self.ring(cell);
+            (0..ring.len())
+                .map(|i| {
+                    let (a, b) = self.edge(cell, i);
+                    let q = nearest_on_segment(p, a, b);
+                    ((q - p).norm(), q, cell)
+                })
+                .min_by(|a, b| a.0.total_cmp(&b.0))
+                .expect("a cell has edges")
+        };
+        self.cells()
+            .filter(|&c| admits(c))
+            .map(place)
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, q, cell)| (q, cell))
+    }
+
+    /// The part of segment `a`-`b` within a cell, as fractions of its length.
+    pub(super) fn clip(&self, cell: u32, a: Point, b: Point) -> Option<(f64, f64)> {
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for i in 0..self.ring(cell).len() {
+            let (u, v) = self.edge(cell, i);
+            let along = v - u;
+            let length = along.norm();
+            if length <= 0.0 {
+                continue;
+            }
+            let (da, db) = (along.perp(&(a - u)) / length, along.perp(&(b - u)) / length);
+            const TOUCH: f64 = 1e-4;
+            if da < -TOUCH && db < -TOUCH {
+                return None;
+            }
+            if (da - db).abs() > 1e-12 {
+                let t = da / (da - db);
+                if da < -TOUCH {
+                    from = from.max(t);
+                } else if db < -TOUCH {
+                    to = to.min(t);
+                }
+            }
+        }
+        (from <= to).then_some((from, to))
+    }
+
+    /// The cells whose boxes meet that of segment `a`-`b`.
+    pub(super) fn near_segment(&self, a: Point, b: Point) -> Vec<u32> {
+        self.buckets.meeting(&Bounds::of([a, b]).grown(1e-6))
+    }
+
+    /// The stretches of segment `a`-`b` that lie on the floor, as fractions of its length.
+    pub(super) fn stretches(&self, a: Point, b: Point) -> Vec<(f64, f64)> {
+        let mut parts: Vec<_> =
+            self.near_segment(a, b).into_iter().filter_map(|c| self.clip(c, a, b)).collect();
+        parts.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let close = 1e-4 / (b - a).norm().max(1e-4);
+        let mut joined: Vec<(f64, f64)> = Vec::new();
+        for (from, to) in parts {
+            match joined.last_mut() {
+                Some(last) if from <= last.1 + close => last.1 = last.1.max(to),
+                _ => joined.push((from, to)),
+            }
+        }
+        joined
+    }
+
+    /// Whether all of segment `a`-`b` lies on the floor.
+    pub(super) fn sees(&self, a: Point, b: Point) -> bool {
+        let close = 1e-3 / (b - a).norm().max(1e-3);
+        matches!(self.stretches(a, b)[..], [(from, to)] if from <= close && to >= 1.0 - close)
+    }
+
+    fn components(&self) -> Vec<u32> {
+        let mut component = vec![NONE; self.len()];
+        let mut count = 0;
+        for seed in self.cells() {
+            if component[seed as usize] != NONE {
+                continue;
+            }
+            let mut open = vec![seed];
+            component[seed as usize] = count;
+            while let Some(cell) = open.pop() {
+                for &other in self.across(cell) {
+                    if other != NONE && component[other as usize] == NONE {
+                        component[other as usize] = count;
+                        open.push(other);
+                    }
+                }
+            }
+            count += 1;
+        }
+        component
+    }
+}
+
+/// Positive when a, b, c turn left; exact, since the grid leaves two bits of 32 free.
+fn orientation(a: Node, b: Node, c: Node) -> i64 {
+    let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
+    d(b.x, a.x) * d(c.y, b.y) - d(b.y, a.y) * d(c.x, b.x)
+}
+
+fn triangulate(shapes: &Shapes) -> IntDelaunay<i32> {
+    let count = shapes.iter().flatten().map(Vec::len).sum();
+    let mut triangulator =
+        IntTriangulator::<i32, u32>::new(count, Validation::default(), Solver::AUTO);
+    let mut found = IntDelaunay { triangles: Vec::new(), points: Vec::new() };
+    triangulator.uncheck_delaunay_shapes_into(shapes, &mut found);
+    found
+}
+
+/// A planar subdivision whose edges can be dropped.
+struct HalfEdges {
+    nodes: Vec<Node>,
+    origin: Vec<u32>,
+    next: Vec<u32>,
+    prev: Vec<u32>,
+    /// The other half; [`NONE`] for a border of the floor.
+    twin: Vec<u32>,
+    dropped: Vec<bool>,
+}
+
+impl HalfEdges {
+    /// The triangles of the shapes.
+    fn of(shapes: &Shapes) -> Self {
+        let found = triangulate(shapes);
+        let n = 3 * found.triangles.len();
+        let mut edges = Self {
+            nodes: found.points,
+            origin: Vec::with_capacity(n),
+            next: (0..n as u32).map(|h| if h % 3 == 2 { h - 2 } else { h + 1 }).collect(),
+            prev: (0..n as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect(),
+            twin: vec![NONE; n],
+            dropped: vec![false; n],
+        };
+        for triangle in &found.triangles {
+            let [a, b, c] = triangle.vertices.map(|v| v.index as u32);
+            let turns_right = orientation(edges.node(a), edges.node(b), edges.node(c)) < 0;
+            edges.origin.extend(if turns_right { [a, c, b] } else { [a, b, c] });
+        }
+        for (t, triangle) in found.triangles.iter().enumerate() {
+            for h in 3 * t as u32..3 * t as u32 + 3 {
+                let ends = (edges.node(edges.origin[h as usize]), edges.node(edges.end(h)));
+                // Shapes that touch in a point have that corner twice: it is places that are compared.
+                edges.twin[h as usize] = triangle
+                    .neighbors
+                    .iter()
+                    .filter(|&&other| other < found.triangles.len())
+                    .flat_map(|&other| 3 * other as u32..3 * other as u32 + 3)
+                    .find(|&k| (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends)
+                    .unwrap_or(NONE);
+            }
+        }
+        for h in 0..n {
+            let twin = edges.twin[h];
+            if twin != NONE && edges.twin[twin as usize] != h as u32 {
+                edges.twin[h] = NONE;
+            }
+        }
+        edges
+    }
+
+    fn end(&self, h: u32) -> u32 {
+        self.origin[self.next[h as usize] as usize]
+    }
+
+    fn node(&self, vertex: u32) -> Node {
+        self.nodes[vertex as usize]
+    }
+
+    /// Drops every edge that convexity does not need: first those that straighten no inward corner, last those
+    /// that straighten one at each end; the longer of equals first.
+    fn merge(&mut self) {
+        let borders = self.borders();
+        let inner = (0..self.origin.len() as u32)
+            .filter(|&h| self.twin[h as usize] != NONE && h < self.twin[h as usize]);
+        let mut ranked: Vec<_> = inner
+            .map(|h| {
+                let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
+                let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
+                let use_ = self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
+                let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
+                (use_, std::cmp::Reverse(length), (a.y, a.x).min((b.y, b.x)), (a.y, a.x).max((b.y, b.x)), h)
+            })
+            .collect();
+        ranked.sort_unstable();
+        for (.., h) in ranked {
+            if self.is_needless(h) {
+                self.drop_edge(h);
+            }
+        }
+    }
+
+    /// For each vertex the border edges that arrive and leave.
+    fn borders(&self) -> Vec<(u32, u32)> {
+        let mut borders = vec![(NONE, NONE); self.nodes.len()];
+        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
+            borders[self.origin[h as usize] as usize].1 = h;
+            borders[self.end(h) as usize].0 = h;
+        }
+        borders
+    }
+
+    /// What an edge does for the convexity of its origin: nothing, a part, or all.
+    fn usefulness(&self, borders: &[(u32, u32)], h: u32) -> u8 {
+        let at = self.origin[h as usize];
+        let (arriving, leaving) = borders[at as usize];
+        if arriving == NONE || leaving == NONE {
+            return 0;
+        }
+        let place = self.node(at);
+        let (before, after) = (self.node(self.origin[arriving as usize]), self.node(self.end(leaving)));
+        let to = self.node(self.end(h));
+        if orientation(before, place, after) >= 0 {
+            0
+        } else if orientation(before, place, to) >= 0 && orientation(to, place, after) >= 0 {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// The vertices where the border turns to the right, so that a shortest way may bend there.
+    fn corners(&self) -> Vec<bool> {
+        let mut corner = vec![false; self.nodes.len()];
+        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
+            // Round the end to the border that leaves it within the same floor.
+            let mut leaving = self.next[h as usize];
+            let mut steps = 0;
+            while self.twin[leaving as usize] != NONE && steps < self.origin.len() {
+                leaving = self.next[self.twin[leaving as usize] as usize];
+                steps += 1;
+            }
+            let [a, b, c] = [self.origin[h as usize], self.end(h), self.end(leaving)];
+            corner[b as usize] |= orientation(self.node(a), self.node(b), self.node(c)) < 0;
+        }
+        corner
+    }
+
+    /// Without the edge, the chain runs straight on or to the left at both of its ends.
+    fn is_needless(&self, h: u32) -> bool {
+        let t = self.twin[h as usize];
+        self.runs_left(self.prev[h as usize], self.next[t as usize])
+            && self.runs_left(self.prev[t as usize], self.next[h as usize])
+    }
+
+    /// Whether `leaving` may follow `arriving` in a convex chain.
+    fn runs_left(&self, arriving: u32, leaving: u32) -> bool {
+        let [a, b, c] =
+            [self.origin[arriving as usize], self.origin[leaving as usize], self.end(leaving)];
+        if a == c {
+            return false;
+        }
+        let (a, b, c) = (self.node(a), self.node(b), self.node(c));
+        let turn = orientation(a, b, c);
+        let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
+        let ahead = d(b.x, a.x) * d(c.x, b.x) + d(b.y, a.y) * d(c.y, b.y);
+        turn > 0 || (turn == 0 && ahead > 0)
+    }
+
+    fn drop_edge(&mut self, h: u32) {
+        let t = self.twin[h as usize];
+        let (before_h, after_h) = (self.prev[h as usize], self.next[h as usize]);
+        let (before_t, after_t) = (self.prev[t as usize], self.next[t as usize]);
+        self.next[before_h as usize] = after_t;
+        self.prev[after_t as usize] = before_h;
+        self.next[before_t as usize] = after_h;
+        self.prev[after_h as usize] = before_t;
+        self.dropped[h as usize] = true;
+        self.dropped[t as usize] = true;
+    }
+
+    /// The remaining faces as chains of half-edges, in the order of their lowest corners, which come first; those
+    /// without area are left out.
+    fn faces(&self) -> Vec<Vec<u32>> {
+        let mut seen = self.dropped.clone();
+        let mut faces = Vec::new();
+        let place = |h: u32| {
+            let node = self.node(self.origin[h as usize]);
+            (node.y, node.x)
+        };
+        for seed in 0..self.origin.len() {
+            if seen[seed] {
+                continue;
+            }
+            let mut face = Vec::new();
+            let mut h = seed;
+            while !seen[h] {
+                seen[h] = true;
+                face.push(h as u32);
+                h = self.next[h] as usize;
+            }
+            if face.len() >= 3 && self.has_area(&face) {
+                let first = (0..face.len()).min_by_key(|&i| place(face[i])).unwrap_or(0);
+                face.rotate_left(first);
+                faces.push(face);
+            }
+        }
+        faces.sort_by(|a, b| a.iter().map(|&h| place(h)).cmp(b.iter().map(|&h| place(h))));
+        faces
+    }
+
+    fn has_area(&self, face: &[u32]) -> bool {
+        let node = |h: u32| self.node(self.origin[h as usize]);
+        face.windows(2).any(|e| orientation(node(face[0]), node(e[0]), node(e[1])) != 0)
+    }
+}
+
+/// A grid of boxes, each with the cells that reach into it.
+#[derive(Debug, Clone, PartialEq)]
+struct Buckets {
+    bounds: Bounds,
+    size: f64,
+    columns: usize,
+    rows: usize,
+    starts: Vec<u32>,
+    cells: Vec<u32>,
+}
+
+impl Default for Buckets {
+    fn default() -> Self {
+        Self {
+            bounds: Bounds::EMPTY,
+            size: 1.0,
+            columns: 0,
+            rows: 0,
+            starts: vec![0],
+            cells: vec![],
+        }
+    }
+}
+
+impl Buckets {
+    fn of(mesh: &Mesh) -> Self {
+        let boxes: Vec<Bounds> =
+            mesh.cells().map(|c| mesh.polygon(c).bounds().grown(1e-3)).collect();
+        let Some(bounds) = boxes.iter().copied().reduce(|a, b| a.union(&b)) else {
+            return Self::default();
+        };
+        let extent = bounds.max - bounds.min;
+        let size =
+            (extent.x * extent.y / boxes.len() as f64).sqrt().max(extent.amax() / 256.0).max(1e-3);
+        let (columns, rows) = ((extent.x / size) as usize + 1, (extent.y / size) as usize + 1);
+        let starts = vec![0; columns * rows + 1];
+        let mut buckets = Self { bounds, size, columns, rows, starts, cells: vec![] };
+        for reach in &boxes {
+            for bucket in buckets.covering(reach) {
+                buckets.starts[bucket + 1] += 1;
+            }
+        }
+        for i in 0..columns * rows {
+            buckets.starts[i + 1] += buckets.starts[i];
+        }
+        buckets.cells = vec![0; buckets.starts[columns * rows] as usize];
+        let mut filled = buckets.starts.clone();
+        for (cell, reach) in boxes.iter().enumerate() {
+            for bucket in buckets.covering(reach) {
+                buckets.cells[filled[bucket] as usize] = cell as u32;
+                filled[bucket] += 1;
+            }
+        }
+        buckets
+    }
+
+    fn column_row(&self, p: Point) -> (usize, usize) {
+        let v = (p - self.bounds.min) / self.size;
+        // Casts saturate, so points far off come to the rim.
+        ((v.x as usize).min(self.columns - 1), (v.y as usize).min(self.rows - 1))
+    }
+
+    fn covering(&self, reach: &Bounds) -> impl Iterator<Item = usize> + use<> {
+        let ((left, bottom), (right, top)) =
+            (self.column_row(reach.min), self.column_row(reach.max));
+        let columns = self.columns;
+        (bottom..=top).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
+    }
+
+    fn bucket(&self, index: usize) -> &[u32] {
+        &self.cells[self.starts[index] as usize..self.starts[index + 1] as usize]
+    }
+
+    fn near(&self, p: Point) -> &[u32] {
+        if self.columns == 0 || !self.bounds.contains(p) {
+            return &[];
+        }
+        let (column, row) = self.column_row(p);
+        self.bucket(row * self.columns + column)
+    }
+
+    fn meeting(&self, reach: &Bounds) -> Vec<u32> {
+        if self.columns == 0 || !self.bounds.meets(reach) {
+            return Vec::new();
+        }
+        let mut found: Vec<u32> =
+            self.covering(reach).flat_map(|b| self.bucket(b).iter().copied()).collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::grid::{difference, doubled_area};
+
+    fn rectangle(x: i32, y: i32, w: i32, h: i32) -> Vec<Node> {
+        [(x, y), (x + w, y), (x + w, y + h), (x, y + h)].map(|(x, y)| Node::new(x, y)).to_vec()
+    }
+
+    fn unit_grid() -> Grid {
+        Grid::over(&Bounds { min: Point::new(-400.0, -400.0), max: Point::new(400.0, 400.0) })
+    }
+
+    /// Every promise of the module; answers the number of cells.
+    fn check(shapes: &Shapes) -> usize {
+        let grid = unit_grid();
+        let mesh = Mesh::of(&grid, shapes);
+        let wanted = shapes.iter().map(|s| doubled_area(s)).sum::<i128>() as f64 / 2.0;
+        let got: f64 = mesh.cells().map(|c| mesh.polygon(c).signed_area()).sum();
+        let unit = (grid.point(Node::new(1, 0)) - grid.point(Node::new(0, 0))).x;
+        let got = got / unit.powi(2);
+        assert!((got - wanted).abs() <= 1e-9 * wanted, "{got} of {wanted}");
+        for cell in mesh.cells() {
+            assert!(mesh.polygon(cell).is_convex(1e-12));
+            for (i, &other) in mesh.across(cell).iter().enumerate() {
+                if other != NONE {
+                    let (a, b) = mesh.edge(cell, i);
+                    let back = (0..mesh.ring(other).len()).any(|j| mesh.edge(other, j) == (b, a));
+                    assert!(back, "a border has two sides");
+                }
+            }
+        }
+        mesh.len()
+    }
+
+    #[test]
+    fn a_rectangle_is_one_cell() {
+        assert_eq!(check(&vec![vec![rectangle(0, 0, 1000, 700)]]), 1);
+    }
+
+    #[test]
+    fn a_pillar_makes_four_cells() {
+        assert_eq!(
+            check(&difference(&[rectangle(0, 0, 1000, 700)], &[rectangle(400, 300, 100, 100)])),
+            4
+        );
+    }
+
+    #[test]
+    fn rooms_that_meet_in_a_point_stay_two() {
+        let shapes = vec![vec![rectangle(0, 0, 100, 100)], vec![rectangle(100, 100, 100, 100)]];
+        assert_eq!(check(&shapes), 2);
+        let mesh = Mesh::of(&unit_grid(), &shapes);
+        assert_ne!(mesh.component[0], mesh.component[1]);
+    }
+
+    #[test]
+    fn only_inward_corners_bend_a_way() {
+        let shapes = difference(&[rectangle(0, 0, 1000, 700)], &[rectangle(400, 300, 100, 100)]);
+        let mesh = Mesh::of(&unit_grid(), &shapes);
+        assert_eq!(mesh.is_corner.iter().filter(|c| **c).count(), 4);
+    }
+
+    #[test]
+    fn a_grid_of_pillars_is_filled_exactly() {
+        let pillars: Vec<_> = (0..100)
+            .map(|i| rectangle(37 + 97 * (i % 10), 41 + 89 * (i / 10), 20 + i % 7, 30 - i % 11))
+            .collect();
+        let cells = check(&difference(&[rectangle(0, 0, 1000, 1000)], &pillars));
+        assert!(cells < 320, "{cells}");
+    }
+}

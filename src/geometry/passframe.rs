@@ -1,0 +1,400 @@
+//! Passframes (W2; paper 1, section 7): the convex cells of a Fragment's free floor, and what borders them.
+//!
+//! **Invariant**: the Passframes of a Fragment are convex, do not overlap and together are exactly its free
+//! floor. An id follows from the Passframe's place, so that it lasts while the Passframe does.
+
+use std::collections::HashSet;
+use std::fmt;
+
+use crate::map::Permeability;
+use crate::units::{AreaId, DoorId, Point};
+
+use super::floor::{Blocker, FragmentFloor, Side, Site};
+use super::mesh::NONE;
+use super::{Polygon, nearest_on_segment};
+
+/// Unique in its Fragment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct PassframeId(pub u32);
+
+impl fmt::Display for PassframeId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "П-{:05}", self.0)
+    }
+}
+
+/// The paper's marker-types. Where several would fit, the one named first holds.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum PassframeKind {
+    /// «Закрытая зона»: no chain of Passframes that the robot can cross leads from it to a door or passage.
+    Closed,
+    /// «Граница видимости»: it borders a door or passage, where the Fragment ends and the neighbour begins.
+    Boundary,
+    /// «Тупик»: the robot can leave it over one border at most.
+    DeadEnd,
+    /// «Проход»: all others.
+    Passage,
+}
+
+impl PassframeKind {
+    /// The paper's word.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Closed => "Закрытая зона",
+            Self::Boundary => "Граница видимости",
+            Self::DeadEnd => "Тупик",
+            Self::Passage => "Проход",
+        }
+    }
+}
+
+/// What lies on the other side of a border.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Beyond {
+    Passframe(PassframeId),
+    /// A door (none for an open passage) into an Area; `doorway` is its index in [`super::FloorPlan::doorways`].
+    Doorway {
+        doorway: usize,
+        door: Option<DoorId>,
+        area: AreaId,
+    },
+    /// A face of something solid; `side` counts the faces of the Orthoframe.
+    Face {
+        blocker: Blocker,
+        side: Option<usize>,
+    },
+    /// Floor that the robot cannot cover, by its index in [`FragmentFloor::dead_zones`].
+    DeadZone(usize),
+}
+
+/// One vector of a Passframe.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Border {
+    pub start: Point,
+    pub end: Point,
+    /// Inherited from the face beyond; what is floor on both sides is permeable.
+    pub permeability: Permeability,
+    pub beyond: Beyond,
+    /// What people call the face: «Парадный вход».
+    pub names: Vec<String>,
+    /// Where the robot's centre can cross.
+    pub crossing: Option<(Point, Point)>,
+    /// The cell beyond.
+    pub(super) across: u32,
+}
+
+/// A convex cell of free floor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passframe {
+    pub id: PassframeId,
+    pub polygon: Polygon,
+    pub kind: PassframeKind,
+    /// Border `i` starts at corner `i`.
+    pub borders: Vec<Border>,
+}
+
+impl Passframe {
+    /// The Passframes that the robot can reach from here over one border.
+    pub fn neighbours(&self) -> impl Iterator<Item = (PassframeId, (Point, Point))> + '_ {
+        self.borders.iter().filter_map(|b| match b.beyond {
+            Beyond::Passframe(id) => Some((id, b.crossing?)),
+            _ => None,
+        })
+    }
+}
+
+/// Everything that can stand along a border.
+struct Face {
+    start: Point,
+    end: Point,
+    beyond: Beyond,
+    permeability: Permeability,
+    names: Vec<String>,
+}
+
+/// The Passframes of a floor, in the order of its cells.
+pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Passframe> {
+    let ids = ids(floor);
+    let faces = faces(site, floor, sides);
+    let mut frames: Vec<Passframe> = floor
+        .frames
+        .cells()
+        .map(|cell| {
+            let borders: Vec<Border> = (0..floor.frames.ring(cell).len())
+                .flat_map(|edge| borders(floor, &ids, &faces, cell, edge))
+                .collect();
+            Passframe {
+                id: ids[cell as usize],
+                polygon: Polygon::new(borders.iter().map(|b| b.start).collect()),
+                kind: PassframeKind::Passage,
+                borders,
+            }
+        })
+        .collect();
+    let kinds: Vec<_> = kinds(&frames);
+    for (frame, kind) in frames.iter_mut().zip(kinds) {
+        frame.kind = kind;
+    }
+    frames
+}
+
+/// The borders along one edge of a cell: one to another Passframe, or one for each face that stands there.
+fn borders(
+    floor: &FragmentFloor,
+    ids: &[PassframeId],
+    faces: &[Face],
+    cell: u32,
+    edge: usize,
+) -> Vec<Border> {
+    let (start, end) = floor.frames.edge(cell, edge);
+    let across = floor.frames.across(cell)[edge];
+    if across != NONE {
+        return vec![Border {
+            start,
+            end,
+            permeability: Permeability::Permeable,
+            beyond: Beyond::Passframe(ids[across as usize]),
+            names: Vec::new(),
+            crossing: crossing(floor, start, end),
+            across,
+        }];
+    }
+    let mut borders: Vec<Border> = Vec::new();
+    for (start, end) in pieces(faces, start, end) {
+        let (beyond, permeability, names) = what_stands_along(floor, faces, start, end);
+        match borders.last_mut() {
+            Some(last) if last.beyond == beyond => last.end = end,
+            _ => borders.push(Border {
+                start,
+                end,
+                permeability,
+                beyond,
+                names,
+                crossing: None,
+                across,
+            }),
+        }
+    }
+    for border in &mut borders {
+        if matches!(border.beyond, Beyond::Doorway { .. }) {
+            border.crossing = crossing(floor, border.start, border.end);
+        }
+    }
+    borders
+}
+
+/// An edge cut where faces along it end.
+fn pieces(faces: &[Face], start: Point, end: Point) -> Vec<(Point, Point)> {
+    let length = (end - start).norm();
+    let Some(along) = (end - start).try_normalize(0.0) else { return vec![(start, end)] };
+    let mut cuts: Vec<(f64, Point)> = faces
+        .iter()
+        .flat_map(|f| [f.start, f.end])
+        .map(|p| ((p - start).dot(&along), p))
+        .filter(|&(t, p)| t > TOUCH && t < length - TOUCH && along.perp(&(p - start)).abs() < TOUCH)
+        .map(|(t, _)| (t, start + along * t))
+        .collect();
+    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
+    cuts.dedup_by(|a, b| a.0 - b.0 < TOUCH);
+    let corners: Vec<Point> =
+        std::iter::once(start).chain(cuts.into_iter().map(|c| c.1)).chain([end]).collect();
+    corners.windows(2).map(|w| (w[0], w[1])).collect()
+}
+
+/// Faces within this distance of a border stand along it, in cm.
+const TOUCH: f64 = 0.05;
+
+/// The widest stretch of a border on which the robot's centre may be.
+fn crossing(floor: &FragmentFloor, a: Point, b: Point) -> Option<(Point, Point)> {
+    floor
+        .cells
+        .stretches(a, b)
+        .into_iter()
+        .max_by(|x, y| (x.1 - x.0).total_cmp(&(y.1 - y.0)))
+        .map(|(from, to)| (a + (b - a) * from, a + (b - a) * to))
+}
+
+fn what_stands_along(
+    floor: &FragmentFloor,
+    faces: &[Face],
+    a: Point,
+    b: Point,
+) -> (Beyond, Permeability, Vec<String>) {
+    // Borders may be cut short of a face's ends, so it is the line that counts.
+    let off = |f: &Face| {
+        [a, b, nalgebra::center(&a, &b)]
+            .into_iter()
+            .map(|p| (p - nearest_on_segment(p, f.start, f.end)).norm())
+            .fold(0.0, f64::max)
+    };
+    let best = faces
+        .iter()
+        .map(|f| (off(f), f))
+        .filter(|(off, _)| *off < TOUCH)
+        // Doors stand first among faces, so that a door in a wall is named before the wall.
+        .min_by(|(x, _), (y, _)| (*x > 0.02).cmp(&(*y > 0.02)));
+    if let Some((_, face)) = best {
+        return (face.beyond, face.permeability, face.names.clone());
+    }
+    let middle = nalgebra::center(&a, &b);
+    let zone = (0..floor.dead_zones.len()).min_by(|&i, &j| {
+        let d = |k: usize| floor.dead_zones[k].region.outer.border_distance(middle);
+        d(i).total_cmp(&d(j))
+    });
+    match zone {
+        Some(zone) => (Beyond::DeadZone(zone), Permeability::Impermeable, Vec::new()),
+        // A sliver of rounding: whatever is nearest.
+        None => faces.iter().min_by(|x, y| off(x).total_cmp(&off(y))).map_or(
+            (
+                Beyond::Face { blocker: Blocker::Floor { area: floor.area, item: 0 }, side: None },
+                Permeability::Impermeable,
+                Vec::new(),
+            ),
+            |f| (f.beyond, f.permeability, f.names.clone()),
+        ),
+    }
+}
+
+fn faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
+    let mut faces = Vec::new();
+    let area = &site.world.areas[&floor.area];
+    let side_names = |item: usize, side: usize| {
+        area.items.get(item).map_or_else(Vec::new, |item| {
+            site.world.orthoframe_of(item).base.get(side).map_or_else(Vec::new, |v| v.names.clone())
+        })
+    };
+    for (index, doorway) in site.doorways.iter().enumerate() {
+        let Some(at) = doorway.index_of(floor.area) else { continue };
+        let beyond =
+            Beyond::Doorway { doorway: index, door: doorway.door, area: doorway.areas[1 - at] };
+        let names = sides
+            .iter()
+            .find(|s| {
+                let item = &area.items[s.item];
+                let reference = &doorway.sides[at];
+                item.id == reference.item
+                    && site.world.orthoframe_of(item).base[s.side].id == reference.side
+            })
+            .map_or_else(Vec::new, |s| side_names(s.item, s.side));
+        let face = if at == 0 { 0.0 } else { doorway.gap };
+        let (t0, t1) = doorway.span();
+        // Open, the Fragment ends on the line; closed, on its side of the wall.
+        for s in [doorway.gap / 2.0, face] {
+            faces.push(Face {
+                start: doorway.at(t0, s),
+                end: doorway.at(t1, s),
+                beyond,
+                permeability: doorway.permeability,
+                names: names.clone(),
+            });
+        }
+    }
+    for obstacle in &floor.obstacles {
+        for (side, (start, end)) in obstacle.polygon.edges().enumerate() {
+            let (permeability, names) = obstacle_face(site, obstacle.blocker, side);
+            let beyond = Beyond::Face { blocker: obstacle.blocker, side: Some(side) };
+            faces.push(Face { start, end, beyond, permeability, names });
+        }
+    }
+    for side in sides {
+        faces.push(Face {
+            start: side.start,
+            end: side.end,
+            beyond: Beyond::Face {
+                blocker: Blocker::Wall { area: floor.area, item: side.item, side: side.side },
+                side: Some(side.side),
+            },
+            // What leads nowhere is a wall.
+            permeability: Permeability::Impermeable,
+            names: side_names(side.item, side.side),
+        });
+    }
+    for &(start, end) in &floor.walls {
+        // Jambs have no side of their own: they belong to the wall.
+        let blocker = Blocker::Wall { area: floor.area, item: 0, side: 0 };
+        faces.push(Face {
+            start,
+            end,
+            beyond: Beyond::Face { blocker, side: None },
+            permeability: Permeability::Impermeable,
+            names: Vec::new(),
+        });
+    }
+    faces
+}
+
+fn obstacle_face(site: &Site<'_>, blocker: Blocker, side: usize) -> (Permeability, Vec<String>) {
+    let Blocker::Replica { replica, item } = blocker else {
+        return (Permeability::Impermeable, Vec::new());
+    };
+    site.world
+        .replicas
+        .get(&replica)
+        .and_then(|r| site.world.objects.get(&r.object))
+        .and_then(|o| o.items.get(item))
+        .and_then(|i| site.world.orthoframe_of(i).base.get(side))
+        .map_or((Permeability::Impermeable, Vec::new()), |v| (v.permeability, v.names.clone()))
+}
+
+/// Ids from the corners' places in the Area, to the tenth of a millimetre: what lasts keeps its id.
+fn ids(floor: &FragmentFloor) -> Vec<PassframeId> {
+    const COUNT: u32 = 100_000;
+    let mut taken = HashSet::new();
+    floor
+        .frames
+        .cells()
+        .map(|cell| {
+            let mut hash = 0x811c_9dc5_u32; // FNV-1a
+            for p in &floor.frames.polygon(cell).corners {
+                for x in [p.x, p.y] {
+                    for byte in ((x * 100.0).round() as i64).to_le_bytes() {
+                        hash = (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
+                    }
+                }
+            }
+            let mut id = hash % COUNT;
+            // More Passframes than numbers would spin for ever: number on beyond them.
+            while !taken.insert(id) {
+                id = if taken.len() < COUNT as usize {
+                    (id + 1) % COUNT
+                } else {
+                    taken.len() as u32
+                };
+            }
+            PassframeId(id)
+        })
+        .collect()
+}
+
+fn kinds(frames: &[Passframe]) -> Vec<PassframeKind> {
+    let at_door =
+        |f: &Passframe| f.borders.iter().any(|b| matches!(b.beyond, Beyond::Doorway { .. }));
+    let crossable = |cell: usize| -> Vec<usize> {
+        let crossed =
+            frames[cell].borders.iter().filter(|b| b.across != NONE && b.crossing.is_some());
+        crossed.map(|b| b.across as usize).collect()
+    };
+    let mut leads_out: Vec<bool> = frames.iter().map(at_door).collect();
+    let mut open: Vec<usize> = (0..frames.len()).filter(|&i| leads_out[i]).collect();
+    while let Some(cell) = open.pop() {
+        for other in crossable(cell) {
+            if !leads_out[other] {
+                leads_out[other] = true;
+                open.push(other);
+            }
+        }
+    }
+    let kind = |cell: usize| {
+        if !leads_out[cell] {
+            PassframeKind::Closed
+        } else if at_door(&frames[cell]) {
+            PassframeKind::Boundary
+        } else if crossable(cell).len() <= 1 {
+            PassframeKind::DeadEnd
+        } else {
+            PassframeKind::Passage
+        }
+    };
+    (0..frames.len()).map(kind).collect()
+}

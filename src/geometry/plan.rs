@@ -1,0 +1,422 @@
+//! The floor of a whole Map, Fragment by Fragment, and the network of doorways between them.
+//!
+//! Two levels: Passframes and cells within a Fragment, doorways between Fragments. A change rebuilds the
+//! Fragments that it touches; the others are shared, so that a plan is cheap to copy and to vary (a door opened,
+//! a chair moved).
+//!
+//! **Invariant**: a plan after [`FloorPlan::rebuild`] equals one built anew from the same world.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::sync::Arc;
+
+use crate::map::{DoorState, RobotProfile, World};
+use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
+
+use super::doors::{Doorway, doorways};
+use super::floor::{Exit, FragmentFloor, Site};
+use super::scene::{PlacedReplica, Scene};
+use super::search::{CellKey, Cells, Edge};
+use super::{Bounds, Passframe, PassframeId};
+
+/// Doors that stand otherwise than the world says: opened by the robot, or assumed.
+pub type DoorStates = BTreeMap<DoorId, DoorState>;
+
+/// Where two Fragments' centre spaces touch on a doorway's line.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Portal {
+    /// Fragment, cell and edge on this side.
+    from: CellKey,
+    edge: usize,
+    to: CellKey,
+    right: Point,
+    left: Point,
+    doorway: usize,
+}
+
+/// The floor of one Map for one robot.
+#[derive(Debug, Clone)]
+pub struct FloorPlan {
+    map: MapId,
+    robot: RobotProfile,
+    states: DoorStates,
+    scene: Arc<Scene>,
+    index: Arc<ReplicaIndex>,
+    doorways: Arc<Vec<Doorway>>,
+    /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
+    pub(super) fragments: Vec<Arc<FragmentFloor>>,
+    portals: Vec<Vec<Portal>>,
+    /// Which components of centre space hang together over open doorways: by Fragment, by component.
+    regions: Vec<Vec<u32>>,
+}
+
+impl FloorPlan {
+    /// Builds the floor of every Fragment of a Map. `states` overrides the doors' states in the world.
+    ///
+    /// # Panics
+    /// When the map is not of this world.
+    #[must_use]
+    pub fn build(world: &World, map: MapId, robot: &RobotProfile, states: &DoorStates) -> Self {
+        let scene = Scene::of(world, map);
+        let mut plan = Self {
+            map,
+            robot: robot.clone(),
+            states: states.clone(),
+            index: Arc::new(ReplicaIndex::of(&scene)),
+            doorways: Arc::new(doorways(world, &scene, map)),
+            scene: Arc::new(scene),
+            fragments: Vec::new(),
+            portals: Vec::new(),
+            regions: Vec::new(),
+        };
+        let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
+        plan.fragments = plan.with_site(world, |site| {
+            areas.iter().map(|&a| Arc::new(FragmentFloor::build(site, a))).collect()
+        });
+        plan.connect();
+        plan
+    }
+
+    fn with_site<T>(&self, world: &World, work: impl FnOnce(&Site<'_>) -> T) -> T {
+        let nearby = |bounds: &Bounds| self.index.near(bounds);
+        work(&Site {
+            world,
+            scene: &self.scene,
+            nearby: &nearby,
+            doorways: &self.doorways,
+            robot: &self.robot,
+            states: &self.states,
+        })
+    }
+
+    /// Takes over what the world now says of an Area's replicas, and builds anew the Fragments that it touches.
+    pub fn rebuild(&mut self, world: &World, area: AreaId) {
+        let mut touched = self.footprint_of(area);
+        let scene = Arc::make_mut(&mut self.scene);
+        scene.replicas.retain(|_, r| r.area != area);
+        if let Some(frame) = scene.areas.get(&area).map(|a| a.frame) {
+            for replica in world.replicas_in(area) {
+                let placed = PlacedReplica::new(world, replica.id, frame.compose(&replica.frame));
+                scene.replicas.insert(replica.id, placed);
+            }
+        }
+        self.index = Arc::new(ReplicaIndex::of(&self.scene));
+        touched.extend(self.footprint_of(area));
+        let reach = 3.0 * (self.robot.radius.get() + self.robot.clearance.get()) + 10.0;
+        let stale: Vec<AreaId> = self
+            .scene
+            .areas
+            .values()
+            .filter(|a| {
+                a.id == area
+                    || a.prisms
+                        .iter()
+                        .any(|p| touched.iter().any(|b| b.grown(reach).meets(&p.bounds)))
+            })
+            .map(|a| a.id)
+            .collect();
+        self.renew(world, &stale);
+    }
+
+    fn footprint_of(&self, area: AreaId) -> Vec<Bounds> {
+        self.scene.replicas_in(area).map(|r| r.bounds).collect()
+    }
+
+    /// The same floor with doors in other states: those in `states` as given, the others as before.
+    #[must_use]
+    pub fn with_doors(&self, world: &World, states: &DoorStates) -> Self {
+        let mut plan = self.clone();
+        let mut stale = Vec::new();
+        for (&door, &state) in states {
+            let before = self.door_state(world, door);
+            plan.states.insert(door, state);
+            if before != state {
+                for doorway in self.doorways.iter().filter(|d| d.door == Some(door)) {
+                    stale.extend(doorway.areas);
+                    // The leaf may stand before a neighbour's door.
+                    stale.extend(self.next_to(doorway));
+                }
+            }
+        }
+        stale.sort_unstable();
+        stale.dedup();
+        plan.renew(world, &stale);
+        plan
+    }
+
+    /// The Areas behind other doorways close to this one.
+    fn next_to(&self, doorway: &Doorway) -> Vec<AreaId> {
+        let zone = Bounds::of([doorway.middle()]).grown(
+            2.0 * doorway.width() + 3.0 * (self.robot.radius.get() + self.robot.clearance.get()),
+        );
+        self.doorways
+            .iter()
+            .filter(|d| zone.grown(d.width()).contains(d.middle()))
+            .flat_map(|d| d.areas)
+            .collect()
+    }
+
+    /// The state that the plan assumes of a door.
+    #[must_use]
+    pub fn door_state(&self, world: &World, door: DoorId) -> DoorState {
+        self.with_site(world, |site| site.state(door))
+    }
+
+    fn renew(&mut self, world: &World, stale: &[AreaId]) {
+        let fresh: Vec<_> = self.with_site(world, |site| {
+            stale.iter().map(|&a| (a, Arc::new(FragmentFloor::build(site, a)))).collect()
+        });
+        for (area, floor) in fresh {
+            if let Some(number) = self.number(area) {
+                self.fragments[number] = floor;
+            }
+        }
+        self.connect();
+    }
+
+    #[must_use]
+    pub fn map(&self) -> MapId {
+        self.map
+    }
+
+    #[must_use]
+    pub fn robot(&self) -> &RobotProfile {
+        &self.robot
+    }
+
+    /// The distance that the robot's centre keeps from everything: its radius and clearance, in cm.
+    #[must_use]
+    pub fn reach(&self) -> f64 {
+        self.robot.radius.get() + self.robot.clearance.get()
+    }
+
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.scene
+    }
+
+    /// All doors and passages between Areas, open or not.
+    #[must_use]
+    pub fn doorways(&self) -> &[Doorway] {
+        &self.doorways
+    }
+
+    /// The doorways that a door closes; several only if a door is mounted twice.
+    pub fn doorways_of(&self, door: DoorId) -> impl Iterator<Item = &Doorway> + '_ {
+        self.doorways.iter().filter(move |d| d.door == Some(door))
+    }
+
+    /// All Fragments, in the order of their Areas' ids.
+    pub fn fragments(&self) -> impl ExactSizeIterator<Item = &FragmentFloor> + '_ {
+        self.fragments.iter().map(Arc::as_ref)
+    }
+
+    #[must_use]
+    pub fn fragment(&self, area: AreaId) -> Option<&FragmentFloor> {
+        self.number(area).map(|n| self.fragments[n].as_ref())
+    }
+
+    /// The Passframes of an Area.
+    #[must_use]
+    pub fn passframes(&self, area: AreaId) -> &[Passframe] {
+        self.fragment(area).map_or(&[], |f| &f.passframes)
+    }
+
+    #[must_use]
+    pub fn passframe(&self, area: AreaId, id: PassframeId) -> Option<&Passframe> {
+        self.passframes(area).iter().find(|p| p.id == id)
+    }
+
+    pub(super) fn number(&self, area: AreaId) -> Option<usize> {
+        self.fragments.binary_search_by_key(&area, |f| f.area).ok()
+    }
+
+    pub(super) fn floor(&self, number: u32) -> &FragmentFloor {
+        &self.fragments[number as usize]
+    }
+
+    /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
+    pub(super) fn region(&self, cell: CellKey) -> u32 {
+        let component = self.floor(cell.0).cells.component[cell.1 as usize];
+        self.regions[cell.0 as usize][component as usize]
+    }
+
+    /// Both cells of every place where the robot can go over a doorway's line.
+    pub(super) fn portal_ends(&self) -> impl Iterator<Item = (CellKey, CellKey)> + '_ {
+        self.portals.iter().flatten().map(|p| (p.from, p.to))
+    }
+
+    /// The doorways that the robot can pass as they stand.
+    #[must_use]
+    pub fn open_doorways(&self) -> BTreeSet<usize> {
+        self.portals.iter().flatten().map(|p| p.doorway).collect()
+    }
+
+    /// Finds where Fragments touch, and what hangs together.
+    fn connect(&mut self) {
+        let mut at_doorway: HashMap<usize, Vec<(u32, Exit)>> = HashMap::new();
+        for (number, fragment) in self.fragments.iter().enumerate() {
+            for exit in &fragment.exits {
+                at_doorway.entry(exit.doorway).or_default().push((number as u32, *exit));
+            }
+        }
+        let mut portals: Vec<Vec<Portal>> = vec![Vec::new(); self.fragments.len()];
+        for (&doorway, exits) in &at_doorway {
+            for &(from, exit) in exits {
+                for &(to, entry) in exits.iter().filter(|(other, _)| *other != from) {
+                    let (a, b) = self.fragments[from as usize].cells.edge(exit.cell, exit.edge);
+                    let (c, d) = self.fragments[to as usize].cells.edge(entry.cell, entry.edge);
+                    if let Some((right, left)) = overlap((a, b), (c, d)) {
+                        portals[from as usize].push(Portal {
+                            from: (from, exit.cell),
+                            edge: exit.edge,
+                            to: (to, entry.cell),
+                            right,
+                            left,
+                            doorway,
+                        });
+                    }
+                }
+            }
+        }
+        for list in &mut portals {
+            list.sort_by_key(|p| (p.from, p.edge, p.to));
+        }
+        self.portals = portals;
+        self.regions = self.join_components();
+    }
+
+    fn join_components(&self) -> Vec<Vec<u32>> {
+        let mut first = Vec::new();
+        let mut count = 0;
+        for fragment in &self.fragments {
+            first.push(count);
+            count += fragment.cells.component.iter().max().map_or(0, |m| m + 1) as usize;
+        }
+        let mut sets = petgraph::unionfind::UnionFind::<usize>::new(count);
+        let component = |key: CellKey| {
+            first[key.0 as usize] + self.floor(key.0).cells.component[key.1 as usize] as usize
+        };
+        for portal in self.portals.iter().flatten() {
+            sets.union(component(portal.from), component(portal.to));
+        }
+        let labels = sets.into_labeling();
+        self.fragments
+            .iter()
+            .zip(&first)
+            .map(|(fragment, &first)| {
+                let own = fragment.cells.component.iter().max().map_or(0, |m| m + 1) as usize;
+                (first..first + own).map(|i| labels[i] as u32).collect()
+            })
+            .collect()
+    }
+
+    fn portals_of(&self, cell: CellKey) -> &[Portal] {
+        let list = &self.portals[cell.0 as usize];
+        let from = list.partition_point(|p| p.from < cell);
+        let to = list.partition_point(|p| p.from <= cell);
+        &list[from..to]
+    }
+}
+
+/// The cells of a plan as a search may use them.
+pub(super) struct Walkable<'a> {
+    pub(super) plan: &'a FloorPlan,
+    /// Fragments to stay in; all if none are named.
+    pub(super) within: Option<Vec<u32>>,
+}
+
+impl Cells for Walkable<'_> {
+    fn edges(&self, cell: CellKey, visit: &mut dyn FnMut(Edge)) {
+        let mesh = &self.plan.floor(cell.0).cells;
+        let ring = mesh.ring(cell.1);
+        for (i, &across) in mesh.across(cell.1).iter().enumerate() {
+            if across == super::mesh::NONE {
+                continue;
+            }
+            let (u, v) = (ring[i] as usize, ring[(i + 1) % ring.len()] as usize);
+            visit(Edge {
+                right: mesh.vertices[u],
+                left: mesh.vertices[v],
+                right_bends: mesh.is_corner[u],
+                left_bends: mesh.is_corner[v],
+                to: (cell.0, across),
+            });
+        }
+        for portal in self.plan.portals_of(cell) {
+            if self.within.as_ref().is_none_or(|w| w.contains(&portal.to.0)) {
+                let Portal { right, left, to, .. } = *portal;
+                visit(Edge { right, left, right_bends: true, left_bends: true, to });
+            }
+        }
+    }
+}
+
+/// The stretch of `a`-`b` that the opposite edge `c`-`d` covers.
+fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<(Point, Point)> {
+    let along = (b - a).try_normalize(0.0)?;
+    let place = |p: Point| (p - a).dot(&along);
+    let from = place(c).min(place(d)).max(0.0);
+    let to = place(c).max(place(d)).min((b - a).norm());
+    let end = |t: f64, p: Point, own: f64| if (t - own).abs() < 1e-9 { p } else { a + along * t };
+    (to - from > 1e-6).then(|| (end(from, a, 0.0), end(to, b, (b - a).norm())))
+}
+
+/// Replicas by place.
+#[derive(Debug, Clone)]
+struct ReplicaIndex {
+    cells: HashMap<(i32, i32), Vec<ReplicaId>>,
+    /// Those that are spread over too many cells to list in each.
+    wide: Vec<ReplicaId>,
+    bounds: HashMap<ReplicaId, Bounds>,
+}
+
+impl ReplicaIndex {
+    const CELL: f64 = 300.0;
+
+    fn of(scene: &Scene) -> Self {
+        let mut index = Self { cells: HashMap::new(), wide: Vec::new(), bounds: HashMap::new() };
+        for replica in scene.replicas.values() {
+            let ((left, bottom), (right, top)) = Self::span(&replica.bounds);
+            // Leaves of its own doors may stick out.
+            index.bounds.insert(replica.id, replica.bounds.grown(150.0));
+            if i64::from(right) - i64::from(left) > 30 || i64::from(top) - i64::from(bottom) > 30 {
+                index.wide.push(replica.id);
+                continue;
+            }
+            for x in left..=right {
+                for y in bottom..=top {
+                    index.cells.entry((x, y)).or_default().push(replica.id);
+                }
+            }
+        }
+        index
+    }
+
+    fn span(bounds: &Bounds) -> ((i32, i32), (i32, i32)) {
+        let cell =
+            |p: Point| ((p.x / Self::CELL).floor() as i32, (p.y / Self::CELL).floor() as i32);
+        (cell(bounds.min), cell(bounds.max))
+    }
+
+    /// The replicas whose boxes come near `bounds`, in the order of their ids.
+    fn near(&self, bounds: &Bounds) -> Vec<ReplicaId> {
+        let ((left, bottom), (right, top)) = Self::span(&bounds.grown(150.0));
+        let cells =
+            (i64::from(right) - i64::from(left) + 1) * (i64::from(top) - i64::from(bottom) + 1);
+        let mut found: Vec<ReplicaId> = if cells > self.cells.len() as i64 {
+            self.bounds.keys().copied().collect()
+        } else {
+            (left..=right)
+                .flat_map(|x| (bottom..=top).map(move |y| (x, y)))
+                .filter_map(|cell| self.cells.get(&cell))
+                .flatten()
+                .chain(&self.wide)
+                .copied()
+                .collect()
+        };
+        found.sort_unstable();
+        found.dedup();
+        found.retain(|r| self.bounds[r].meets(bounds));
+        found
+    }
+}

@@ -1,0 +1,337 @@
+//! Shortest way of a point over convex cells: Polyanya.
+//!
+//! After M. Cui, D. Harabor, A. Grastien, "Compromise-free pathfinding on a navigation mesh" (IJCAI 2017). A
+//! search node is a stretch of a cell's edge that is seen from a root, the last bend of the way to it. Nodes are
+//! taken in the order of the least length that a way through them can have, so the first way that reaches the
+//! goal is the shortest of all; no graph of sight lines is built beforehand.
+//!
+//! **Invariant**: every way found lies in the cells; none is shorter.
+
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
+
+use crate::units::Point;
+
+use super::nearest_on_segment;
+
+/// Cells of all Fragments: Fragment, cell.
+pub(super) type CellKey = (u32, u32);
+
+/// What the search walks over.
+pub(super) trait Cells {
+    /// The edges of a cell, counter-clockwise, each with the cells behind it.
+    fn edges(&self, cell: CellKey, visit: &mut dyn FnMut(Edge));
+}
+
+/// A stretch of a cell's border that leads into another cell.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    /// Seen from inside the cell, `right` comes first counter-clockwise.
+    pub(super) right: Point,
+    pub(super) left: Point,
+    /// Whether a way may bend there.
+    pub(super) right_bends: bool,
+    pub(super) left_bends: bool,
+    pub(super) to: CellKey,
+}
+
+/// Lengths below this are rounding, in cm.
+const EPSILON: f64 = 1e-7;
+/// Points nearer than this to a vertex are the vertex, in cm.
+const SNAP: f64 = 1e-5;
+
+#[derive(Debug, Clone, Copy)]
+struct SearchNode {
+    /// Least length of a way through this node.
+    bound: f64,
+    /// Length of the way up to the root.
+    spent: f64,
+    root: u32,
+    right: Point,
+    left: Point,
+    right_bends: bool,
+    left_bends: bool,
+    cell: CellKey,
+    from: CellKey,
+    is_final: bool,
+}
+
+/// A bend of a way under construction.
+#[derive(Debug, Clone, Copy)]
+struct Root {
+    at: Point,
+    parent: u32,
+}
+
+impl PartialEq for SearchNode {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for SearchNode {}
+
+impl PartialOrd for SearchNode {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl Ord for SearchNode {
+    /// The least bound is the greatest, for the heap; a final node goes before others.
+    fn cmp(&self, other: &Self) -> Ordering {
+        other
+            .bound
+            .total_cmp(&self.bound)
+            .then(self.is_final.cmp(&other.is_final))
+            .then_with(|| other.cell.cmp(&self.cell))
+            .then_with(|| other.from.cmp(&self.from))
+    }
+}
+
+/// A way and what it took to find.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Way {
+    pub(super) points: Vec<Point>,
+    pub(super) length: f64,
+}
+
+/// The shortest way from `start` in cell `from` to `goal` in cell `to`.
+pub(super) fn shortest(
+    cells: &impl Cells,
+    start: Point,
+    from: CellKey,
+    goal: Point,
+    to: CellKey,
+) -> Option<Way> {
+    if from == to {
+        return Some(Way { points: vec![start, goal], length: (goal - start).norm() });
+    }
+    let mut search = Search {
+        goal,
+        roots: vec![Root { at: start, parent: u32::MAX }],
+        best: HashMap::new(),
+        open: BinaryHeap::new(),
+    };
+    cells.edges(from, &mut |edge| search.push(0.0, 0, edge, edge.right, edge.left, from));
+    while let Some(node) = search.open.pop() {
+        if node.is_final {
+            return Some(search.way(&node));
+        }
+        if search.is_outdone(&node) {
+            continue;
+        }
+        if node.cell == to {
+            search.finish(&node);
+        } else {
+            search.expand(cells, &node);
+        }
+    }
+    None
+}
+
+struct Search {
+    goal: Point,
+    roots: Vec<Root>,
+    /// Least length found up to each root.
+    best: HashMap<(u64, u64), f64>,
+    open: BinaryHeap<SearchNode>,
+}
+
+fn side(a: Point, b: Point, c: Point) -> f64 {
+    (b - a).perp(&(c - a))
+}
+
+/// Where the line through `a` and `b` meets the segment from `p` to `q`.
+fn meet(a: Point, b: Point, p: Point, q: Point) -> Point {
+    let (dp, dq) = (side(a, b, p), side(a, b, q));
+    let t = if (dp - dq).abs() > 0.0 { (dp / (dp - dq)).clamp(0.0, 1.0) } else { 0.0 };
+    let at = p + (q - p) * t;
+    // A ray along a wall meets the wall's end: rounding must not lose the bend there.
+    [p, q].into_iter().find(|&end| (end - at).norm() < SNAP).unwrap_or(at)
+}
+
+impl Search {
+    fn root(&self, node: &SearchNode) -> Point {
+        self.roots[node.root as usize].at
+    }
+
+    fn is_outdone(&self, node: &SearchNode) -> bool {
+        let at = self.root(node);
+        self.best.get(&key(at)).is_some_and(|&b| b + EPSILON < node.spent)
+    }
+
+    /// Notes a way to a root; false when a shorter one is known.
+    fn reach(&mut self, at: Point, spent: f64) -> bool {
+        let best = self.best.entry(key(at)).or_insert(f64::INFINITY);
+        if spent > *best + EPSILON {
+            return false;
+        }
+        *best = best.min(spent);
+        true
+    }
+
+    fn push(
+        &mut self,
+        spent: f64,
+        root: u32,
+        edge: Edge,
+        right: Point,
+        left: Point,
+        from: CellKey,
+    ) {
+        let at = self.roots[root as usize].at;
+        let bound = spent + through(at, right, left, self.goal);
+        self.open.push(SearchNode {
+            bound,
+            spent,
+            root,
+            right,
+            left,
+            right_bends: edge.right_bends && right == edge.right,
+            left_bends: edge.left_bends && left == edge.left,
+            cell: edge.to,
+            from,
+            is_final: false,
+        });
+    }
+
+    /// Ends a way whose last stretch lies in the goal's cell.
+    fn finish(&mut self, node: &SearchNode) {
+        let at = self.root(node);
+        let mut last = *node;
+        // Seen past an end of the stretch, the goal is reached over a bend there.
+        let bend = if side(at, node.left, self.goal) > 0.0 && at != node.left {
+            Some(node.left)
+        } else if side(at, node.right, self.goal) < 0.0 && at != node.right {
+            Some(node.right)
+        } else {
+            None
+        };
+        if let Some(bend) = bend {
+            last.spent += (bend - at).norm();
+            self.roots.push(Root { at: bend, parent: node.root });
+            last.root = self.roots.len() as u32 - 1;
+        }
+        last.bound = last.spent + (self.goal - self.root(&last)).norm();
+        last.is_final = true;
+        self.open.push(last);
+    }
+
+    fn expand(&mut self, cells: &impl Cells, node: &SearchNode) {
+        let at = self.root(node);
+        let (right, left) = (node.right, node.left);
+        // A root in line with the stretch sees nothing past it, save through its nearer end.
+        let area = side(at, right, left);
+        let is_flat = area <= EPSILON * (left - right).norm().max(EPSILON);
+        let mut edges = Vec::with_capacity(8);
+        cells.edges(node.cell, &mut |edge| {
+            if edge.to != node.from {
+                edges.push(edge);
+            }
+        });
+        if is_flat {
+            self.expand_flat(node, at, &edges);
+            return;
+        }
+        for edge in edges {
+            let (r, l) = (edge.right, edge.left);
+            // What the two rays cut from the edge: left of the left ray, between, right of the right ray.
+            let (r_left, l_left) = (side(at, left, r) > 0.0, side(at, left, l) > 0.0);
+            let (r_right, l_right) = (side(at, right, r) < 0.0, side(at, right, l) < 0.0);
+            if !r_left && !l_right {
+                let seen_right = if r_right { meet(at, right, r, l) } else { r };
+                let seen_left = if l_left { meet(at, left, r, l) } else { l };
+                if (seen_left - seen_right).norm() > EPSILON {
+                    self.push(node.spent, node.root, edge, seen_right, seen_left, node.cell);
+                }
+            }
+            // An edge may end in the bend itself, and then leads off from it to the other side.
+            if (l_left || r_left) && node.left_bends {
+                let from = if r_left { r } else { meet(at, left, r, l) };
+                self.push_bent(node, left, edge, from, l);
+            }
+            if (r_right || l_right) && node.right_bends {
+                let to = if l_right { l } else { meet(at, right, r, l) };
+                self.push_bent(node, right, edge, r, to);
+            }
+        }
+    }
+
+    /// A root on the line of its stretch: it looks through, or slides along to the nearer end and bends there.
+    fn expand_flat(&mut self, node: &SearchNode, at: Point, edges: &[Edge]) {
+        let near = nearest_on_segment(at, node.right, node.left);
+        let is_within = (near - at).norm() <= EPSILON.sqrt();
+        for &edge in edges {
+            if is_within {
+                self.push(node.spent, node.root, edge, edge.right, edge.left, node.cell);
+            } else {
+                self.push_bent(node, near, edge, edge.right, edge.left);
+            }
+        }
+    }
+
+    /// A stretch that is seen only from the end `bend` of the last one.
+    fn push_bent(&mut self, node: &SearchNode, bend: Point, edge: Edge, right: Point, left: Point) {
+        if (left - right).norm() <= EPSILON {
+            return;
+        }
+        let at = self.root(node);
+        let spent = node.spent + (bend - at).norm();
+        if !self.reach(bend, spent) {
+            return;
+        }
+        self.roots.push(Root { at: bend, parent: node.root });
+        let root = self.roots.len() as u32 - 1;
+        self.push(spent, root, edge, right, left, node.cell);
+    }
+
+    fn way(&self, last: &SearchNode) -> Way {
+        let mut points = vec![self.goal];
+        let mut root = last.root;
+        while root != u32::MAX {
+            let Root { at, parent } = self.roots[root as usize];
+            if points.last().is_none_or(|&p| (p - at).norm() > EPSILON) {
+                points.push(at);
+            }
+            root = parent;
+        }
+        points.reverse();
+        if points.len() == 1 {
+            points.push(points[0]);
+        }
+        Way { length: points.windows(2).map(|p| (p[1] - p[0]).norm()).sum(), points }
+    }
+}
+
+fn key(p: Point) -> (u64, u64) {
+    (p.x.to_bits(), p.y.to_bits())
+}
+
+/// Length of the shortest way from `root` over the stretch to `goal`, whatever lies between.
+fn through(root: Point, right: Point, left: Point, goal: Point) -> f64 {
+    let along = left - right;
+    let length = along.norm();
+    if length <= EPSILON {
+        return (right - root).norm() + (goal - right).norm();
+    }
+    let unit = along / length;
+    // A goal on the root's side is mirrored: the way must touch the stretch.
+    let (root_side, goal_side) = (unit.perp(&(root - right)), unit.perp(&(goal - right)));
+    let mirrored = if root_side * goal_side > 0.0 {
+        let normal = nalgebra::Vector2::new(-unit.y, unit.x);
+        goal - normal * (2.0 * goal_side)
+    } else {
+        goal
+    };
+    let goal_depth = unit.perp(&(mirrored - right));
+    let (root_place, goal_place) = (unit.dot(&(root - right)), unit.dot(&(goal - right)));
+    let depth = (root_side - goal_depth).abs();
+    let place = if depth > 0.0 {
+        root_place + (goal_place - root_place) * (root_side / (root_side - goal_depth))
+    } else {
+        goal_place
+    };
+    let turn = right + unit * place.clamp(0.0, length);
+    (turn - root).norm() + (goal - turn).norm()
+}

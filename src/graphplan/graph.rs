@@ -1,0 +1,319 @@
+//! The planning graph: which facts and actions are possible from which level on, and which pairs exclude each other.
+//!
+//! Levels only grow: a fact or an action once possible stays so, and a pair once free of mutex stays free. So
+//! facts and actions are kept once, with the first level at which they appear; only the mutex relation of facts
+//! is kept for each level, as a bit matrix, until the graph levels off. Mutexes of actions follow from those of
+//! their preconditions and are computed when asked for.
+
+use super::{Limit, Limits, NoPlanReason};
+use crate::strips::{FactId, Task};
+
+/// An operator, or the no-op that carries a fact from one level to the next.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) struct ActionId(pub(super) u32);
+
+impl ActionId {
+    pub(super) fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// An operator or no-op with short sorted lists of facts.
+#[derive(Debug)]
+pub(super) struct Action {
+    pub(super) preconditions: Box<[FactId]>,
+    pub(super) add_effects: Box<[FactId]>,
+    pub(super) del_effects: Box<[FactId]>,
+}
+
+/// A level that no fact or action reaches.
+const NEVER: u32 = u32::MAX;
+
+/// A symmetric relation on facts.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Pairs {
+    words: usize,
+    bits: Vec<u64>,
+}
+
+impl Pairs {
+    fn new(facts: usize) -> Self {
+        let words = facts.div_ceil(64);
+        Self { words, bits: vec![0; words * facts] }
+    }
+
+    fn contains(&self, a: FactId, b: FactId) -> bool {
+        let bit = b.index();
+        self.bits[a.index() * self.words + bit / 64] >> (bit % 64) & 1 == 1
+    }
+
+    fn insert(&mut self, a: FactId, b: FactId) {
+        for (row, bit) in [(a.index(), b.index()), (b.index(), a.index())] {
+            self.bits[row * self.words + bit / 64] |= 1 << (bit % 64);
+        }
+    }
+
+    fn row(&self, a: FactId) -> &[u64] {
+        &self.bits[a.index() * self.words..][..self.words]
+    }
+}
+
+pub(super) struct PlanningGraph {
+    pub(super) actions: Vec<Action>,
+    /// Operators come first, then one no-op a fact.
+    operator_count: usize,
+    /// Actions that add a fact; the no-op first.
+    achievers: Vec<Vec<ActionId>>,
+    fact_level: Vec<u32>,
+    action_level: Vec<u32>,
+    /// Per level up to the last that differs from the one before.
+    mutex: Vec<Pairs>,
+    top: usize,
+    leveled_off_at: Option<usize>,
+}
+
+impl PlanningGraph {
+    /// The graph of level 0: the initial state.
+    pub(super) fn new(task: &Task) -> Self {
+        let fact_count = task.facts.len();
+        let operators = task.operators.iter().map(|operator| Action {
+            preconditions: operator.preconditions.as_slice().into(),
+            add_effects: operator.add_effects.as_slice().into(),
+            del_effects: operator.del_effects.as_slice().into(),
+        });
+        let no_ops = task.fact_ids().map(|fact| Action {
+            preconditions: [fact].into(),
+            add_effects: [fact].into(),
+            del_effects: [].into(),
+        });
+        let actions: Vec<Action> = operators.chain(no_ops).collect();
+        let operator_count = task.operators.len();
+        let mut achievers: Vec<Vec<ActionId>> =
+            (0..fact_count).map(|fact| vec![ActionId((operator_count + fact) as u32)]).collect();
+        for (number, action) in actions[..operator_count].iter().enumerate() {
+            for fact in &action.add_effects {
+                achievers[fact.index()].push(ActionId(number as u32));
+            }
+        }
+        let mut fact_level = vec![NEVER; fact_count];
+        task.init.iter().for_each(|fact| fact_level[fact.index()] = 0);
+        Self {
+            action_level: vec![NEVER; actions.len()],
+            actions,
+            operator_count,
+            achievers,
+            fact_level,
+            mutex: vec![Pairs::new(fact_count)],
+            top: 0,
+            leveled_off_at: None,
+        }
+    }
+
+    /// The last level built.
+    pub(super) fn top(&self) -> usize {
+        self.top
+    }
+
+    pub(super) fn leveled_off_at(&self) -> Option<usize> {
+        self.leveled_off_at
+    }
+
+    pub(super) fn action(&self, id: ActionId) -> &Action {
+        &self.actions[id.index()]
+    }
+
+    pub(super) fn is_no_op(&self, id: ActionId) -> bool {
+        id.index() >= self.operator_count
+    }
+
+    pub(super) fn achievers(&self, fact: FactId) -> &[ActionId] {
+        &self.achievers[fact.index()]
+    }
+
+    /// The first level at which a fact may hold.
+    pub(super) fn fact_level(&self, fact: FactId) -> u32 {
+        self.fact_level[fact.index()]
+    }
+
+    /// The first step (from that level to the next) in which an action may be carried out.
+    pub(super) fn action_level(&self, action: ActionId) -> u32 {
+        self.action_level[action.index()]
+    }
+
+    fn mutex_at(&self, level: usize) -> &Pairs {
+        &self.mutex[level.min(self.mutex.len() - 1)]
+    }
+
+    /// Facts that exclude `fact` at a level, as far as they may hold there at all.
+    pub(super) fn exclusive_with(
+        &self,
+        level: usize,
+        fact: FactId,
+    ) -> impl Iterator<Item = FactId> {
+        self.mutex_at(level).row(fact).iter().enumerate().flat_map(|(word, &bits)| {
+            (0..64)
+                .filter(move |bit| bits >> bit & 1 == 1)
+                .map(move |bit| FactId((word * 64 + bit) as u32))
+        })
+    }
+
+    /// Whether all facts may hold at the last level, as far as pairs tell.
+    pub(super) fn is_possible(&self, facts: &[FactId]) -> bool {
+        let mutex = self.mutex_at(self.top);
+        facts.iter().all(|fact| self.fact_level(*fact) != NEVER)
+            && facts
+                .iter()
+                .enumerate()
+                .all(|(at, &a)| facts[..at].iter().all(|&b| !mutex.contains(a, b)))
+    }
+
+    /// Why facts are not possible together at the last level.
+    pub(super) fn conflict_of(&self, facts: &[FactId]) -> NoPlanReason {
+        let unreachable: Vec<FactId> =
+            facts.iter().copied().filter(|&fact| self.fact_level(fact) == NEVER).collect();
+        if !unreachable.is_empty() {
+            return NoPlanReason::Unreachable(unreachable);
+        }
+        let mutex = self.mutex_at(self.top);
+        let mut pairs = Vec::new();
+        for (at, &a) in facts.iter().enumerate() {
+            pairs
+                .extend(facts[at + 1..].iter().filter(|&&b| mutex.contains(a, b)).map(|&b| (a, b)));
+        }
+        NoPlanReason::Exclusive(pairs)
+    }
+
+    /// Two actions exclude each other in the step that starts at `level`.
+    ///
+    /// Inconsistent effects and interference: one deletes what the other adds or needs. Competing needs: a
+    /// precondition of one excludes a precondition of the other.
+    pub(super) fn is_mutex(&self, level: usize, a: ActionId, b: ActionId) -> bool {
+        self.interfere(a, b) || self.compete(self.mutex_at(level), a, b)
+    }
+
+    fn interfere(&self, a: ActionId, b: ActionId) -> bool {
+        let (a, b) = (self.action(a), self.action(b));
+        let breaks = |x: &Action, y: &Action| {
+            x.del_effects.iter().any(|f| y.preconditions.contains(f) || y.add_effects.contains(f))
+        };
+        breaks(a, b) || breaks(b, a)
+    }
+
+    fn compete(&self, mutex: &Pairs, a: ActionId, b: ActionId) -> bool {
+        let (a, b) = (self.action(a), self.action(b));
+        a.preconditions.iter().any(|&p| b.preconditions.iter().any(|&q| mutex.contains(p, q)))
+    }
+
+    /// Adds a level of actions and a level of facts.
+    pub(super) fn expand(&mut self, limits: &Limits) -> Result<(), Limit> {
+        if self.leveled_off_at.is_some() {
+            self.top += 1;
+            return Ok(());
+        }
+        let new_actions = self.add_actions();
+        let new_facts = self.add_facts();
+        let next = self.next_mutex(limits)?;
+        if !new_actions && !new_facts && next == self.mutex[self.top] {
+            self.leveled_off_at = Some(self.top);
+        } else {
+            self.mutex.push(next);
+        }
+        self.top += 1;
+        Ok(())
+    }
+
+    fn add_actions(&mut self) -> bool {
+        let mutex = &self.mutex[self.top];
+        let level = self.top as u32;
+        let mut any = false;
+        for (action, first) in self.actions.iter().zip(&mut self.action_level) {
+            let needs = &action.preconditions;
+            let possible = *first == NEVER
+                && needs.iter().all(|fact| self.fact_level[fact.index()] <= level)
+                && needs
+                    .iter()
+                    .enumerate()
+                    .all(|(at, &p)| needs[..at].iter().all(|&q| !mutex.contains(p, q)));
+            if possible {
+                *first = level;
+                any = true;
+            }
+        }
+        any
+    }
+
+    fn add_facts(&mut self) -> bool {
+        let level = self.top as u32;
+        let mut any = false;
+        for (action, &first) in self.actions.iter().zip(&self.action_level) {
+            if first == level {
+                for fact in &action.add_effects {
+                    let first = &mut self.fact_level[fact.index()];
+                    if *first == NEVER {
+                        *first = level + 1;
+                        any = true;
+                    }
+                }
+            }
+        }
+        any
+    }
+
+    /// Facts exclude each other at the next level when all ways to have the one exclude all ways to have the
+    /// other. A pair free at this level stays free: two no-ops carry it over.
+    fn next_mutex(&self, limits: &Limits) -> Result<Pairs, Limit> {
+        let level = self.top as u32;
+        let old = &self.mutex[self.top];
+        let mut next = Pairs::new(self.fact_level.len());
+        let words = old.words;
+        let (mut present, mut new) = (vec![0_u64; words], vec![0_u64; words]);
+        for (fact, &first) in self.fact_level.iter().enumerate() {
+            if first <= level + 1 {
+                present[fact / 64] |= 1 << (fact % 64);
+            }
+            if first == level + 1 {
+                new[fact / 64] |= 1 << (fact % 64);
+            }
+        }
+        for number in 0..self.fact_level.len() {
+            let a = FactId(number as u32);
+            if self.fact_level(a) > level + 1 {
+                continue;
+            }
+            if number % 256 == 0 {
+                limits.check(0)?;
+            }
+            let is_new = self.fact_level(a) == level + 1;
+            let row = old.row(a);
+            for word in 0..=number / 64 {
+                let mut open =
+                    if is_new { present[word] } else { present[word] & (row[word] | new[word]) };
+                while open != 0 {
+                    let b = FactId((word * 64) as u32 + open.trailing_zeros());
+                    open &= open - 1;
+                    if b < a && !self.jointly_achievable(old, a, b) {
+                        next.insert(a, b);
+                    }
+                }
+            }
+        }
+        Ok(next)
+    }
+
+    fn jointly_achievable(&self, mutex: &Pairs, p: FactId, q: FactId) -> bool {
+        let level = self.top as u32;
+        let ways = |fact: FactId| {
+            self.achievers(fact).iter().copied().filter(|&a| self.action_level(a) <= level)
+        };
+        ways(p).any(|a| {
+            self.action(a).add_effects.contains(&q)
+                || ways(q).any(|b| !self.compete(mutex, a, b) && !self.interfere(a, b))
+        })
+    }
+
+    /// Memory held, near enough to honour a limit.
+    pub(super) fn bytes(&self) -> usize {
+        self.mutex.iter().map(|pairs| pairs.bits.len() * 8).sum::<usize>()
+            + self.actions.len() * 128
+    }
+}

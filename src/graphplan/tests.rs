@@ -1,0 +1,211 @@
+//! The planner against breadth-first search over states on small random tasks.
+
+use std::collections::HashSet;
+
+use super::*;
+use crate::strips::{Fact, Operator};
+
+/// A small generator with a seed for an argument (xorshift64*).
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
+    }
+
+    fn facts(&mut self, count: usize, of: usize) -> Vec<FactId> {
+        let mut facts: Vec<FactId> = (0..count).map(|_| FactId(self.below(of) as u32)).collect();
+        facts.sort_unstable();
+        facts.dedup();
+        facts
+    }
+}
+
+fn random_task(seed: u64) -> Task {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let fact_count = 4 + random.below(6);
+    let facts = (0..fact_count)
+        .map(|number| Fact {
+            predicate: format!("f{number}").into(),
+            args: Vec::new(),
+            negated: false,
+        })
+        .collect();
+    let operators = (0..3 + random.below(8))
+        .map(|number| {
+            let (needs, adds, dels) = (random.below(4), 1 + random.below(2), random.below(3));
+            let add_effects = random.facts(adds, fact_count);
+            let preconditions = random.facts(needs, fact_count);
+            // Operators that use up what they need make goals that exclude each other by threes.
+            let mut del_effects = if seed.is_multiple_of(2) {
+                preconditions.clone()
+            } else {
+                random.facts(dels, fact_count)
+            };
+            del_effects.retain(|fact| !add_effects.contains(fact));
+            Operator {
+                name: format!("o{number}").into(),
+                args: Vec::new(),
+                preconditions,
+                add_effects,
+                del_effects,
+                cost: 1,
+            }
+        })
+        .collect();
+    let (held, wanted) = (1 + random.below(3), 1 + random.below(4));
+    let task = Task {
+        facts,
+        operators,
+        init: random.facts(held, fact_count),
+        goal: random.facts(wanted, fact_count),
+        assumptions: Vec::new(),
+    };
+    task.check_invariants();
+    task
+}
+
+/// Fewest parallel steps by trying every set of operators in every state.
+fn fewest_steps(task: &Task) -> Option<usize> {
+    let mask = |facts: &[FactId]| facts.iter().fold(0_u64, |mask, fact| mask | 1 << fact.0);
+    let goal = mask(&task.goal);
+    let mut seen = HashSet::from([mask(&task.init)]);
+    let mut layer: Vec<u64> = seen.iter().copied().collect();
+    let mut steps = 0;
+    while !layer.is_empty() {
+        if layer.iter().any(|state| state & goal == goal) {
+            return Some(steps);
+        }
+        let mut next = Vec::new();
+        for state in layer {
+            let applicable: Vec<&Operator> = task
+                .operators
+                .iter()
+                .filter(|o| state & mask(&o.preconditions) == mask(&o.preconditions))
+                .collect();
+            for set in 0_u32..1 << applicable.len() {
+                let chosen: Vec<&Operator> = (0..applicable.len())
+                    .filter(|at| set >> at & 1 == 1)
+                    .map(|at| applicable[at])
+                    .collect();
+                let free = chosen.iter().enumerate().all(|(x, a)| {
+                    chosen.iter().enumerate().all(|(y, b)| {
+                        x == y
+                            || mask(&a.del_effects)
+                                & (mask(&b.preconditions) | mask(&b.add_effects))
+                                == 0
+                    })
+                });
+                if free {
+                    let dels = chosen.iter().fold(0, |all, o| all | mask(&o.del_effects));
+                    let adds = chosen.iter().fold(0, |all, o| all | mask(&o.add_effects));
+                    let after = state & !dels | adds;
+                    if seen.insert(after) {
+                        next.push(after);
+                    }
+                }
+            }
+        }
+        layer = next;
+        steps += 1;
+    }
+    None
+}
+
+#[test]
+fn answers_equal_those_of_breadth_first_search() {
+    compare(Turn::default());
+}
+
+#[test]
+fn answers_are_the_same_when_the_solver_finds_them() {
+    compare(Turn { choices: 16, conflicts: 1 << 10 });
+}
+
+fn compare(turn: Turn) {
+    let (mut solved, mut unsolvable, mut searched) = (0, 0, 0);
+    for seed in 1..=3000 {
+        let task = random_task(seed);
+        let fewest = fewest_steps(&task);
+        match search(&task, &Limits::default(), turn).unwrap_or_else(Outcome::LimitReached) {
+            Outcome::Plan(plan) => {
+                assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
+                solved += 1;
+            }
+            Outcome::NoPlan { reason, .. } => {
+                assert_eq!(fewest, None, "seed {seed}");
+                unsolvable += 1;
+                searched += usize::from(matches!(reason, NoPlanReason::Together(_)));
+            }
+            Outcome::LimitReached(limit) => panic!("seed {seed}: {limit:?}"),
+        }
+    }
+    // The generator is worth its name only if every kind of answer comes up.
+    assert!(solved > 500 && unsolvable > 500 && searched > 0, "{solved} {unsolvable} {searched}");
+}
+
+/// As many wishes as one likes, each granted by using up one of a few tokens.
+fn wishes(wishes: u32, tokens: u32) -> Task {
+    let fact = |name: String| Fact { predicate: name.into(), args: Vec::new(), negated: false };
+    let granted = (0..wishes).map(|w| fact(format!("wish{w}")));
+    let held = (0..tokens).map(|t| fact(format!("token{t}")));
+    let operators = (0..wishes).flat_map(|w| (0..tokens).map(move |t| (w, FactId(wishes + t))));
+    Task {
+        facts: granted.chain(held).collect(),
+        operators: operators
+            .map(|(w, token)| Operator {
+                name: format!("grant{w}").into(),
+                args: Vec::new(),
+                preconditions: vec![token],
+                add_effects: vec![FactId(w)],
+                del_effects: vec![token],
+                cost: 1,
+            })
+            .collect(),
+        init: (wishes..wishes + tokens).map(FactId).collect(),
+        goal: (0..wishes).map(FactId).collect(),
+        assumptions: Vec::new(),
+    }
+}
+
+#[test]
+fn goals_that_fit_by_pairs_but_not_together_are_refused() {
+    for tokens in 2..5 {
+        assert!(matches!(solve(&wishes(tokens, tokens), &Limits::default()), Outcome::Plan(_)));
+        let Outcome::NoPlan { reason: NoPlanReason::Together(goals), .. } =
+            solve(&wishes(tokens + 1, tokens), &Limits::default())
+        else {
+            panic!("{tokens} tokens grant no more than {tokens} wishes")
+        };
+        assert_eq!(goals.len(), tokens as usize + 1);
+    }
+}
+
+#[test]
+fn a_plan_with_a_flaw_is_refused() {
+    let task = (1..)
+        .map(random_task)
+        .find(|task| fewest_steps(task).is_some_and(|steps| steps >= 3))
+        .expect("some random task takes three steps");
+    let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("it is solvable") };
+    for missing in 0..plan.steps.len() {
+        let mut broken = plan.clone();
+        broken.steps.remove(missing);
+        assert!(validate(&task, &broken).is_err(), "every step of a shortest plan is needed");
+    }
+}
+
+#[test]
+fn limits_are_an_outcome() {
+    let task = (1..).map(random_task).find(|t| fewest_steps(t).is_some_and(|s| s >= 2)).unwrap();
+    let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
+    assert_eq!(solve(&task, &now), Outcome::LimitReached(Limit::Time));
+    let short = Limits { parallel_steps: 1, ..Limits::default() };
+    assert_eq!(solve(&task, &short), Outcome::LimitReached(Limit::Steps));
+    let small = Limits { memory_bytes: 1, ..Limits::default() };
+    assert_eq!(solve(&task, &small), Outcome::LimitReached(Limit::Memory));
+}

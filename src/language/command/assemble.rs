@@ -1,0 +1,427 @@
+//! From clauses to commands: which argument is the thing, which the place, and whether each means one thing only.
+
+use std::hash::Hash;
+use std::ops::Range;
+
+use super::grammar::{Argument, Item, Reference, Sentence, items};
+use super::vocabulary::{Link, Role, Verb, verbs};
+use super::{Command, Listener, Misheard, Placement, Relation, Thing};
+use crate::language::words::{Case, Hit};
+use crate::units::{Source, nearest_name};
+
+/// Reads a sentence into commands. See [`Listener::hear`].
+pub(super) fn commands<T: Clone + Eq + Hash>(
+    text: &str,
+    listener: &Listener<'_, T>,
+) -> Result<Vec<Command<T>>, Misheard> {
+    let sentence = Sentence::new(text);
+    if sentence.words.is_empty() {
+        return Err(Misheard::Empty);
+    }
+    let items = items(&sentence, listener.index);
+    let mut reader = Reader { sentence: &sentence, listener, last: listener.last.clone() };
+    // «Стоп, не едь!» must stop, whatever else is in the sentence.
+    if items.iter().any(|item| matches!(item, Item::Verb(Verb::Stop, _))) {
+        return Ok(vec![Command::Stop]);
+    }
+    if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
+        return Err(
+            reader.not_understood(words, "скажите, что сделать, а не чего не делать".into())
+        );
+    }
+    let mut commands = Vec::new();
+    for clause in clauses(&items) {
+        commands.extend(reader.clause(&clause)?);
+    }
+    Ok(commands)
+}
+
+/// One verb and what belongs to it.
+struct Clause<'i, 's, T> {
+    verb: Option<(Verb, &'i Range<usize>)>,
+    before: Vec<&'i Argument<'s, T>>,
+    after: Vec<&'i Argument<'s, T>>,
+    dangling: Option<&'i Range<usize>>,
+    with_key: bool,
+}
+
+/// Cuts the items before a second verb: at the «и» between the two, if the objects stand before their verbs.
+fn clauses<'i, 's, T>(items: &'i [Item<'s, T>]) -> Vec<Clause<'i, 's, T>> {
+    let is_verb = |item: &Item<'_, T>| matches!(item, Item::Verb(verb, _) if *verb != Verb::Need);
+    let mut starts = vec![0];
+    let mut seen_verb = false;
+    let mut conjunction = None;
+    for (at, item) in items.iter().enumerate() {
+        match item {
+            Item::And if seen_verb => conjunction = Some(at),
+            item if is_verb(item) => {
+                if seen_verb {
+                    starts.push(conjunction.take().unwrap_or(at));
+                }
+                seen_verb = true;
+            }
+            _ => {}
+        }
+    }
+    starts.push(items.len());
+    starts.windows(2).map(|bounds| clause(&items[bounds[0]..bounds[1]])).collect()
+}
+
+fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
+    let mut clause =
+        Clause { verb: None, before: vec![], after: vec![], dangling: None, with_key: false };
+    for item in items {
+        match item {
+            // «мне нужно принести»: the real verb wins.
+            Item::Verb(verb, words) if clause.verb.is_none_or(|(other, _)| other == Verb::Need) => {
+                clause.verb = Some((*verb, words));
+            }
+            Item::Argument(argument) if clause.verb.is_some() => clause.after.push(argument),
+            Item::Argument(argument) => clause.before.push(argument),
+            Item::Dangling(words) => clause.dangling = Some(words),
+            Item::WithKey => clause.with_key = true,
+            Item::Verb(..) | Item::And | Item::Not(_) | Item::Filler => {}
+        }
+    }
+    clause
+}
+
+struct Reader<'r, 't, T> {
+    sentence: &'r Sentence<'t>,
+    listener: &'r Listener<'r, T>,
+    /// What a pronoun or an omitted object means.
+    last: Option<T>,
+}
+
+/// Arguments by the part that they play. Objects keep their case for [`Reader::resolve`].
+struct Roles<T> {
+    objects: Vec<T>,
+    at: Option<Placement<T>>,
+    to: Option<Placement<T>>,
+    via: Option<T>,
+    to_me: bool,
+}
+
+impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
+    fn clause(&mut self, clause: &Clause<'_, '_, T>) -> Result<Vec<Command<T>>, Misheard> {
+        let Some((verb, words)) = clause.verb else { return Err(self.no_verb(clause)) };
+        if let Some(strange) =
+            clause.before.iter().find(|a| matches!(a.reference, Reference::Unknown))
+        {
+            let known_later = clause.after.iter().any(|a| a.link.is_none());
+            if known_later
+                || clause.before.len() > 1
+                || clause.after.is_empty() && strange.link.is_some()
+            {
+                return Err(self
+                    .not_understood(&strange.words, "слово лишнее или написано с ошибкой".into()));
+            }
+        }
+        if let Some(dangling) = clause.dangling {
+            let question = ("где или куда", "where");
+            return Err(self.incomplete(dangling, question));
+        }
+        let verb = if clause.with_key && verb == Verb::Close { Verb::Lock } else { verb };
+        let arguments: Vec<&Argument<'_, T>> =
+            clause.before.iter().chain(&clause.after).copied().collect();
+        let roles = self.roles(verb, &arguments)?;
+        self.command(verb, words, roles)
+    }
+
+    fn command(
+        &mut self,
+        verb: Verb,
+        words: &Range<usize>,
+        roles: Roles<T>,
+    ) -> Result<Vec<Command<T>>, Misheard> {
+        let Roles { mut objects, mut at, mut to, via, to_me } = roles;
+        match verb {
+            Verb::CallOperator => return Ok(vec![Command::CallOperator]),
+            Verb::Report => return Ok(vec![Command::Report]),
+            Verb::Stop => return Ok(vec![Command::Stop]),
+            Verb::Tidy | Verb::Clear
+                if to.is_none() && (verb == Verb::Tidy || objects.is_empty()) =>
+            {
+                let place = at.map(|place| place.anchor).or_else(|| objects.pop());
+                return Ok(vec![Command::Tidy(place)]);
+            }
+            Verb::GoTo => {
+                // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
+                let bare = |anchor: T| Placement { relation: Relation::At, anchor, within: None };
+                let to = to.or(at).or_else(|| objects.pop().map(bare));
+                return match to {
+                    Some(to) => Ok(vec![Command::GoTo { to, via }]),
+                    None if to_me => Ok(vec![Command::ComeHere]),
+                    None => Err(self.incomplete(words, ("куда ехать", "where to go"))),
+                };
+            }
+            _ => {}
+        }
+        if objects.is_empty() {
+            objects.extend(self.last.clone());
+        }
+        if objects.is_empty() {
+            return Err(self.incomplete(words, question(verb)));
+        }
+        self.last = objects.last().cloned();
+        if matches!(verb, Verb::Put | Verb::Clear) && to.is_none() {
+            // "Put the book on the table": on and in are whither here.
+            to = at.take();
+        }
+        objects
+            .into_iter()
+            .map(|id| {
+                self.one(verb, words, Thing { id, at: at.clone(), toward: None }, to.clone(), to_me)
+            })
+            .collect()
+    }
+
+    fn one(
+        &self,
+        verb: Verb,
+        words: &Range<usize>,
+        what: Thing<T>,
+        to: Option<Placement<T>>,
+        to_me: bool,
+    ) -> Result<Command<T>, Misheard> {
+        Ok(match (verb, to) {
+            (Verb::Bring | Verb::Need, to) => Command::Bring { what, to },
+            (Verb::Take, to @ Some(_)) => Command::Bring { what, to },
+            (Verb::Take, None) if to_me => Command::Bring { what, to: None },
+            (Verb::Take, None) => Command::Take { what },
+            (Verb::Put | Verb::Clear, Some(to)) => Command::Put { what, to },
+            (Verb::Put, None) if to_me => Command::Bring { what, to: None },
+            (Verb::Put | Verb::Clear, None) => {
+                return Err(self.incomplete(words, ("куда положить", "where to put it")));
+            }
+            // «дверь из кухни в коридор»: the place belongs to the thing.
+            (Verb::Open, toward) => Command::Open(Thing { toward, ..what }),
+            (Verb::Close, toward) => Command::Close(Thing { toward, ..what }),
+            (Verb::Lock, toward) => Command::Lock(Thing { toward, ..what }),
+            (Verb::Unlock, toward) => Command::Unlock(Thing { toward, ..what }),
+            (Verb::SwitchOn, toward) => Command::SwitchOn(Thing { toward, ..what }),
+            (Verb::SwitchOff, toward) => Command::SwitchOff(Thing { toward, ..what }),
+            (Verb::Find, toward) => Command::Find(Thing { toward, ..what }),
+            (Verb::GoTo | Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop, _) => {
+                return Err(self.incomplete(words, question(verb)));
+            }
+        })
+    }
+
+    /// Gives every argument its part. Places first, since they narrow what the thing may be.
+    fn roles(&self, verb: Verb, arguments: &[&Argument<'_, T>]) -> Result<Roles<T>, Misheard> {
+        let mut roles = Roles { objects: vec![], at: None, to: None, via: None, to_me: false };
+        let mut latest_is_to = None;
+        for argument in arguments {
+            let Some(link) = argument.link else {
+                roles.to_me |= matches!(argument.reference, Reference::Me);
+                continue;
+            };
+            if matches!(argument.reference, Reference::Me) {
+                roles.to_me = true;
+                continue;
+            }
+            let anchor = self.resolve(argument, cases_after(link), (None, None))?;
+            let place = Placement { relation: link.relation, anchor, within: None };
+            let role = direction(verb, link, argument);
+            match (role, latest_is_to) {
+                (Role::Via, _) => {
+                    roles.via = Some(place.anchor);
+                    continue;
+                }
+                // «со стола в кухне»: a place said after a place is where that place is.
+                (Role::Where, Some(true)) => within(&mut roles.to, place.anchor),
+                (Role::Where | Role::Whence, Some(false)) => within(&mut roles.at, place.anchor),
+                (Role::Whither, Some(true)) => within(&mut roles.to, place.anchor),
+                (Role::Where | Role::Whence | Role::WhereOrWhither, _) => {
+                    roles.at = Some(place);
+                    latest_is_to = Some(false);
+                }
+                (Role::Whither, _) => {
+                    roles.to = Some(place);
+                    latest_is_to = Some(true);
+                }
+            }
+        }
+        for argument in
+            arguments.iter().filter(|a| a.link.is_none() && !matches!(a.reference, Reference::Me))
+        {
+            let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
+            let place = (roles.at.as_ref(), roles.to.as_ref());
+            let objects = match &argument.reference {
+                Reference::Known(hits) if argument.all => self.choose(hits, &cases, place),
+                _ => vec![self.resolve(argument, &cases, place)?],
+            };
+            roles.objects.extend(objects);
+        }
+        Ok(roles)
+    }
+
+    /// The one thing that an argument means.
+    fn resolve(
+        &self,
+        argument: &Argument<'_, T>,
+        cases: &[Case],
+        place: Place<'_, T>,
+    ) -> Result<T, Misheard> {
+        let hits = match &argument.reference {
+            Reference::Known(hits) => hits,
+            Reference::Pronoun => {
+                return self.last.clone().ok_or_else(|| {
+                    self.incomplete(&argument.words, ("о чём речь", "what you mean"))
+                });
+            }
+            Reference::Unknown | Reference::Me => return Err(self.unknown(argument)),
+        };
+        let ids = self.choose(hits, cases, place);
+        if let [only] = &ids[..] {
+            return Ok(only.clone());
+        }
+        // «чашка или чашка?» tells nothing: then each by its title.
+        let meant: Vec<&Hit<'_, T>> = hits.iter().filter(|hit| ids.contains(hit.id)).collect();
+        let alike = meant.iter().any(|hit| hit.name == meant[0].name && hit.id != meant[0].id);
+        let candidates =
+            meant.iter().map(|hit| if alike { hit.title } else { hit.name }.to_owned()).collect();
+        let (reference, at) = self.shown(&argument.words);
+        Err(Misheard::Ambiguous { reference, candidates, text: self.source(), at })
+    }
+
+    /// All that a name may mean in these cases, narrowed by what the caller knows of the place.
+    fn choose(&self, hits: &[Hit<'_, T>], cases: &[Case], (at, toward): Place<'_, T>) -> Vec<T> {
+        let ids: Vec<T> = in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect();
+        match self.listener.narrow {
+            Some(narrow) if ids.len() > 1 => {
+                let narrowed = narrow(&ids, at, toward);
+                if narrowed.is_empty() { ids } else { narrowed }
+            }
+            _ => ids,
+        }
+    }
+
+    fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {
+        let (reference, at) = self.shown(&argument.words);
+        let near = self.listener.index.near(&reference, 3).into_iter().map(Into::into).collect();
+        Misheard::UnknownName { reference, near, text: self.source(), at }
+    }
+
+    /// A sentence without a verb: the first strange word is to blame, and else the thing named with nothing to do.
+    fn no_verb(&self, clause: &Clause<'_, '_, T>) -> Misheard {
+        let strange = clause.before.iter().find(|a| matches!(a.reference, Reference::Unknown));
+        match strange.or(clause.before.first()) {
+            Some(argument) if matches!(argument.reference, Reference::Unknown) => {
+                let first = argument.words.start..argument.words.start + 1;
+                let (word, _) = self.shown(&first);
+                let hint = nearest_name(&word, verbs()).map_or_else(
+                    || "начните с того, что сделать: «Принеси …», «Поезжай в …», «Открой …»".into(),
+                    |verb| format!("может быть, «{verb}»?"),
+                );
+                self.not_understood(&first, hint)
+            }
+            Some(argument) => {
+                self.incomplete(&argument.words, ("что с этим сделать", "what to do with it"))
+            }
+            None => self.incomplete(&(0..self.sentence.words.len()), ("что сделать", "what to do")),
+        }
+    }
+
+    fn not_understood(&self, words: &Range<usize>, hint: String) -> Misheard {
+        let (word, at) = self.shown(words);
+        Misheard::NotUnderstood { word, hint, text: self.source(), at }
+    }
+
+    fn incomplete(
+        &self,
+        words: &Range<usize>,
+        (question, english): (&'static str, &'static str),
+    ) -> Misheard {
+        let (_, at) = self.shown(words);
+        Misheard::Incomplete { question, english, text: self.source(), at }
+    }
+
+    fn shown(&self, words: &Range<usize>) -> (String, miette::SourceSpan) {
+        let span = self.sentence.span(words);
+        (self.sentence.text[span.clone()].to_owned(), (span.start, span.len()).into())
+    }
+
+    fn source(&self) -> Source {
+        Source::new("задание", self.sentence.text)
+    }
+}
+
+/// Where a thing was said to be, and whither it leads or goes.
+type Place<'p, T> = (Option<&'p Placement<T>>, Option<&'p Placement<T>>);
+
+fn within<T>(place: &mut Option<Placement<T>>, outer: T) {
+    if let Some(place) = place {
+        place.within = Some(outer);
+    }
+}
+
+/// Hits whose form may stand in one of these cases; all of them when none does, for people slip in endings.
+fn in_case<'h, 's, T>(hits: &'h [Hit<'s, T>], cases: &[Case]) -> Vec<&'h Hit<'s, T>> {
+    let suiting: Vec<_> =
+        hits.iter().filter(|hit| cases.iter().any(|case| hit.readings.has_case(*case))).collect();
+    if suiting.is_empty() { hits.iter().collect() } else { suiting }
+}
+
+fn cases_after(link: Link) -> &'static [Case] {
+    match (link.role, link.relation) {
+        (Role::Whence, _) => &[Case::Genitive],
+        (Role::Via, _) => &[Case::Accusative],
+        (Role::Whither, Relation::At) => &[Case::Dative, Case::Genitive],
+        (_, Relation::In | Relation::On) => {
+            &[Case::Accusative, Case::Locative, Case::Prepositional]
+        }
+        (_, Relation::NextTo) => &[Case::Genitive, Case::Instrumental],
+        _ => &[Case::Accusative, Case::Instrumental],
+    }
+}
+
+/// Whether a place is where something is or whither it goes: by the preposition, by the case, by the verb.
+fn direction<T>(verb: Verb, link: Link, argument: &Argument<'_, T>) -> Role {
+    if link.role != Role::WhereOrWhither {
+        return link.role;
+    }
+    let Reference::Known(hits) = &argument.reference else { return by_verb(verb) };
+    let may_be = |cases: &[Case]| {
+        hits.iter().any(|hit| cases.iter().any(|case| hit.readings.has_case(*case)))
+    };
+    let (whither, place) = match link.relation {
+        Relation::In | Relation::On => (may_be(&[Case::Accusative]), may_be(&[Case::Locative])),
+        Relation::Under | Relation::Behind => {
+            (may_be(&[Case::Accusative]), may_be(&[Case::Instrumental]))
+        }
+        _ => return by_verb(verb),
+    };
+    match (whither, place) {
+        (true, false) => Role::Whither,
+        (false, true) => Role::Where,
+        _ => by_verb(verb),
+    }
+}
+
+fn by_verb(verb: Verb) -> Role {
+    match verb {
+        Verb::GoTo | Verb::Put | Verb::Bring | Verb::Clear => Role::Whither,
+        _ => Role::Where,
+    }
+}
+
+fn question(verb: Verb) -> (&'static str, &'static str) {
+    match verb {
+        Verb::Bring | Verb::Need => ("что принести", "what to bring"),
+        Verb::Take => ("что взять", "what to take"),
+        Verb::Put | Verb::Clear => ("что положить", "what to put"),
+        Verb::Open => ("что открыть", "what to open"),
+        Verb::Close => ("что закрыть", "what to close"),
+        Verb::Lock => ("что запереть", "what to lock"),
+        Verb::Unlock => ("что отпереть", "what to unlock"),
+        Verb::SwitchOn => ("что включить", "what to switch on"),
+        Verb::SwitchOff => ("что выключить", "what to switch off"),
+        Verb::Find => ("что найти", "what to find"),
+        Verb::GoTo => ("куда ехать", "where to go"),
+        Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop => {
+            ("что сделать", "what to do")
+        }
+    }
+}

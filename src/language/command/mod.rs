@@ -1,0 +1,601 @@
+//! Commands: «Принеси лекарство», "Go to Room-Y" – from a sentence to what is to be done, with its references resolved.
+//!
+//! After the source paper 1, section 8 (commands from a person become data for planning) and SPEC T2, T3. Word order,
+//! case, ё and politeness do not matter; a name is found by any form ([`FormIndex`]).
+//!
+//! Invariant: never a guess. What was not understood, what may mean several things, and what the map does not have are
+//! three different errors ([`Misheard`]); a negation is refused, and «стоп» stops whatever else was said.
+//!
+//! ```
+//! use orthoframe::language::command::{Command, Listener};
+//! use orthoframe::language::{FormIndex, NounPhrase, WordHints};
+//! let mut index = FormIndex::default();
+//! for name in ["Лекарство", "Комната-Y", "Дверь-ВZ"] {
+//!     index.insert(&NounPhrase::parse(name, &WordHints::default()), name);
+//! }
+//! let heard = Listener::new(&index).hear("Будь добр, открой дверь-вz!").unwrap();
+//! assert!(matches!(&heard[..], [Command::Open(thing)] if thing.id == "Дверь-ВZ"));
+//! ```
+
+mod assemble;
+mod grammar;
+mod vocabulary;
+
+use std::hash::Hash;
+
+use miette::{Diagnostic, SourceSpan};
+use thiserror::Error;
+
+use super::words::{FormIndex, Language, alternatives};
+use crate::units::Source;
+
+/// How one thing is to lie to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// At it, whatever that means for it: «к двери».
+    At,
+    In,
+    On,
+    Under,
+    Behind,
+    InFrontOf,
+    NextTo,
+}
+
+/// A place told by a thing or an Area: «на стол», «в Комнату-Y», «у окна в кухне».
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Placement<T> {
+    pub relation: Relation,
+    pub anchor: T,
+    /// Where the anchor is, if it was said.
+    pub within: Option<T>,
+}
+
+/// A thing, and where it was said to be: «чашку со стола».
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Thing<T> {
+    pub id: T,
+    pub at: Option<Placement<T>>,
+    /// Whither it leads, of a door: «дверь из кухни в коридор».
+    pub toward: Option<Placement<T>>,
+}
+
+/// What a person wants done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Command<T> {
+    GoTo {
+        to: Placement<T>,
+        via: Option<T>,
+    },
+    /// «Подъедь ко мне»
+    ComeHere,
+    /// To the person who asks, unless a place is given.
+    Bring {
+        what: Thing<T>,
+        to: Option<Placement<T>>,
+    },
+    Take {
+        what: Thing<T>,
+    },
+    Put {
+        what: Thing<T>,
+        to: Placement<T>,
+    },
+    Open(Thing<T>),
+    Close(Thing<T>),
+    Lock(Thing<T>),
+    Unlock(Thing<T>),
+    SwitchOn(Thing<T>),
+    SwitchOff(Thing<T>),
+    Find(Thing<T>),
+    /// Everywhere, unless a place is given.
+    Tidy(Option<T>),
+    CallOperator,
+    Report,
+    /// Whatever the robot does now, it is to leave off.
+    Stop,
+}
+
+/// Why a sentence is no command. The sentence is kept, so that the word can be shown in it.
+#[derive(Debug, Clone, Error, Diagnostic)]
+pub enum Misheard {
+    /// Nothing but blanks, marks or pictures.
+    #[error("задание пусто")]
+    #[diagnostic(code(language::empty), help("скажите, что сделать, например «Принеси лекарство»"))]
+    Empty,
+    /// Longer than any command.
+    #[error("задание слишком длинно: {length} знаков, больше {limit}", limit = Listener::<()>::LONGEST)]
+    #[diagnostic(code(language::too_long), help("разделите его на несколько"))]
+    TooLong { length: usize },
+    /// A word that no command has in this place.
+    #[error("слово «{word}» непонятно")]
+    #[diagnostic(code(language::not_understood), help("{hint}"))]
+    NotUnderstood {
+        word: String,
+        hint: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A command that lacks a part.
+    #[error("не сказано, {question}")]
+    #[diagnostic(code(language::incomplete), help("дополните задание"))]
+    Incomplete {
+        /// In Russian, in English.
+        question: &'static str,
+        english: &'static str,
+        #[source_code]
+        text: Source,
+        #[label("к этому слову")]
+        at: SourceSpan,
+    },
+    /// A reference that several things of the map answer to.
+    #[error("«{reference}» – это {}?", alternatives(&guillemets(candidates), Language::Russian))]
+    #[diagnostic(code(language::ambiguous), help("назовите одно из них полностью"))]
+    Ambiguous {
+        reference: String,
+        /// Names as the map writes them; equal names stand as often as there are such things.
+        candidates: Vec<String>,
+        #[source_code]
+        text: Source,
+        #[label("может значить разное")]
+        at: SourceSpan,
+    },
+    /// A name that the map does not have.
+    #[error("на карте нет «{reference}»")]
+    #[diagnostic(code(language::unknown_name), help("{}", offer(near, Language::Russian)))]
+    UnknownName {
+        reference: String,
+        /// Names of the map that are like it, the nearest first.
+        near: Vec<String>,
+        #[source_code]
+        text: Source,
+        #[label("такого названия нет")]
+        at: SourceSpan,
+    },
+}
+
+impl Misheard {
+    /// The answer to the person, in the language of the sentence.
+    #[must_use]
+    pub fn say(&self, language: Language) -> String {
+        if language == Language::Russian {
+            let help = self.help().map(|help| help.to_string()).unwrap_or_default();
+            return sentences(&self.to_string(), &help);
+        }
+        match self {
+            Self::Empty => {
+                "The command is empty. Say what to do, for example \"Bring the medicine\".".into()
+            }
+            Self::TooLong { length } => {
+                format!("The command is too long: {length} characters. Split it.")
+            }
+            Self::NotUnderstood { word, .. } => format!("I do not understand the word \"{word}\"."),
+            Self::Incomplete { english, .. } => format!("You did not say {english}."),
+            Self::Ambiguous { reference, candidates, .. } => {
+                format!(
+                    "By \"{reference}\", do you mean {}?",
+                    alternatives(&quoted(candidates), language)
+                )
+            }
+            Self::UnknownName { reference, near, .. } => {
+                sentences(&format!("The map has no \"{reference}\""), &offer(near, language))
+            }
+        }
+    }
+}
+
+/// Understands commands about the things of one index.
+pub struct Listener<'i, T> {
+    index: &'i FormIndex<T>,
+    last: Option<T>,
+    narrow: Option<&'i Narrow<T>>,
+}
+
+/// Of several things that a word may mean, those that may be meant: where the thing is said to be, and whither it is
+/// said to lead or to go.
+pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>, Option<&Placement<T>>) -> Vec<T>;
+
+impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
+    /// Characters of the longest command that is read.
+    pub const LONGEST: usize = 2_000;
+
+    #[must_use]
+    pub fn new(index: &'i FormIndex<T>) -> Self {
+        Self { index, last: None, narrow: None }
+    }
+
+    /// The thing that «её» or "it" means when the sentence itself has named none.
+    #[must_use]
+    pub fn remembering(self, last: Option<T>) -> Self {
+        Self { last, ..self }
+    }
+
+    /// Lets the caller's knowledge of the map choose: of all books, those on the table that was named.
+    #[must_use]
+    pub fn narrowing(self, narrow: &'i Narrow<T>) -> Self {
+        Self { narrow: Some(narrow), ..self }
+    }
+
+    /// The commands of a sentence, in the order in which they are to be done; at least one.
+    ///
+    /// # Errors
+    /// [`Misheard`], at the first word that stands in the way.
+    pub fn hear(&self, text: &str) -> Result<Vec<Command<T>>, Misheard> {
+        let length = text.chars().take(100_000).count();
+        if length > Self::LONGEST {
+            return Err(Misheard::TooLong { length });
+        }
+        assemble::commands(text, self)
+    }
+}
+
+fn sentences(first: &str, second: &str) -> String {
+    let mut text = String::new();
+    for part in [first, second].into_iter().filter(|part| !part.is_empty()) {
+        let mut letters = part.chars();
+        let blank = if text.is_empty() { "" } else { " " };
+        let stop = if part.ends_with(['?', '.', '!']) { "" } else { "." };
+        let first =
+            letters.next().map(char::to_uppercase).into_iter().flatten().collect::<String>();
+        text.push_str(&format!("{blank}{first}{}{stop}", letters.as_str()));
+    }
+    text
+}
+
+fn guillemets(names: &[String]) -> Vec<String> {
+    names.iter().map(|name| format!("«{name}»")).collect()
+}
+
+fn quoted(names: &[String]) -> Vec<String> {
+    names.iter().map(|name| format!("\"{name}\"")).collect()
+}
+
+fn offer(near: &[String], language: Language) -> String {
+    match (near, language) {
+        ([], Language::Russian) => "проверьте название".into(),
+        ([], Language::English) => String::new(),
+        (_, Language::Russian) => format!("есть {}", alternatives(&guillemets(near), language)),
+        (_, Language::English) => format!("there is {}", alternatives(&quoted(near), language)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::words::{NounPhrase, WordHints};
+    use super::*;
+    use expect_test::{Expect, expect};
+
+    const NAMES: [&str; 20] = [
+        "Комната-В",
+        "Комната-Y",
+        "Кухня",
+        "Коридор",
+        "Дверь-ВZ",
+        "Дверь-ZY",
+        "Лекарство",
+        "Книга",
+        "Красная чашка",
+        "Белая чашка",
+        "Письменный стол",
+        "Шкаф",
+        "Тумбочка-1",
+        "Кресло у окна",
+        "Окно",
+        "Лампа",
+        "Полка",
+        "Лобби",
+        "Стул",
+        "Ворота",
+    ];
+
+    /// The golden house: each name under itself, «чашка» under both cups, English names beside the Russian ones.
+    fn index() -> FormIndex<&'static str> {
+        let mut index = FormIndex::default();
+        let phrase = |name| NounPhrase::parse(name, &WordHints::default());
+        for name in NAMES {
+            index.insert(&phrase(name), name);
+            if let Some(english) = crate::language::english::name_of(name) {
+                index.insert_english(&english, name);
+            }
+        }
+        for cup in ["Красная чашка", "Белая чашка"] {
+            index.insert(&phrase("чашка"), cup);
+        }
+        index
+    }
+
+    fn heard(text: &str) -> String {
+        let index = index();
+        match Listener::new(&index).hear(text) {
+            Ok(commands) => {
+                commands.iter().map(|command| format!("{command:?}")).collect::<Vec<_>>().join("; ")
+            }
+            Err(misheard) => {
+                let code = misheard.code().map(|code| code.to_string()).unwrap_or_default();
+                format!("{code}: {}", misheard.say(Language::of(text)))
+            }
+        }
+    }
+
+    fn check(texts: &[&str], expected: &Expect) {
+        expected.assert_eq(
+            &texts.iter().map(|text| format!("{text}\n    {}\n", heard(text))).collect::<String>(),
+        );
+    }
+
+    #[test]
+    fn the_specified_commands() {
+        check(
+            &[
+                "Принеси лекарство",
+                "Поезжай в Комнату-Y",
+                "Открой Дверь-ВZ",
+                "Положи книгу на стол",
+                "Положи книгу на письменный стол",
+                "Bring the medicine",
+                "Go to Room-Y",
+            ],
+            &expect![[r#"
+                Принеси лекарство
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
+                Поезжай в Комнату-Y
+                    GoTo { to: Placement { relation: In, anchor: "Комната-Y", within: None }, via: None }
+                Открой Дверь-ВZ
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None })
+                Положи книгу на стол
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                Положи книгу на письменный стол
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                Bring the medicine
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
+                Go to Room-Y
+                    GoTo { to: Placement { relation: At, anchor: "Комната-Y", within: None }, via: None }
+            "#]],
+        );
+    }
+
+    #[test]
+    fn order_politeness_and_spelling_do_not_matter() {
+        check(
+            &[
+                "пожалуйста, лекарство мне принеси!",
+                "Не могли бы вы открыть дверь bz?",
+                "ЗАКРОЙ ДВЕРЬ ВZ",
+                "Робот, будь добр, поезжай на кухню",
+                "Could you please bring me the red cup?",
+                "мне нужно лекарство",
+                "Я хочу, чтобы ты принёс лекарство",
+                "Дверь-ZY запри",
+                "закрой дверь-zy на ключ",
+                "открой ворота",
+            ],
+            &expect![[r#"
+                пожалуйста, лекарство мне принеси!
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
+                Не могли бы вы открыть дверь bz?
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None })
+                ЗАКРОЙ ДВЕРЬ ВZ
+                    Close(Thing { id: "Дверь-ВZ", at: None, toward: None })
+                Робот, будь добр, поезжай на кухню
+                    GoTo { to: Placement { relation: On, anchor: "Кухня", within: None }, via: None }
+                Could you please bring me the red cup?
+                    Bring { what: Thing { id: "Красная чашка", at: None, toward: None }, to: None }
+                мне нужно лекарство
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
+                Я хочу, чтобы ты принёс лекарство
+                    Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
+                Дверь-ZY запри
+                    Lock(Thing { id: "Дверь-ZY", at: None, toward: None })
+                закрой дверь-zy на ключ
+                    Lock(Thing { id: "Дверь-ZY", at: None, toward: None })
+                открой ворота
+                    Open(Thing { id: "Ворота", at: None, toward: None })
+            "#]],
+        );
+    }
+
+    #[test]
+    fn places_and_chains() {
+        check(
+            &[
+                "Возьми красную чашку со стола в кухне",
+                "Возьми книгу с полки и положи её на тумбочку 1",
+                "Принеси книгу из шкафа в Комнату-В",
+                "Take the book from the shelf to the kitchen",
+                "Поезжай в коридор через дверь-вz",
+                "Подъедь ко мне",
+                "Подъезжай к креслу у окна",
+                "Поезжай в лобби",
+                "Включи лампу на письменном столе",
+                "Найди книгу в комнате-в",
+                "Приберись на кухне",
+                "убери книгу в шкаф",
+                "Позови оператора",
+                "Где ты?",
+                "Report your position",
+                "Принеси книгу и белую чашку",
+                "go to the kitchen, then open Door-ZY",
+                "put the book under the chair",
+                "Принеси лекарство с тумбочки-1 из комнаты-y",
+                "Убери чашку красную в шкаф",
+                "Закрой все двери",
+                "Открой Дверь-ВZ из кухни в коридор",
+                "Открой дверь-вZ и дверь-zy",
+                "Стоп, не едь!",
+            ],
+            &expect![[r#"
+                Возьми красную чашку со стола в кухне
+                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня") }), toward: None } }
+                Возьми книгу с полки и положи её на тумбочку 1
+                    Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None }), toward: None } }; Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None } }
+                Принеси книгу из шкафа в Комнату-В
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Шкаф", within: None }), toward: None }, to: Some(Placement { relation: In, anchor: "Комната-В", within: None }) }
+                Take the book from the shelf to the kitchen
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: At, anchor: "Полка", within: None }), toward: None }, to: Some(Placement { relation: At, anchor: "Кухня", within: None }) }
+                Поезжай в коридор через дверь-вz
+                    GoTo { to: Placement { relation: In, anchor: "Коридор", within: None }, via: Some("Дверь-ВZ") }
+                Подъедь ко мне
+                    ComeHere
+                Подъезжай к креслу у окна
+                    GoTo { to: Placement { relation: At, anchor: "Кресло у окна", within: None }, via: None }
+                Поезжай в лобби
+                    GoTo { to: Placement { relation: In, anchor: "Лобби", within: None }, via: None }
+                Включи лампу на письменном столе
+                    SwitchOn(Thing { id: "Лампа", at: Some(Placement { relation: On, anchor: "Письменный стол", within: None }), toward: None })
+                Найди книгу в комнате-в
+                    Find(Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Комната-В", within: None }), toward: None })
+                Приберись на кухне
+                    Tidy(Some("Кухня"))
+                убери книгу в шкаф
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                Позови оператора
+                    CallOperator
+                Где ты?
+                    Report
+                Report your position
+                    Report
+                Принеси книгу и белую чашку
+                    Bring { what: Thing { id: "Книга", at: None, toward: None }, to: None }; Bring { what: Thing { id: "Белая чашка", at: None, toward: None }, to: None }
+                go to the kitchen, then open Door-ZY
+                    GoTo { to: Placement { relation: At, anchor: "Кухня", within: None }, via: None }; Open(Thing { id: "Дверь-ZY", at: None, toward: None })
+                put the book under the chair
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: Under, anchor: "Стул", within: None } }
+                Принеси лекарство с тумбочки-1 из комнаты-y
+                    Bring { what: Thing { id: "Лекарство", at: Some(Placement { relation: On, anchor: "Тумбочка-1", within: Some("Комната-Y") }), toward: None }, to: None }
+                Убери чашку красную в шкаф
+                    Put { what: Thing { id: "Красная чашка", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                Закрой все двери
+                    Close(Thing { id: "Дверь-ВZ", at: None, toward: None }); Close(Thing { id: "Дверь-ZY", at: None, toward: None })
+                Открой Дверь-ВZ из кухни в коридор
+                    Open(Thing { id: "Дверь-ВZ", at: Some(Placement { relation: In, anchor: "Кухня", within: None }), toward: Some(Placement { relation: In, anchor: "Коридор", within: None }) })
+                Открой дверь-вZ и дверь-zy
+                    Open(Thing { id: "Дверь-ВZ", at: None, toward: None }); Open(Thing { id: "Дверь-ZY", at: None, toward: None })
+                Стоп, не едь!
+                    Stop
+            "#]],
+        );
+    }
+
+    #[test]
+    fn three_ways_of_not_understanding() {
+        check(
+            &[
+                "Отрой Дверь-ВZ",
+                "Принеси чашку",
+                "Bring the cup",
+                "Поезжай в Комнату-X",
+                "Принеси синюю чашку",
+                "Принеси",
+                "Дверь-ВZ",
+                "Открой на",
+                "Иди к двери вз",
+                "Открой дверь в коридор",
+                "Принеси 2 книги",
+                "не открывай Дверь-ВZ",
+                "абракадабра",
+                "Go to Room-Q",
+                "bring it",
+                "",
+                "😀😀",
+                "Положи книгу",
+                "SELECT * FROM Area; DROP TABLE",
+            ],
+            &expect![[r#"
+                Отрой Дверь-ВZ
+                    language::not_understood: Слово «Отрой» непонятно. Может быть, «открой»?
+                Принеси чашку
+                    language::ambiguous: «чашку» – это «Красная чашка» или «Белая чашка»? Назовите одно из них полностью.
+                Bring the cup
+                    language::ambiguous: By "cup", do you mean "Red cup" or "White cup"?
+                Поезжай в Комнату-X
+                    language::unknown_name: На карте нет «Комнату-X». Есть «Комната-В» или «Комната-Y».
+                Принеси синюю чашку
+                    language::unknown_name: На карте нет «синюю чашку». Есть «Красная чашка» или «Белая чашка».
+                Принеси
+                    language::incomplete: Не сказано, что принести. Дополните задание.
+                Дверь-ВZ
+                    language::incomplete: Не сказано, что с этим сделать. Дополните задание.
+                Открой на
+                    language::incomplete: Не сказано, где или куда. Дополните задание.
+                Иди к двери вз
+                    language::unknown_name: На карте нет «двери вз». Есть «Дверь-ВZ» или «Дверь-ZY».
+                Открой дверь в коридор
+                    language::ambiguous: «дверь» – это «Дверь-ВZ» или «Дверь-ZY»? Назовите одно из них полностью.
+                Принеси 2 книги
+                    language::unknown_name: На карте нет «2 книги». Есть «Книга».
+                не открывай Дверь-ВZ
+                    language::not_understood: Слово «не» непонятно. Скажите, что сделать, а не чего не делать.
+                абракадабра
+                    language::not_understood: Слово «абракадабра» непонятно. Начните с того, что сделать: «Принеси …», «Поезжай в …», «Открой …».
+                Go to Room-Q
+                    language::unknown_name: The map has no "Room-Q". There is "Room-B" or "Room-Y".
+                bring it
+                    language::incomplete: You did not say what you mean.
+
+                    language::empty: Задание пусто. Скажите, что сделать, например «Принеси лекарство».
+                😀😀
+                    language::empty: Задание пусто. Скажите, что сделать, например «Принеси лекарство».
+                Положи книгу
+                    language::incomplete: Не сказано, куда положить. Дополните задание.
+                SELECT * FROM Area; DROP TABLE
+                    language::not_understood: I do not understand the word "SELECT".
+            "#]],
+        );
+    }
+
+    #[test]
+    fn what_the_map_knows_narrows_the_choice() {
+        let index = index();
+        let white_is_in_the_kitchen =
+            |cups: &[&'static str], at: Option<&Placement<_>>, _: Option<&Placement<_>>| match at {
+                Some(place) if place.anchor == "Кухня" => {
+                    cups.iter().copied().filter(|cup| *cup == "Белая чашка").collect()
+                }
+                _ => cups.to_vec(),
+            };
+        let listener = Listener::new(&index).narrowing(&white_is_in_the_kitchen);
+        let heard = listener.hear("Принеси чашку с кухни").unwrap();
+        assert!(
+            matches!(&heard[..], [Command::Bring { what, to: None }] if what.id == "Белая чашка")
+        );
+        assert!(matches!(listener.hear("Принеси чашку"), Err(Misheard::Ambiguous { .. })));
+    }
+
+    #[test]
+    fn a_pronoun_is_what_was_spoken_of_last() {
+        let index = index();
+        let listener = Listener::new(&index).remembering(Some("Книга"));
+        assert!(
+            matches!(&listener.hear("Принеси её").unwrap()[..], [Command::Bring { what, .. }] if what.id == "Книга")
+        );
+    }
+
+    #[test]
+    fn nothing_from_outside_makes_it_panic() {
+        let index = index();
+        let long = "принеси ".repeat(200);
+        let mut texts = vec![
+            "я".repeat(100_000),
+            "\u{0}\u{1}\u{7f}".into(),
+            "в на под за".into(),
+            "«\"('".into(),
+            "и и и".into(),
+            "-".repeat(500),
+            long,
+        ];
+        let words: Vec<&str> = "принеси в на книгу и её мне стол не дверь вz 2 - , путь 😀 the go to и\u{306} room \u{301} с у окна".split(' ').collect();
+        for seed in 0_usize..3000 {
+            let text: Vec<&str> = (0..seed % 9)
+                .map(|at| words[(seed * 31 + at * at * 17 + at * seed) % words.len()])
+                .collect();
+            texts.push(text.join(" "));
+        }
+        for text in texts {
+            if let Err(misheard) = Listener::new(&index).hear(&text) {
+                let _ = (misheard.say(Language::Russian), misheard.say(Language::English));
+            }
+        }
+    }
+}

@@ -1,0 +1,36 @@
+//! Word forms: Russian names in any case and number, English beside them, and from a form back to its name.
+//!
+//! After the source paper 1, section 8 («Я нахожусь в Комнате-В …»), which needs every name of the map declined.
+//! A form comes from the first that knows it: the map itself ([`WordHints::forms`]), the word list of this folder,
+//! the dictionary (feature `rumorph`), the ending of the word. [`NounPhrase::evidence`] tells which it was.
+//!
+//! Invariant: no text makes this folder panic, and a name's nominative is the name.
+//!
+//! ```
+//! use orthoframe::language::{Case, Language, NounPhrase, WordHints, enumerate, russian};
+//! let name = |name| NounPhrase::parse(name, &WordHints::default());
+//! assert_eq!(russian::where_at(&name("шкаф")), "в шкафу");
+//! assert_eq!(russian::with(russian::Preposition::U, Case::Genitive, &name("Дверь-ВZ")), "у Двери-ВZ");
+//! assert_eq!(russian::count(22, &name("Письменный стол")), "22 Письменных стола");
+//! assert_eq!(enumerate(&["стол", "стул"], Language::Russian), "стол и стул");
+//! ```
+
+mod adjective;
+mod dictionary;
+pub mod english;
+mod grammar;
+mod index;
+mod letters;
+mod lexicon;
+mod list;
+mod noun;
+mod parse;
+mod phrase;
+pub mod russian;
+
+pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
+pub use index::{FormIndex, Hit, Readings, Spelling};
+pub(crate) use letters::is_hyphen;
+pub use letters::word_ranges;
+pub use list::{Language, alternatives, enumerate};
+pub use phrase::NounPhrase;

@@ -1,0 +1,443 @@
+//! Reading a name: which word is its head, which agree with it, which stay as they are.
+//!
+//! Words are read from left to right: adjectives that agree with what follows, the head, adjectives that agree with
+//! the head, a tail that begins at a preposition, a bracket or any other word and never declines.
+//!
+//! Invariant: the pieces in the nominative, put together, are the name.
+
+use super::adjective::Adjective;
+use super::dictionary;
+use super::grammar::{Animacy, Evidence, Gender, Number, WordHints};
+use super::letters::{Run, is_acronym, runs, to_cyrillic};
+use super::lexicon;
+use super::noun::{Known, Noun};
+use super::phrase::{NounPhrase, Piece};
+
+/// Words after which a tail begins.
+const PREPOSITIONS: [&str; 24] = [
+    "у",
+    "в",
+    "во",
+    "на",
+    "с",
+    "со",
+    "для",
+    "из",
+    "под",
+    "над",
+    "при",
+    "к",
+    "ко",
+    "о",
+    "об",
+    "от",
+    "до",
+    "за",
+    "по",
+    "без",
+    "около",
+    "возле",
+    "рядом",
+    "между",
+];
+
+/// First parts of compounds that never decline.
+const FIXED_FIRST: [&str; 30] = [
+    "мини",
+    "макси",
+    "супер",
+    "веб",
+    "видео",
+    "аудио",
+    "фото",
+    "арт",
+    "бизнес",
+    "конференц",
+    "пресс",
+    "интернет",
+    "онлайн",
+    "лаунж",
+    "спа",
+    "фитнес",
+    "вип",
+    "евро",
+    "экс",
+    "вице",
+    "тест",
+    "блок",
+    "зип",
+    "офис",
+    "чил",
+    "смарт",
+    "робот",
+    "нью",
+    "медиа",
+    "кофе",
+];
+
+pub(super) struct Parser<'a> {
+    name: &'a str,
+    hints: &'a WordHints,
+    runs: Vec<Run<'a>>,
+    pieces: Vec<Piece>,
+    head: Option<(String, Noun)>,
+    evidence: Evidence,
+    coordinated: bool,
+    /// The head has several words: «кухня-гостиная», which is «в», though «кухня» is «на».
+    compound: bool,
+}
+
+/// Words joined by hyphens: `runs[from..to]`, words and the hyphens between them.
+#[derive(Clone, Copy)]
+struct Group {
+    from: usize,
+    to: usize,
+}
+
+impl<'a> Parser<'a> {
+    pub(super) fn new(name: &'a str, hints: &'a WordHints) -> Self {
+        let (runs, pieces) = (runs(name), Vec::new());
+        Self {
+            name,
+            hints,
+            runs,
+            pieces,
+            head: None,
+            evidence: Evidence::Given,
+            coordinated: false,
+            compound: false,
+        }
+    }
+
+    pub(super) fn parse(mut self) -> NounPhrase {
+        let groups = self.groups();
+        let mut at_head = true;
+        let mut tail = false;
+        let mut next_run = 0;
+        for (index, group) in groups.iter().enumerate() {
+            let gap = self.gap(next_run, group.from);
+            self.pieces.push(Piece::Fixed(gap.to_owned()));
+            next_run = group.to;
+            let word = self.text(*group);
+            let joins = |text: &str| text.contains('/') || text.contains('+') || text.contains('&');
+            if !at_head
+                && !tail
+                && (word == "и" || joins(gap))
+                && self.may_restart(&groups[index..])
+            {
+                at_head = true;
+                self.coordinated = true;
+            }
+            if tail
+                || word == "и"
+                || PREPOSITIONS.contains(&word)
+                || gap.contains(['(', '"', '«', '“']) && !at_head
+            {
+                tail |= word != "и";
+                self.fixed(*group);
+            } else if at_head && self.is_modifier(*group, &groups[index + 1..]) {
+                self.agreeing(*group);
+            } else if at_head {
+                at_head = !self.noun(*group);
+            } else if !self.coordinated && self.agrees_with_head(*group) {
+                self.agreeing(*group);
+            } else if self.is_second_name(*group) {
+                self.noun(*group);
+            } else {
+                tail |= self.is_word(*group);
+                self.fixed(*group);
+            }
+        }
+        let rest = self.gap(next_run, self.runs.len());
+        self.pieces.push(Piece::Fixed(rest.to_owned()));
+        self.finish()
+    }
+
+    fn finish(self) -> NounPhrase {
+        let noun = self.head.as_ref().map(|(_, noun)| noun);
+        let entry = self.head.as_ref().and_then(|(head, _)| lexicon::find(head));
+        let own = self.hints.number.unwrap_or(match noun {
+            Some(_) if self.coordinated => Number::Singular,
+            Some(noun) => noun.number,
+            None => Number::Singular,
+        });
+        NounPhrase {
+            name: self.name.to_owned(),
+            gender: self.hints.gender.or(noun.map(|n| n.gender)).unwrap_or(Gender::Neuter),
+            animacy: self.hints.animacy.or(noun.map(|n| n.animacy)).unwrap_or_default(),
+            number: own,
+            place: self
+                .hints
+                .place
+                .or(entry.filter(|_| !self.compound).map(lexicon::Entry::place))
+                .unwrap_or_default(),
+            evidence: match noun {
+                Some(_) => self.evidence,
+                None if self.name.chars().any(is_cyrillic_lower) => Evidence::Guess,
+                None => Evidence::Rule,
+            },
+            given: self.hints.forms.clone(),
+            head: self.head.map(|(head, _)| head),
+            pieces: self.pieces,
+        }
+    }
+
+    fn groups(&self) -> Vec<Group> {
+        let mut groups: Vec<Group> = Vec::new();
+        for (at, run) in self.runs.iter().enumerate().filter(|(_, run)| run.is_word) {
+            match groups.last_mut() {
+                Some(group)
+                    if group.to + 1 == at
+                        && self.runs[group.to].is_hyphen()
+                        && !run.text.is_empty() =>
+                {
+                    group.to = at + 1;
+                }
+                _ => groups.push(Group { from: at, to: at + 1 }),
+            }
+        }
+        groups
+    }
+
+    fn gap(&self, from: usize, to: usize) -> &'a str {
+        match self.runs.get(from..to) {
+            Some([first, .., last]) => &self.name[first.at..last.at + last.text.len()],
+            Some([only]) => only.text,
+            _ => "",
+        }
+    }
+
+    fn text(&self, group: Group) -> &'a str {
+        self.gap(group.from, group.to)
+    }
+
+    fn words(&self, group: Group) -> impl Iterator<Item = &Run<'a>> {
+        self.runs[group.from..group.to].iter().filter(|run| run.is_word)
+    }
+
+    /// Whether some part of the group is a word that may decline.
+    fn is_word(&self, group: Group) -> bool {
+        self.words(group).any(|run| is_declinable(run.text))
+    }
+
+    fn fixed(&mut self, group: Group) {
+        self.pieces.push(Piece::Fixed(self.text(group).to_owned()));
+    }
+
+    /// The adjective of a group: «письменный», «северо-западная», «2-й».
+    fn adjective(&self, group: Group) -> Option<(String, Adjective)> {
+        let mut words = self.words(group).collect::<Vec<_>>();
+        let last = words.pop()?;
+        let lower = to_cyrillic(last.text).to_lowercase();
+        if let [digits] = words[..]
+            && digits.text.chars().all(|c| c.is_ascii_digit())
+        {
+            return ordinal(&lower).map(|ending| (String::new(), ending));
+        }
+        if !is_declinable(last.text)
+            || !words.iter().all(|word| word.text.to_lowercase().ends_with(['о', 'е']))
+        {
+            return None;
+        }
+        let readings = dictionary::readings(&lower);
+        if (readings.adjective || is_possessor(&lower))
+            && let Some(possessive) = Adjective::read_possessive(&lower)
+        {
+            return Some((lower, possessive));
+        }
+        Adjective::read(&lower)
+            .filter(|_| {
+                !readings.known
+                    || readings.adjective
+                    || lexicon::find(&lower).is_some_and(|e| e.adjectival)
+            })
+            .map(|adjective| (lower, adjective))
+    }
+
+    /// Whether the group is an adjective before the head: «Большой» of «Большой зал», not «Приёмная» of «Приёмная директора».
+    fn is_modifier(&self, group: Group, after: &[Group]) -> bool {
+        let Some((lower, adjective)) = self.adjective(group) else { return false };
+        let Some(next) = after.first() else { return false };
+        let Some(first) = self.words(*next).next() else { return false };
+        let word = to_cyrillic(first.text).to_lowercase();
+        if PREPOSITIONS.contains(&word.as_str()) || !is_declinable(first.text) {
+            return false;
+        }
+        if let Some((_, another)) = self.adjective(*next) {
+            return another.number() == adjective.number()
+                && another.gender() == adjective.gender();
+        }
+        // «Приёмная директора»: a room of the list is no adjective before a word that nothing knows.
+        let room = lexicon::find(&lower).is_some();
+        if !is_nominative(&word)
+            || (room && lexicon::find(&word).is_none() && !dictionary::readings(&word).noun)
+        {
+            return false;
+        }
+        let noun = resolve(&word, Known::default());
+        noun.number == adjective.number()
+            && (noun.number == Number::Plural || noun.gender == adjective.gender())
+    }
+
+    fn agrees_with_head(&self, group: Group) -> bool {
+        match (self.adjective(group), &self.head) {
+            (Some((_, adjective)), Some((_, head))) => {
+                adjective.number() == head.number
+                    && (head.number == Number::Plural || adjective.gender() == head.gender)
+            }
+            _ => false,
+        }
+    }
+
+    /// A person's or an animal's next name declines with the first: «Иван Петрович», «Кот Барсик».
+    fn is_second_name(&self, group: Group) -> bool {
+        let Some((_, head)) = &self.head else { return false };
+        let capital = self.text(group).starts_with(char::is_uppercase);
+        let mut words = self.words(group).map(|run| to_cyrillic(run.text).to_lowercase());
+        head.animacy == Animacy::Animate
+            && head.number == Number::Singular
+            && capital
+            && self.is_word(group)
+            && words.all(|word| is_nominative(&word))
+    }
+
+    fn agreeing(&mut self, group: Group) {
+        let Some((lower, adjective)) = self.adjective(group) else { return self.fixed(group) };
+        let last = group.to - 1;
+        if lower.is_empty() {
+            let digits = self.gap(group.from, last).to_owned();
+            self.pieces.push(Piece::Ordinal { digits, ending: adjective });
+        } else {
+            self.pieces.push(Piece::Fixed(self.gap(group.from, last).to_owned()));
+            self.pieces
+                .push(Piece::Agreeing { written: self.runs[last].text.to_owned(), adjective });
+        }
+    }
+
+    /// After «и»: another head follows only if the next word can be a nominative.
+    fn may_restart(&self, groups: &[Group]) -> bool {
+        let conjunction = groups.first().is_some_and(|group| self.text(*group) == "и");
+        let next = groups.get(usize::from(conjunction));
+        next.and_then(|group| self.words(*group).next()).is_some_and(|run| {
+            let lower = to_cyrillic(run.text).to_lowercase();
+            is_declinable(run.text)
+                && (is_nominative(&lower) || dictionary::readings(&lower).adjective)
+        })
+    }
+
+    /// Declines the group as the head. False when nothing in it declines, so that the head is still to come.
+    fn noun(&mut self, group: Group) -> bool {
+        let known = Known {
+            gender: self.hints.gender,
+            animacy: self.hints.animacy,
+            number: self.hints.number,
+        };
+        let whole = to_cyrillic(self.text(group)).to_lowercase();
+        let parts = self.words(group).count();
+        let listed = |run: &Run<'_>| lexicon::find(&run.text.to_lowercase()).is_some();
+        if parts > 1
+            && !self.words(group).all(listed)
+            && self.words(group).all(|run| is_declinable(run.text))
+            && let Some(noun) = dictionary::noun(&whole, known)
+        {
+            self.compound = true;
+            self.take(self.text(group), &whole, noun);
+            return true;
+        }
+        let mut found = false;
+        let mut stopped = false;
+        for at in group.from..group.to {
+            let run = &self.runs[at];
+            let text = run.text;
+            let lower = to_cyrillic(text).to_lowercase();
+            stopped |= found && PREPOSITIONS.contains(&lower.as_str());
+            let fixed = !run.is_word
+                || stopped
+                || !is_declinable(text)
+                || (at + 1 < group.to && FIXED_FIRST.contains(&lower.as_str()));
+            if fixed {
+                self.pieces.push(Piece::Fixed(text.to_owned()));
+            } else {
+                self.compound |= found;
+                let known = match &self.head {
+                    // What follows a living head is its name: «Кот Барсик».
+                    Some((_, head)) => Known { animacy: Some(head.animacy), ..Known::default() },
+                    None => known,
+                };
+                self.take(text, &lower, resolve(&lower, known));
+                found = true;
+            }
+        }
+        found
+    }
+
+    fn take(&mut self, written: &str, lower: &str, noun: Noun) {
+        self.evidence = self.evidence.max(noun.evidence);
+        self.pieces.push(Piece::Noun { written: written.to_owned(), noun: Box::new(noun.clone()) });
+        match &self.head {
+            None => self.head = Some((lower.to_owned(), noun)),
+            // «кафе-бар» is a bar: a first part that does not decline gives way.
+            Some((_, first)) if first.is_unchanging() => self.head = Some((lower.to_owned(), noun)),
+            Some(_) => {}
+        }
+    }
+}
+
+/// The noun by the word list, then the dictionary, then its ending.
+fn resolve(word: &str, known: Known) -> Noun {
+    if lexicon::find(word).is_some() {
+        return Noun::by_rules(word, known);
+    }
+    let listed = || {
+        lexicon::singular_of(word)
+            .map(|lemma| Noun { number: Number::Plural, ..Noun::by_rules(lemma, known) })
+    };
+    dictionary::noun(word, known).or_else(listed).unwrap_or_else(|| Noun::by_rules(word, known))
+}
+
+/// Whether the word can be the nominative of a noun, as far as anything here knows it.
+fn is_nominative(word: &str) -> bool {
+    let readings = dictionary::readings(word);
+    lexicon::find(word).is_some() || readings.noun || !readings.known
+}
+
+/// Words that decline: Cyrillic, at least two letters, no digits, no abbreviation.
+fn is_declinable(word: &str) -> bool {
+    let cyrillic = to_cyrillic(word);
+    let all = cyrillic.chars().all(|c| {
+        ('а'..='я').contains(&c.to_lowercase().next().unwrap_or(c)) || matches!(c, 'ё' | 'Ё')
+    });
+    if !all || cyrillic.chars().count() < 2 {
+        return false;
+    }
+    !is_acronym(&cyrillic) || {
+        let lower = cyrillic.to_lowercase();
+        let known = lexicon::find(&lower).is_some()
+            || dictionary::noun(&lower, Known::default()).is_some()
+            || dictionary::readings(&lower).adjective;
+        known || (cyrillic.chars().count() > 5 && lower.chars().any(super::adjective::is_vowel))
+    }
+}
+
+/// Whether «дедушкин» is made from a living being of the word list.
+fn is_possessor(word: &str) -> bool {
+    let stem = word.trim_end_matches(['а', 'о', 'ы']);
+    let of = |ending: &str| {
+        stem.strip_suffix("ин").and_then(|root| lexicon::find(&format!("{root}{ending}")))
+    };
+    of("а").or_else(|| of("я")).is_some_and(|entry| entry.animate)
+}
+
+/// The adjective whose ending follows the digits of an ordinal.
+fn ordinal(suffix: &str) -> Option<Adjective> {
+    match suffix {
+        "й" | "ый" | "ой" | "ий" => Adjective::read("первый"),
+        "я" | "ая" => Adjective::read("первая"),
+        "е" | "ое" => Adjective::read("первое"),
+        _ => None,
+    }
+}
+
+fn is_cyrillic_lower(c: char) -> bool {
+    ('а'..='я').contains(&c) || c == 'ё'
+}

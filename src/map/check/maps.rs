@@ -1,0 +1,311 @@
+//! Maps and their Domain (M5, M6): each Area once, linked sides that coincide, no two Areas in one place.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+
+use crate::map::fault::{MapError, Record, Spot};
+use crate::map::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
+use crate::units::{AreaId, Cm, Frame};
+
+use super::group::{
+    Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,
+};
+use super::plane::{bounds, near_pairs};
+use super::{Checker, MOST_OVERLAPS, Short, TOLERANCE, area_title, at};
+
+impl<'w> Checker<'w> {
+    pub(super) fn maps(&mut self) {
+        let mut keys = BTreeSet::new();
+        let mut placed: BTreeMap<AreaId, usize> = BTreeMap::new();
+        for map in self.world.maps.values() {
+            let record = Record::Map(map.id);
+            let spot = Spot::of(record);
+            self.key(&mut keys, &map.key, "Карта", &spot);
+            for (i, item) in map.items.iter().enumerate() {
+                let count = placed.entry(item.area).or_default();
+                *count += 1;
+                if *count == 2 {
+                    let area = area_title(self.world, item.area);
+                    self.fault(MapError::AreaTwice { area }, spot.clone().field("items").index(i));
+                }
+            }
+            if !self.is_broken(record) {
+                self.map(map, &spot);
+            }
+        }
+        let all_maps_read = !self.broken.iter().any(|r| matches!(r, Record::Map(_)));
+        for area in self.world.areas.values() {
+            if all_maps_read && !placed.contains_key(&area.id) {
+                let error = MapError::AreaNowhere { area: area.name.clone() };
+                self.fault(error, Spot::of(Record::Area(area.id)));
+            }
+        }
+    }
+
+    fn map(&mut self, map: &'w Map, spot: &Spot) {
+        let title = format!("карта «{}»", map.name);
+        self.type_exists(TypeKind::Map, map.map_type, &title, spot);
+        if map.items.is_empty() {
+            self.fault(MapError::NoItems { owner: title }, spot.clone());
+            return;
+        }
+        let mut all_there = true;
+        for (i, item) in map.items.iter().enumerate() {
+            let at = spot.clone().field("items").index(i);
+            let exists = self.world.areas.contains_key(&item.area);
+            all_there &= self.exists(exists, &title, "помещение", item.area.0, at.clone());
+            all_there &= self.frame_is_finite(&item.frame, &at);
+        }
+        let bases = map.items.iter().filter(|item| item.is_base).count();
+        if bases != 1 {
+            let error = MapError::BaseItemCount { owner: title.clone(), count: bases };
+            self.fault(error, spot.clone().field("items"));
+        }
+        if !all_there {
+            return;
+        }
+        for (i, link) in map.links.iter().enumerate() {
+            self.map_link(map, &title, link, spot.clone().field("links").index(i));
+        }
+        self.map_origin(map, &title, spot);
+        self.area_overlaps(map, &title, spot);
+        self.connected_areas(map, &title, spot);
+    }
+
+    /// The base Area stands with a corner of its base item at the origin of the Map.
+    fn map_origin(&mut self, map: &Map, title: &str, spot: &Spot) {
+        for (i, item) in map.items.iter().enumerate().filter(|(_, item)| item.is_base) {
+            let area = &self.world.areas[&item.area];
+            let Some(base) = area.items.iter().find(|item| item.is_base) else { continue };
+            if self.is_broken(Record::Area(area.id)) || !self.sound.contains(&base.orthoframe) {
+                continue;
+            }
+            let frame = item.frame.compose(&base.frame);
+            let corners = self.world.orthoframe_of(base).corners().map(|p| frame.apply(p));
+            let nearest = corners
+                .min_by(|p, q| p.coords.norm().total_cmp(&q.coords.norm()))
+                .expect("a sound base has corners");
+            if nearest.coords.norm() > TOLERANCE || frame.z.get().abs() > TOLERANCE {
+                let error = MapError::BaseItemOffOrigin {
+                    owner: title.to_owned(),
+                    item: area.name.clone(),
+                    nearest: format!(
+                        "({}; {}; {})",
+                        Short(nearest.x),
+                        Short(nearest.y),
+                        Short(frame.z.get())
+                    ),
+                };
+                self.fault(error, spot.clone().field("items").index(i).field("at"));
+            }
+        }
+    }
+
+    /// A side of a Map's Area and the frame in which its item stands on the Map.
+    fn map_side(
+        &mut self,
+        map: &Map,
+        title: &str,
+        area: AreaId,
+        side: &SideRef,
+        spot: &Spot,
+    ) -> Option<(&'w BaseVector, Frame, usize)> {
+        let Some((index, item)) = map.items.iter().enumerate().find(|(_, i)| i.area == area) else {
+            let error = MapError::UnknownReference {
+                what: "Помещение на этой карте",
+                name: area_title(self.world, area),
+                nearest: None,
+            };
+            self.fault(error, spot.clone());
+            return None;
+        };
+        if self.is_broken(Record::Area(area)) {
+            return None;
+        }
+        let group = Group {
+            title: title.to_owned(),
+            record: Record::Map(map.id),
+            items: &self.world.areas[&area].items,
+            links: &[],
+            doors: &[],
+            is_area: true,
+        };
+        let (inner, vector) = self.side(&group, side, spot.clone())?;
+        self.sound
+            .contains(&inner.orthoframe)
+            .then(|| (vector, item.frame.compose(&inner.frame), index))
+    }
+
+    fn map_link(&mut self, map: &Map, title: &str, link: &MapLink, spot: Spot) {
+        let from = spot.clone().field("from");
+        let one = self.map_side(map, title, link.area, &link.side, &from);
+        let to = spot.clone().field("to");
+        let other = self.map_side(map, title, link.to_area, &link.to_side, &to);
+        let (Some((one, frame, _)), Some((other, to_frame, to_index))) = (one, other) else {
+            return;
+        };
+        let owner = title.to_owned();
+        let words = |area, side: &SideRef| {
+            format!("{}.{}.{}", area_title(self.world, area), side.item, side.side)
+        };
+        let words =
+            format!("{} - {}", words(link.area, &link.side), words(link.to_area, &link.to_side));
+        let opening = openings(one, other);
+        if opening == Openings::Mixed {
+            self.fault(MapError::LinkPermeability { owner, link: words }, spot);
+            return;
+        }
+        if opening == Openings::Both && !same_length(one, other) {
+            let (length, other) = (one.length(), other.length());
+            self.fault(MapError::LinkLength { owner, link: words, length, other }, spot);
+            return;
+        }
+        let claimed = Offset::of(link.rel_x, link.rel_y, link.rel_z, link.rel_a);
+        let found = PlacedSide::new(one, &frame).offset(&PlacedSide::new(other, &to_frame));
+        let place = Spot::of(Record::Map(map.id)).field("items").index(to_index);
+        if !claimed.agrees(&found) {
+            let (claimed, found) = (claimed.to_string(), found.to_string());
+            let error = MapError::LinkContradicts { owner, link: words, claimed, found };
+            self.contradiction(error, spot, place);
+        } else if opening == Openings::Both && found.distance() > TOLERANCE {
+            let distance = Cm::of(found.distance());
+            self.contradiction(MapError::LinkApart { owner, link: words, distance }, spot, place);
+        }
+    }
+
+    /// The items of an Area where they stand on the Map; nothing when they cannot be measured.
+    fn placed_bodies(&self, item: &MapItem) -> Vec<Body> {
+        let area = &self.world.areas[&item.area];
+        if self.is_broken(Record::Area(area.id)) || !self.is_sound(&area.items) {
+            return Vec::new();
+        }
+        let mut bodies = self.bodies(&area.items);
+        for body in &mut bodies {
+            body.polygon.iter_mut().for_each(|p| *p = item.frame.apply(*p));
+            body.bounds = bounds(body.polygon.iter().copied());
+            body.bottom += item.frame.z.get();
+            body.top += item.frame.z.get();
+        }
+        bodies
+    }
+
+    fn area_overlaps(&mut self, map: &Map, title: &str, spot: &Spot) {
+        let mut owners = Vec::new();
+        let mut bodies = Vec::new();
+        for (i, item) in map.items.iter().enumerate() {
+            let placed = self.placed_bodies(item);
+            owners.extend(std::iter::repeat_n(i, placed.len()));
+            bodies.extend(placed);
+        }
+        let boxes: Vec<_> = bodies.iter().map(|b| b.bounds).collect();
+        let mut overlaps = BTreeMap::new();
+        near_pairs(&boxes, 0.0, |i, j| {
+            let pair = (owners[i].min(owners[j]), owners[i].max(owners[j]));
+            if pair.0 != pair.1
+                && !overlaps.contains_key(&pair)
+                && let Some(p) = overlap(&bodies[i], &bodies[j])
+            {
+                overlaps.insert(pair, p);
+            }
+            if overlaps.len() < MOST_OVERLAPS {
+                ControlFlow::Continue(())
+            } else {
+                ControlFlow::Break(())
+            }
+        });
+        for ((i, j), p) in overlaps {
+            let name = |i: usize| area_title(self.world, map.items[i].area);
+            let error = MapError::AreasOverlap {
+                map: title.to_owned(),
+                area: name(i),
+                other: name(j),
+                at: at(p),
+            };
+            let items = spot.clone().field("items");
+            self.contradiction(error, items.clone().index(j), items.index(i));
+        }
+    }
+
+    fn connected_areas(&mut self, map: &Map, title: &str, spot: &Spot) {
+        let mut parts = Parts::new(map.items.len());
+        let index = |area| map.items.iter().position(|item| item.area == area);
+        for link in &map.links {
+            if let (Some(i), Some(j)) = (index(link.area), index(link.to_area)) {
+                parts.join(i, j);
+            }
+        }
+        for door in self.world.doors.keys() {
+            if let [one, other] = self.world.door_areas(*door)[..]
+                && let (Some(i), Some(j)) = (index(one), index(other))
+            {
+                parts.join(i, j);
+            }
+        }
+        let base = map.items.iter().position(|item| item.is_base).unwrap_or(0);
+        for (i, item) in map.items.iter().enumerate() {
+            if !parts.joined(base, i) {
+                let area = area_title(self.world, item.area);
+                let error = MapError::AreasApart { map: title.to_owned(), area };
+                self.fault(error, spot.clone().field("items").index(i));
+            }
+        }
+    }
+
+    /// Every Map once in the Domain, one of them its base, lifts between different Maps.
+    pub(super) fn domain(&mut self) {
+        let domain = &self.world.domain;
+        let spot = Spot::of(Record::Domain);
+        if self.is_broken(Record::Domain) {
+            return;
+        }
+        let owner = format!("домейн «{}»", domain.name);
+        for (i, item) in domain.maps.iter().enumerate() {
+            let at = spot.clone().field("maps").index(i);
+            let exists = self.world.maps.contains_key(&item.map);
+            self.exists(exists, &owner, "карта", item.map.0, at.clone());
+            let frame = &item.frame;
+            let is_finite = self.frame_is_finite(frame, &at);
+            if is_finite && item.is_base && *frame != Frame::IDENTITY {
+                let error = MapError::BaseItemOffOrigin {
+                    owner: owner.clone(),
+                    item: self.world.maps.get(&item.map).map_or(String::new(), |m| m.name.clone()),
+                    nearest: format!("({}; {})", Short(frame.x.get()), Short(frame.y.get())),
+                };
+                self.fault(error, at);
+            }
+        }
+        let bases = domain.maps.iter().filter(|m| m.is_base).count();
+        if bases != 1 && !self.world.maps.is_empty() && !domain.maps.is_empty() {
+            let error = MapError::BaseItemCount { owner, count: bases };
+            self.fault(error, spot.clone().field("maps"));
+        }
+        let mut counts: BTreeMap<_, usize> = self.world.maps.keys().map(|&id| (id, 0)).collect();
+        domain.maps.iter().for_each(|m| *counts.entry(m.map).or_default() += 1);
+        for map in self.world.maps.values() {
+            let count = counts[&map.id];
+            if count != 1 {
+                let error = MapError::DomainMaps { map: map.name.clone(), count };
+                let map = Spot::of(Record::Map(map.id));
+                self.contradiction(error, map, spot.clone().field("maps"));
+            }
+        }
+        self.lifts(&spot);
+    }
+
+    fn lifts(&mut self, spot: &Spot) {
+        for (i, (name, stops)) in self.world.domain.lifts.iter().enumerate() {
+            let at = spot.clone().field("lifts").index(i);
+            let mut floors = BTreeSet::new();
+            let mut all_there = true;
+            for stop in stops {
+                let exists = self.world.areas.contains_key(&stop.area);
+                let owner = format!("лифт «{name}»");
+                all_there &= self.exists(exists, &owner, "помещение", stop.area.0, at.clone());
+                floors.extend(self.world.placement(stop.area).map(|(map, _)| map));
+            }
+            if all_there && floors.len() < 2 {
+                self.fault(MapError::LiftStops { lift: name.clone() }, at);
+            }
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What must hold in a [`World`] (SPEC M1-M7), with every fault at once.
+//!
+//! A fault that only follows from another is not reported: what stands on a broken base is not measured.
+
+mod base;
+mod doors;
+mod group;
+mod maps;
+mod names;
+mod placed;
+mod plane;
+
+use std::collections::BTreeSet;
+
+use crate::units::{Cm, Frame, OrFrId, Point, TypeId};
+
+use super::fault::{Fault, MapError, Record, Spot};
+use super::{Item, TypeKind, World};
+
+/// Lengths and places that differ less are the same: half a millimetre, since people write round numbers.
+const TOLERANCE: f64 = 0.05;
+/// Likewise for angles, in degrees.
+const ANGLE_TOLERANCE: f64 = 0.05;
+/// An overlap smaller than this, in cm², is a touch.
+const OVERLAP: f64 = 1.0;
+/// Overlaps reported of one Area or Map; a map shifted against itself has them by thousands.
+const MOST_OVERLAPS: usize = 20;
+
+/// Every fault of a world, warnings included.
+///
+/// ```
+/// use orthoframe::map::{World, check};
+///
+/// let mut world = World::load("maps/rb2.toml").unwrap();
+/// assert!(check(&world).is_empty());
+/// let chair = *world.replicas.keys().next().unwrap();
+/// world.replicas.get_mut(&chair).unwrap().name = "Комната-Z".to_owned();
+/// assert!(check(&world)[0].to_string().starts_with("имя «Комната-Z» носят двое"));
+/// ```
+#[must_use]
+pub fn check(world: &World) -> Vec<Fault> {
+    check_except(world, &BTreeSet::new())
+}
+
+/// [`check`] for a world of which some records are known to be faulty already.
+pub(super) fn check_except(world: &World, broken: &BTreeSet<Record>) -> Vec<Fault> {
+    let mut checker = Checker { world, broken, sound: BTreeSet::new(), faults: Vec::new() };
+    checker.bases();
+    checker.groups();
+    checker.doors();
+    checker.maps();
+    checker.domain();
+    checker.replicas();
+    checker.places();
+    checker.robot();
+    checker.names();
+    checker.faults
+}
+
+struct Checker<'w> {
+    world: &'w World,
+    /// Records with faults of their own, found before.
+    broken: &'w BTreeSet<Record>,
+    /// Orthoframes whose bases can be measured.
+    sound: BTreeSet<OrFrId>,
+    faults: Vec<Fault>,
+}
+
+impl Checker<'_> {
+    fn fault(&mut self, error: MapError, spot: Spot) {
+        self.faults.push(Fault::new(error, vec![spot]));
+    }
+
+    fn contradiction(&mut self, error: MapError, one: Spot, other: Spot) {
+        self.faults.push(Fault::new(error, vec![one, other]));
+    }
+
+    fn is_broken(&self, record: Record) -> bool {
+        self.broken.contains(&record)
+    }
+
+    /// A reference by id that must lead somewhere.
+    fn exists(
+        &mut self,
+        exists: bool,
+        owner: &str,
+        what: &'static str,
+        id: u32,
+        spot: Spot,
+    ) -> bool {
+        if !exists {
+            self.fault(MapError::DanglingId { owner: owner.to_owned(), what, id }, spot);
+        }
+        exists
+    }
+
+    fn type_exists(&mut self, kind: TypeKind, id: Option<TypeId>, owner: &str, spot: &Spot) {
+        if let Some(id) = id {
+            let exists = self.world.types.list(kind).entries.contains_key(&id);
+            self.exists(exists, owner, "тип", id.0, spot.clone().field("type"));
+        }
+    }
+
+    /// A number that must be finite and within its range; the range is written as people write it.
+    fn in_range(
+        &mut self,
+        what: &'static str,
+        value: f64,
+        fits: bool,
+        range: &'static str,
+        spot: Spot,
+    ) {
+        if !value.is_finite() || !fits {
+            self.fault(MapError::OutOfRange { what, value, range }, spot);
+        }
+    }
+
+    /// Whether a frame made by hand has numbers that can be computed with.
+    fn frame_is_finite(&mut self, frame: &Frame, spot: &Spot) -> bool {
+        let numbers = [frame.x.get(), frame.y.get(), frame.z.get(), frame.angle.get()];
+        let wrong = numbers.into_iter().find(|&n| Cm::new(n).is_err());
+        if let Some(value) = wrong {
+            let range = "в пределах ±100 км";
+            self.fault(
+                MapError::OutOfRange { what: "координата", value, range },
+                spot.clone().field("at"),
+            );
+        }
+        wrong.is_none()
+    }
+
+    /// Whether all items can be measured.
+    fn is_sound(&self, items: &[Item]) -> bool {
+        items.iter().all(|item| self.sound.contains(&item.orthoframe))
+    }
+}
+
+/// A point as people write it.
+fn at(p: Point) -> String {
+    format!("({}; {})", Short(p.x), Short(p.y))
+}
+
+/// Two decimals at most.
+struct Short(f64);
+
+impl std::fmt::Display for Short {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}", (self.0 * 100.0).round() / 100.0 + 0.0)
+    }
+}
+
+fn area_title(world: &World, area: crate::units::AreaId) -> String {
+    world.areas.get(&area).map_or_else(|| format!("помещение {}", area.0), |a| a.name.clone())
+}

@@ -1,0 +1,100 @@
+//! Names: whatever a person can speak of bears a name of its own, in either language.
+
+use std::collections::HashMap;
+
+use crate::map::fault::{MapError, Record, Spot};
+use crate::map::{Entity, TypeKind, World};
+use crate::units::name_key;
+
+use super::Checker;
+
+impl Checker<'_> {
+    pub(super) fn names(&mut self) {
+        let world = self.world;
+        let mut bearers: HashMap<String, Entity> = HashMap::new();
+        for (entity, name) in world.names() {
+            let first = *bearers.entry(name_key(name)).or_insert(entity);
+            if first != entity {
+                let error = MapError::DuplicateName {
+                    name: name.to_owned(),
+                    first: title(world, first),
+                    second: title(world, entity),
+                };
+                self.contradiction(error, spot(entity, world, name), spot(first, world, name));
+            }
+        }
+        self.nameless();
+        for kind in TypeKind::ALL {
+            self.type_names(kind);
+        }
+    }
+
+    fn nameless(&mut self) {
+        let w = self.world;
+        let named = w
+            .maps
+            .values()
+            .map(|m| (Entity::Map(m.id), &m.name))
+            .chain(w.areas.values().map(|a| (Entity::Area(a.id), &a.name)))
+            .chain(w.doors.values().map(|d| (Entity::Door(d.id), &d.name)))
+            .chain(w.replicas.values().map(|r| (Entity::Replica(r.id), &r.name)))
+            .chain(w.places.values().map(|p| (Entity::Place(p.id), &p.name)));
+        let nameless: Vec<_> = named.filter(|(_, name)| name.trim().is_empty()).collect();
+        for (entity, _) in nameless {
+            let at = Spot::of(record(entity)).field("name");
+            self.fault(MapError::NoName { what: kind(entity) }, at);
+        }
+    }
+
+    /// Types are referred to by their Russian names.
+    fn type_names(&mut self, kind: TypeKind) {
+        let mut bearers = HashMap::new();
+        for entry in self.world.types.list(kind).entries.values() {
+            let spot = Spot::of(Record::Type(kind, entry.id));
+            if entry.name.trim().is_empty() {
+                self.fault(MapError::NoName { what: "тип" }, spot);
+            } else if let Some(&first) = bearers.get(&entry.name) {
+                let words =
+                    |id: crate::units::TypeId| format!("тип {} списка {}", id.0, kind.field());
+                let error = MapError::DuplicateName {
+                    name: entry.name.clone(),
+                    first: words(first),
+                    second: words(entry.id),
+                };
+                self.contradiction(error, spot, Spot::of(Record::Type(kind, first)));
+            } else {
+                bearers.insert(entry.name.clone(), entry.id);
+            }
+        }
+    }
+}
+
+fn record(entity: Entity) -> Record {
+    match entity {
+        Entity::Map(id) => Record::Map(id),
+        Entity::Area(id) => Record::Area(id),
+        Entity::Door(id) => Record::Door(id),
+        Entity::Replica(id) => Record::Replica(id),
+        Entity::Place(id) => Record::Place(id),
+    }
+}
+
+fn kind(entity: Entity) -> &'static str {
+    match entity {
+        Entity::Map(_) => "карта",
+        Entity::Area(_) => "помещение",
+        Entity::Door(_) => "дверь",
+        Entity::Replica(_) => "экземпляр",
+        Entity::Place(_) => "место",
+    }
+}
+
+fn title(world: &World, entity: Entity) -> String {
+    format!("{} «{}»", kind(entity), world.name(entity))
+}
+
+/// The field that holds the name.
+fn spot(entity: Entity, world: &World, name: &str) -> Spot {
+    let field = if world.name(entity) == name { "name" } else { "name_en" };
+    Spot::of(record(entity)).field(field)
+}

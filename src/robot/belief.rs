@@ -1,0 +1,222 @@
+//! What a mission holds to be so: the Map, corrected by what was seen, and where the robot and its load are.
+
+use crate::geometry::{DoorStates, FloorPlan, Scene};
+use crate::map::{DoorState, Entity, Replica, World};
+use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
+use crate::semantics::{Relations, predicate};
+use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+
+use super::drive::Sighting;
+
+/// Where the robot is, as the rules speak of it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Station {
+    /// A named place, or the place before a thing: whatever a rule file calls «место».
+    Place(String),
+    /// At a door, inside the Area in which the robot is.
+    Door(String),
+}
+
+/// A point that was given a name for the time of a mission.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    pub name: String,
+    pub area: AreaId,
+    pub pose: Pose,
+}
+
+/// A person to whom things can be handed, and the place from which it is done.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Person {
+    pub name: String,
+    pub place: String,
+}
+
+/// The name of the point where a mission began, if the Map has none for it.
+pub const STARTING_POINT: &str = "Исходная-точка";
+/// A robot this near to a named place stands at it, cm.
+const AT_PLACE: f64 = 15.0;
+
+/// What the mission holds to be so.
+#[derive(Debug, Clone)]
+pub struct Belief {
+    /// A thing in the hand or given to a person is not in it.
+    pub world: World,
+    pub map: MapId,
+    pub area: AreaId,
+    pub pose: Pose,
+    pub station: Station,
+    pub held: Option<Replica>,
+    pub handed_over: Vec<(Replica, String)>,
+    pub people: Vec<Person>,
+    pub spots: Vec<Spot>,
+    /// Places and doors that proved to have no way to them from within an Area.
+    pub unreachable: Vec<(AreaId, String)>,
+    pub floor: FloorPlan,
+}
+
+impl Belief {
+    /// What the Map says, with the robot at a pose. `None` when the pose lies in no Area.
+    #[must_use]
+    pub fn new(world: World, floor: FloorPlan, pose: Pose) -> Option<Self> {
+        let map = floor.map();
+        let (area, _) = floor.locate(pose.at)?;
+        let frame = floor.scene().areas.get(&area)?.frame;
+        let near = |at: Point| (frame.apply(at) - pose.at).norm() <= AT_PLACE;
+        let place =
+            world.places.values().find(|p| p.area == area && near(p.at)).map(|p| p.name.clone());
+        let mut spots = Vec::new();
+        let place = place.unwrap_or_else(|| {
+            spots.push(Spot { name: STARTING_POINT.to_owned(), area, pose });
+            STARTING_POINT.to_owned()
+        });
+        Some(Self {
+            world,
+            map,
+            area,
+            pose,
+            station: Station::Place(place),
+            held: None,
+            handed_over: Vec::new(),
+            people: Vec::new(),
+            spots,
+            unreachable: Vec::new(),
+            floor,
+        })
+    }
+
+    /// The initial position of a planning problem, and the places that it speaks of.
+    pub(super) fn initial(&self, relations: &Relations) -> (Vec<InitialFact>, Vec<PlanPlace>) {
+        // The state of the robot is told below: its spots and its load are not in the Map.
+        let state = RobotState { area: self.area, at: RobotAt::Elsewhere, holds: None };
+        let initial = planning::initial(&self.world, relations, &state);
+        let of_map =
+            initial.facts.into_iter().filter(|f| !speaks_of_robot(f) && !self.is_refuted(f));
+        (of_map.chain(self.of_robot()).collect(), initial.places)
+    }
+
+    /// The robot, its hand, people, and spots.
+    fn of_robot(&self) -> Vec<InitialFact> {
+        let area = self.world.name(Entity::Area(self.area));
+        let mut all = vec![fact(predicate::ROBOT_IN, &[(area, "помещение")])];
+        all.push(match &self.station {
+            Station::Place(name) => fact(predicate::ROBOT_AT_PLACE, &[(name, "место")]),
+            Station::Door(name) => fact(predicate::ROBOT_AT_DOOR, &[(name, "дверь")]),
+        });
+        all.push(match &self.held {
+            Some(thing) => fact(predicate::ROBOT_HOLDS, &[(&thing.name, "предмет")]),
+            None => fact(predicate::HAND_FREE, &[]),
+        });
+        for spot in &self.spots {
+            let area = self.world.name(Entity::Area(spot.area));
+            all.push(fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")]));
+        }
+        for person in &self.people {
+            let args = [(person.name.as_str(), "человек"), (person.place.as_str(), "место")];
+            all.push(fact(predicate::PERSON_AT_PLACE, &args));
+        }
+        for (thing, person) in &self.handed_over {
+            let args = [(thing.name.as_str(), "предмет"), (person.as_str(), "человек")];
+            all.push(fact(predicate::HANDED_OVER, &args));
+        }
+        all
+    }
+
+    /// Whether a fact of the Map speaks of a way that proved not to be there.
+    fn is_refuted(&self, fact: &InitialFact) -> bool {
+        let is_way = [predicate::PLACE_IN, predicate::DOOR_IN].iter().any(|p| is(fact, p));
+        is_way
+            && self.unreachable.iter().any(|(area, name)| {
+                fact.arguments[0].name == *name
+                    && fact.arguments[1].name == self.world.name(Entity::Area(*area))
+            })
+    }
+
+    /// Takes over what was seen; whether it was news.
+    pub(super) fn learn(&mut self, sighting: Sighting) -> bool {
+        match sighting {
+            Sighting::Door { door, state } => self.set_door(door, state),
+            Sighting::Replica { replica, area, frame } => {
+                let Some(believed) = self.world.replicas.get_mut(&replica) else { return false };
+                if (believed.area, believed.frame) == (area, frame) {
+                    return false;
+                }
+                let before = std::mem::replace(&mut believed.area, area);
+                believed.frame = frame;
+                self.rebuild([before, area]);
+                true
+            }
+        }
+    }
+
+    pub(super) fn set_door(&mut self, door: DoorId, state: DoorState) -> bool {
+        let Some(before) = self.world.doors.get(&door).map(|d| d.state) else { return false };
+        if before == state {
+            return false;
+        }
+        self.floor = self.floor.with_doors(&self.world, &DoorStates::from([(door, state)]));
+        self.world.doors.get_mut(&door).expect("found above").state = state;
+        true
+    }
+
+    /// Takes a thing off the floor and into the hand.
+    pub(super) fn pick_up(&mut self, thing: ReplicaId) {
+        if let Some(replica) = self.world.replicas.remove(&thing) {
+            let area = replica.area;
+            self.held = Some(replica);
+            self.rebuild([area, area]);
+        }
+    }
+
+    /// Puts the thing in the hand down at a frame of an Area.
+    pub(super) fn set_down(&mut self, area: AreaId, frame: Frame) {
+        if let Some(replica) = self.held.take() {
+            self.world.replicas.insert(replica.id, Replica { area, frame, ..replica });
+            self.rebuild([area, area]);
+        }
+    }
+
+    fn rebuild(&mut self, areas: [AreaId; 2]) {
+        self.floor.rebuild(&self.world, areas[0]);
+        if areas[1] != areas[0] {
+            self.floor.rebuild(&self.world, areas[1]);
+        }
+    }
+
+    pub(super) fn scene(&self) -> &Scene {
+        self.floor.scene()
+    }
+
+    pub(super) fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Option<T> {
+        self.world.find(name).into_iter().find_map(pick)
+    }
+}
+
+/// What the Map knows for a plan, the robot left out.
+#[must_use]
+pub fn facts_of_map(world: &World, relations: &Relations) -> Vec<InitialFact> {
+    let Some(&area) = world.areas.keys().next() else { return Vec::new() };
+    let state = RobotState { area, at: RobotAt::Elsewhere, holds: None };
+    let initial = planning::initial(world, relations, &state);
+    initial.facts.into_iter().filter(|f| !speaks_of_robot(f)).collect()
+}
+
+fn fact(predicate: &'static str, arguments: &[(&str, &'static str)]) -> InitialFact {
+    let argument = |&(name, kind): &(&str, &'static str)| Argument { name: name.to_owned(), kind };
+    InitialFact { predicate, arguments: arguments.iter().map(argument).collect(), assumed: false }
+}
+
+fn is(fact: &InitialFact, predicate: &str) -> bool {
+    fact.predicate.trim_end_matches('_') == predicate
+}
+
+fn speaks_of_robot(fact: &InitialFact) -> bool {
+    let of_robot = [
+        predicate::ROBOT_IN,
+        predicate::ROBOT_AT_PLACE,
+        predicate::ROBOT_AT_DOOR,
+        predicate::HAND_FREE,
+    ];
+    of_robot.iter().any(|p| is(fact, p))
+        || fact.arguments.iter().any(|a| a.name == planning::ROBOT_PLACE)
+}

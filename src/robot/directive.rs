@@ -1,0 +1,146 @@
+//! A directive: one instantiated action of a plan, and what it asks the vehicle to do (paper 1 §8).
+//!
+//! What is to be done is read from the action's effects, never from its name: an action after which the robot
+//! is at a door is a drive to that door. So a rule file may add, rename and split actions freely, as long as
+//! it speaks of the world in the predicates of [`crate::semantics::predicate`].
+
+use std::sync::Arc;
+
+use crate::map::DoorStatus;
+use crate::semantics::predicate;
+use crate::strips::{Domain, Operator, SchemaAtom, SchemaTerm};
+use crate::units::name_key;
+
+/// A step of a plan: the action's name, its arguments, and all its effects.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Directive {
+    pub action: Arc<str>,
+    pub args: Vec<Arc<str>>,
+    pub adds: Vec<Effect>,
+    pub deletes: Vec<Effect>,
+    /// The conditions under which the action is taken.
+    pub needs: Vec<Effect>,
+}
+
+/// A ground atom: what a directive needs, brings about or ends.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Effect {
+    pub predicate: String,
+    pub args: Vec<String>,
+}
+
+/// What a directive asks for, in the names of the Map.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Deed {
+    /// Drive within the Area to a place, or to the place before a thing.
+    GoToPlace(String),
+    /// Drive within the Area to a door.
+    GoToDoor(String),
+    /// Drive through the door into an Area.
+    Cross {
+        door: String,
+        into: String,
+    },
+    SetDoor {
+        door: String,
+        status: DoorStatus,
+    },
+    Take(String),
+    /// Put a thing onto another, or down where the robot stands.
+    Put {
+        thing: String,
+        onto: Option<String>,
+    },
+    HandOver {
+        thing: String,
+        person: String,
+    },
+}
+
+impl Directive {
+    /// The directive that an operator of a task stands for, with the effects that its rule gives it
+    /// (a task keeps only those that matter to its goal).
+    ///
+    /// # Panics
+    /// When the operator was not grounded from this domain.
+    #[must_use]
+    pub fn of(domain: &Domain, operator: &Operator) -> Self {
+        let schema = domain
+            .schemas()
+            .iter()
+            .find(|s| s.name == *operator.name)
+            .expect("an operator is grounded from a rule of its domain");
+        let ground = |atom: &SchemaAtom| Effect {
+            predicate: name_key(&domain.predicates()[atom.predicate.index()].name),
+            args: atom
+                .args
+                .iter()
+                .map(|term| match term {
+                    SchemaTerm::Parameter(at) => operator.args[*at as usize].to_string(),
+                    SchemaTerm::Constant(name) => name.clone(),
+                })
+                .collect(),
+        };
+        Self {
+            action: Arc::clone(&operator.name),
+            args: operator.args.clone(),
+            adds: schema.add_effects.iter().map(ground).collect(),
+            deletes: schema.del_effects.iter().map(ground).collect(),
+            needs: schema.preconditions.iter().map(ground).collect(),
+        }
+    }
+
+    /// What the vehicle has to do, in this order. Empty for an action that only changes what is known.
+    #[must_use]
+    pub fn deeds(&self) -> Vec<Deed> {
+        let mut deeds = Vec::new();
+        if let Some([place]) = self.added(predicate::ROBOT_AT_PLACE) {
+            deeds.push(Deed::GoToPlace(place.clone()));
+        } else if let Some([door]) = self.added(predicate::ROBOT_AT_DOOR) {
+            deeds.push(Deed::GoToDoor(door.clone()));
+        } else if let (Some([area]), Some([door])) =
+            (self.added(predicate::ROBOT_IN), find(&self.needs, predicate::ROBOT_AT_DOOR))
+        {
+            deeds.push(Deed::Cross { door: door.clone(), into: area.clone() });
+        }
+        let states = [
+            (predicate::DOOR_OPEN, DoorStatus::Open),
+            (predicate::DOOR_CLOSED, DoorStatus::Closed),
+            (predicate::DOOR_LOCKED, DoorStatus::Locked),
+        ];
+        for (name, status) in states {
+            if let Some([door, ..]) = self.added(name) {
+                deeds.push(Deed::SetDoor { door: door.clone(), status });
+            }
+        }
+        if let Some([thing]) = self.added(predicate::ROBOT_HOLDS) {
+            deeds.push(Deed::Take(thing.clone()));
+        }
+        if let Some([thing]) = find(&self.deletes, predicate::ROBOT_HOLDS) {
+            let thing = thing.clone();
+            deeds.push(if let Some([_, person]) = self.added(predicate::HANDED_OVER) {
+                Deed::HandOver { thing, person: person.clone() }
+            } else {
+                let onto = self.added(predicate::THING_ON).and_then(|args| args.get(1)).cloned();
+                Deed::Put { thing, onto }
+            });
+        }
+        deeds
+    }
+
+    fn added(&self, predicate: &str) -> Option<&[String]> {
+        find(&self.adds, predicate)
+    }
+}
+
+fn find<'a>(effects: &'a [Effect], predicate: &str) -> Option<&'a [String]> {
+    let key = name_key(predicate);
+    effects.iter().find(|e| e.predicate == key).map(|e| e.args.as_slice())
+}
+
+/// `Движение-из_в_через-дверь_(Комната-В, Комната-Z, Дверь-ВZ)`, as the paper prints a directive.
+impl std::fmt::Display for Directive {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}_({})", self.action, self.args.join(", "))
+    }
+}

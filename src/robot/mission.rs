@@ -1,0 +1,414 @@
+//! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
+
+use crate::geometry::{Method, NoRoute, Route, Target};
+use crate::graphplan::{Limits, Outcome};
+use crate::map::{DoorState, DoorStatus, Entity, World};
+use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
+use crate::semantics::{Profile, RelationError, RelationRules, derive};
+use crate::strips::{Domain, Problem, RuleFaults};
+use crate::units::{AreaId, DoorId, Frame, MapId, Pose, ReplicaId};
+
+use miette::Diagnostic;
+use thiserror::Error;
+
+use super::belief::{Belief, Station};
+use super::directive::{Deed, Directive};
+use super::drive::{Bump, Drive, Refusal, Sighting};
+use super::placing::spot_on;
+use super::solve::{Solved, solve};
+
+/// One fact that is to hold in the end.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct GoalFact {
+    pub predicate: String,
+    pub args: Vec<String>,
+}
+
+/// A goal turned into a task and solved.
+#[derive(Debug, Clone)]
+pub struct Planned {
+    pub solved: Solved,
+    /// Parallel steps; empty unless there is a plan.
+    pub steps: Vec<Vec<Directive>>,
+    /// The places that the plan may name.
+    pub places: Vec<PlanPlace>,
+}
+
+/// What happened on the way.
+#[derive(Debug)]
+pub enum Event<'a> {
+    Planned(&'a Planned),
+    /// The first number counts from 1 over all directives of the plan in force.
+    Started {
+        number: usize,
+        of: usize,
+        directive: &'a Directive,
+    },
+    /// A directive is done.
+    Finished {
+        number: usize,
+        directive: &'a Directive,
+        belief: &'a Belief,
+        leg: &'a Leg,
+    },
+    /// The world is not as believed; a new plan follows.
+    Surprised {
+        directive: &'a Directive,
+        surprise: &'a Surprise,
+        belief: &'a Belief,
+    },
+}
+
+/// The way driven for one directive. `seconds` are the drive's.
+#[derive(Debug, Clone, Default)]
+pub struct Leg {
+    pub route: Option<Route>,
+    pub seconds: f64,
+}
+
+/// Why a directive could not be carried out.
+#[derive(Debug, Clone)]
+pub enum Surprise {
+    /// Something stood in the way, and this is what was seen of it.
+    Blocked { bump: Bump, seen: Option<Sighting> },
+    /// The vehicle would not.
+    Refused { refusal: Refusal, seen: Option<Sighting> },
+    /// There is no way on the floor that is believed.
+    NoWay { to: String, why: NoRoute },
+    /// The directive names what the Map does not know.
+    Unknown { name: String },
+}
+
+/// How a mission ended.
+#[derive(Debug)]
+pub enum Ending {
+    /// Every goal holds.
+    Done,
+    /// Every goal held before the first directive.
+    AlreadyTrue,
+    /// There is no plan, or none was found within the limits: see the outcome.
+    NoPlan(Box<Planned>),
+    /// The last surprise taught nothing new, so that the next plan would fail in the same way.
+    Stuck(Surprise),
+}
+
+/// A mission that cannot even be planned.
+#[derive(Debug, Error, Diagnostic)]
+pub enum MissionError {
+    /// The goal or the rules name what neither the Map nor the rules know.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Rules(#[from] RuleFaults),
+    /// The relations of what is believed cannot be derived.
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Relations(#[from] RelationError),
+}
+
+/// Plans and carries out goals on a belief of its own.
+#[derive(Debug)]
+pub struct Mission<'r> {
+    pub belief: Belief,
+    domain: &'r Domain,
+    relations: &'r RelationRules,
+    limits: Limits,
+    /// Of the plan in force.
+    places: Vec<PlanPlace>,
+}
+
+impl<'r> Mission<'r> {
+    #[must_use]
+    pub fn new(
+        belief: Belief,
+        domain: &'r Domain,
+        relations: &'r RelationRules,
+        limits: Limits,
+    ) -> Self {
+        Self { belief, domain, relations, limits, places: Vec::new() }
+    }
+
+    /// The plan for a goal from what is believed now.
+    ///
+    /// # Errors
+    /// [`MissionError`].
+    pub fn plan(&self, goal: &[GoalFact]) -> Result<Planned, MissionError> {
+        let mut problem = Problem::new();
+        let relations = derive(&self.belief.world, self.relations, Profile::Surveyed)?;
+        let (facts, places) = self.belief.initial(&relations);
+        for fact in &facts {
+            state(&mut problem, fact);
+        }
+        for fact in goal {
+            let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
+            problem.add_goal(&fact.predicate, &args);
+        }
+        let solved = solve(self.domain, &problem, &self.limits)?;
+        let steps = match &solved.outcome {
+            Outcome::Plan(plan) => {
+                let directive = |&o| Directive::of(self.domain, solved.task.operator(o));
+                plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
+            }
+            _ => Vec::new(),
+        };
+        Ok(Planned { solved, steps, places })
+    }
+
+    /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
+    ///
+    /// Every surprise must teach something (a door's state, a thing's place, a way that is none), of which
+    /// there is only so much; so the mission ends.
+    ///
+    /// # Errors
+    /// As [`Mission::plan`].
+    pub fn run(
+        &mut self,
+        goal: &[GoalFact],
+        drive: &mut dyn Drive,
+        tell: &mut dyn FnMut(&Event<'_>),
+    ) -> Result<Ending, MissionError> {
+        let mut moved = false;
+        loop {
+            let planned = self.plan(goal)?;
+            tell(&Event::Planned(&planned));
+            if !matches!(planned.solved.outcome, Outcome::Plan(_)) {
+                return Ok(Ending::NoPlan(Box::new(planned)));
+            }
+            let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
+            if directives.is_empty() {
+                return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
+            }
+            moved = true;
+            self.places.clone_from(&planned.places);
+            match self.carry_out(&directives, drive, tell) {
+                None => return Ok(Ending::Done),
+                Some(surprise) if !self.learn(&surprise) => return Ok(Ending::Stuck(surprise)),
+                Some(_) => {}
+            }
+        }
+    }
+
+    /// Carries out directives in order until one fails.
+    fn carry_out(
+        &mut self,
+        directives: &[&Directive],
+        drive: &mut dyn Drive,
+        tell: &mut dyn FnMut(&Event<'_>),
+    ) -> Option<Surprise> {
+        for (i, directive) in directives.iter().enumerate() {
+            let number = i + 1;
+            tell(&Event::Started { number, of: directives.len(), directive });
+            let begun = drive.time();
+            let mut leg = Leg::default();
+            let result =
+                directive.deeds().iter().try_for_each(|deed| self.perform(deed, drive, &mut leg));
+            leg.seconds = drive.time() - begun;
+            self.belief.pose = drive.pose().1;
+            if let Err(surprise) = result {
+                tell(&Event::Surprised { directive, surprise: &surprise, belief: &self.belief });
+                return Some(surprise);
+            }
+            tell(&Event::Finished { number, directive, belief: &self.belief, leg: &leg });
+        }
+        None
+    }
+
+    fn perform(
+        &mut self,
+        deed: &Deed,
+        drive: &mut dyn Drive,
+        leg: &mut Leg,
+    ) -> Result<(), Surprise> {
+        match deed {
+            Deed::GoToPlace(name) => {
+                let target = self.place_target(name)?;
+                self.go(name, target, &[self.belief.area], drive, leg)?;
+                self.belief.station = Station::Place(name.clone());
+            }
+            Deed::GoToDoor(name) => {
+                let (door, area) = (self.door(name)?, self.belief.area);
+                self.go(name, Target::Door { door, area }, &[area], drive, leg)?;
+                self.belief.station = Station::Door(name.clone());
+            }
+            Deed::Cross { door: name, into } => {
+                let door = self.door(name)?;
+                let into =
+                    self.entity(into, |e| if let Entity::Area(id) = e { Some(id) } else { None })?;
+                let areas = [self.belief.area, into];
+                self.go(name, Target::Door { door, area: into }, &areas, drive, leg)?;
+                self.belief.area = into;
+                self.belief.station = Station::Door(name.clone());
+            }
+            Deed::SetDoor { door, status } => self.set_door(door, *status, drive)?,
+            Deed::Take(name) => {
+                let thing = self.replica(name)?;
+                drive.take(thing).map_err(|r| refused(r, drive))?;
+                self.belief.pick_up(thing);
+            }
+            Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), drive)?,
+            Deed::HandOver { thing, person } => {
+                let held = self.held(thing)?;
+                drive.hand_over(held).map_err(|r| refused(r, drive))?;
+                let replica = self.belief.held.take().expect("checked by held()");
+                self.belief.handed_over.push((replica, person.clone()));
+            }
+        }
+        Ok(())
+    }
+
+    fn go(
+        &mut self,
+        name: &str,
+        target: Target,
+        areas: &[AreaId],
+        drive: &mut dyn Drive,
+        leg: &mut Leg,
+    ) -> Result<(), Surprise> {
+        let from = self.belief.pose.at;
+        let route = self
+            .belief
+            .floor
+            .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
+            .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
+        let driven = drive.follow(&route.points, route.heading);
+        leg.route = Some(route);
+        self.belief.pose = drive.pose().1;
+        driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+    }
+
+    fn set_door(
+        &mut self,
+        name: &str,
+        status: DoorStatus,
+        drive: &mut dyn Drive,
+    ) -> Result<(), Surprise> {
+        let door = self.door(name)?;
+        let state = match status {
+            DoorStatus::Open => DoorState::OPEN,
+            DoorStatus::Closed => DoorState::CLOSED,
+            DoorStatus::Locked => DoorState::LOCKED,
+        };
+        drive.set_door(door, state).map_err(|r| refused(r, drive))?;
+        self.belief.set_door(door, state);
+        Ok(())
+    }
+
+    fn put(
+        &mut self,
+        thing: &str,
+        onto: Option<&str>,
+        drive: &mut dyn Drive,
+    ) -> Result<(), Surprise> {
+        let held = self.held(thing)?;
+        let from = self.belief.pose;
+        let (area, frame) = match onto {
+            Some(name) => {
+                let support = self.replica(name)?;
+                // The thing is in the hand, not in the scene; its size is wanted, so it goes back for a moment.
+                let mut world = self.belief.world.clone();
+                let replica = self.belief.held.clone().expect("checked by held()");
+                world.replicas.insert(replica.id, replica);
+                let frame = spot_on(&world, self.belief.scene(), held, support, from.at)
+                    .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(support), seen: None })?;
+                (self.belief.world.replicas[&support].area, frame)
+            }
+            None => {
+                let frame = self.belief.scene().areas[&self.belief.area].frame;
+                let (at, heading) = (frame.invert(from.at), from.heading - frame.angle);
+                (self.belief.area, Frame::new(at.x, at.y, 0.0, heading))
+            }
+        };
+        drive.put(held, area, frame).map_err(|r| refused(r, drive))?;
+        self.belief.set_down(area, frame);
+        Ok(())
+    }
+
+    /// Changes the belief; false when the surprise says nothing that was not believed already.
+    fn learn(&mut self, surprise: &Surprise) -> bool {
+        match surprise {
+            Surprise::Blocked { seen: Some(seen), .. }
+            | Surprise::Refused { seen: Some(seen), .. } => {
+                // The robot stopped somewhere on its way; from here on that is its place.
+                self.name_this_point();
+                self.belief.learn(*seen)
+            }
+            Surprise::NoWay { to, .. } => {
+                let refuted = (self.belief.area, to.clone());
+                let news = !self.belief.unreachable.contains(&refuted);
+                self.belief.unreachable.push(refuted);
+                news
+            }
+            _ => false,
+        }
+    }
+
+    fn name_this_point(&mut self) {
+        let Some((area, _)) = self.belief.floor.locate(self.belief.pose.at) else { return };
+        self.belief.area = area;
+        let name = format!("Остановка-{}", self.belief.spots.len() + 1);
+        self.belief.spots.push(super::belief::Spot {
+            name: name.clone(),
+            area,
+            pose: self.belief.pose,
+        });
+        self.belief.station = Station::Place(name);
+    }
+
+    fn place_target(&self, name: &str) -> Result<Target, Surprise> {
+        if let Some(spot) = self.belief.spots.iter().find(|s| s.name == name) {
+            return Ok(Target::Point(spot.pose.at));
+        }
+        let place = self.places.iter().find(|p| p.name == name);
+        match place.map(|p| p.source) {
+            Some(PlaceSource::Named(id)) => Ok(Target::Place(id)),
+            Some(PlaceSource::Before(id)) => Ok(Target::Replica(id)),
+            Some(PlaceSource::Robot) | None => Err(Surprise::Unknown { name: name.to_owned() }),
+        }
+    }
+
+    fn door(&self, name: &str) -> Result<DoorId, Surprise> {
+        self.entity(name, |e| if let Entity::Door(id) = e { Some(id) } else { None })
+    }
+
+    fn replica(&self, name: &str) -> Result<ReplicaId, Surprise> {
+        self.entity(name, |e| if let Entity::Replica(id) = e { Some(id) } else { None })
+    }
+
+    fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Result<T, Surprise> {
+        self.belief.entity(name, pick).ok_or_else(|| Surprise::Unknown { name: name.to_owned() })
+    }
+
+    fn held(&self, name: &str) -> Result<ReplicaId, Surprise> {
+        self.belief
+            .held
+            .as_ref()
+            .filter(|r| r.name == name)
+            .map(|r| r.id)
+            .ok_or_else(|| Surprise::Unknown { name: name.to_owned() })
+    }
+}
+
+/// States a fact of the initial position, and what its arguments are.
+pub fn state(problem: &mut Problem, fact: &InitialFact) {
+    for argument in &fact.arguments {
+        problem.add_object(&argument.name, &[argument.kind]);
+    }
+    let args: Vec<&str> = fact.arguments.iter().map(|a| a.name.as_str()).collect();
+    if fact.assumed {
+        problem.add_assumption(fact.predicate, &args);
+    } else {
+        problem.add_fact(fact.predicate, &args);
+    }
+}
+
+fn refused(refusal: Refusal, drive: &dyn Drive) -> Surprise {
+    Surprise::Refused { refusal, seen: refusal.about().and_then(|what| drive.look_at(what)) }
+}
+
+/// Where the robot is when nothing else is known: the pose of the Map's starting place.
+#[must_use]
+pub fn starting_pose(world: &World) -> Option<(MapId, Pose)> {
+    let place = world.places.get(&world.robot.start?)?;
+    let (map, frame) = world.placement(place.area)?;
+    let heading = place.heading.unwrap_or_default() + frame.angle;
+    Some((map, Pose { at: frame.apply(place.at), heading }))
+}

@@ -1,0 +1,287 @@
+//! The simulated robot (X1): a disc that turns on the spot and drives straight, among the prisms and door
+//! leaves of a world of its own.
+//!
+//! That world is the truth; it may differ from the Map that a mission believes, and then the disc bumps.
+//! Collisions are found by casting the disc along each straight piece (exact between the end points, no time
+//! steps), independent of the free floor that the route was made from. Time is simulated; nothing is random,
+//! so a run repeats itself.
+
+use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
+use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
+use parry2d_f64::shape::{Ball, Segment};
+
+use crate::geometry::{
+    Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, nearest_on_segment,
+};
+use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+
+use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
+
+/// How far the arm reaches beyond the footprint, cm.
+const ARM_REACH: f64 = 90.0;
+/// Contacts shallower than this are rounding of coordinates, not bumps, cm.
+const SKIN: f64 = 0.01;
+
+/// One moment of a run; between two the robot moves evenly.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Moment {
+    /// Seconds since the start.
+    pub time: f64,
+    pub pose: Pose,
+}
+
+/// An edge that the disc must not touch.
+#[derive(Debug, Clone, Copy)]
+struct Edge {
+    a: Point,
+    b: Point,
+    of: Obstruction,
+}
+
+/// A disc-shaped robot in a world of its own.
+#[derive(Debug)]
+pub struct Simulator {
+    truth: World,
+    map: MapId,
+    profile: RobotProfile,
+    pose: Pose,
+    time: f64,
+    held: Option<Replica>,
+    edges: Vec<Edge>,
+    doorways: Vec<Doorway>,
+    trace: Vec<Moment>,
+}
+
+impl Simulator {
+    /// Puts the robot of `truth` down at a pose of one of its Maps.
+    #[must_use]
+    pub fn new(truth: World, map: MapId, pose: Pose) -> Self {
+        let profile = truth.robot.clone();
+        let mut simulator = Self {
+            truth,
+            map,
+            profile,
+            pose,
+            time: 0.0,
+            held: None,
+            edges: Vec::new(),
+            doorways: Vec::new(),
+            trace: vec![Moment { time: 0.0, pose }],
+        };
+        simulator.rebuild();
+        simulator
+    }
+
+    /// Every moment at which the motion changed.
+    #[must_use]
+    pub fn trace(&self) -> &[Moment] {
+        &self.trace
+    }
+
+    /// The world as it really is now.
+    #[must_use]
+    pub fn truth(&self) -> &World {
+        &self.truth
+    }
+
+    /// Edges of everything within the robot's height, walls and door leaves.
+    fn rebuild(&mut self) {
+        let scene = Scene::of(&self.truth, self.map);
+        let mut edges = Vec::new();
+        for prism in scene.areas.values().flat_map(|a| &a.prisms) {
+            let Owner::Area(area) = prism.owner else { continue };
+            for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
+                if side.permeability == Permeability::Impermeable {
+                    edges.push(Edge { a, b, of: Obstruction::Wall(area) });
+                }
+            }
+        }
+        for replica in scene.replicas.values() {
+            for prism in replica.prisms.iter().filter(|p| self.is_in_the_way(p)) {
+                edges.extend(edges_of(&prism.polygon, Obstruction::Replica(replica.id)));
+            }
+        }
+        let doorways = doorways(&self.truth, &scene, self.map);
+        for doorway in &doorways {
+            let Some(door) = doorway.door else { continue };
+            for leaf in self.leaves(doorway, door, self.truth.doors[&door].state) {
+                edges.extend(edges_of(&leaf, Obstruction::Door(door)));
+            }
+        }
+        self.edges = edges;
+        self.doorways = doorways;
+    }
+
+    fn leaves(&self, doorway: &Doorway, door: DoorId, state: DoorState) -> Vec<Polygon> {
+        doorway.leaf_obstacles(&self.truth.doors[&door], state)
+    }
+
+    fn is_in_the_way(&self, prism: &Prism) -> bool {
+        prism.bottom < self.profile.height.get() && prism.top > self.profile.step.get()
+    }
+
+    /// The first contact of the disc on its way from here to `goal`: how far it gets, and against what.
+    fn first_contact(&self, goal: Point) -> Option<(f64, Obstruction)> {
+        let way = goal - self.pose.at;
+        let length = way.norm();
+        let radius = self.profile.radius.get() - SKIN;
+        let swept = Bounds::of([self.pose.at, goal]).grown(radius);
+        let disc = Ball::new(radius);
+        let from = ShapePose::translation(self.pose.at.x, self.pose.at.y);
+        // Unit speed, so that time is distance.
+        let velocity = ShapeVector::new(way.x / length, way.y / length);
+        let options = ShapeCastOptions { max_time_of_impact: length, ..Default::default() };
+        self.edges
+            .iter()
+            .filter(|e| Bounds::of([e.a, e.b]).meets(&swept))
+            .filter_map(|e| {
+                let edge =
+                    Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
+                let hit = cast_shapes(
+                    &from,
+                    velocity,
+                    &disc,
+                    &ShapePose::identity(),
+                    ShapeVector::ZERO,
+                    &edge,
+                    options,
+                )
+                .expect("parry casts a ball against a segment")?;
+                Some((hit.time_of_impact, e.of))
+            })
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+    }
+
+    fn turn_to(&mut self, heading: Deg) {
+        let turn = (heading - self.pose.heading).signed().abs();
+        self.advance(turn / self.profile.turn_rate, Pose { heading, ..self.pose });
+    }
+
+    fn advance(&mut self, duration: f64, pose: Pose) {
+        self.time += duration;
+        self.pose = pose;
+        if duration > 0.0 {
+            self.trace.push(Moment { time: self.time, pose });
+        }
+    }
+
+    fn let_go(&mut self, thing: ReplicaId) -> Result<Replica, Refusal> {
+        let replica = self.held.take_if(|held| held.id == thing).ok_or(Refusal::NotHeld(thing))?;
+        self.advance(GRASP_TIME, self.pose);
+        Ok(replica)
+    }
+
+    fn reaches(&self, thing: ReplicaId) -> Result<bool, Refusal> {
+        let scene = Scene::of(&self.truth, self.map);
+        let placed = scene.replicas.get(&thing).ok_or(Refusal::NotThere(thing))?;
+        let nearest = Point::new(
+            self.pose.at.x.clamp(placed.bounds.min.x, placed.bounds.max.x),
+            self.pose.at.y.clamp(placed.bounds.min.y, placed.bounds.max.y),
+        );
+        Ok((nearest - self.pose.at).norm() <= self.profile.radius.get() + ARM_REACH)
+    }
+}
+
+impl Drive for Simulator {
+    fn pose(&self) -> (MapId, Pose) {
+        (self.map, self.pose)
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn follow(&mut self, path: &[Point], heading: Option<Deg>) -> Result<(), Bump> {
+        for &goal in path {
+            let way = goal - self.pose.at;
+            let length = way.norm();
+            if length < 1e-6 {
+                continue;
+            }
+            self.turn_to(Deg::from_radians(way.y.atan2(way.x)));
+            let contact = self.first_contact(goal);
+            let driven = contact.map_or(length, |(distance, _)| (distance - SKIN).max(0.0));
+            let at = self.pose.at + way * (driven / length);
+            self.advance(driven / self.profile.speed, Pose { at, ..self.pose });
+            if let Some((_, against)) = contact {
+                return Err(Bump { at: self.pose, against });
+            }
+        }
+        if let Some(heading) = heading {
+            self.turn_to(heading);
+        }
+        Ok(())
+    }
+
+    /// Only where the leaf ends up is checked: the arm that swings it moves the robot aside as needed.
+    fn set_door(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal> {
+        let Some(before) = self.truth.doors.get(&door).map(|d| d.state) else {
+            return Err(Refusal::DoorJammed(door));
+        };
+        if before.status == DoorStatus::Locked && state.status == DoorStatus::Open {
+            return Err(Refusal::Locked(door));
+        }
+        let near = |p: Point| (p - self.pose.at).norm() < self.profile.radius.get() - SKIN;
+        let jammed = self
+            .doorways
+            .iter()
+            .filter(|d| d.door == Some(door))
+            .flat_map(|d| self.leaves(d, door, state))
+            .any(|leaf| leaf.edges().any(|(a, b)| near(nearest_on_segment(self.pose.at, a, b))));
+        if jammed {
+            return Err(Refusal::DoorJammed(door));
+        }
+        self.truth.doors.get_mut(&door).expect("found above").state = state;
+        self.rebuild();
+        self.advance(DOOR_TIME, self.pose);
+        Ok(())
+    }
+
+    fn take(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
+        if let Some(held) = &self.held {
+            return Err(Refusal::HandFull(held.id));
+        }
+        if !self.reaches(thing)? {
+            return Err(Refusal::OutOfReach(thing));
+        }
+        self.held = self.truth.replicas.remove(&thing);
+        self.rebuild();
+        self.advance(GRASP_TIME, self.pose);
+        Ok(())
+    }
+
+    fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame) -> Result<(), Refusal> {
+        let replica = self.let_go(thing)?;
+        self.truth.replicas.insert(thing, Replica { area, frame, ..replica });
+        self.rebuild();
+        Ok(())
+    }
+
+    fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
+        self.let_go(thing).map(|_| ())
+    }
+
+    fn look_at(&self, what: Obstruction) -> Option<Sighting> {
+        match what {
+            Obstruction::Wall(_) => None,
+            Obstruction::Door(door) => {
+                self.truth.doors.get(&door).map(|d| Sighting::Door { door, state: d.state })
+            }
+            Obstruction::Replica(replica) => self
+                .truth
+                .replicas
+                .get(&replica)
+                .map(|r| Sighting::Replica { replica, area: r.area, frame: r.frame }),
+        }
+    }
+}
+
+/// Seconds to swing or lock a door.
+const DOOR_TIME: f64 = 4.0;
+/// Seconds to take a thing or to let it go.
+const GRASP_TIME: f64 = 5.0;
+
+fn edges_of(polygon: &Polygon, of: Obstruction) -> impl Iterator<Item = Edge> + '_ {
+    polygon.edges().map(move |(a, b)| Edge { a, b, of })
+}

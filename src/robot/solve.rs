@@ -1,0 +1,63 @@
+//! A planning problem solved, with all that a person wants to know of the answer.
+
+use crate::graphplan::{self, Limit, Limits, NoPlanReason, Outcome};
+use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachable, ground};
+
+/// What planning came to, with the task that it was about.
+#[derive(Debug, Clone)]
+pub struct Solved {
+    pub task: Task,
+    pub outcome: Outcome,
+    /// The assumptions that the plan rests on, in the words of the rule files.
+    pub assumptions: Vec<String>,
+    /// Why there is no plan; none when there is one.
+    pub explanation: Option<String>,
+}
+
+/// Grounds a problem and finds the plan with the fewest parallel steps, or why there is none.
+///
+/// # Errors
+/// The problem names what the rules do not know.
+pub fn solve(domain: &Domain, problem: &Problem, limits: &Limits) -> Result<Solved, RuleFaults> {
+    let task = ground(domain, problem)?;
+    let outcome = graphplan::solve(&task, limits);
+    let assumptions = match &outcome {
+        Outcome::Plan(plan) => {
+            plan.assumptions(&task).iter().map(|&f| task.fact(f).to_string()).collect()
+        }
+        _ => Vec::new(),
+    };
+    let explanation = explain(domain, problem, &task, &outcome)?;
+    Ok(Solved { task, outcome, assumptions, explanation })
+}
+
+fn explain(
+    domain: &Domain,
+    problem: &Problem,
+    task: &Task,
+    outcome: &Outcome,
+) -> Result<Option<String>, RuleFaults> {
+    let fact = |id: FactId| task.fact(id).to_string();
+    Ok(Some(match outcome {
+        Outcome::Plan(_) => return Ok(None),
+        Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } => {
+            let goals = facts.iter().map(|&id| task.fact(id));
+            let obstacles = explain_unreachable(domain, problem, goals)?;
+            obstacles.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+        }
+        Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
+            let pairs: Vec<String> =
+                pairs.iter().map(|&(a, b)| format!("{} и {}", fact(a), fact(b))).collect();
+            format!("цели исключают друг друга: {}", pairs.join("; "))
+        }
+        Outcome::NoPlan { reason: NoPlanReason::Together(facts), .. } => {
+            let facts: Vec<String> = facts.iter().map(|&id| fact(id)).collect();
+            format!("цели недостижимы все вместе: {}", facts.join(", "))
+        }
+        Outcome::LimitReached(Limit::Time) => "время вышло раньше, чем нашёлся план".to_owned(),
+        Outcome::LimitReached(Limit::Memory) => "память вышла раньше, чем нашёлся план".to_owned(),
+        Outcome::LimitReached(Limit::Steps) => {
+            "плана нет в пределах наибольшего числа шагов".to_owned()
+        }
+    }))
+}

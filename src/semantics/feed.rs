@@ -1,0 +1,333 @@
+//! Measurements as rows of the input relations that `rules/relations.dl` declares.
+//!
+//! Two kinds of rows: those of things, which one moved replica changes, and those of the world beneath them – Areas,
+//! openings, parts, properties – which it does not.
+
+use std::sync::Arc;
+
+use crate::facts::Value;
+use crate::geometry::contact::extent;
+use crate::map::{DoorState, DoorStatus, Entity, Permeability, World};
+use crate::units::{Cm, ReplicaId, Vector};
+
+use super::body::{Block, Kind};
+use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
+use super::names::{Subject, Symbols};
+use super::openings::Opening;
+
+/// A value of a row.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Cell<'a> {
+    /// The name of something in the world.
+    Name(&'a Arc<str>),
+    Word(&'a str),
+    Number(i64),
+}
+
+impl From<Cell<'_>> for Value {
+    fn from(cell: Cell<'_>) -> Self {
+        match cell {
+            Cell::Name(name) => Self::Symbol(Arc::clone(name)),
+            Cell::Word(word) => Self::from(word),
+            Cell::Number(number) => Self::Number(number),
+        }
+    }
+}
+
+/// Takes the rows: relation, values.
+pub(super) trait Sink {
+    fn row(&mut self, relation: &'static str, cells: &[Cell<'_>]);
+}
+
+impl<F: FnMut(&'static str, &[Cell<'_>])> Sink for F {
+    fn row(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
+        self(relation, cells);
+    }
+}
+
+macro_rules! row {
+    ($sink:expr, $relation:literal, $($cell:expr),+ $(,)?) => {
+        $sink.row($relation, &[$(Cell::from($cell)),+])
+    };
+}
+
+impl<'a> From<&'a str> for Cell<'a> {
+    fn from(symbol: &'a str) -> Self {
+        Cell::Word(symbol)
+    }
+}
+
+impl<'a> From<&'a Arc<str>> for Cell<'a> {
+    fn from(name: &'a Arc<str>) -> Self {
+        Cell::Name(name)
+    }
+}
+
+impl<'a> From<&'a String> for Cell<'a> {
+    fn from(symbol: &'a String) -> Self {
+        Cell::Word(symbol)
+    }
+}
+
+impl From<i64> for Cell<'_> {
+    fn from(number: i64) -> Self {
+        Cell::Number(number)
+    }
+}
+
+/// What rows need to know to be written.
+#[derive(Clone, Copy)]
+pub(super) struct Feed<'a> {
+    pub(super) world: &'a World,
+    pub(super) symbols: &'a Symbols,
+    pub(super) measured: &'a Measurements,
+}
+
+impl Feed<'_> {
+    /// All rows of all things.
+    pub(super) fn things(&self, sink: &mut impl Sink) {
+        for (&id, single) in &self.measured.singles {
+            self.single(id, single, sink);
+        }
+        for (&key, pair) in &self.measured.pairs {
+            self.pair(key, pair, sink);
+        }
+    }
+
+    pub(super) fn single(&self, id: ReplicaId, single: &Single, sink: &mut impl Sink) {
+        let x = self.symbols.replica(id);
+        let (kind, fragment) =
+            (self.symbols.object(single.object), self.symbols.area(single.fragment));
+        row!(sink, "replica", x, i64::from(id.0), kind, fragment, i64::from(single.move_prob));
+        let Single { bottom, top, thin, mean_size, base, .. } = *single;
+        row!(sink, "body", x, bottom, top, thin, mean_size, base);
+        match single.place {
+            Located::In { area, above_floor, below_ceiling } => {
+                row!(sink, "standing_in", x, self.symbols.area(area), above_floor, below_ceiling);
+            }
+            Located::Out { fragment, distance } => {
+                row!(sink, "off_area", x, self.symbols.area(fragment), distance);
+            }
+            Located::Nowhere => {}
+        }
+    }
+
+    pub(super) fn pair(&self, key: (ReplicaId, ReplicaId), pair: &Pair, sink: &mut impl Sink) {
+        let (a, b) = (self.symbols.replica(key.0), self.symbols.replica(key.1));
+        if pair.distance <= self.measured.reach().distance {
+            row!(sink, "distance", a, b, pair.distance);
+        }
+        if let Some(beside) = &pair.beside {
+            row!(sink, "beside", a, b, pair.distance, pair.level, beside.facing);
+            for (third, &share) in &beside.between {
+                let third = match third {
+                    Between::Replica(id) => self.symbols.replica(*id),
+                    Between::Wall(area) => self.symbols.area(*area),
+                };
+                row!(sink, "between", a, b, third, share);
+            }
+        }
+        self.directed(a, key.1, pair, &pair.first, sink);
+        self.directed(b, key.0, pair, &pair.second, sink);
+    }
+
+    /// `a` against the thing `b`.
+    fn directed(
+        &self,
+        a: &Arc<str>,
+        b: ReplicaId,
+        pair: &Pair,
+        found: &Directed,
+        sink: &mut impl Sink,
+    ) {
+        let object = &self.world.objects[&self.world.replicas[&b].object];
+        let part = |block: usize| self.symbols.part(object.items[block].orthoframe);
+        let face = |solid: bool| if solid { "solid" } else { "open" };
+        let to = self.symbols.replica(b);
+        for o in &found.over {
+            let centred = i64::from(o.centred);
+            row!(
+                sink,
+                "over",
+                a,
+                to,
+                part(o.block),
+                face(o.solid),
+                o.gap,
+                o.share,
+                centred,
+                o.lift
+            );
+        }
+        for u in &found.below {
+            row!(sink, "below", a, to, part(u.block), face(u.solid), u.gap, u.share);
+        }
+        for w in &found.within {
+            let hold = w.block.map_or_else(|| self.symbols.object(object.id), part);
+            let opening = match w.opening {
+                Into::Container => "container",
+                Into::Hollow => "hollow",
+                Into::OpenTop => "open top",
+            };
+            row!(
+                sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.held
+            );
+        }
+        if let Some(bearing) = found.bearing {
+            row!(sink, "sector", a, to, bearing, pair.distance, pair.level);
+        }
+    }
+
+    /// Everything but the things: Areas, openings, parts, properties, the robot.
+    pub(super) fn ground(&self, openings: &[Opening], sink: &mut impl Sink) {
+        for room in self.measured.rooms.values() {
+            let map = self.symbols.symbol(Subject::Entity(Entity::Map(room.map)));
+            row!(sink, "area", self.symbols.area(room.id), map);
+        }
+        for object in self.world.objects.values() {
+            let entry = self.world.types.object.get(object.object_type);
+            for is in entry.iter().flat_map(|t| &t.traits) {
+                row!(sink, "kind_trait", self.symbols.object(object.id), is);
+            }
+        }
+        let robot = &self.world.robot;
+        let width = (robot.radius + robot.clearance) * 2.0;
+        row!(sink, "robot", width.to_tenths_mm(), robot.height.to_tenths_mm());
+        self.openings(openings, sink);
+        self.parts(sink);
+        self.properties(sink);
+    }
+
+    fn openings(&self, openings: &[Opening], sink: &mut impl Sink) {
+        let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
+        for o in openings {
+            let name = &o.name;
+            let kind = if o.permeability == Permeability::Conditional { "door" } else { "passage" };
+            row!(sink, "opening", name, kind, tenths(o.width), tenths(o.height));
+            // Of a door that the Map does not describe nothing is known, least of all that it stands open.
+            if o.door.is_some() || o.permeability == Permeability::Permeable {
+                row!(sink, "clear_width", name, tenths(o.clear_width));
+            }
+            row!(sink, "mounts", name, self.symbols.area(o.area));
+            if let Some(other) = o.linked {
+                let (low, high) = (o.area.min(other), o.area.max(other));
+                row!(sink, "links", name, self.symbols.area(low), self.symbols.area(high));
+            }
+            for (side, found) in [("inward", o.inward), ("outward", o.outward)] {
+                if let Some((area, way)) = found {
+                    row!(sink, "step", name, side, self.symbols.area(area), tenths(way));
+                }
+            }
+            if let Some(state) = o.door.map(|d| self.world.doors[&d].state) {
+                row!(sink, "door_state", name, status_word(state), state.opening.round() as i64);
+            }
+        }
+    }
+
+    fn parts(&self, sink: &mut impl Sink) {
+        for object in self.world.objects.values() {
+            let whole = self.symbols.object(object.id);
+            for item in &object.items {
+                row!(sink, "part", self.symbols.part(item.orthoframe), whole, "object");
+            }
+            let Some(kind) = self.measured.kind(object.id) else { continue };
+            for (item, block) in object.items.iter().zip(&kind.blocks) {
+                let part = self.symbols.part(item.orthoframe);
+                for (axis, (low, high)) in spans(kind, block) {
+                    row!(sink, "part_along", part, whole, "object", axis, low, high);
+                }
+            }
+        }
+        for area in self.world.areas.values() {
+            let whole = self.symbols.area(area.id);
+            for item in &area.items {
+                row!(sink, "part", self.symbols.part(item.orthoframe), whole, "area");
+            }
+            let Some(room) = self.measured.rooms.get(&area.id) else { continue };
+            let low = room.parts.iter().map(|p| p.1).fold(f64::INFINITY, f64::min);
+            let high = room.parts.iter().map(|p| p.2).fold(f64::NEG_INFINITY, f64::max);
+            for (item, (_, bottom, top)) in area.items.iter().zip(&room.parts) {
+                let part = self.symbols.part(item.orthoframe);
+                if let Some((from, to)) = share_of((*bottom, *top), (low, high)) {
+                    row!(sink, "part_along", part, whole, "area", "height", from, to);
+                }
+            }
+        }
+    }
+
+    fn properties(&self, sink: &mut impl Sink) {
+        let world = self.world;
+        let objects = world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
+        let areas = world.areas.values().map(|a| (self.symbols.area(a.id), &a.properties));
+        let replicas = world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
+        let doors = world.doors.values().map(|d| (self.symbols.door(d.id), &d.properties));
+        let frames = world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
+        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames)
+        {
+            for (name, value) in properties {
+                row!(sink, "property", symbol, name, value);
+            }
+        }
+        for door in world.doors.values().filter(|d| !d.leaves.is_empty()) {
+            if !door.properties.contains_key("СОСТОЯНИЕ") {
+                let state = state_word(door.state);
+                row!(sink, "property", self.symbols.door(door.id), "СОСТОЯНИЕ", state);
+            }
+        }
+        for replica in world.replicas.values() {
+            let mounts = &world.objects[&replica.object].doors;
+            let states = mounts.iter().filter_map(|m| {
+                let own = replica.door_states.get(&m.door).copied();
+                own.or_else(|| world.doors.get(&m.door).map(|d| d.state))
+            });
+            // A wardrobe with one door open stands open.
+            let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
+            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ"))
+            {
+                let x = self.symbols.replica(replica.id);
+                row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
+            }
+        }
+    }
+}
+
+fn status_word(state: DoorState) -> &'static str {
+    match state.status {
+        DoorStatus::Open => "open",
+        DoorStatus::Closed => "closed",
+        DoorStatus::Locked => "locked",
+    }
+}
+
+fn state_word(state: DoorState) -> &'static str {
+    match state.status {
+        DoorStatus::Open => "Открыто",
+        DoorStatus::Closed => "Закрыто",
+        DoorStatus::Locked => "Заперто",
+    }
+}
+
+/// Where a part lies within its Object, per mille, along height, depth (towards the front) and width (towards the left).
+fn spans(kind: &Kind, block: &Block) -> Vec<(&'static str, (i64, i64))> {
+    let low = kind.blocks.iter().map(|b| b.bottom).fold(f64::INFINITY, f64::min);
+    let high = kind.blocks.iter().map(|b| b.top).fold(f64::NEG_INFINITY, f64::max);
+    let along = |way: Vector| {
+        let corners = &block.widest().polygon.corners;
+        share_of(extent(corners, way), kind.extent_along(way))
+    };
+    let depth = kind.front.and_then(along);
+    let width = kind.front.map(|f| Vector::new(-f.y, f.x)).and_then(along);
+    [
+        ("height", share_of((block.bottom, block.top), (low, high))),
+        ("depth", depth),
+        ("width", width),
+    ]
+    .into_iter()
+    .filter_map(|(axis, span)| Some((axis, span?)))
+    .collect()
+}
+
+fn share_of((low, high): (f64, f64), (from, to): (f64, f64)) -> Option<(i64, i64)> {
+    let share = |v: f64| ((v - from) / (to - from) * 1000.0).round() as i64;
+    (to - from > 1e-6).then(|| (share(low), share(high)))
+}

@@ -1,0 +1,414 @@
+//! Map and state as the initial facts of a planning problem (paper 1 §8; SPEC P5).
+//!
+//! The predicates are those that the head of `rules/service-robot.strips` asks the Map for. A scenario names only what
+//! the Map cannot know. Plain data: predicate, arguments with their types, and whether it is a fact or an assumption.
+//!
+//! **Invariant:** a place serves an object that the robot reaches from it; what has no such place is not spoken of.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::map::{DoorKind, DoorStatus, World};
+use crate::units::{AreaId, PlaceId, ReplicaId};
+
+use super::measure::Located;
+use super::relations::Relations;
+
+/// Things whose base is this near to the floor stand on it, in tenths of a millimetre: one can step up to them.
+const ON_FLOOR: i64 = 800;
+
+/// One argument of a fact, with its type in the rule file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Argument {
+    pub name: String,
+    pub kind: &'static str,
+}
+
+/// A fact of the initial position.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct InitialFact {
+    pub predicate: &'static str,
+    pub arguments: Vec<Argument>,
+    /// Holds until it is observed otherwise (SPEC P2).
+    pub assumed: bool,
+}
+
+/// What stands behind the name of a place in a plan.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PlaceSource {
+    Named(PlaceId),
+    /// Before this thing, wherever the robot can stand.
+    Before(ReplicaId),
+    /// Where the robot is now.
+    Robot,
+}
+
+/// A place that a plan may send the robot to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct PlanPlace {
+    pub name: String,
+    pub area: AreaId,
+    pub source: PlaceSource,
+}
+
+/// Where the robot is, as far as a plan cares.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum RobotAt {
+    Place(PlaceId),
+    Before(ReplicaId),
+    /// At a door, named as [`Relations`] names it, on the side of the robot's Area.
+    Door(String),
+    /// At no place with a name.
+    Elsewhere,
+}
+
+/// The part of the state that the Map does not hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RobotState {
+    pub area: AreaId,
+    pub at: RobotAt,
+    pub holds: Option<ReplicaId>,
+}
+
+/// The initial position of a planning problem.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Initial {
+    /// Sorted, distinct.
+    pub facts: Vec<InitialFact>,
+    pub places: Vec<PlanPlace>,
+}
+
+/// Name of the place where the robot stands when it stands at no named one.
+pub const ROBOT_PLACE: &str = "Место-робота";
+
+/// Facts for a plan from the Map as it is.
+#[must_use]
+pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
+    let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
+    writer.doors();
+    writer.named_places();
+    writer.things(state.holds);
+    writer.robot(state);
+    Initial {
+        facts: writer.facts.into_iter().collect(),
+        places: writer
+            .places
+            .into_iter()
+            .map(|(name, (area, source))| PlanPlace { name, area, source })
+            .collect(),
+    }
+}
+
+const ROOM: &str = "помещение";
+const DOOR: &str = "дверь";
+const PLACE: &str = "место";
+const ITEM: &str = "предмет";
+const OBJECT: &str = "объект";
+const PERSON: &str = "человек";
+
+struct Writer<'a> {
+    world: &'a World,
+    relations: &'a Relations,
+    facts: BTreeSet<InitialFact>,
+    places: BTreeMap<String, (AreaId, PlaceSource)>,
+}
+
+impl Writer<'_> {
+    fn fact(&mut self, predicate: &'static str, arguments: &[(&str, &'static str)]) {
+        self.insert(predicate, arguments, false);
+    }
+
+    fn insert(
+        &mut self,
+        predicate: &'static str,
+        arguments: &[(&str, &'static str)],
+        assumed: bool,
+    ) {
+        let arguments = arguments
+            .iter()
+            .map(|&(name, kind)| Argument { name: name.to_owned(), kind })
+            .collect();
+        self.facts.insert(InitialFact { predicate, arguments, assumed });
+    }
+
+    fn doors(&mut self) {
+        for join in self.relations.joins() {
+            let (from, to) = (self.area(join.from), self.area(join.to));
+            self.fact("ДВЕРЬ_НАХОДИТСЯ-В_", &[(&join.opening, DOOR), (&from, ROOM)]);
+            let door = join.door.and_then(|d| self.world.doors.get(&d));
+            let leafed = door.filter(|d| d.kind != DoorKind::Passage && !d.leaves.is_empty());
+            if leafed.is_some() {
+                self.fact("ДВЕРЬ_ИМЕЕТ-СТВОРКУ_", &[(&join.opening, DOOR)]);
+            }
+            let predicate = match leafed.map(|d| d.state.status) {
+                None | Some(DoorStatus::Open) => "ДВЕРЬ_ИЗ_В_ОТКРЫТА_",
+                Some(DoorStatus::Closed) => "ДВЕРЬ_ИЗ_В_ЗАКРЫТА_",
+                Some(DoorStatus::Locked) => "ДВЕРЬ_ИЗ_В_ЗАПЕРТА_",
+            };
+            let arguments =
+                [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
+            self.insert(predicate, &arguments, true);
+        }
+    }
+
+    fn named_places(&mut self) {
+        for place in self.world.places.values() {
+            let name = self.relations.symbols().place(place.id).to_string();
+            self.place(name, place.area, PlaceSource::Named(place.id));
+        }
+    }
+
+    fn place(&mut self, name: String, area: AreaId, source: PlaceSource) {
+        let room = self.area(area);
+        self.fact("ПОЗИЦИЯ_НАХОДИТСЯ-В_", &[(&name, PLACE), (&room, ROOM)]);
+        self.places.insert(name, (area, source));
+    }
+
+    /// Places by things, things on things, things on the floor, keys, people.
+    fn things(&mut self, held: Option<ReplicaId>) {
+        for (&id, replica) in &self.world.replicas {
+            if held == Some(id) {
+                continue;
+            }
+            let Some(area) = self.relations.area_of(id) else { continue };
+            let name = self.relations.symbols().replica(id).to_string();
+            let chain = self.supports(id);
+            let root = chain.last().copied().unwrap_or(id);
+            if self.is(id, "person") {
+                for place in self.places_of(root, area) {
+                    self.fact("ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PERSON), (&place, PLACE)]);
+                }
+            } else if self.is(id, "portable") {
+                self.portable(id, &name, &chain, root, area);
+            } else {
+                for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
+                    self.fact("ПОЗИЦИЯ_НАХОДИТСЯ-У_", &[(&place, PLACE), (&name, OBJECT)]);
+                }
+            }
+            if let Some(door) = replica.properties.get("КЛЮЧ_ОТ") {
+                self.fact("КЛЮЧ_ПОДХОДИТ-К_", &[(&name, ITEM), (door, DOOR)]);
+            }
+        }
+    }
+
+    fn portable(
+        &mut self,
+        id: ReplicaId,
+        name: &str,
+        chain: &[ReplicaId],
+        root: ReplicaId,
+        area: AreaId,
+    ) {
+        if self.relations.bears_something(id) {
+            return;
+        }
+        // On a plate on the table is on the table: the plate itself may be carried away.
+        match chain.iter().find(|&&s| !self.is(s, "portable")) {
+            Some(&support) => {
+                let on = self.relations.symbols().replica(support).to_string();
+                self.fact("ПРЕДМЕТ_НАХОДИТСЯ-НА_", &[(name, ITEM), (&on, OBJECT)]);
+            }
+            None => {
+                for place in self.places_of(root, area) {
+                    self.fact("ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(name, ITEM), (&place, PLACE)]);
+                }
+            }
+        }
+    }
+
+    /// What a thing stands on or lies in, from below it down to what stands on the floor or hangs by itself.
+    fn supports(&self, id: ReplicaId) -> Vec<ReplicaId> {
+        let mut chain = Vec::new();
+        let mut at = id;
+        while !self.on_floor(at)
+            && let Some(next) = self.relations.support_of(at)
+            && next != id
+            && !chain.contains(&next)
+        {
+            chain.push(next);
+            at = next;
+        }
+        chain
+    }
+
+    fn on_floor(&self, id: ReplicaId) -> bool {
+        let single = self.relations.measurements().singles.get(&id);
+        single.is_some_and(
+            |s| matches!(s.place, Located::In { above_floor, .. } if above_floor <= ON_FLOOR),
+        )
+    }
+
+    /// The places that serve a thing, or the one before it.
+    fn places_of(&mut self, root: ReplicaId, area: AreaId) -> Vec<String> {
+        let serving: Vec<String> = self
+            .world
+            .places
+            .values()
+            .filter(|p| p.serves == Some(root))
+            .map(|p| self.relations.symbols().place(p.id).to_string())
+            .collect();
+        if !serving.is_empty() {
+            return serving;
+        }
+        let thing = self.relations.symbols().replica(root);
+        // What can be carried is no place by its own name: a name has one type in a rule file.
+        let name = if self.is(root, "portable") || self.is(root, "person") {
+            format!("Место-у-{thing}")
+        } else {
+            thing.to_string()
+        };
+        if !self.places.contains_key(&name) {
+            self.place(name.clone(), area, PlaceSource::Before(root));
+        }
+        vec![name]
+    }
+
+    fn robot(&mut self, state: &RobotState) {
+        let room = self.area(state.area);
+        self.fact("РОБОТ-НАХОДИТСЯ-В_", &[(&room, ROOM)]);
+        match &state.at {
+            RobotAt::Door(door) => self.fact("РОБОТ-НАХОДИТСЯ-У-ДВЕРИ_", &[(door, DOOR)]),
+            RobotAt::Place(id) => {
+                let name = self.relations.symbols().place(*id).to_string();
+                self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PLACE)]);
+            }
+            RobotAt::Before(id) => {
+                for name in self.places_of(*id, state.area).into_iter().take(1) {
+                    self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PLACE)]);
+                }
+            }
+            RobotAt::Elsewhere => {
+                self.place(ROBOT_PLACE.to_owned(), state.area, PlaceSource::Robot);
+                self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(ROBOT_PLACE, PLACE)]);
+            }
+        }
+        match state.holds {
+            Some(id) => {
+                let name = self.relations.symbols().replica(id).to_string();
+                self.fact("РОБОТ-ДЕРЖИТ_", &[(&name, ITEM)]);
+            }
+            None => self.fact("РУКА-СВОБОДНА_", &[]),
+        }
+    }
+
+    fn area(&self, id: AreaId) -> String {
+        self.relations.symbols().area(id).to_string()
+    }
+
+    fn is(&self, id: ReplicaId, wanted: &str) -> bool {
+        let object = &self.world.objects[&self.world.replicas[&id].object];
+        self.world.types.object.has_trait(object.object_type, wanted)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::map::Format;
+    use crate::semantics::{Profile, RelationRules, derive};
+    use crate::units::Source;
+
+    const HOME: &str = r#"
+format = 1
+[type]
+object = [{ name = "Мебель" }, { name = "Вещь", traits = ["portable"] }]
+[orthoframe]
+floor-a = { name = "Пол А", height = 270, points = [[0, 0], [300, 0], [300, 100], [300, 200], [300, 400], [200, 400], [100, 400], [0, 400]], side.C = { permeability = "conditional" }, side.F = { permeability = "permeable" } }
+floor-b = { name = "Пол Б", height = 270, points = [[0, 0], [300, 0], [300, 400], [0, 400], [0, 200], [0, 100]], side.E = { permeability = "conditional" } }
+floor-c = { name = "Пол В", height = 270, points = [[0, 0], [100, 0], [200, 0], [300, 0], [300, 200], [0, 200]], side.B = { permeability = "permeable" } }
+cube = { name = "Куб", rect = [60, 40], height = 50 }
+small = { name = "Кубик", rect = [8, 8], height = 5 }
+[object]
+stand = { name = "Тумба", type = "Мебель", items = [{ id = "A", orthoframe = "cube" }] }
+thing = { name = "Вещь", type = "Вещь", items = [{ id = "A", orthoframe = "small" }] }
+[door.ab]
+name = "Дверь-АБ"
+kind = "hinged"
+width = 100
+height = 200
+leaves = [{ hinge = "left", share = 1, thickness = 4, max_open = 90 }]
+state = "closed"
+[area.a]
+name = "А"
+items = [{ id = "A", orthoframe = "floor-a" }]
+doors = [{ side = "C", door = "ab", opens = "inside" }]
+places = [{ name = "Точка", at = [150, 150] }]
+replicas = [
+  { name = "Ключ", object = "thing", at = [200, 300], properties = { "КЛЮЧ_ОТ" = "Дверь-АБ" } },
+]
+[area.b]
+name = "Б"
+items = [{ id = "A", orthoframe = "floor-b" }]
+doors = [{ side = "E", door = "ab", opens = "outside" }]
+places = [{ name = "У тумбы", at = [150, 150], serves = "Тумба-1" }]
+replicas = [
+  { name = "Тумба-1", object = "stand", at = [100, 300] },
+  { name = "Тумба-2", object = "stand", at = [200, 300] },
+  { name = "Лекарство", object = "thing", at = [110, 310, 50] },
+  { name = "Поднос", object = "thing", at = [210, 310, 50] },
+  { name = "Пилюля", object = "thing", at = [210, 310, 55] },
+]
+[area.c]
+name = "В"
+items = [{ id = "A", orthoframe = "floor-c" }]
+[map.flat]
+name = "Карта"
+items = [{ area = "a" }, { area = "b", at = [300, 0] }, { area = "c", at = [0, 400] }]
+links = [{ from = "a.C", to = "b.E" }, { from = "a.F", to = "c.B" }]
+"#;
+
+    fn check(state: impl Fn(&World) -> RobotState, expected: &Expect) {
+        let world = World::parse(&Source::new("дом.toml", HOME), Format::Toml)
+            .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+        let relations =
+            derive(&world, &RelationRules::standard(), Profile::Surveyed).expect("rules end");
+        let lines: Vec<String> = initial(&world, &relations, &state(&world))
+            .facts
+            .iter()
+            .map(|f| {
+                let arguments: Vec<String> =
+                    f.arguments.iter().map(|a| format!("{} {}", a.kind, a.name)).collect();
+                let mark = if f.assumed { "?" } else { "" };
+                format!("{}({}){mark}\n", f.predicate, arguments.join(", "))
+            })
+            .collect();
+        expected.assert_eq(&lines.concat());
+    }
+
+    fn at_point(world: &World) -> RobotState {
+        let place = world.places.values().next().expect("the first place is in А");
+        RobotState { area: place.area, at: RobotAt::Place(place.id), holds: None }
+    }
+
+    #[test]
+    fn the_map_says_what_a_plan_needs() {
+        check(
+            at_point,
+            &expect![[r#"
+            ДВЕРЬ_ИЗ_В_ЗАКРЫТА_(дверь Дверь-АБ, помещение А, помещение Б)?
+            ДВЕРЬ_ИЗ_В_ЗАКРЫТА_(дверь Дверь-АБ, помещение Б, помещение А)?
+            ДВЕРЬ_ИЗ_В_ОТКРЫТА_(дверь Проход-А-В, помещение А, помещение В)?
+            ДВЕРЬ_ИЗ_В_ОТКРЫТА_(дверь Проход-А-В, помещение В, помещение А)?
+            ДВЕРЬ_ИМЕЕТ-СТВОРКУ_(дверь Дверь-АБ)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Дверь-АБ, помещение А)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Дверь-АБ, помещение Б)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Проход-А-В, помещение А)
+            ДВЕРЬ_НАХОДИТСЯ-В_(дверь Проход-А-В, помещение В)
+            КЛЮЧ_ПОДХОДИТ-К_(предмет Ключ, дверь Дверь-АБ)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Место-у-Ключ, помещение А)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Точка, помещение А)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место Тумба-2, помещение Б)
+            ПОЗИЦИЯ_НАХОДИТСЯ-В_(место У тумбы, помещение Б)
+            ПОЗИЦИЯ_НАХОДИТСЯ-У_(место Тумба-2, объект Тумба-2)
+            ПОЗИЦИЯ_НАХОДИТСЯ-У_(место У тумбы, объект Тумба-1)
+            ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ_(предмет Ключ, место Место-у-Ключ)
+            ПРЕДМЕТ_НАХОДИТСЯ-НА_(предмет Лекарство, объект Тумба-1)
+            ПРЕДМЕТ_НАХОДИТСЯ-НА_(предмет Пилюля, объект Тумба-2)
+            РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(место Точка)
+            РОБОТ-НАХОДИТСЯ-В_(помещение А)
+            РУКА-СВОБОДНА_()
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,296 @@
+//! Where a pose is, in terms that people use (SPEC T4): data for a report, the words are made elsewhere.
+//!
+//! The Area first, then the strongest of: in the doorway, at the door, next to an object that is the only one of its
+//! kind there, in the corner, along the wall, in the middle.
+
+use crate::geometry::contact::Footprint;
+use crate::map::{Permeability, World};
+use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Vector};
+
+use super::measure::{Located, Measurements};
+use super::openings::{Opening, joins_own_items, outward_normal};
+use crate::geometry::nearest_on_segment;
+
+/// Distances, in cm from the robot's middle, that decide between the descriptions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Nearness {
+    /// In the doorway: this near to the line of the door, or within the thickness of its wall.
+    pub doorway: f64,
+    pub door: f64,
+    pub object: f64,
+    pub wall: f64,
+    /// The thickest wall through which a doorway leads.
+    pub wall_thickness: f64,
+}
+
+impl Default for Nearness {
+    fn default() -> Self {
+        Self { doorway: 15.0, door: 130.0, object: 70.0, wall: 70.0, wall_thickness: 60.0 }
+    }
+}
+
+/// A door or passage as a report speaks of it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Way {
+    /// None for a passage without a name.
+    pub door: Option<DoorId>,
+    /// A passage has nothing to open.
+    pub is_passage: bool,
+    pub from: AreaId,
+    /// None when the Map does not know what lies behind.
+    pub to: Option<AreaId>,
+}
+
+/// The strongest thing to say of a position.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Spot {
+    InDoorway(Way),
+    AtDoor { way: Way, distance: f64 },
+    NextTo { replica: ReplicaId, distance: f64 },
+    InCorner,
+    AlongWall,
+    InMiddle,
+}
+
+/// A pose put into terms.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Whereabouts {
+    pub area: AreaId,
+    pub spot: Spot,
+    pub heading: Deg,
+}
+
+/// Describes a pose on a Map; none when it is in no Area and in no doorway.
+#[must_use]
+pub fn whereabouts(
+    world: &World,
+    measured: &Measurements,
+    openings: &[Opening],
+    map: MapId,
+    pose: &Pose,
+    near: &Nearness,
+) -> Option<Whereabouts> {
+    let here = measured.area_at(map, pose.at);
+    let on_map = |o: &&Opening| measured.rooms.get(&o.area).is_some_and(|r| r.map == map);
+    if let Some(opening) =
+        openings.iter().filter(on_map).find(|o| in_doorway(o, pose.at, here, near))
+    {
+        let area = here.unwrap_or(opening.area);
+        return Some(Whereabouts {
+            area,
+            spot: Spot::InDoorway(way(opening, area)),
+            heading: pose.heading,
+        });
+    }
+    let area = here?;
+    let spot = at_door(openings, area, pose.at, near)
+        .or_else(|| next_to(measured, area, pose.at, near))
+        .unwrap_or_else(|| by_walls(world, measured, area, pose.at, near));
+    Some(Whereabouts { area, spot, heading: pose.heading })
+}
+
+/// An opening seen from one of the Areas that it joins.
+fn way(opening: &Opening, from: AreaId) -> Way {
+    let behind = opening.leads_to();
+    let to = if from == opening.area { behind } else { Some(opening.area) };
+    let is_passage = opening.permeability == Permeability::Permeable;
+    Way { door: opening.door, is_passage, from, to }
+}
+
+/// Position along a side and out of it: (share of its length, cm to the outside).
+fn along_and_out((a, b): (Point, Point), p: Point) -> Option<(f64, f64)> {
+    let normal = outward_normal(a, b)?;
+    let along = b - a;
+    Some(((p - a).dot(&along) / along.norm_squared(), (p - a).dot(&normal)))
+}
+
+fn in_doorway(opening: &Opening, p: Point, here: Option<AreaId>, near: &Nearness) -> bool {
+    let Some((share, out)) = along_and_out(opening.ends, p) else { return false };
+    // In the wall's thickness no Area is underfoot.
+    let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.wall_thickness));
+    let within =
+        if here.is_none() { -near.doorway..=thickness } else { -near.doorway..=near.doorway };
+    (0.0..=1.0).contains(&share) && within.contains(&out)
+}
+
+fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Option<Spot> {
+    let leads = |o: &&Opening| o.area == area || o.leads_to() == Some(area);
+    let nearest = openings
+        .iter()
+        .filter(leads)
+        .map(|o| ((p - nearest_on_segment(p, o.ends.0, o.ends.1)).norm(), o))
+        // The Area's own side says more than the other's when both are at hand.
+        .min_by(|(d, o), (e, q)| d.total_cmp(e).then((o.area != area).cmp(&(q.area != area))))?;
+    let (distance, opening) = nearest;
+    (distance <= near.door).then(|| Spot::AtDoor { way: way(opening, area), distance })
+}
+
+/// The nearest thing that stands on the floor and is the only one of its kind in the Area.
+fn next_to(measured: &Measurements, area: AreaId, p: Point, near: &Nearness) -> Option<Spot> {
+    const FLOOR: i64 = 800;
+    let stands = |id: &ReplicaId| matches!(measured.singles[id].place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR);
+    let bodies: Vec<_> = measured.bodies.values().filter(|b| stands(&b.id)).collect();
+    let distance = |outline: &[Footprint]| {
+        outline.iter().map(|f| f.distance_to(p)).fold(f64::INFINITY, f64::min)
+    };
+    bodies
+        .iter()
+        .filter(|b| bodies.iter().filter(|c| c.object == b.object).count() == 1)
+        .map(|b| (distance(&b.outline), b.id))
+        .filter(|(d, _)| *d <= near.object)
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+        .map(|(distance, replica)| Spot::NextTo { replica, distance })
+}
+
+fn by_walls(
+    world: &World,
+    measured: &Measurements,
+    area: AreaId,
+    p: Point,
+    near: &Nearness,
+) -> Spot {
+    let walls: Vec<Vector> = walls(world, measured, area)
+        .into_iter()
+        .filter(|&(a, b)| (p - nearest_on_segment(p, a, b)).norm() <= near.wall)
+        .filter_map(|(a, b)| outward_normal(a, b))
+        .collect();
+    // Two walls make a corner when they turn by more than 30°.
+    let turned = |u: &Vector, v: &Vector| u.dot(v) < 0.866;
+    let opposite = |u: &Vector, v: &Vector| u.dot(v) < -0.866;
+    let corner = walls.iter().any(|u| walls.iter().any(|v| turned(u, v) && !opposite(u, v)));
+    match walls.len() {
+        0 => Spot::InMiddle,
+        _ if corner => Spot::InCorner,
+        _ => Spot::AlongWall,
+    }
+}
+
+/// Solid sides of an Area that bound it, in the Map's frame.
+fn walls(world: &World, measured: &Measurements, area: AreaId) -> Vec<(Point, Point)> {
+    let (Some(room), Some((_, frame))) = (measured.rooms.get(&area), world.placement(area)) else {
+        return Vec::new();
+    };
+    let mut found = Vec::new();
+    for item in &world.areas[&area].items {
+        let place = frame.compose(&item.frame);
+        for side in &world.orthoframe_of(item).base {
+            let ends = (place.apply(side.start), place.apply(side.end));
+            if side.permeability == Permeability::Impermeable && !joins_own_items(room, ends) {
+                found.push(ends);
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::map::{Entity, Format};
+    use crate::semantics::{Profile, RelationRules, derive};
+    use crate::units::Source;
+
+    /// ```text
+    /// 400 +-----------+ +-----------+
+    ///     |     А     |=|     Б     |   a door through a wall of 20 cm
+    ///   0 +-----------+ +-----------+
+    ///     0         600 620       1220
+    /// ```
+    const HOME: &str = r#"
+format = 1
+[orthoframe]
+floor-a = { name = "Пол А", height = 270, points = [[0, 0], [600, 0], [600, 150], [600, 250], [600, 400], [0, 400]], side.C = { permeability = "conditional" } }
+floor-b = { name = "Пол Б", height = 270, points = [[0, 0], [600, 0], [600, 400], [0, 400], [0, 250], [0, 150]], side.E = { permeability = "conditional" } }
+cube = { name = "Куб", rect = [60, 60], height = 50 }
+[object]
+stand = { name = "Тумба", items = [{ id = "A", orthoframe = "cube" }] }
+[door.ab]
+name = "Дверь-АБ"
+kind = "hinged"
+width = 100
+height = 200
+leaves = [{ hinge = "left", share = 1, thickness = 4, max_open = 90 }]
+state = "open"
+[area.a]
+name = "А"
+items = [{ id = "A", orthoframe = "floor-a" }]
+doors = [{ side = "C", door = "ab", opens = "inside" }]
+replicas = [{ name = "Тумба-1", object = "stand", at = [0, 170] }]
+[area.b]
+name = "Б"
+items = [{ id = "A", orthoframe = "floor-b" }]
+doors = [{ side = "E", door = "ab", opens = "outside" }]
+replicas = [{ name = "Тумба-2", object = "stand", at = [540, 0] }, { name = "Тумба-3", object = "stand", at = [540, 340] }]
+[map.flat]
+name = "Карта"
+items = [{ area = "a" }, { area = "b", at = [620, 0] }]
+"#;
+
+    fn check(at: &[(f64, f64)], expected: &Expect) {
+        let world = World::parse(&Source::new("дом.toml", HOME), Format::Toml)
+            .unwrap_or_else(|e| panic!("{:?}", miette::Report::new(e)));
+        let relations =
+            derive(&world, &RelationRules::standard(), Profile::Surveyed).expect("rules end");
+        let map = *world.maps.keys().next().expect("one map");
+        let area = |id: Option<AreaId>| id.map_or("?", |id| world.name(Entity::Area(id)));
+        let lines: Vec<String> = at
+            .iter()
+            .map(|&(x, y)| {
+                let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
+                let (measured, openings) = (relations.measurements(), relations.openings());
+                let Some(found) =
+                    whereabouts(&world, measured, openings, map, &pose, &Nearness::default())
+                else {
+                    return format!("{x},{y}: nowhere\n");
+                };
+                let through = |w: &Way| format!("{} > {}", area(Some(w.from)), area(w.to));
+                let spot = match &found.spot {
+                    Spot::InDoorway(way) => format!("in the doorway {}", through(way)),
+                    Spot::AtDoor { way, .. } => format!("at the door {}", through(way)),
+                    Spot::NextTo { replica, .. } => {
+                        format!("next to {}", world.name(Entity::Replica(*replica)))
+                    }
+                    other => format!("{other:?}"),
+                };
+                format!("{x},{y}: {}, {spot}\n", area(Some(found.area)))
+            })
+            .collect();
+        expected.assert_eq(&lines.concat());
+    }
+
+    #[test]
+    fn the_strongest_of_what_can_be_said() {
+        check(
+            &[
+                (540.0, 200.0),
+                (595.0, 180.0),
+                (610.0, 200.0),
+                (640.0, 240.0),
+                (690.0, 200.0),
+                (610.0, 20.0),
+                (100.0, 200.0),
+                (40.0, 360.0),
+                (300.0, 40.0),
+                (300.0, 200.0),
+                (1120.0, 60.0),
+                (-50.0, 0.0),
+            ],
+            &expect![[r#"
+                540,200: А, at the door А > Б
+                595,180: А, in the doorway А > Б
+                610,200: А, in the doorway А > Б
+                640,240: Б, at the door Б > А
+                690,200: Б, at the door Б > А
+                610,20: nowhere
+                100,200: А, next to Тумба-1
+                40,360: А, InCorner
+                300,40: А, AlongWall
+                300,200: А, InMiddle
+                1120,60: Б, AlongWall
+                -50,0: nowhere
+            "#]],
+        );
+    }
+}

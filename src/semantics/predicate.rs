@@ -1,0 +1,39 @@
+//! The predicates in which the Map, the rule files and the robot speak of the world.
+//!
+//! The contract stands at the head of `rules/service-robot.strips`; a rule file that uses these names is
+//! understood by the robot, whatever its actions are called.
+
+/// (помещение)
+pub const ROBOT_IN: &str = "РОБОТ-НАХОДИТСЯ-В";
+/// (дверь)
+pub const ROBOT_AT_DOOR: &str = "РОБОТ-НАХОДИТСЯ-У-ДВЕРИ";
+/// (место)
+pub const ROBOT_AT_PLACE: &str = "РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ";
+/// (предмет)
+pub const ROBOT_HOLDS: &str = "РОБОТ-ДЕРЖИТ";
+/// ()
+pub const HAND_FREE: &str = "РУКА-СВОБОДНА";
+/// (место, помещение)
+pub const PLACE_IN: &str = "ПОЗИЦИЯ_НАХОДИТСЯ-В";
+/// (место, объект)
+pub const PLACE_BY: &str = "ПОЗИЦИЯ_НАХОДИТСЯ-У";
+/// (дверь, помещение)
+pub const DOOR_IN: &str = "ДВЕРЬ_НАХОДИТСЯ-В";
+/// (дверь)
+pub const DOOR_HAS_LEAF: &str = "ДВЕРЬ_ИМЕЕТ-СТВОРКУ";
+/// (дверь, помещение, помещение)
+pub const DOOR_OPEN: &str = "ДВЕРЬ_ИЗ_В_ОТКРЫТА";
+/// (дверь, помещение, помещение)
+pub const DOOR_CLOSED: &str = "ДВЕРЬ_ИЗ_В_ЗАКРЫТА";
+/// (дверь, помещение, помещение)
+pub const DOOR_LOCKED: &str = "ДВЕРЬ_ИЗ_В_ЗАПЕРТА";
+/// (предмет, дверь)
+pub const KEY_FITS: &str = "КЛЮЧ_ПОДХОДИТ-К";
+/// (предмет, объект)
+pub const THING_ON: &str = "ПРЕДМЕТ_НАХОДИТСЯ-НА";
+/// (предмет, место)
+pub const THING_AT_PLACE: &str = "ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ";
+/// (человек, место)
+pub const PERSON_AT_PLACE: &str = "ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ";
+/// (предмет, человек)
+pub const HANDED_OVER: &str = "ПРЕДМЕТ_ПЕРЕДАН";

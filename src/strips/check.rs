@@ -1,0 +1,443 @@
+//! From what a text says to what it means: names resolved, types compared, contradictions found.
+//!
+//! The paper declares neither types nor predicates. A type is then whatever a parameter is said to be,
+//! and a predicate takes in each place what the actions put there; two actions that disagree are a fault.
+
+use std::collections::{BTreeMap, HashMap};
+
+use super::domain::{
+    ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
+    SchemaCost, SchemaTerm,
+};
+use super::error::{RuleError, RuleFault};
+use super::syntax::{ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Term};
+use crate::units::{name_key, nearest_name};
+
+/// The rules of a document. Faults are appended; what could be read is returned all the same.
+pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
+    let domain = kinds(document, faults);
+    let mut checker = Checker { domain, faults };
+    checker.declare_predicates(document);
+    if !document.predicates_closed {
+        checker.infer_predicates(document);
+    }
+    for action in &document.actions {
+        checker.schema(action);
+    }
+    checker.domain
+}
+
+pub(super) fn hint<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    nearest_name(wanted, known).map(|near| {
+        if looks_the_same(near, wanted) {
+            format!("может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов")
+        } else {
+            format!("может быть, «{near}»?")
+        }
+    })
+}
+
+/// Whether two names differ only in the alphabet of letters that look alike, as В and B.
+fn looks_the_same(a: &str, b: &str) -> bool {
+    fn latin(c: char) -> char {
+        const CYRILLIC: &str = "авекмнорстухіј";
+        const LATIN: &str = "abekmhopctyxij";
+        match CYRILLIC.chars().position(|letter| letter == c) {
+            Some(at) => LATIN.chars().nth(at).expect("both alphabets are of one length"),
+            None => c,
+        }
+    }
+    name_key(a).chars().map(latin).eq(name_key(b).chars().map(latin))
+}
+
+/// The type tree. Types named only as parents or in parameters count as declared where nothing else is.
+fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
+    let mut domain = Domain {
+        kinds: vec![Kind { name: "объект".to_owned(), ancestors: vec![ANY_KIND] }],
+        kind_index: HashMap::from([
+            ("объект".to_owned(), ANY_KIND),
+            ("object".to_owned(), ANY_KIND),
+        ]),
+        predicates: Vec::new(),
+        predicate_index: HashMap::new(),
+        schemas: Vec::new(),
+    };
+    fn introduce(domain: &mut Domain, name: &Name) -> KindId {
+        let next = KindId(domain.kinds.len() as u32);
+        let id = *domain.kind_index.entry(name.key()).or_insert(next);
+        if id == next {
+            domain.kinds.push(Kind { name: name.text.clone(), ancestors: Vec::new() });
+        }
+        id
+    }
+    let mut parents: BTreeMap<KindId, Vec<(KindId, Name)>> = BTreeMap::new();
+    for Declaration { name, kinds } in document.types.iter().flatten() {
+        let id = introduce(&mut domain, name);
+        for parent in kinds {
+            let parent_id = introduce(&mut domain, parent);
+            parents.entry(id).or_default().push((parent_id, parent.clone()));
+        }
+    }
+    if document.types.is_none() {
+        let in_actions = document.actions.iter().flat_map(|a| &a.parameters).flat_map(|p| &p.kinds);
+        let in_signatures = document.predicates.iter().flat_map(|s| s.args.iter().flatten());
+        let in_objects = document.objects.iter().flat_map(|o| &o.kinds);
+        for name in in_actions.chain(in_signatures).chain(in_objects) {
+            introduce(&mut domain, name);
+        }
+    }
+    for id in (0..domain.kinds.len() as u32).map(KindId) {
+        let mut ancestors = vec![id];
+        let mut next = 0;
+        while let Some(&kind) = ancestors.get(next) {
+            next += 1;
+            for (parent, name) in parents.get(&kind).into_iter().flatten() {
+                if *parent == id && id != ANY_KIND {
+                    let kind = domain.kinds[id.index()].name.clone();
+                    faults.push(name.fault(|at| RuleError::TypeCycle { name: kind, at }));
+                } else if !ancestors.contains(parent) {
+                    ancestors.push(*parent);
+                }
+            }
+        }
+        if !ancestors.contains(&ANY_KIND) {
+            ancestors.push(ANY_KIND);
+        }
+        domain.kinds[id.index()].ancestors = ancestors;
+    }
+    domain
+}
+
+struct Checker<'a> {
+    domain: Domain,
+    faults: &'a mut Vec<RuleFault>,
+}
+
+/// The variables of one action.
+type Scope = HashMap<String, (u32, KindSet)>;
+
+impl Checker<'_> {
+    fn kind(&mut self, name: &Name) -> Option<KindId> {
+        let found = self.domain.kind(&name.text);
+        if found.is_none() {
+            let help = hint(&name.text, self.domain.kinds.iter().map(|k| k.name.as_str()))
+                .or_else(|| Some("объявите тип в разделе «Типы»".to_owned()));
+            self.faults.push(name.fault(|at| RuleError::UnknownType {
+                name: name.text.clone(),
+                help,
+                at,
+            }));
+        }
+        found
+    }
+
+    /// An empty list, or one whose every name is unknown, is any object.
+    fn kind_set(&mut self, names: &[Name]) -> KindSet {
+        let kinds: KindSet = names.iter().filter_map(|name| self.kind(name)).collect();
+        if kinds.is_empty() { vec![ANY_KIND] } else { kinds }
+    }
+
+    fn add_predicate(&mut self, name: &str, args: Vec<KindSet>) -> PredicateId {
+        let id = PredicateId(self.domain.predicates.len() as u32);
+        self.domain.predicates.push(Predicate { name: name.to_owned(), args });
+        self.domain.predicate_index.insert(name_key(name), id);
+        id
+    }
+
+    fn declare_predicates(&mut self, document: &Document) {
+        for signature in &document.predicates {
+            if self.domain.predicate(&signature.name.text).is_some() {
+                self.faults.push(signature.name.fault(|at| RuleError::Duplicate {
+                    what: "предикат",
+                    name: signature.name.text.clone(),
+                    at,
+                }));
+                continue;
+            }
+            let args = signature.args.iter().map(|kinds| self.kind_set(kinds)).collect();
+            self.add_predicate(&signature.name.text, args);
+        }
+    }
+
+    /// Signatures of undeclared predicates: in each place the nearest type that all uses inherit from.
+    fn infer_predicates(&mut self, document: &Document) {
+        let declared = self.domain.predicates.len();
+        for action in &document.actions {
+            let kinds_of: HashMap<String, &[Name]> =
+                action.parameters.iter().map(|p| (p.variable.key(), p.kinds.as_slice())).collect();
+            let in_conditions =
+                action.precondition.iter().filter_map(|condition| match condition {
+                    Condition::Holds { atom, .. } => Some(atom),
+                    Condition::Equal { .. } => None,
+                });
+            for atom in in_conditions.chain(&action.add).chain(&action.del) {
+                let args: Vec<Option<KindSet>> = atom
+                    .args
+                    .iter()
+                    .map(|term| {
+                        let names = match kinds_of.get(&term.name.key()) {
+                            Some(names) if term.is_variable => names,
+                            _ => term.kind.as_slice(),
+                        };
+                        let kinds: KindSet =
+                            names.iter().filter_map(|name| self.domain.kind(&name.text)).collect();
+                        (!kinds.is_empty()).then_some(kinds)
+                    })
+                    .collect();
+                self.infer_from(atom, &args, declared);
+            }
+        }
+    }
+
+    fn infer_from(&mut self, atom: &Atom, args: &[Option<KindSet>], declared: usize) {
+        let Some(id) = self.domain.predicate(&atom.predicate.text) else {
+            let args = args.iter().map(|kinds| kinds.clone().unwrap_or_default()).collect();
+            self.add_predicate(&atom.predicate.text, args);
+            return;
+        };
+        // A declaration stands as it is; its uses are compared with it later.
+        if id.index() < declared || self.domain.predicates[id.index()].args.len() != args.len() {
+            return;
+        }
+        for (place, kinds) in args.iter().enumerate() {
+            let Some(kinds) = kinds else { continue };
+            let known = &self.domain.predicates[id.index()].args[place];
+            let joined = if known.is_empty() {
+                Some(kinds.clone())
+            } else if kinds.iter().all(|&kind| self.domain.fits(&[kind], known)) {
+                None
+            } else {
+                self.common_ancestor(known, kinds).map(|kind| vec![kind])
+            };
+            if let Some(joined) = joined {
+                self.domain.predicates[id.index()].args[place] = joined;
+            }
+        }
+    }
+
+    /// The first ancestor of `a` that everything in both inherits from; "any object" is none.
+    fn common_ancestor(&self, a: &[KindId], b: &[KindId]) -> Option<KindId> {
+        self.domain.kinds[a[0].index()].ancestors.iter().copied().find(|&ancestor| {
+            ancestor != ANY_KIND
+                && a.iter().chain(b).all(|&kind| self.domain.inherits(kind, ancestor))
+        })
+    }
+
+    fn schema(&mut self, action: &ActionText) {
+        let name = &action.name;
+        if self.domain.schemas.iter().any(|s| name_key(&s.name) == name.key()) {
+            self.faults.push(name.fault(|at| RuleError::Duplicate {
+                what: "действие",
+                name: name.text.clone(),
+                at,
+            }));
+            return;
+        }
+        let mut scope = Scope::new();
+        let mut parameters = Vec::new();
+        for parameter in &action.parameters {
+            let kinds = self.kind_set(&parameter.kinds);
+            let variable = &parameter.variable;
+            if scope.insert(variable.key(), (parameters.len() as u32, kinds.clone())).is_some() {
+                self.faults.push(variable.fault(|at| RuleError::Duplicate {
+                    what: "параметр",
+                    name: variable.text.clone(),
+                    at,
+                }));
+            }
+            parameters.push(kinds);
+        }
+        let mut schema = Schema {
+            name: name.text.clone(),
+            parameters,
+            parameter_names: action.parameters.iter().map(|p| p.variable.text.clone()).collect(),
+            preconditions: Vec::new(),
+            negative_preconditions: Vec::new(),
+            equal: Vec::new(),
+            different: Vec::new(),
+            add_effects: Vec::new(),
+            del_effects: Vec::new(),
+            cost: Vec::new(),
+        };
+        self.precondition(action, &scope, &mut schema);
+        self.effects(action, &scope, &mut schema);
+        for cost in &action.cost {
+            schema.cost.push(match cost {
+                CostTerm::Number(number) => SchemaCost::Number(*number),
+                CostTerm::Function(atom) => SchemaCost::Function {
+                    name: atom.predicate.key(),
+                    args: atom.args.iter().filter_map(|t| self.term(action, &scope, t)).collect(),
+                },
+            });
+        }
+        self.domain.schemas.push(schema);
+    }
+
+    fn precondition(&mut self, action: &ActionText, scope: &Scope, schema: &mut Schema) {
+        for condition in &action.precondition {
+            match condition {
+                Condition::Holds { atom, negated } => {
+                    let Some(meaning) = self.atom(action, scope, atom) else { continue };
+                    let (here, there) = if *negated {
+                        (&mut schema.negative_preconditions, &schema.preconditions)
+                    } else {
+                        (&mut schema.preconditions, &schema.negative_preconditions)
+                    };
+                    if there.contains(&meaning) {
+                        self.faults.push(atom.predicate.fault(|at| {
+                            RuleError::ContradictoryPrecondition {
+                                action: action.name.text.clone(),
+                                atom: text_of(atom),
+                                at,
+                            }
+                        }));
+                    } else if !here.contains(&meaning) {
+                        here.push(meaning);
+                    }
+                }
+                Condition::Equal { pair, negated } => {
+                    let (left, right) = &**pair;
+                    let left = self.term(action, scope, left);
+                    let right = self.term(action, scope, right);
+                    if let (Some(left), Some(right)) = (left, right) {
+                        let pairs =
+                            if *negated { &mut schema.different } else { &mut schema.equal };
+                        pairs.push((left, right));
+                    }
+                }
+            }
+        }
+    }
+
+    fn effects(&mut self, action: &ActionText, scope: &Scope, schema: &mut Schema) {
+        for atom in &action.add {
+            if let Some(meaning) = self.atom(action, scope, atom)
+                && !schema.add_effects.contains(&meaning)
+            {
+                schema.add_effects.push(meaning);
+            }
+        }
+        for atom in &action.del {
+            let Some(meaning) = self.atom(action, scope, atom) else { continue };
+            if schema.add_effects.contains(&meaning) {
+                self.faults.push(atom.predicate.fault(|at| RuleError::ContradictoryEffect {
+                    action: action.name.text.clone(),
+                    atom: text_of(atom),
+                    at,
+                }));
+            } else if !schema.del_effects.contains(&meaning) {
+                schema.del_effects.push(meaning);
+            }
+        }
+    }
+
+    fn atom(&mut self, action: &ActionText, scope: &Scope, atom: &Atom) -> Option<SchemaAtom> {
+        let name = &atom.predicate;
+        let Some(predicate) = self.domain.predicate(&name.text) else {
+            let help = hint(&name.text, self.domain.predicates.iter().map(|p| p.name.as_str()))
+                .or_else(|| Some("объявите его в разделе «Предикаты»".to_owned()));
+            let error = |at| RuleError::UnknownPredicate { name: name.text.clone(), help, at };
+            self.faults.push(name.fault(error));
+            return None;
+        };
+        let signature = self.domain.predicates[predicate.index()].clone();
+        if signature.args.len() != atom.args.len() {
+            self.faults.push(name.fault(|at| RuleError::Arity {
+                name: name.text.clone(),
+                expected: signature.args.len(),
+                found: atom.args.len(),
+                help: self.signature(predicate),
+                at,
+            }));
+            return None;
+        }
+        let mut args = Vec::new();
+        for (place, (term, wanted)) in atom.args.iter().zip(&signature.args).enumerate() {
+            let meaning = self.term(action, scope, term)?;
+            let have = match &meaning {
+                SchemaTerm::Parameter(_) => scope[&term.name.key()].1.clone(),
+                SchemaTerm::Constant(_) => KindSet::new(),
+            };
+            // A parameter of a wider type is let through: grounding narrows it to what fits.
+            let may_fit = have.is_empty()
+                || wanted.is_empty()
+                || self.domain.fits(&have, wanted)
+                || self.domain.fits(wanted, &have);
+            if !may_fit {
+                self.faults.push(term.name.fault(|at| RuleError::ArgumentType {
+                    name: signature.name.clone(),
+                    number: place + 1,
+                    expected: self.domain.kind_names(wanted),
+                    term: term.name.text.clone(),
+                    found: self.domain.kind_names(&have),
+                    help: self.signature(predicate),
+                    at,
+                }));
+            }
+            args.push(meaning);
+        }
+        Some(SchemaAtom { predicate, args })
+    }
+
+    fn term(&mut self, action: &ActionText, scope: &Scope, term: &Term) -> Option<SchemaTerm> {
+        if !term.is_variable {
+            if let Some(kind) = &term.kind {
+                self.kind(kind);
+            }
+            return Some(SchemaTerm::Constant(term.name.text.clone()));
+        }
+        let Some((index, declared)) = scope.get(&term.name.key()) else {
+            let help =
+                hint(&term.name.text, action.parameters.iter().map(|p| p.variable.text.as_str()))
+                    .or_else(|| Some("добавьте её в «Параметры»".to_owned()));
+            self.faults.push(term.name.fault(|at| RuleError::UndeclaredVariable {
+                action: action.name.text.clone(),
+                variable: term.name.text.clone(),
+                help,
+                at,
+            }));
+            return None;
+        };
+        if let Some(said) = &term.kind
+            && let Some(kind) = self.kind(said)
+            && !self.domain.fits(declared, &[kind])
+            && !self.domain.fits(&[kind], declared)
+        {
+            self.faults.push(said.fault(|at| RuleError::VariableType {
+                variable: term.name.text.clone(),
+                declared: self.domain.kind_names(declared),
+                found: said.text.clone(),
+                at,
+            }));
+        }
+        Some(SchemaTerm::Parameter(*index))
+    }
+
+    fn signature(&self, predicate: PredicateId) -> String {
+        self.domain.signature(predicate)
+    }
+}
+
+impl Domain {
+    /// `ДВЕРЬ_НАХОДИТСЯ-В_(дверь, помещение)`, for messages.
+    pub(super) fn signature(&self, predicate: PredicateId) -> String {
+        let Predicate { name, args } = &self.predicates[predicate.index()];
+        let args: Vec<String> =
+            args.iter()
+                .map(|kinds| {
+                    if kinds.is_empty() {
+                        "объект".to_owned()
+                    } else {
+                        self.kind_names(kinds)
+                    }
+                })
+                .collect();
+        format!("запись: {name}_({})", args.join(", "))
+    }
+}
+
+/// An atom as a person would write it.
+pub(super) fn text_of(atom: &Atom) -> String {
+    let args: Vec<&str> = atom.args.iter().map(|term| term.name.text.as_str()).collect();
+    format!("{}_({})", atom.predicate.text, args.join(", "))
+}

@@ -1,0 +1,157 @@
+//! A checked set of rules: types, predicates and actions whose names all mean something.
+//!
+//! Invariant: every index held by a [`Domain`] is an index of that same `Domain`.
+
+use std::collections::HashMap;
+
+use crate::units::name_key;
+
+macro_rules! indices {
+    ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
+        $(#[$doc])*
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+        pub struct $name(pub u32);
+
+        impl $name {
+            #[must_use]
+            pub fn index(self) -> usize {
+                self.0 as usize
+            }
+        }
+    )+};
+}
+pub(super) use indices;
+
+indices! {
+    /// A type of objects: помещение, дверь.
+    KindId,
+    /// A predicate of the rules.
+    PredicateId,
+}
+
+/// The root of all types: an object that is known by name alone.
+pub const ANY_KIND: KindId = KindId(0);
+
+/// A type and the types that it inherits from.
+#[derive(Debug, Clone)]
+pub struct Kind {
+    pub name: String,
+    /// Itself and everything above it.
+    pub(super) ancestors: Vec<KindId>,
+}
+
+/// Types of which an object must have one.
+pub type KindSet = Vec<KindId>;
+
+/// A predicate and what its arguments may be.
+#[derive(Debug, Clone)]
+pub struct Predicate {
+    pub name: String,
+    pub args: Vec<KindSet>,
+}
+
+/// A parameter of the schema, or an object known by name.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub enum SchemaTerm {
+    Parameter(u32),
+    Constant(String),
+}
+
+/// An atom over a schema's parameters.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct SchemaAtom {
+    pub predicate: PredicateId,
+    pub args: Vec<SchemaTerm>,
+}
+
+/// A part of a schema's cost.
+#[derive(Debug, Clone)]
+pub enum SchemaCost {
+    Number(u32),
+    /// A value that the problem gives for the arguments.
+    Function {
+        name: String,
+        args: Vec<SchemaTerm>,
+    },
+}
+
+/// One `Действие` of a rule file.
+#[derive(Debug, Clone)]
+pub struct Schema {
+    pub name: String,
+    pub parameters: Vec<KindSet>,
+    pub parameter_names: Vec<String>,
+    pub preconditions: Vec<SchemaAtom>,
+    pub negative_preconditions: Vec<SchemaAtom>,
+    pub equal: Vec<(SchemaTerm, SchemaTerm)>,
+    pub different: Vec<(SchemaTerm, SchemaTerm)>,
+    pub add_effects: Vec<SchemaAtom>,
+    pub del_effects: Vec<SchemaAtom>,
+    /// Summed; empty means one.
+    pub cost: Vec<SchemaCost>,
+}
+
+/// Checked rules.
+#[derive(Debug, Clone)]
+pub struct Domain {
+    pub(super) kinds: Vec<Kind>,
+    pub(super) kind_index: HashMap<String, KindId>,
+    pub(super) predicates: Vec<Predicate>,
+    pub(super) predicate_index: HashMap<String, PredicateId>,
+    pub(super) schemas: Vec<Schema>,
+}
+
+impl Domain {
+    /// The type of this name in any of its spellings.
+    #[must_use]
+    pub fn kind(&self, name: &str) -> Option<KindId> {
+        self.kind_index.get(&name_key(name)).copied()
+    }
+
+    #[must_use]
+    pub fn kinds(&self) -> &[Kind] {
+        &self.kinds
+    }
+
+    /// The predicate of this name in any of its spellings.
+    #[must_use]
+    pub fn predicate(&self, name: &str) -> Option<PredicateId> {
+        self.predicate_index.get(&name_key(name.trim_end_matches('_'))).copied()
+    }
+
+    #[must_use]
+    pub fn predicates(&self) -> &[Predicate] {
+        &self.predicates
+    }
+
+    #[must_use]
+    pub fn schemas(&self) -> &[Schema] {
+        &self.schemas
+    }
+
+    /// Whether some action of the rules adds or deletes facts of this predicate.
+    #[must_use]
+    pub fn is_changed_by_actions(&self, predicate: PredicateId) -> bool {
+        self.schemas.iter().any(|schema| {
+            schema.add_effects.iter().chain(&schema.del_effects).any(|a| a.predicate == predicate)
+        })
+    }
+
+    /// Whether `kind` is `ancestor` or inherits from it.
+    #[must_use]
+    pub fn inherits(&self, kind: KindId, ancestor: KindId) -> bool {
+        self.kinds[kind.index()].ancestors.contains(&ancestor)
+    }
+
+    /// Whether an object of one of the types `have` may stand where one of `wanted` is due.
+    #[must_use]
+    pub fn fits(&self, have: &[KindId], wanted: &[KindId]) -> bool {
+        have.iter().any(|&kind| wanted.iter().any(|&ancestor| self.inherits(kind, ancestor)))
+    }
+
+    pub(super) fn kind_names(&self, kinds: &[KindId]) -> String {
+        let names: Vec<&str> =
+            kinds.iter().map(|kind| self.kinds[kind.index()].name.as_str()).collect();
+        names.join(" или ")
+    }
+}

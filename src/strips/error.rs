@@ -1,0 +1,483 @@
+//! What can be wrong with a rule file, a scenario or a PDDL file, each fault with its place and its remedy.
+
+use std::fmt;
+
+use miette::{Diagnostic, LabeledSpan, Severity, SourceCode, SourceSpan};
+use thiserror::Error;
+
+use crate::units::Source;
+
+/// A stretch of a text that was read.
+#[derive(Debug, Clone)]
+pub struct Place {
+    pub source: Source,
+    pub span: SourceSpan,
+}
+
+impl Place {
+    /// Line and column, both from 1, the column in characters.
+    #[must_use]
+    pub fn position(&self) -> (usize, usize) {
+        self.source.position(self.span.offset())
+    }
+}
+
+/// One thing wrong in a rule file, a scenario or a PDDL file.
+#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+pub enum RuleError {
+    /// The file system refused.
+    #[error("файл «{path}» не читается: {reason}")]
+    #[diagnostic(code(strips::unreadable), help("проверьте путь и права доступа"))]
+    Unreadable { path: String, reason: String },
+
+    /// Rubbish instead of UTF-8.
+    #[error("файл «{path}» – не текст в UTF-8: байт {offset} не читается")]
+    #[diagnostic(code(strips::not_text), help("сохраните файл как текст в кодировке UTF-8"))]
+    NotText { path: String, offset: usize },
+
+    /// More than [`super::MAX_FILE_BYTES`].
+    #[error("файл «{path}» слишком велик: {bytes} байт, предел {limit}")]
+    #[diagnostic(
+        code(strips::too_large),
+        help("разделите файл на части и включите их: «Включить: часть.strips»")
+    )]
+    TooLarge { path: String, bytes: u64, limit: u64 },
+
+    /// Nothing but white space and comments.
+    #[error("файл «{path}» пуст")]
+    #[diagnostic(
+        code(strips::empty),
+        help(
+            "файл правил состоит из разделов «Действие: …», сценарий – из «Исходная позиция: …», «Целевая позиция: …»"
+        )
+    )]
+    Empty { path: String },
+
+    /// A character that no word of the language may hold.
+    #[error("непонятный знак «{sign}»")]
+    #[diagnostic(
+        code(strips::unexpected_character),
+        help("имена с такими знаками берут в кавычки: «имя»")
+    )]
+    UnexpectedCharacter {
+        sign: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// One word stands where another is due.
+    #[error("ожидается {expected}, а стоит {found}")]
+    #[diagnostic(code(strips::syntax))]
+    Syntax {
+        expected: String,
+        found: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// `Слово:` that opens no section.
+    #[error("неизвестный раздел «{heading}»")]
+    #[diagnostic(code(strips::unknown_heading))]
+    UnknownHeading {
+        heading: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A bracket was opened and never closed.
+    #[error("скобка не закрыта")]
+    #[diagnostic(code(strips::missing_parenthesis), help("поставьте «)» перед следующим разделом"))]
+    MissingParenthesis {
+        #[label("открыта здесь")]
+        at: SourceSpan,
+    },
+
+    /// One closing bracket too many; the paper's own rule ends so.
+    #[error("лишняя закрывающая скобка")]
+    #[diagnostic(code(strips::surplus_parenthesis), severity(Warning), help("её можно убрать"))]
+    SurplusParenthesis {
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// Brackets within brackets beyond all sense.
+    #[error("скобки вложены глубже {limit} уровней")]
+    #[diagnostic(code(strips::too_deep), help("упростите выражение"))]
+    TooDeep {
+        limit: usize,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// PDDL beyond :strips :typing :negative-preconditions :equality :action-costs.
+    #[error("«{what}» не поддерживается")]
+    #[diagnostic(
+        code(strips::unsupported),
+        help("читаются :strips :typing :negative-preconditions :equality :action-costs")
+    )]
+    Unsupported {
+        what: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A type that is declared nowhere, though types are declared.
+    #[error("неизвестный тип «{name}»")]
+    #[diagnostic(code(strips::unknown_type))]
+    UnknownType {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A type that inherits from itself.
+    #[error("тип «{name}» наследует сам себе")]
+    #[diagnostic(code(strips::type_cycle), help("разорвите круг наследования в разделе «Типы»"))]
+    TypeCycle {
+        name: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A predicate that no action and no declaration introduces.
+    #[error("неизвестный предикат «{name}»")]
+    #[diagnostic(code(strips::unknown_predicate))]
+    UnknownPredicate {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// Too few or too many arguments.
+    #[error("у предиката «{name}» аргументов {expected}, а дано {found}")]
+    #[diagnostic(code(strips::arity), help("{help}"))]
+    Arity {
+        name: String,
+        expected: usize,
+        found: usize,
+        help: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A variable that the action's parameters do not name.
+    #[error("действие «{action}»: переменная «{variable}» не объявлена")]
+    #[diagnostic(code(strips::undeclared_variable))]
+    UndeclaredVariable {
+        action: String,
+        variable: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A variable where only objects may stand.
+    #[error("переменная «{variable}» вне действия")]
+    #[diagnostic(code(strips::variable_in_fact), help("в фактах и целях стоят имена объектов"))]
+    VariableInFact {
+        variable: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// The same name given twice where once is enough.
+    #[error("{what} «{name}»: второе объявление")]
+    #[diagnostic(code(strips::duplicate), help("переименуйте или уберите одно из двух"))]
+    Duplicate {
+        what: &'static str,
+        name: String,
+        #[label("второй раз – здесь")]
+        at: SourceSpan,
+    },
+
+    /// The same atom is added and deleted.
+    #[error(
+        "действие «{action}»: эффект противоречит сам себе: «{atom}» и прибавляется, и убирается"
+    )]
+    #[diagnostic(
+        code(strips::contradictory_effect),
+        help("оставьте факт в одном из «Эффект+», «Эффект-»")
+    )]
+    ContradictoryEffect {
+        action: String,
+        atom: String,
+        #[label("убирается здесь")]
+        at: SourceSpan,
+    },
+
+    /// A precondition that no state satisfies.
+    #[error(
+        "действие «{action}»: предусловие противоречит само себе: «{atom}» и требуется, и запрещается"
+    )]
+    #[diagnostic(code(strips::contradictory_precondition), help("уберите одно из двух"))]
+    ContradictoryPrecondition {
+        action: String,
+        atom: String,
+        #[label("запрещается здесь")]
+        at: SourceSpan,
+    },
+
+    /// An argument of one type where the predicate wants another.
+    #[error(
+        "«{name}»: {number}-й аргумент должен быть типа «{expected}», а «{term}» – типа «{found}»"
+    )]
+    #[diagnostic(code(strips::argument_type), help("{help}"))]
+    ArgumentType {
+        name: String,
+        number: usize,
+        expected: String,
+        term: String,
+        found: String,
+        help: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// `(дверь ?x)` in the body, `(помещение ?x)` in the parameters.
+    #[error("переменная «{variable}» объявлена как «{declared}», а здесь названа «{found}»")]
+    #[diagnostic(code(strips::variable_type), help("назовите тип так же, как в «Параметры»"))]
+    VariableType {
+        variable: String,
+        declared: String,
+        found: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// An object that no fact, declaration or map knows.
+    #[error("неизвестный объект «{name}»")]
+    #[diagnostic(code(strips::unknown_object))]
+    UnknownObject {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// Two uses of an object ask for two types that have nothing in common.
+    #[error("объект «{name}» здесь типа «{found}», а в другом месте – «{earlier}»")]
+    #[diagnostic(
+        code(strips::object_type),
+        help("объявите тип объекта в разделе «Объекты» или исправьте факт")
+    )]
+    ObjectType {
+        name: String,
+        found: String,
+        earlier: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// Facts that cannot hold together.
+    #[error("«{atom}» и утверждается, и отрицается")]
+    #[diagnostic(code(strips::contradictory_fact), help("оставьте одно из двух"))]
+    ContradictoryFact {
+        atom: String,
+        #[label("отрицается здесь")]
+        at: SourceSpan,
+    },
+
+    /// A file that includes itself through others.
+    #[error("файл включает сам себя")]
+    #[diagnostic(code(strips::include_cycle), help("уберите это включение"))]
+    IncludeCycle {
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// An included file that cannot be had.
+    #[error("файл «{path}» не включается: {reason}")]
+    #[diagnostic(
+        code(strips::include),
+        help("путь отсчитывается от файла, в котором стоит «Включить»")
+    )]
+    Include {
+        path: String,
+        reason: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A number that is none, or is negative, or too large.
+    #[error("«{text}» – не стоимость")]
+    #[diagnostic(code(strips::cost), help("стоимость – целое число от 0 до 1000000"))]
+    Cost {
+        text: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A scenario without a goal.
+    #[error("у сценария нет цели")]
+    #[diagnostic(code(strips::no_goal), help("добавьте раздел «Целевая позиция: …»"))]
+    NoGoal,
+
+    /// A scenario whose rules know no action.
+    #[error("нет ни одного действия")]
+    #[diagnostic(
+        code(strips::no_actions),
+        help("включите файл правил: «Включить: ../service-robot.strips»")
+    )]
+    NoActions,
+
+    /// A plan names an action that the rules do not have.
+    #[error("неизвестное действие «{name}»")]
+    #[diagnostic(code(strips::unknown_action))]
+    UnknownAction {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// An action of a plan whose turn comes too early.
+    #[error("действие невыполнимо: не выполнено {fact}")]
+    #[diagnostic(code(strips::plan_precondition))]
+    PlanPrecondition {
+        fact: String,
+        #[label("здесь план обрывается")]
+        at: SourceSpan,
+    },
+
+    /// Two actions of a step that cannot go together.
+    #[error("действия одного шага мешают друг другу: из-за {fact} нельзя вместе с «{other}»")]
+    #[diagnostic(code(strips::plan_interference), help("разнесите их по разным шагам"))]
+    PlanInterference {
+        fact: String,
+        other: String,
+        #[label("здесь план обрывается")]
+        at: SourceSpan,
+    },
+
+    /// A plan that does not do what it is for.
+    #[error("план выполним, но в конце не выполнена цель {fact}")]
+    #[diagnostic(code(strips::plan_misses_goal))]
+    PlanMissesGoal { fact: String },
+
+    /// Grounding found more than the limit allows.
+    #[error(
+        "из правил получается больше {limit} действий над объектами; последнее из правила «{action}»"
+    )]
+    #[diagnostic(
+        code(strips::too_many_operators),
+        help(
+            "добавьте правилу предусловий, связывающих его параметры, или уменьшите число объектов"
+        )
+    )]
+    TooManyOperators { limit: usize, action: String },
+}
+
+/// A [`RuleError`] together with the text that it was found in.
+#[derive(Debug, Clone)]
+pub struct RuleFault {
+    pub error: Box<RuleError>,
+    source: Option<Source>,
+}
+
+impl RuleFault {
+    /// A fault within a text; the labels of `error` are spans of `source`.
+    #[must_use]
+    pub fn new(source: &Source, error: RuleError) -> Self {
+        Self { error: Box::new(error), source: Some(source.clone()) }
+    }
+
+    /// A fault of something that has no text, such as a fact that the map supplied.
+    #[must_use]
+    pub fn placeless(error: RuleError) -> Self {
+        Self { error: Box::new(error), source: None }
+    }
+
+    /// File name, line and character column.
+    #[must_use]
+    pub fn position(&self) -> Option<(&str, usize, usize)> {
+        let source = self.source.as_ref()?;
+        let label = self.error.labels()?.next()?;
+        let (line, column) = source.position(label.offset());
+        Some((source.name(), line, column))
+    }
+
+    #[must_use]
+    pub fn is_warning(&self) -> bool {
+        self.error.severity() == Some(Severity::Warning)
+    }
+}
+
+impl fmt::Display for RuleFault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.position() {
+            Some((name, line, column)) => write!(f, "{name}:{line}:{column}: {}", self.error),
+            None => self.error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for RuleFault {}
+
+impl Diagnostic for RuleFault {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.code()
+    }
+    fn severity(&self) -> Option<Severity> {
+        self.error.severity()
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.error.help()
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        // Without a text a label points nowhere.
+        self.source.as_ref().and_then(|_| self.error.labels())
+    }
+}
+
+/// Everything that is wrong with what was read, in the order of the text; never empty.
+#[derive(Debug, Clone)]
+pub struct RuleFaults(pub Vec<RuleFault>);
+
+impl RuleFaults {
+    /// The stable codes, one a fault, for tests and the page.
+    #[must_use]
+    pub fn codes(&self) -> Vec<String> {
+        self.0.iter().filter_map(|fault| fault.code().map(|code| code.to_string())).collect()
+    }
+}
+
+impl From<RuleFault> for RuleFaults {
+    fn from(fault: RuleFault) -> Self {
+        Self(vec![fault])
+    }
+}
+
+impl fmt::Display for RuleFaults {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.0.as_slice() {
+            [only] => only.fmt(f),
+            many => {
+                write!(f, "найдено ошибок: {}", many.len())?;
+                many.iter().try_for_each(|fault| write!(f, "\n  {fault}"))
+            }
+        }
+    }
+}
+
+impl std::error::Error for RuleFaults {}
+
+impl Diagnostic for RuleFaults {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.first().and_then(Diagnostic::code)
+    }
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.0.iter().map(|fault| fault as &dyn Diagnostic)))
+    }
+}

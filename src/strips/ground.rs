@@ -1,0 +1,459 @@
+//! From rules and a problem to a [`Task`]: every action over every choice of objects that could ever apply.
+//!
+//! Relaxed reachability (delete effects forgotten) decides what could ever apply. It runs semi-naively: each
+//! new fact is joined with what was known before it, so that no ground action is found twice. Predicates
+//! that no action changes are looked up and leave no trace in the task; nor do facts that always hold.
+//!
+//! A negative precondition becomes a fact of its own, kept complementary by every operator that touches the
+//! positive one: the planner knows no negation.
+
+use std::collections::HashMap;
+
+use super::domain::{Domain, KindSet, PredicateId, Schema, SchemaAtom, SchemaCost, SchemaTerm};
+use super::error::{RuleError, RuleFault, RuleFaults};
+use super::problem::{GroundAtom, Problem, Resolved, Standing, ThingId};
+use super::simplify::{Draft, DraftOperator, simplify};
+use super::task::Task;
+use crate::units::name_key;
+
+/// More ground actions than a planner could use.
+const MAX_OPERATORS: usize = 2_000_000;
+
+/// Grounds a problem.
+///
+/// # Errors
+/// All names of the problem that mean nothing to the rules, at once; or [`RuleError::TooManyOperators`].
+pub fn ground(domain: &Domain, problem: &Problem) -> Result<Task, RuleFaults> {
+    if !problem.has_goal() {
+        return Err(RuleFault::placeless(RuleError::NoGoal).into());
+    }
+    let resolved = problem.resolve(domain)?;
+    let reached = Reachability::run(domain, &resolved)?;
+    Ok(simplify(draft(domain, &resolved, &reached)))
+}
+
+/// Instances of one schema's parameters.
+pub(super) struct Instance {
+    pub(super) schema: usize,
+    pub(super) args: Vec<ThingId>,
+}
+
+/// The tuples of one predicate that hold in the relaxed problem so far.
+#[derive(Default)]
+struct Relation {
+    tuples: Vec<Vec<ThingId>>,
+    /// Per argument place, the tuples that have an object there.
+    by_arg: Vec<HashMap<ThingId, Vec<u32>>>,
+    numbers: HashMap<Vec<ThingId>, u32>,
+}
+
+impl Relation {
+    fn insert(&mut self, tuple: &[ThingId]) {
+        let number = self.tuples.len() as u32;
+        self.by_arg.resize_with(tuple.len(), HashMap::new);
+        for (index, &thing) in self.by_arg.iter_mut().zip(tuple) {
+            index.entry(thing).or_default().push(number);
+        }
+        self.numbers.insert(tuple.to_vec(), number);
+        self.tuples.push(tuple.to_vec());
+    }
+}
+
+/// A choice of objects for some parameters of a schema.
+pub(super) type Binding = Vec<Option<ThingId>>;
+
+pub(super) struct Reachability<'a> {
+    domain: &'a Domain,
+    resolved: &'a Resolved,
+    changing: Vec<bool>,
+    relations: Vec<Relation>,
+    /// Objects that may stand for each parameter of each schema.
+    candidates: Vec<Vec<Vec<ThingId>>>,
+    may_stand: Vec<Vec<Vec<bool>>>,
+    pub(super) instances: Vec<Instance>,
+    pub(super) atoms: Vec<GroundAtom>,
+    pub(super) numbers: HashMap<GroundAtom, usize>,
+    overflow: Option<usize>,
+}
+
+impl<'a> Reachability<'a> {
+    pub(super) fn run(domain: &'a Domain, resolved: &'a Resolved) -> Result<Self, RuleFaults> {
+        let mut changing = vec![false; domain.predicates.len()];
+        for schema in &domain.schemas {
+            for atom in schema.add_effects.iter().chain(&schema.del_effects) {
+                changing[atom.predicate.index()] = true;
+            }
+        }
+        let stands = |kinds: &KindSet, thing: usize| {
+            kinds.is_empty() || domain.fits(&resolved.things[thing].kinds, kinds)
+        };
+        let may_stand: Vec<Vec<Vec<bool>>> = domain
+            .schemas
+            .iter()
+            .map(|schema| {
+                let one = |kinds| (0..resolved.things.len()).map(|t| stands(kinds, t)).collect();
+                schema.parameters.iter().map(one).collect()
+            })
+            .collect();
+        let candidates = may_stand
+            .iter()
+            .map(|parameters| {
+                let chosen = |stands: &Vec<bool>| {
+                    (0..stands.len() as u32).map(ThingId).filter(|t| stands[t.index()]).collect()
+                };
+                parameters.iter().map(chosen).collect()
+            })
+            .collect();
+        let mut relations = Vec::new();
+        relations.resize_with(domain.predicates.len(), Relation::default);
+        let mut reach = Self {
+            domain,
+            resolved,
+            changing,
+            relations,
+            candidates,
+            may_stand,
+            instances: Vec::new(),
+            atoms: Vec::new(),
+            numbers: HashMap::new(),
+            overflow: None,
+        };
+        reach.saturate();
+        match reach.overflow {
+            None => Ok(reach),
+            Some(schema) => Err(RuleFault::placeless(RuleError::TooManyOperators {
+                limit: MAX_OPERATORS,
+                action: domain.schemas[schema].name.clone(),
+            })
+            .into()),
+        }
+    }
+
+    fn saturate(&mut self) {
+        for (atom, _) in &self.resolved.facts {
+            self.reach(atom.clone());
+        }
+        // What never changes is known whole before the first join.
+        for number in 0..self.atoms.len() {
+            let atom = &self.atoms[number];
+            if !self.changing[atom.predicate.index()] {
+                self.relations[atom.predicate.index()].insert(&atom.args);
+            }
+        }
+        let domain = self.domain;
+        for (number, schema) in domain.schemas.iter().enumerate() {
+            if !schema.preconditions.iter().any(|a| self.changing[a.predicate.index()]) {
+                let binding = vec![None; schema.parameters.len()];
+                let open: Vec<usize> = (0..schema.preconditions.len()).collect();
+                self.join(number, binding, &open, None);
+            }
+        }
+        let mut next = 0;
+        while next < self.atoms.len() && self.overflow.is_none() {
+            let atom = self.atoms[next].clone();
+            next += 1;
+            if self.changing[atom.predicate.index()] {
+                self.relations[atom.predicate.index()].insert(&atom.args);
+                self.trigger(&atom);
+            }
+        }
+    }
+
+    fn reach(&mut self, atom: GroundAtom) {
+        if !self.numbers.contains_key(&atom) {
+            self.numbers.insert(atom.clone(), self.atoms.len());
+            self.atoms.push(atom);
+        }
+    }
+
+    /// Joins a new fact with every precondition that it may satisfy.
+    fn trigger(&mut self, atom: &GroundAtom) {
+        let domain = self.domain;
+        for (number, schema) in domain.schemas.iter().enumerate() {
+            for (place, precondition) in schema.preconditions.iter().enumerate() {
+                if precondition.predicate != atom.predicate {
+                    continue;
+                }
+                let mut binding = vec![None; schema.parameters.len()];
+                if !self.unify(number, &mut binding, precondition, &atom.args) {
+                    continue;
+                }
+                let open: Vec<usize> =
+                    (0..schema.preconditions.len()).filter(|&other| other != place).collect();
+                self.join(number, binding, &open, Some((place, atom)));
+            }
+        }
+    }
+
+    fn unify(
+        &self,
+        schema: usize,
+        binding: &mut Binding,
+        atom: &SchemaAtom,
+        tuple: &[ThingId],
+    ) -> bool {
+        atom.args.iter().zip(tuple).all(|(term, &thing)| match term {
+            SchemaTerm::Constant(name) => self.resolved.index[&name_key(name)] == thing,
+            SchemaTerm::Parameter(parameter) => {
+                let parameter = *parameter as usize;
+                match binding[parameter] {
+                    Some(bound) => bound == thing,
+                    None => {
+                        binding[parameter] = Some(thing);
+                        self.may_stand[schema][parameter][thing.index()]
+                    }
+                }
+            }
+        })
+    }
+
+    pub(super) fn may_stand(&self, schema: usize, parameter: usize, thing: ThingId) -> bool {
+        self.may_stand[schema][parameter][thing.index()]
+    }
+
+    /// Choices of objects that satisfy the open preconditions among all that is reachable, at most `most`.
+    pub(super) fn bindings(
+        &self,
+        schema: usize,
+        binding: Binding,
+        open: &[usize],
+        most: usize,
+        found: &mut Vec<Binding>,
+    ) {
+        let rule = &self.domain.schemas[schema];
+        if found.len() >= most || !self.comparisons_hold(rule, &binding) {
+            return;
+        }
+        let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
+            found.push(binding);
+            return;
+        };
+        let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
+        let precondition = &rule.preconditions[at];
+        for tuple in tuples {
+            let tuple = &self.relations[precondition.predicate.index()].tuples[tuple as usize];
+            let mut binding = binding.clone();
+            if self.unify(schema, &mut binding, precondition, tuple) {
+                self.bindings(schema, binding, &rest, most, found);
+            }
+        }
+    }
+
+    pub(super) fn value(&self, binding: &Binding, term: &SchemaTerm) -> Option<ThingId> {
+        match term {
+            SchemaTerm::Constant(name) => Some(self.resolved.index[&name_key(name)]),
+            SchemaTerm::Parameter(parameter) => binding[*parameter as usize],
+        }
+    }
+
+    /// Satisfies the open preconditions one by one, the most constrained first.
+    fn join(
+        &mut self,
+        schema: usize,
+        binding: Binding,
+        open: &[usize],
+        trigger: Option<(usize, &GroundAtom)>,
+    ) {
+        let domain = self.domain;
+        let rule: &Schema = &domain.schemas[schema];
+        if self.overflow.is_some() || !self.comparisons_hold(rule, &binding) {
+            return;
+        }
+        let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
+            self.choose_rest(schema, binding);
+            return;
+        };
+        let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
+        let precondition = &rule.preconditions[at];
+        for tuple in tuples {
+            let tuple =
+                self.relations[precondition.predicate.index()].tuples[tuple as usize].clone();
+            // The new fact itself serves only the first place that it can: no instance comes twice.
+            if let Some((place, atom)) = trigger
+                && at < place
+                && atom.predicate == precondition.predicate
+                && atom.args == tuple
+            {
+                continue;
+            }
+            let mut binding = binding.clone();
+            if self.unify(schema, &mut binding, precondition, &tuple) {
+                self.join(schema, binding, &rest, trigger);
+            }
+        }
+    }
+
+    fn most_constrained(
+        &self,
+        rule: &Schema,
+        binding: &Binding,
+        open: &[usize],
+    ) -> Option<(usize, Vec<u32>)> {
+        let mut best: Option<(usize, usize, Option<&[u32]>)> = None;
+        for &at in open {
+            let atom = &rule.preconditions[at];
+            let relation = &self.relations[atom.predicate.index()];
+            let values: Vec<Option<ThingId>> =
+                atom.args.iter().map(|term| self.value(binding, term)).collect();
+            if values.iter().all(Option::is_some) {
+                let tuple: Vec<ThingId> = values.into_iter().flatten().collect();
+                return Some((at, relation.numbers.get(&tuple).copied().into_iter().collect()));
+            }
+            let mut fewest = (relation.tuples.len(), None);
+            for (place, value) in values.iter().enumerate() {
+                let Some(thing) = value else { continue };
+                let numbers: &[u32] = relation
+                    .by_arg
+                    .get(place)
+                    .and_then(|i| i.get(thing))
+                    .map_or(&[], Vec::as_slice);
+                if numbers.len() < fewest.0 {
+                    fewest = (numbers.len(), Some(numbers));
+                }
+            }
+            if best.is_none_or(|(_, count, _)| fewest.0 < count) {
+                best = Some((at, fewest.0, fewest.1));
+            }
+        }
+        best.map(|(at, count, numbers)| {
+            (at, numbers.map_or_else(|| (0..count as u32).collect(), <[u32]>::to_vec))
+        })
+    }
+
+    /// Parameters that no precondition binds range over the objects of their types.
+    fn choose_rest(&mut self, schema: usize, binding: Binding) {
+        let domain = self.domain;
+        let Some(free) = binding.iter().position(Option::is_none) else {
+            let args: Vec<ThingId> = binding.into_iter().flatten().collect();
+            self.emit(schema, args);
+            return;
+        };
+        for choice in 0..self.candidates[schema][free].len() {
+            let mut binding = binding.clone();
+            binding[free] = Some(self.candidates[schema][free][choice]);
+            if self.overflow.is_none() && self.comparisons_hold(&domain.schemas[schema], &binding) {
+                self.choose_rest(schema, binding);
+            }
+        }
+    }
+
+    fn comparisons_hold(&self, rule: &Schema, binding: &Binding) -> bool {
+        let compare = |pairs: &[(SchemaTerm, SchemaTerm)], equal: bool| {
+            pairs.iter().all(|(left, right)| {
+                match (self.value(binding, left), self.value(binding, right)) {
+                    (Some(left), Some(right)) => (left == right) == equal,
+                    _ => true,
+                }
+            })
+        };
+        compare(&rule.equal, true) && compare(&rule.different, false)
+    }
+
+    fn emit(&mut self, schema: usize, args: Vec<ThingId>) {
+        let domain = self.domain;
+        let rule = &domain.schemas[schema];
+        let denied = rule.negative_preconditions.iter().any(|atom| {
+            !self.changing[atom.predicate.index()]
+                && self.numbers.contains_key(&self.instantiate(atom, &args))
+        });
+        if denied {
+            return;
+        }
+        if self.instances.len() >= MAX_OPERATORS {
+            self.overflow = Some(schema);
+            return;
+        }
+        for atom in &rule.add_effects {
+            let atom = self.instantiate(atom, &args);
+            self.reach(atom);
+        }
+        self.instances.push(Instance { schema, args });
+    }
+
+    pub(super) fn instantiate(&self, atom: &SchemaAtom, args: &[ThingId]) -> GroundAtom {
+        let value = |term: &SchemaTerm| match term {
+            SchemaTerm::Constant(name) => self.resolved.index[&name_key(name)],
+            SchemaTerm::Parameter(parameter) => args[*parameter as usize],
+        };
+        GroundAtom { predicate: atom.predicate, args: atom.args.iter().map(value).collect() }
+    }
+}
+
+/// The reached atoms and actions, numbered, still with all that simplification will drop.
+fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Draft {
+    let mut atoms = reached.atoms.clone();
+    for (atom, _) in &resolved.goal {
+        if !reached.numbers.contains_key(atom) && !atoms.contains(atom) {
+            atoms.push(atom.clone());
+        }
+    }
+    atoms.sort_unstable();
+    let numbers: HashMap<&GroundAtom, u32> =
+        atoms.iter().enumerate().map(|(number, atom)| (atom, number as u32)).collect();
+    let known = |atoms: &[SchemaAtom], instance: &Instance| -> Vec<u32> {
+        let number = |atom| numbers.get(&reached.instantiate(atom, &instance.args)).copied();
+        atoms.iter().filter_map(number).collect()
+    };
+    let mut instances: Vec<&Instance> = reached.instances.iter().collect();
+    instances.sort_unstable_by(|a, b| (a.schema, &a.args).cmp(&(b.schema, &b.args)));
+    let names: Vec<std::sync::Arc<str>> =
+        resolved.things.iter().map(|thing| thing.name.as_str().into()).collect();
+    let schema_names: Vec<std::sync::Arc<str>> =
+        domain.schemas.iter().map(|schema| schema.name.as_str().into()).collect();
+    let operators = instances
+        .into_iter()
+        .map(|instance| {
+            let schema = &domain.schemas[instance.schema];
+            DraftOperator {
+                name: schema_names[instance.schema].clone(),
+                args: instance.args.iter().map(|thing| names[thing.index()].clone()).collect(),
+                preconditions: known(&schema.preconditions, instance),
+                negative: known(&schema.negative_preconditions, instance),
+                add_effects: known(&schema.add_effects, instance),
+                del_effects: known(&schema.del_effects, instance),
+                cost: cost(schema, resolved, instance),
+            }
+        })
+        .collect();
+    let predicate_names: Vec<std::sync::Arc<str>> =
+        domain.predicates.iter().map(|predicate| predicate.name.as_str().into()).collect();
+    let shown = |predicate: PredicateId| predicate_names[predicate.index()].clone();
+    Draft {
+        init: resolved.facts.iter().map(|(atom, _)| numbers[atom]).collect(),
+        assumptions: resolved
+            .facts
+            .iter()
+            .filter(|(_, standing)| *standing == Standing::Assumption)
+            .map(|(atom, _)| numbers[atom])
+            .collect(),
+        goal: resolved.goal.iter().map(|(atom, negated)| (numbers[atom], *negated)).collect(),
+        impossible: resolved.impossible,
+        operators,
+        facts: atoms
+            .iter()
+            .map(|atom| {
+                let args = atom.args.iter().map(|thing| names[thing.index()].clone()).collect();
+                (shown(atom.predicate), args)
+            })
+            .collect(),
+    }
+}
+
+fn cost(schema: &Schema, resolved: &Resolved, instance: &Instance) -> u32 {
+    if schema.cost.is_empty() {
+        return 1;
+    }
+    let part = |cost: &SchemaCost| match cost {
+        SchemaCost::Number(number) => *number,
+        SchemaCost::Function { name, args } => {
+            let value = |term: &SchemaTerm| match term {
+                SchemaTerm::Constant(name) => resolved.index[&name_key(name)],
+                SchemaTerm::Parameter(parameter) => instance.args[*parameter as usize],
+            };
+            let args: Vec<ThingId> = args.iter().map(value).collect();
+            // A value that the problem does not give is nothing, as planners read it.
+            resolved.values.get(&(name.clone(), args)).copied().unwrap_or(0)
+        }
+    };
+    schema.cost.iter().map(part).fold(0, u32::saturating_add)
+}

@@ -1,0 +1,208 @@
+//! Reading rule files and scenarios with all that they include.
+
+use std::path::{Path, PathBuf};
+
+use super::check;
+use super::domain::Domain;
+use super::error::{RuleError, RuleFault, RuleFaults};
+use super::ground::ground;
+use super::pddl;
+use super::problem::Problem;
+use super::rule_text;
+use super::syntax::{CostTerm, Document, Name};
+use super::task::Task;
+use crate::units::Source;
+
+/// No rule file that a person wrote is longer.
+pub const MAX_FILE_BYTES: u64 = 16 << 20;
+
+/// Rules and a problem read from one text and the files that it includes.
+#[derive(Debug, Clone)]
+pub struct Scenario {
+    pub domain: Domain,
+    pub problem: Problem,
+    /// The map whose facts supplement the scenario (`Карта: файл`), relative to the working directory.
+    pub map: Option<PathBuf>,
+    /// Harmless faults, such as the paper's surplus bracket.
+    pub warnings: Vec<RuleFault>,
+}
+
+impl Scenario {
+    /// Reads a rule file or a scenario.
+    ///
+    /// # Errors
+    /// All faults of the file and of those that it includes, at once. A scenario's objects and goals are
+    /// checked when it is grounded, after a map had its chance to supplement them.
+    pub fn read(path: &Path) -> Result<Self, RuleFaults> {
+        let source = read_source(path)?;
+        Self::load(&source, Some(path))
+    }
+
+    /// Reads a text; what it includes is looked for from the working directory.
+    ///
+    /// # Errors
+    /// As [`Scenario::read`].
+    pub fn parse(source: &Source) -> Result<Self, RuleFaults> {
+        Self::load(source, None)
+    }
+
+    /// Reads a PDDL domain and problem.
+    ///
+    /// # Errors
+    /// All faults of both files at once.
+    pub fn read_pddl(domain: &Path, problem: &Path) -> Result<Self, RuleFaults> {
+        match (read_source(domain), read_source(problem)) {
+            (Ok(domain), Ok(problem)) => Self::parse_pddl(&domain, &problem),
+            (domain, problem) => {
+                Err(RuleFaults(domain.err().into_iter().chain(problem.err()).collect()))
+            }
+        }
+    }
+
+    /// Reads the texts of a PDDL domain and problem.
+    ///
+    /// # Errors
+    /// As [`Scenario::read_pddl`].
+    pub fn parse_pddl(domain: &Source, problem: &Source) -> Result<Self, RuleFaults> {
+        let (mut document, mut faults) = (Document::default(), Vec::new());
+        pddl::read(domain, &mut document, &mut faults);
+        pddl::read(problem, &mut document, &mut faults);
+        // Where some action has a price, one without is free.
+        if document.actions.iter().any(|action| !action.cost.is_empty()) {
+            for action in document.actions.iter_mut().filter(|action| action.cost.is_empty()) {
+                action.cost.push(CostTerm::Number(0));
+            }
+        }
+        Self::from_document(document, faults)
+    }
+
+    /// Grounds the scenario as it stands.
+    ///
+    /// # Errors
+    /// As [`ground`].
+    pub fn ground(&self) -> Result<Task, RuleFaults> {
+        ground(&self.domain, &self.problem)
+    }
+
+    fn load(source: &Source, path: Option<&Path>) -> Result<Self, RuleFaults> {
+        let mut loader = Loader { open: Vec::new(), done: Vec::new(), faults: Vec::new() };
+        let document = loader.load(source, path);
+        Self::from_document(document, loader.faults)
+    }
+
+    /// Checks what was read even when `faults` came up in reading, so that one run tells everything.
+    fn from_document(document: Document, mut faults: Vec<RuleFault>) -> Result<Self, RuleFaults> {
+        let domain = check::domain(&document, &mut faults);
+        let problem = Problem::of(&document, &mut faults);
+        problem.check(&domain, &mut faults);
+        if !faults.is_empty() {
+            return Err(RuleFaults(faults));
+        }
+        let map = document.map.as_ref().map(|name| beside(name, Path::new(name.at.source.name())));
+        Ok(Self { domain, problem, map, warnings: document.warnings })
+    }
+}
+
+impl Domain {
+    /// Reads a file of rules; what else it states is left aside.
+    ///
+    /// # Errors
+    /// All faults of the file and of those that it includes, at once.
+    pub fn read(path: &Path) -> Result<Self, RuleFaults> {
+        let scenario = Scenario::read(path)?;
+        if scenario.domain.schemas().is_empty() {
+            return Err(RuleFault::placeless(RuleError::NoActions).into());
+        }
+        Ok(scenario.domain)
+    }
+}
+
+/// The text of a file, if it is text and of a size that makes sense.
+pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
+    let shown = path.display().to_string();
+    let refused = |error: std::io::Error| {
+        let reason = match error.kind() {
+            std::io::ErrorKind::NotFound => "такого файла нет".to_owned(),
+            std::io::ErrorKind::PermissionDenied => "нет прав на чтение".to_owned(),
+            _ => error.to_string(),
+        };
+        RuleFault::placeless(RuleError::Unreadable { path: shown.clone(), reason })
+    };
+    let bytes = std::fs::metadata(path).map_err(refused)?.len();
+    if bytes > MAX_FILE_BYTES {
+        let error = RuleError::TooLarge { path: shown, bytes, limit: MAX_FILE_BYTES };
+        return Err(RuleFault::placeless(error));
+    }
+    let bytes = std::fs::read(path).map_err(refused)?;
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Source::new(shown, text)),
+        Err(error) => {
+            let offset = error.utf8_error().valid_up_to();
+            Err(RuleFault::placeless(RuleError::NotText { path: shown, offset }))
+        }
+    }
+}
+
+struct Loader {
+    /// The chain of files being read, to see a circle.
+    open: Vec<PathBuf>,
+    /// Files read once are not read again.
+    done: Vec<PathBuf>,
+    faults: Vec<RuleFault>,
+}
+
+impl Loader {
+    fn load(&mut self, source: &Source, path: Option<&Path>) -> Document {
+        if source.text().chars().all(|c| c.is_whitespace() || c == '\u{feff}') {
+            let error = RuleError::Empty { path: source.name().to_owned() };
+            self.faults.push(RuleFault::placeless(error));
+            return Document::default();
+        }
+        let identity = path.map(|path| path.canonicalize().unwrap_or_else(|_| path.to_owned()));
+        self.open.extend(identity.clone());
+        let parsed = rule_text::parse(source);
+        self.faults.extend(parsed.faults);
+        // What is included comes first, as if it stood at the head of the file.
+        let mut document = Document::default();
+        for include in parsed.includes {
+            document.include(self.included(&include, path));
+        }
+        let own_map = parsed.document.map.clone();
+        document.include(parsed.document);
+        document.map = own_map.or(document.map);
+        if identity.is_some() {
+            self.done.extend(self.open.pop());
+        }
+        document
+    }
+
+    fn included(&mut self, include: &Name, from: Option<&Path>) -> Document {
+        let path = beside(include, from.unwrap_or(Path::new("")));
+        let identity = path.canonicalize().unwrap_or_else(|_| path.clone());
+        if self.open.contains(&identity) {
+            self.faults.push(include.fault(|at| RuleError::IncludeCycle { at }));
+        } else if !self.done.contains(&identity) {
+            match read_source(&path) {
+                Ok(source) => return self.load(&source, Some(&path)),
+                Err(fault) => self.faults.push(include.fault(|at| RuleError::Include {
+                    path: include.text.clone(),
+                    reason: match *fault.error {
+                        RuleError::Unreadable { reason, .. } => reason,
+                        other => other.to_string(),
+                    },
+                    at,
+                })),
+            }
+        }
+        Document::default()
+    }
+}
+
+/// A path as seen from the folder of the file that names it.
+fn beside(name: &Name, from: &Path) -> PathBuf {
+    let relative = Path::new(&name.text);
+    match from.parent() {
+        Some(folder) if relative.is_relative() => folder.join(relative),
+        _ => relative.to_owned(),
+    }
+}

@@ -1,0 +1,491 @@
+//! Planning problems of other people: PDDL with :strips :typing :negative-preconditions :equality :action-costs.
+//!
+//! Domain and problem become the same [`Document`] that a rule file becomes, and are checked by the same code.
+//! What lies beyond (quantifiers, disjunction, conditional effects, time) is refused by name and place.
+
+use miette::SourceSpan;
+use nom::branch::alt;
+use nom::bytes::complete::{tag, take_till, take_while1};
+use nom::character::complete::multispace1;
+use nom::combinator::recognize;
+use nom::multi::many0_count;
+use nom::sequence::preceded;
+use nom::{IResult, Parser};
+
+use super::error::{RuleError, RuleFault};
+use super::rule_text::MAX_COST;
+use super::syntax::{
+    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Signature, Term,
+};
+use crate::units::{Source, name_key};
+
+/// No file of a person nests deeper.
+const MAX_DEPTH: usize = 200;
+
+/// A word or a bracketed list.
+#[derive(Debug)]
+pub(super) enum Expression<'a> {
+    Word(&'a str, SourceSpan),
+    List(Vec<Self>, SourceSpan),
+}
+
+impl<'a> Expression<'a> {
+    pub(super) fn span(&self) -> SourceSpan {
+        match self {
+            Self::Word(_, span) | Self::List(_, span) => *span,
+        }
+    }
+
+    /// The first word of a list, in lower case.
+    fn head(&self) -> Option<String> {
+        match self {
+            Self::List(items, _) => match items.first() {
+                Some(Self::Word(word, _)) => Some(word.to_lowercase()),
+                _ => None,
+            },
+            Self::Word(..) => None,
+        }
+    }
+
+    pub(super) fn items(&self) -> &[Self] {
+        match self {
+            Self::List(items, _) => items,
+            Self::Word(..) => &[],
+        }
+    }
+}
+
+type Faults = Vec<RuleFault>;
+
+/// Reads a domain or a problem into `document`.
+pub(super) fn read(source: &Source, document: &mut Document, faults: &mut Faults) {
+    let expressions = match expressions(source) {
+        Ok(expressions) => expressions,
+        Err(fault) => return faults.push(fault),
+    };
+    if expressions.is_empty() {
+        let error = RuleError::Empty { path: source.name().to_owned() };
+        return faults.push(RuleFault::placeless(error));
+    }
+    document.types.get_or_insert_default();
+    document.predicates_closed = true;
+    document.objects_closed = true;
+    let mut reader = Reader { source, document, faults };
+    for expression in &expressions {
+        if expression.head().as_deref() == Some("define") {
+            expression.items()[1..].iter().for_each(|section| reader.section(section));
+        } else {
+            reader.expected("(define …)", expression.span());
+        }
+    }
+}
+
+/// The bracketed lists of a text.
+pub(super) fn expressions(source: &Source) -> Result<Vec<Expression<'_>>, RuleFault> {
+    let text = source.text();
+    let fault = |error| RuleFault::new(source, error);
+    let mut open: Vec<(usize, Vec<Expression<'_>>)> = Vec::new();
+    let mut top = Vec::new();
+    let mut rest = skip_blank(text);
+    while !rest.is_empty() {
+        let start = text.len() - rest.len();
+        let found: IResult<&str, &str> = alt((tag("("), tag(")"), quoted, word)).parse(rest);
+        let (after, token) = found.expect("any other character is a word's");
+        let end = text.len() - after.len();
+        let done = match token {
+            "(" => {
+                if open.len() >= MAX_DEPTH {
+                    let at = (start, 1).into();
+                    return Err(fault(RuleError::TooDeep { limit: MAX_DEPTH, at }));
+                }
+                open.push((start, Vec::new()));
+                None
+            }
+            ")" => match open.pop() {
+                Some((from, items)) => Some(Expression::List(items, (from, end - from).into())),
+                None => {
+                    return Err(fault(RuleError::Syntax {
+                        expected: "«(»".to_owned(),
+                        found: "«)»".to_owned(),
+                        at: (start, 1).into(),
+                    }));
+                }
+            },
+            word => Some(Expression::Word(word.trim_matches('"'), (start, end - start).into())),
+        };
+        if let Some(done) = done {
+            open.last_mut().map_or(&mut top, |(_, items)| items).push(done);
+        }
+        rest = skip_blank(after);
+    }
+    match open.pop() {
+        Some((from, _)) => Err(fault(RuleError::MissingParenthesis { at: (from, 1).into() })),
+        None => Ok(top),
+    }
+}
+
+fn word(input: &str) -> IResult<&str, &str> {
+    take_while1(|c: char| !c.is_whitespace() && !"();".contains(c)).parse(input)
+}
+
+/// A name with blanks, as plans over Russian maps have them.
+fn quoted(input: &str) -> IResult<&str, &str> {
+    recognize((tag("\""), take_while1(|c| c != '"' && c != '\n'), tag("\""))).parse(input)
+}
+
+fn skip_blank(input: &str) -> &str {
+    let comment = preceded(tag(";"), take_till(|c| c == '\n'));
+    let skipped: IResult<&str, usize> =
+        many0_count(alt((multispace1, comment, tag("\u{feff}")))).parse(input);
+    let rest = skipped.map_or(input, |(rest, _)| rest);
+    // White space that only Unicode knows would else be a word of no letters.
+    rest.trim_start()
+}
+
+struct Reader<'a> {
+    source: &'a Source,
+    document: &'a mut Document,
+    faults: &'a mut Faults,
+}
+
+impl Reader<'_> {
+    fn section(&mut self, section: &Expression<'_>) {
+        let items = section.items();
+        match section.head().as_deref() {
+            Some(":types") => {
+                let types = self.typed(&items[1..]);
+                self.document.types.get_or_insert_default().extend(types);
+            }
+            Some(":constants" | ":objects") => {
+                let objects = self.typed(&items[1..]);
+                self.document.objects.extend(objects);
+            }
+            Some(":predicates") => {
+                for signature in &items[1..] {
+                    let Some((name, rest)) = self.call(signature) else { continue };
+                    let args = self.typed(rest).into_iter().map(|arg| arg.kinds).collect();
+                    self.document.predicates.push(Signature { name, args });
+                }
+            }
+            Some(":action") => self.action(section),
+            Some(":init") => items[1..].iter().for_each(|fact| self.fact(fact)),
+            Some(":goal") => {
+                let mut goal = Vec::new();
+                items[1..].iter().for_each(|part| self.condition(part, false, &mut goal));
+                self.document.goal.extend(goal);
+            }
+            // Names and promises; what a text really uses shows when it is read.
+            Some("domain" | "problem" | ":domain" | ":requirements" | ":functions" | ":metric") => {
+            }
+            Some(other) => self.unsupported(other, section.span()),
+            None => self.expected("раздел «(:…)»", section.span()),
+        }
+    }
+
+    fn action(&mut self, section: &Expression<'_>) {
+        let items = section.items();
+        let Some(Expression::Word(name, span)) = items.get(1) else {
+            return self.expected("имя действия", section.span());
+        };
+        let mut action = ActionText {
+            name: Name::new(name, self.source, *span),
+            parameters: Vec::new(),
+            precondition: Vec::new(),
+            add: Vec::new(),
+            del: Vec::new(),
+            cost: Vec::new(),
+        };
+        let mut rest = items[2..].iter();
+        while let Some(key) = rest.next() {
+            let Expression::Word(word, span) = key else {
+                self.expected(":parameters, :precondition или :effect", key.span());
+                continue;
+            };
+            let Some(body) = rest.next() else {
+                self.expected("выражение в скобках", *span);
+                continue;
+            };
+            match word.to_lowercase().as_str() {
+                ":parameters" => {
+                    let typed = self.typed(body.items()).into_iter();
+                    action.parameters =
+                        typed.map(|d| Parameter { kinds: d.kinds, variable: d.name }).collect();
+                }
+                ":precondition" => self.condition(body, false, &mut action.precondition),
+                ":effect" => self.effect(body, &mut action),
+                other => self.unsupported(other, *span),
+            }
+        }
+        // Adding comes after deleting, so that an atom in both is simply added.
+        let key = |atom: &Atom| -> Vec<String> {
+            std::iter::once(&atom.predicate)
+                .chain(atom.args.iter().map(|t| &t.name))
+                .map(Name::key)
+                .collect()
+        };
+        let added: Vec<Vec<String>> = action.add.iter().map(key).collect();
+        action.del.retain(|atom| !added.contains(&key(atom)));
+        self.document.actions.push(action);
+    }
+
+    fn condition(&mut self, part: &Expression<'_>, negated: bool, into: &mut Vec<Condition>) {
+        let items = part.items();
+        match part.head().as_deref() {
+            Some("and") if !negated => {
+                items[1..].iter().for_each(|p| self.condition(p, false, into))
+            }
+            Some("not") if items.len() == 2 => self.condition(&items[1], !negated, into),
+            Some("=") if items.len() == 3 => {
+                if let (Some(left), Some(right)) = (self.term(&items[1]), self.term(&items[2])) {
+                    into.push(Condition::Equal { pair: Box::new((left, right)), negated });
+                }
+            }
+            Some(what @ ("and" | "or" | "imply" | "forall" | "exists" | "when" | "preference")) => {
+                self.unsupported(what, part.span());
+            }
+            Some(_) => {
+                if let Some(atom) = self.atom(part) {
+                    into.push(Condition::Holds { atom, negated });
+                }
+            }
+            None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
+            None => self.expected("условие в скобках", part.span()),
+        }
+    }
+
+    fn effect(&mut self, part: &Expression<'_>, action: &mut ActionText) {
+        let items = part.items();
+        match part.head().as_deref() {
+            Some("and") => items[1..].iter().for_each(|p| self.effect(p, action)),
+            Some("not") if items.len() == 2 => {
+                action.del.extend(self.atom(&items[1]));
+            }
+            Some("increase") if items.len() == 3 => {
+                action.cost.extend(match &items[2] {
+                    Expression::Word(text, span) => self.number(text, *span).map(CostTerm::Number),
+                    list @ Expression::List(..) => self.atom(list).map(CostTerm::Function),
+                });
+            }
+            Some(
+                what @ ("forall" | "when" | "assign" | "decrease" | "scale-up" | "scale-down"),
+            ) => {
+                self.unsupported(what, part.span());
+            }
+            Some(_) => action.add.extend(self.atom(part)),
+            None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
+            None => self.expected("эффект в скобках", part.span()),
+        }
+    }
+
+    fn fact(&mut self, fact: &Expression<'_>) {
+        let items = fact.items();
+        match (fact.head().as_deref(), items) {
+            (Some("="), [_, function, Expression::Word(value, span)]) => {
+                let value = self.number(value, *span);
+                let function = match function {
+                    Expression::Word(name, span) => Some(Atom {
+                        predicate: Name::new(name, self.source, *span),
+                        args: Vec::new(),
+                    }),
+                    list @ Expression::List(..) => self.atom(list),
+                };
+                if let (Some(function), Some(value)) = (function, value) {
+                    self.document.values.push((function, value));
+                }
+            }
+            _ => {
+                let mut conditions = Vec::new();
+                self.condition(fact, false, &mut conditions);
+                self.document.facts.append(&mut conditions);
+            }
+        }
+    }
+
+    fn number(&mut self, text: &str, at: SourceSpan) -> Option<u32> {
+        let whole = text.split_once('.').map_or(text, |(whole, fraction)| {
+            if fraction.chars().all(|c| c == '0') { whole } else { text }
+        });
+        let number = whole.parse().ok().filter(|&cost| cost <= MAX_COST);
+        if number.is_none() {
+            let error = RuleError::Cost { text: text.chars().take(40).collect(), at };
+            self.faults.push(RuleFault::new(self.source, error));
+        }
+        number
+    }
+
+    fn atom(&mut self, expression: &Expression<'_>) -> Option<Atom> {
+        let (predicate, rest) = self.call(expression)?;
+        let args: Vec<Term> = rest.iter().filter_map(|term| self.term(term)).collect();
+        (args.len() == rest.len()).then_some(Atom { predicate, args })
+    }
+
+    fn call<'e, 't>(
+        &mut self,
+        expression: &'e Expression<'t>,
+    ) -> Option<(Name, &'e [Expression<'t>])> {
+        match expression.items() {
+            [Expression::Word(name, span), rest @ ..] => {
+                Some((Name::new(name, self.source, *span), rest))
+            }
+            _ => {
+                self.expected("«(имя аргументы…)»", expression.span());
+                None
+            }
+        }
+    }
+
+    fn term(&mut self, expression: &Expression<'_>) -> Option<Term> {
+        match expression {
+            Expression::Word(word, span) => Some(Term {
+                kind: None,
+                name: Name::new(word, self.source, *span),
+                is_variable: word.starts_with('?'),
+            }),
+            Expression::List(..) => {
+                self.expected("переменная или объект", expression.span());
+                None
+            }
+        }
+    }
+
+    /// `a b - t c - (either u v) d`
+    fn typed(&mut self, items: &[Expression<'_>]) -> Vec<Declaration> {
+        let mut declarations: Vec<Declaration> = Vec::new();
+        let mut group = 0;
+        let mut items = items.iter();
+        while let Some(item) = items.next() {
+            match item {
+                Expression::Word("-", span) => {
+                    let Some(kind) = items.next() else {
+                        self.expected("тип после «-»", *span);
+                        break;
+                    };
+                    let words = match kind {
+                        Expression::Word(..) => std::slice::from_ref(kind),
+                        Expression::List(items, _) if kind.head().as_deref() == Some("either") => {
+                            &items[1..]
+                        }
+                        Expression::List(_, span) => {
+                            self.expected("тип или «(either …)»", *span);
+                            continue;
+                        }
+                    };
+                    let kinds: Vec<Name> = words
+                        .iter()
+                        .filter_map(|word| match word {
+                            Expression::Word(word, span) => {
+                                Some(Name::new(word, self.source, *span))
+                            }
+                            Expression::List(..) => None,
+                        })
+                        .collect();
+                    for declaration in &mut declarations[group..] {
+                        declaration.kinds.clone_from(&kinds);
+                    }
+                    group = declarations.len();
+                }
+                Expression::Word(word, span) => {
+                    // "object" is there before anyone declares it.
+                    if name_key(word) != "object" || word.starts_with('?') {
+                        let name = Name::new(word, self.source, *span);
+                        declarations.push(Declaration { name, kinds: Vec::new() });
+                    }
+                }
+                Expression::List(_, span) => self.expected("имя", *span),
+            }
+        }
+        declarations
+    }
+
+    fn expected(&mut self, expected: &str, at: SourceSpan) {
+        let text = &self.source.text()[at.offset()..at.offset() + at.len()];
+        let found: String =
+            text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
+        let (expected, found) = (expected.to_owned(), format!("«{found}»"));
+        self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
+    }
+
+    fn unsupported(&mut self, what: &str, at: SourceSpan) {
+        let what: String = what.chars().take(40).collect();
+        self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, at }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Scenario, Task};
+    use super::*;
+
+    const DOMAIN: &str = "(define (domain lift) (:requirements :typing :action-costs)
+        (:types floor - object  person bag - (either load thing) load thing)
+        (:constants ground - floor)
+        (:predicates (at ?f - floor) (waits ?l - (either person bag) ?f - floor) (done ?l))
+        (:functions (total-cost) (far ?a ?b - floor))
+        (:action move :parameters (?a ?b - floor) :precondition (and (at ?a) (not (= ?a ?b)))
+          :effect (and (at ?b) (not (at ?a)) (increase (total-cost) (far ?a ?b))))
+        (:action carry :parameters (?l - (either person bag) ?f - floor)
+          :precondition (and (at ?f) (waits ?l ?f) (not (done ?l))) :effect (and (done ?l) (increase (total-cost) 2.0))))";
+
+    fn task(problem: &str) -> Result<Task, Vec<String>> {
+        let domain = Source::new("domain", DOMAIN);
+        Scenario::parse_pddl(&domain, &Source::new("problem", problem))
+            .and_then(|scenario| scenario.ground())
+            .map_err(|faults| faults.0.iter().map(ToString::to_string).collect())
+    }
+
+    #[test]
+    fn types_constants_and_costs_are_read() {
+        let task = task(
+            "(define (problem p) (:domain lift) (:objects roof - floor Ann - person)
+             (:init (at ground) (WAITS ann roof) (= (far ground roof) 7) (= (total-cost) 0))
+             (:goal (and (done ann) (not (at roof)))) (:metric minimize (total-cost)))",
+        )
+        .unwrap();
+        let shown: Vec<String> = task.operators.iter().map(|o| format!("{o} {}", o.cost)).collect();
+        assert_eq!(
+            shown,
+            ["move_(ground, roof) 7", "move_(roof, ground) 0", "carry_(Ann, roof) 2"]
+        );
+    }
+
+    #[test]
+    fn faults_have_places() {
+        let faults = task(
+            "(define (problem p) (:domain lift) (:objects roof - flor)
+             (:init (att ground) (waits ground roof))
+             (:goal (and (or (done roof)) (done Bob) (at roof))))",
+        )
+        .unwrap_err();
+        expect_test::expect![[r#"
+            problem:3:26: «or» не поддерживается
+            problem:1:53: неизвестный тип «flor»
+            problem:2:22: неизвестный предикат «att»
+            problem:2:41: «waits»: 1-й аргумент должен быть типа «person или bag», а «ground» – типа «floor»
+            problem:3:49: неизвестный объект «Bob»"#]].assert_eq(&faults.join("\n"));
+    }
+
+    #[test]
+    fn rubbish_is_refused_without_panic() {
+        for text in [
+            "",
+            "(",
+            ")",
+            "(define",
+            "(define)",
+            "()",
+            "(define (:action))",
+            "(define (:objects -))",
+            "x",
+        ] {
+            assert!(task(text).is_err(), "{text}");
+        }
+        assert!(task(&"(".repeat(1 << 20)).is_err());
+        let nested = format!("(define (:goal {}{}))", "(not ".repeat(500), ")".repeat(500));
+        assert!(task(&nested).is_err());
+        let good = "(define (problem p) (:objects r - floor) (:init (at r) (= (far r r) 1)) (:goal (and (at r))))";
+        for at in 0..good.len() {
+            let _ = task(&good[..at]);
+            let _ = task(&good[at..]);
+        }
+    }
+}

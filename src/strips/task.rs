@@ -1,0 +1,114 @@
+//! A planning task over ground facts and operators: all that a planner needs, and nothing of where it came from.
+//!
+//! Invariant: in every operator preconditions, add and delete effects are sorted, without repetition, and no
+//! fact is both added and deleted; every [`FactId`] lies within [`Task::facts`].
+
+use std::fmt;
+use std::sync::Arc;
+
+use super::domain::indices;
+
+indices! {
+    /// A fact of a [`Task`].
+    FactId,
+    /// An operator of a [`Task`].
+    OperatorId,
+}
+
+/// A ground atom, or its negation where an action or the goal asks for it.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub struct Fact {
+    pub predicate: Arc<str>,
+    pub args: Vec<Arc<str>>,
+    pub negated: bool,
+}
+
+/// `НЕ ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ВZ, Комната-В, Комната-Z)`
+impl fmt::Display for Fact {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.negated {
+            f.write_str("НЕ ")?;
+        }
+        write_call(f, &self.predicate, &self.args)
+    }
+}
+
+/// A ground action; a step of a plan that carries it out is the paper's directive.
+#[derive(Debug, Clone)]
+pub struct Operator {
+    pub name: Arc<str>,
+    pub args: Vec<Arc<str>>,
+    pub preconditions: Vec<FactId>,
+    pub add_effects: Vec<FactId>,
+    pub del_effects: Vec<FactId>,
+    pub cost: u32,
+}
+
+/// `Движение-из_в_через-дверь_(Комната-В, Комната-Z, Дверь-ВZ)`, as the paper prints a directive.
+impl fmt::Display for Operator {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write_call(f, &self.name, &self.args)
+    }
+}
+
+fn write_call(f: &mut fmt::Formatter<'_>, name: &str, args: &[Arc<str>]) -> fmt::Result {
+    write!(f, "{name}_(")?;
+    for (place, arg) in args.iter().enumerate() {
+        if place > 0 {
+            f.write_str(", ")?;
+        }
+        f.write_str(arg)?;
+    }
+    f.write_str(")")
+}
+
+/// A ground planning task.
+#[derive(Debug, Clone, Default)]
+pub struct Task {
+    pub facts: Vec<Fact>,
+    pub operators: Vec<Operator>,
+    /// What holds at first, sorted.
+    pub init: Vec<FactId>,
+    /// What must hold in the end, sorted.
+    pub goal: Vec<FactId>,
+    /// Those of `init` that are only assumed (SPEC P2), sorted.
+    pub assumptions: Vec<FactId>,
+}
+
+impl Task {
+    #[must_use]
+    pub fn fact(&self, id: FactId) -> &Fact {
+        &self.facts[id.index()]
+    }
+
+    #[must_use]
+    pub fn operator(&self, id: OperatorId) -> &Operator {
+        &self.operators[id.index()]
+    }
+
+    pub fn fact_ids(&self) -> impl Iterator<Item = FactId> + use<> {
+        (0..self.facts.len() as u32).map(FactId)
+    }
+
+    pub fn operator_ids(&self) -> impl Iterator<Item = OperatorId> + use<> {
+        (0..self.operators.len() as u32).map(OperatorId)
+    }
+
+    /// Panics when the invariant of this module does not hold; for tests and for hand-made tasks.
+    pub fn check_invariants(&self) {
+        let strictly_sorted = |ids: &[FactId]| ids.windows(2).all(|pair| pair[0] < pair[1]);
+        let within = |ids: &[FactId]| ids.iter().all(|id| id.index() < self.facts.len());
+        for ids in [&self.init, &self.goal, &self.assumptions] {
+            assert!(strictly_sorted(ids) && within(ids), "the task's fact lists are sorted sets");
+        }
+        for operator in &self.operators {
+            for ids in [&operator.preconditions, &operator.add_effects, &operator.del_effects] {
+                assert!(strictly_sorted(ids) && within(ids), "{operator}: lists are sorted sets");
+            }
+            assert!(
+                !operator.add_effects.iter().any(|id| operator.del_effects.contains(id)),
+                "{operator}: no fact is both added and deleted"
+            );
+        }
+    }
+}

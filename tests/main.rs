@@ -1,0 +1,19 @@
+//! Integration tests: one binary, one file a capability.
+
+mod architecture;
+mod corridor;
+mod corridor_lattice;
+mod facts;
+mod facts_naive;
+mod floor_properties;
+mod floors;
+mod generated_worlds;
+mod maps;
+mod planning;
+mod relations;
+mod routes;
+mod store;
+mod store_faults;
+mod store_world;
+mod words;
+mod worlds;

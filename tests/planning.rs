@@ -1,0 +1,143 @@
+//! From a scenario file to a plan, and from a faulty file to its faults.
+
+use std::path::{Path, PathBuf};
+
+use orthoframe::graphplan::{Limits, NoPlanReason, Outcome, solve, validate};
+use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
+use orthoframe::units::Source;
+
+fn project(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn directives(task: &Task) -> Vec<String> {
+    let Outcome::Plan(plan) = solve(task, &Limits::default()) else { panic!("a plan exists") };
+    assert_eq!(validate(task, &plan), Ok(()));
+    plan.operators().map(|id| task.operator(id).to_string()).collect()
+}
+
+#[test]
+fn the_papers_scenario_gives_the_papers_directives() {
+    let scenario = Scenario::read(&project("rules/scenarios/medicine-walk.strips")).unwrap();
+    assert_eq!(
+        scenario.map.as_deref(),
+        Some(project("rules/scenarios/../../maps/rb2.toml").as_path())
+    );
+    assert_eq!(
+        directives(&scenario.ground().unwrap()),
+        [
+            "Движение-в_от-места_до-двери_(Комната-В, Точка-А, Дверь-ВZ)",
+            "Движение-из_в_через-дверь_(Комната-В, Комната-Z, Дверь-ВZ)",
+            "Движение-в_от-двери_до-двери_(Комната-Z, Дверь-ВZ, Дверь-ZY)",
+            "Движение-из_в_через-дверь_(Комната-Z, Комната-Y, Дверь-ZY)",
+            "Движение-в_от-двери_до-места_(Комната-Y, Дверь-ZY, Точка-К)",
+        ]
+    );
+}
+
+/// `tests/golden/planning/<case>/scenario.strips`, or `domain.pddl` and `problem.pddl`, and what comes of it.
+#[test]
+fn golden_cases() {
+    let folder = project("tests/golden/planning");
+    let mut cases: Vec<PathBuf> =
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    cases.sort();
+    assert!(!cases.is_empty());
+    for case in cases {
+        let expected = case.join("expected.txt");
+        if !expected.exists() {
+            std::fs::write(&expected, "").unwrap();
+        }
+        expect_test::expect_file![&expected].assert_eq(&outcome(&case));
+    }
+}
+
+#[test]
+fn scenarios_of_the_rules_folder() {
+    let folder = project("rules/scenarios");
+    let mut shown = String::new();
+    let mut files: Vec<PathBuf> =
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    files.sort();
+    for file in files {
+        let name = file.file_name().unwrap().to_string_lossy().into_owned();
+        shown.push_str(&format!("── {name}\n{}\n", told(Scenario::read(&file))));
+    }
+    expect_test::expect_file![project("tests/golden/scenarios.txt")].assert_eq(&shown);
+}
+
+fn outcome(case: &Path) -> String {
+    let scenario = if case.join("domain.pddl").exists() {
+        Scenario::read_pddl(&case.join("domain.pddl"), &case.join("problem.pddl"))
+    } else {
+        Scenario::read(&case.join("scenario.strips"))
+    };
+    // Faults name the file by the path that it was asked for by; a golden text must not.
+    told(scenario).replace(&format!("{}/", case.display()), "")
+}
+
+fn told(scenario: Result<Scenario, RuleFaults>) -> String {
+    let read = scenario.and_then(|scenario| scenario.ground().map(|task| (scenario, task)));
+    let (scenario, task) = match read {
+        Ok(read) => read,
+        Err(faults) => return format!("{faults}\n"),
+    };
+    match solve(&task, &Limits::default()) {
+        Outcome::Plan(plan) => {
+            assert_eq!(validate(&task, &plan), Ok(()));
+            let text = PlanText::write(&task, &plan.steps);
+            let again = PlanText::parse(&Source::new("план", &text)).unwrap();
+            assert_eq!(
+                again.check(&scenario.domain, &scenario.problem).map_err(|f| f.to_string()),
+                Ok(())
+            );
+            let assumed: String = plan
+                .assumptions(&task)
+                .into_iter()
+                .map(|fact| format!("; опирается на предположение {}\n", task.fact(fact)))
+                .collect();
+            text + &assumed
+        }
+        Outcome::NoPlan { reason, .. } => match reason {
+            NoPlanReason::Unreachable(goals) => {
+                let goals = goals.iter().map(|&goal| task.fact(goal));
+                let obstacles =
+                    explain_unreachable(&scenario.domain, &scenario.problem, goals).unwrap();
+                obstacles.iter().map(|obstacle| format!("плана нет: {obstacle}\n")).collect()
+            }
+            NoPlanReason::Exclusive(pairs) => pairs
+                .iter()
+                .map(|&(a, b)| {
+                    format!("плана нет: исключают друг друга {} и {}\n", task.fact(a), task.fact(b))
+                })
+                .collect(),
+            NoPlanReason::Together(goals) => {
+                let goals: Vec<String> = goals.iter().map(|&g| task.fact(g).to_string()).collect();
+                format!("плана нет: вместе недостижимы {}\n", goals.join(", "))
+            }
+        },
+        Outcome::LimitReached(limit) => format!("предел: {limit:?}\n"),
+    }
+}
+
+#[test]
+fn a_plan_text_breaks_where_it_is_wrong() {
+    let scenario = Scenario::read(&project("rules/scenarios/medicine-walk.strips")).unwrap();
+    let check = |text: &str| {
+        PlanText::parse(&Source::new("план", text))
+            .and_then(|plan| plan.check(&scenario.domain, &scenario.problem))
+            .map_err(|faults| faults.codes())
+    };
+    assert_eq!(check("0: (Ехать)"), Err(vec!["strips::unknown_action".into()]));
+    assert_eq!(check("(Движение-из_в_через-дверь Комната-В)"), Err(vec!["strips::arity".into()]));
+    let early = "(Движение-из_в_через-дверь Комната-В Комната-Z Дверь-ВZ)";
+    assert_eq!(
+        check(early),
+        Err(vec!["strips::plan_precondition".into(), "strips::plan_precondition".into()])
+    );
+    assert_eq!(
+        check("(Движение-в_от-места_до-двери Комната-В Точка-А Дверь-ВZ)"),
+        Err(vec!["strips::plan_misses_goal".into()])
+    );
+    assert_eq!(check("0: 0: )"), Err(vec!["strips::syntax".into()]));
+}
