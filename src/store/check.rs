@@ -6,13 +6,15 @@ use std::sync::Arc;
 
 use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
+use super::journal::snapshot_files;
 use super::keep::Store;
 use super::open::{SledShelf, check_format, lock, write_format};
 use super::reader::replica_index;
 use super::schema::key_of;
+use super::snapshot::{check_snapshot, write_snapshot};
 use super::tables::Table;
 use super::trees::{HISTORY, REPLICAS, Trees, digests};
-use super::vault::{Shelf, Vault, check_snapshot, snapshot_files, write_snapshot};
+use super::vault::{Shelf, Vault};
 use super::version::Version;
 
 /// How bad a finding is.

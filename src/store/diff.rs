@@ -6,8 +6,9 @@ use std::fmt;
 use crate::map::World;
 
 use super::cell::{Cell, Key, Row};
+use super::edits::Edits;
 use super::error::Result;
-use super::keep::{Edits, Store};
+use super::keep::Store;
 use super::reader::Reader;
 use super::schema::Record;
 use super::sheet::Sheet;

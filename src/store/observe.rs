@@ -15,8 +15,9 @@ use crate::map::Replica;
 use crate::units::{AreaId, Cm, Deg, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::cell::Key;
+use super::edits::{Change, Draft, Edits, ImportReport};
 use super::error::{Result, StoreError};
-use super::keep::{Change, Draft, Edits, ImportReport, Store};
+use super::keep::Store;
 use super::reader::Reader;
 use super::tables::{self as t, Table};
 use super::time::Timestamp;
