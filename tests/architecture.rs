@@ -160,7 +160,7 @@ fn each_package_has_its_own_folder() {
         ("datafrog", &["facts"]),
         ("clap", &["cli", "main"]),
         ("serde_json", &["cli", "web"]),
-        ("i_overlay", &["geometry", "semantics"]),
+        ("i_overlay", &["geometry", "map", "corridor"]),
     ];
     let mut wrong = Vec::new();
     for (folder, path, text) in sources() {

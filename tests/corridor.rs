@@ -10,7 +10,7 @@ use orthoframe::corridor::{
 use orthoframe::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
 use orthoframe::units::Source;
 
-const PAPER: &str = include_str!("../../maps/corridor-paper4.toml");
+const PAPER: &str = include_str!("../maps/corridor-paper4.toml");
 
 fn read(text: &str) -> Result<CorridorSystem, String> {
     CorridorSystem::from_toml(&Source::new("к.toml", text)).map_err(|e| e.to_string())

@@ -7,7 +7,8 @@ use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::fmt::Write as _;
 
 use orthoframe::corridor::{
-    Command, CorridorSystem, DoubleGraph, JunctionKind, Position, Side, SingleGraph, Turn, VertexIx,
+    Command, CorridorError, CorridorSystem, DoubleGraph, JunctionKind, Position, Side, SingleGraph,
+    Turn, Variant, VertexIx, directions,
 };
 use orthoframe::map::{
     Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, TypeEntry,
@@ -18,6 +19,8 @@ use proptest::prelude::*;
 
 const STEP: i32 = 1000;
 const WIDTH: i32 = 200;
+/// Everything stands on multiples of this.
+const GRID: i32 = 100;
 /// East, north, west, south.
 const WAYS: [(i32, i32); 4] = [(1, 0), (0, 1), (-1, 0), (0, -1)];
 
@@ -127,7 +130,7 @@ impl Lattice {
         let mut at = stand.at;
         let forward = stand.way < 2;
         loop {
-            at = (at.0 + dx, at.1 + dy);
+            at = (at.0 + dx * GRID, at.1 + dy * GRID);
             let on_node = at.0 % STEP == 0 && at.1 % STEP == 0;
             let node = (at.0.div_euclid(STEP), at.1.div_euclid(STEP));
             if on_node {
@@ -185,7 +188,7 @@ impl Lattice {
             return self.ways(node)[0];
         }
         let sees = |way: usize| {
-            let back = Stand { at: (at.0 - WAYS[way].0, at.1 - WAYS[way].1), way };
+            let back = Stand { at: (at.0 - WAYS[way].0 * GRID, at.1 - WAYS[way].1 * GRID), way };
             matches!(self.next(back), Some((Thing::Door { side: seen, .. }, _)) if seen == side)
         };
         (0..4).find(|&way| self.passes(at, way) && sees(way)).expect("one way has the door there")
@@ -193,7 +196,7 @@ impl Lattice {
 
     /// Whether a door stands on an edge that runs this way.
     fn passes(&self, at: (i32, i32), way: usize) -> bool {
-        let across = if way % 2 == 0 { at.1 } else { at.0 };
+        let across = if way.is_multiple_of(2) { at.1 } else { at.0 };
         across % STEP == 0
     }
 
@@ -391,7 +394,7 @@ fn check_all_pairs(
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 30, max_shrink_iters: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 48, max_shrink_iters: 300, ..ProptestConfig::default() })]
 
     #[test]
     fn followers_arrive_by_the_file(lattice in lattices()) {
@@ -560,11 +563,18 @@ fn as_world(lattice: &Lattice, turned: f64, wall: i32, apart: bool) -> World {
         let mut gaps: Vec<Gap> = lattice
             .ways(node)
             .into_iter()
-            .map(|w| (side[w], if w % 2 == 0 { y } else { x }, WIDTH, Permeability::Permeable))
+            .map(|w| {
+                (side[w], if w.is_multiple_of(2) { y } else { x }, WIDTH, Permeability::Permeable)
+            })
             .collect();
         if let Some(room) = lattice.ends.get(&node) {
             let out = (lattice.ways(node)[0] + 2) % 4;
-            gaps.push((side[out], if out % 2 == 0 { y } else { x }, 80, Permeability::Conditional));
+            gaps.push((
+                side[out],
+                if out.is_multiple_of(2) { y } else { x },
+                80,
+                Permeability::Conditional,
+            ));
             builder.room(room, lattice.end_wall(node), out, wall);
         }
         builder.rectangle(area, [x - half, y - half, x + half, y + half], &gaps);
@@ -677,4 +687,122 @@ fn the_lattice_sees_itself_right() {
     let left = lattice
         .follow(on, &[Command::ToJunction(JunctionKind::BranchLeft), Command::Take(Turn::Left)]);
     assert_eq!(left, Stand { at: (1000, 0), way: 1 });
+}
+
+/// One corridor of any outline, doors at the middles of the given edges; described by what one sees.
+fn outline(corners: &[(i32, i32)], doors: &[usize], turned: f64) -> String {
+    let mut builder = Builder { world: empty_world(), frame: placed(turned) };
+    let area = builder.area("Коридор", true);
+    builder.rectangle(area, [0, 0, 1, 1], &[]);
+    let point = |(x, y): (i32, i32)| Point::new(f64::from(x), f64::from(y));
+    let mut base = Vec::new();
+    for (edge, &a) in corners.iter().enumerate() {
+        let (a, b) = (point(a), point(corners[(edge + 1) % corners.len()]));
+        let along = (b - a).normalize() * 45.0;
+        let middle = nalgebra::center(&a, &b);
+        let mut stops = vec![a, b];
+        if doors.contains(&edge) {
+            stops = vec![a, middle - along, middle + along, b];
+        }
+        for (part, ends) in stops.windows(2).enumerate() {
+            let door = stops.len() > 2 && part == 1;
+            base.push(BaseVector {
+                id: format!("{edge}.{part}"),
+                start: ends[0],
+                end: ends[1],
+                side_type: None,
+                permeability: if door {
+                    Permeability::Conditional
+                } else {
+                    Permeability::Impermeable
+                },
+                names: if door { vec![format!("Д{edge}")] } else { Vec::new() },
+                properties: BTreeMap::new(),
+            });
+        }
+    }
+    builder.world.orthoframes.get_mut(&OrFrId(1)).unwrap().base = base;
+    let system = CorridorSystem::from_map(&builder.world, MapId(1)).unwrap();
+    system.check_invariants();
+    let name = |v| match system.vertex(v).entrance() {
+        Some(entrance) => entrance.room.clone(),
+        None => "+".to_owned(),
+    };
+    let mut seen: Vec<String> = system
+        .arcs()
+        .map(|arc| {
+            let (tail, head) = (system.tail(arc).vertex, system.head(arc).vertex);
+            format!("{}→{} {}", name(tail), name(head), system.code(arc).number())
+        })
+        .collect();
+    seen.sort();
+    seen.join(", ")
+}
+
+#[test]
+fn corridors_of_one_outline_at_any_angle() {
+    let ell = [(0, 0), (1200, 0), (1200, 900), (1000, 900), (1000, 200), (0, 200)];
+    let tee =
+        [(0, 0), (1200, 0), (1200, 200), (700, 200), (700, 900), (500, 900), (500, 200), (0, 200)];
+    let cross = [
+        (0, 0),
+        (500, 0),
+        (500, -500),
+        (700, -500),
+        (700, 0),
+        (1200, 0),
+        (1200, 200),
+        (700, 200),
+        (700, 700),
+        (500, 700),
+        (500, 200),
+        (0, 200),
+    ];
+    let lobby = [(0, 0), (500, 0), (500, 400), (0, 400)];
+    for turned in [0.0, 17.3, 90.0, 200.0] {
+        let corner = expect_test::expect!["+→Д3 12, +→Д5 13, Д2→Д3 11, Д3→+ 5, Д3→Д2 13, Д5→+ 6"];
+        corner.assert_eq(&outline(&ell, &[2, 3, 5], turned));
+        let branch = expect_test::expect![
+            "+→Д1 13, +→Д3 11, +→Д7 13, Д1→+ 3, Д3→+ 2, Д3→Д4 13, Д4→Д3 12, Д7→+ 4"
+        ];
+        branch.assert_eq(&outline(&tee, &[1, 3, 4, 7], turned));
+        let crossing = expect_test::expect![
+            "+→Д11 13, +→Д2 13, +→Д5 13, +→Д8 13, Д11→+ 1, Д2→+ 1, Д5→+ 1, Д8→+ 1"
+        ];
+        crossing.assert_eq(&outline(&cross, &[2, 5, 8, 11], turned));
+        let square = expect_test::expect!["Д0→Д1 13, Д1→Д0 12"];
+        square.assert_eq(&outline(&lobby, &[0, 1], turned));
+    }
+}
+
+#[test]
+fn corridors_that_touch_without_a_door_stay_apart_and_floors_too() {
+    let mut builder = Builder { world: empty_world(), frame: placed(17.3) };
+    let (one, two) = (builder.area("Первый", true), builder.area("Второй", true));
+    builder.rectangle(one, [0, 0, 1000, 200], &[(0, 300, 80, Permeability::Conditional)]);
+    builder.rectangle(two, [0, 200, 1000, 400], &[(2, 300, 80, Permeability::Conditional)]);
+    builder.room("А", (300, 0), 3, 10);
+    builder.room("Б", (300, 400), 1, 10);
+    let mut world = builder.world;
+    let route = |world: &World| {
+        let system = CorridorSystem::from_world(world).unwrap();
+        directions(&system, "А", None, "Б", Variant::Single)
+    };
+    assert!(matches!(route(&world), Err(CorridorError::Unreachable { .. })));
+    // The same rooms on two floors.
+    let mut upper = world.maps[&MapId(1)].clone();
+    let map = world.maps.get_mut(&MapId(1)).unwrap();
+    upper.items = map.items.split_off(0).into_iter().filter(|i| i.area.0 % 2 == 0).collect();
+    map.items = [1, 3]
+        .map(|id| MapItem { area: AreaId(id), frame: placed(0.0), is_base: id == 1 })
+        .to_vec();
+    (upper.id, upper.name) = (MapId(2), "Этаж 2".into());
+    world.maps.insert(MapId(2), upper);
+    let error = route(&world).unwrap_err();
+    let help = miette::Diagnostic::help(&error).unwrap().to_string();
+    assert_eq!(help, "«А» – на «Этаж 1», «Б» – на «Этаж 2»: нужен лифт");
+    assert!(matches!(
+        CorridorSystem::from_map(&world, MapId(7)),
+        Err(CorridorError::UnknownMap { map: 7 })
+    ));
 }

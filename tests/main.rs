@@ -7,6 +7,7 @@ mod facts;
 mod facts_naive;
 mod floor_properties;
 mod floors;
+mod generated_worlds;
 mod maps;
 mod planning;
 mod relations;

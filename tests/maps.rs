@@ -6,9 +6,12 @@ use std::path::{Path, PathBuf};
 use expect_test::expect_file;
 use miette::Diagnostic;
 use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe::map::{DoorState, Format, Reading, read};
+use orthoframe::map::{DoorState, Format, Reading, World, check, read};
 use orthoframe::units::{Cm, Source};
 
+use proptest::prelude::*;
+
+use crate::generated_worlds::{self, Dice};
 use crate::worlds::variants;
 
 fn golden() -> PathBuf {
@@ -102,5 +105,109 @@ fn the_robot_drives_from_everywhere_to_everywhere() {
                 );
             }
         }
+    }
+}
+
+/// The world that a text describes; the faults as a failure where there are any.
+fn reread(text: &str) -> World {
+    let reading = read(&Source::new("copy.toml", text), Format::Toml);
+    reading.world.clone().unwrap_or_else(|| panic!("{}\n{text}", listing(&reading)))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(150))]
+
+    #[test]
+    fn writing_and_reading_loses_nothing(seed in any::<u64>()) {
+        let world = generated_worlds::world(seed);
+        let faults = check(&world);
+        prop_assert!(faults.iter().all(|f| f.is_warning()), "{:#?}", faults);
+        let text = world.to_toml();
+        let again = reread(&text);
+        prop_assert_eq!(&again, &world, "{}", text);
+        prop_assert_eq!(again.to_toml(), text);
+    }
+}
+
+/// The text of the flat with a few random changes: letters, words and lines lost, doubled, or replaced by others'.
+fn spoiled(text: &str, dice: &mut Dice) -> String {
+    let mut chars: Vec<char> = text.chars().collect();
+    for _ in 0..=dice.below(6) {
+        let at = dice.below(chars.len());
+        let end = (at + [1, 1, 3, 20, 300][dice.below(5)]).min(chars.len());
+        let from = dice.below(chars.len());
+        let graft: Vec<char> = chars[from..(from + dice.below(30)).min(chars.len())].to_vec();
+        match dice.below(4) {
+            0 => drop(chars.drain(at..end)),
+            1 => chars.insert(at, ['"', '[', '}', '\0', '9', '-', 'é', '\n', '.'][dice.below(9)]),
+            2 => drop(chars.splice(at..end, graft)),
+            _ => drop(chars.splice(at..at, graft)),
+        }
+    }
+    chars.into_iter().collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn a_spoiled_map_is_refused_or_read_but_never_harms(seed in any::<u64>()) {
+        let text = include_str!("../maps/rb2.toml");
+        let mut dice = Dice::new(seed);
+        let text = spoiled(text, &mut dice);
+        let format = [Format::Toml, Format::Toml, Format::Toml, Format::Yaml][dice.below(4)];
+        let reading = read(&Source::new("spoiled", &text), format);
+        prop_assert_eq!(reading.world.is_none(), reading.faults.has_errors());
+        for span in reading.faults.faults.iter().flat_map(|fault| &fault.spans) {
+            let (start, end) = (span.offset(), span.offset() + span.len());
+            prop_assert!(text.get(start..end).is_some(), "{start}..{end} of {}", text.len());
+        }
+        if let Some(world) = reading.world {
+            prop_assert_eq!(reread(&world.to_toml()), world);
+        }
+    }
+}
+
+#[test]
+fn no_text_does_harm() {
+    let deep = |open: &str| format!("format = 1\nx = {}", open.repeat(100_000));
+    let bomb: String = (1..30)
+        .map(|i| format!("a{i}: &a{i} [*a{p},*a{p},*a{p},*a{p},*a{p},*a{p}]\n", p = i - 1))
+        .collect();
+    let long_line = format!("format = 1\nx = \"{}\"", "й".repeat(10_000_000));
+    let corners = "[1, 1], ".repeat(200_000);
+    let cases = [
+        (Format::Toml, deep("["), "map::syntax"),
+        (Format::Toml, deep("{a = "), "map::syntax"),
+        (Format::Toml, format!("{}.a = 1", vec!["a"; 100_000].join(".")), "map::syntax"),
+        (Format::Toml, "[".repeat(1_000_000), "map::syntax"),
+        (Format::Toml, long_line, "map::unknown_field"),
+        (Format::Toml, format!("format = 1\n{} = 1", "k".repeat(5_000_000)), "map::unknown_field"),
+        (Format::Toml, "x".repeat(65 << 20), "map::too_large"),
+        (
+            Format::Toml,
+            format!("format = 1\n[orthoframe.a]\npoints = [{corners}]"),
+            "map::out_of_range",
+        ),
+        (Format::Toml, "\u{feff}".to_owned(), "map::empty"),
+        (Format::Yaml, format!("a0: &a0 [x]\n{bomb}"), "map::syntax"),
+        (Format::Yaml, "[".repeat(1_000_000), "map::syntax"),
+        (Format::Yaml, format!("x: {}", "- ".repeat(100_000)), "map::syntax"),
+        (Format::Yaml, "a: &a [*a]".to_owned(), "map::syntax"),
+        (Format::Json, "[".repeat(1_000_000), "map::syntax"),
+        (Format::Json, "{\"a\":".repeat(100_000), "map::syntax"),
+        (Format::Json, "7".to_owned(), "map::wrong_kind"),
+    ];
+    for (format, text, code) in cases {
+        let start = text.chars().take(30).collect::<String>();
+        let clock = std::time::Instant::now();
+        let reading = read(&Source::new("harm", &text), format);
+        let codes: Vec<_> =
+            reading.faults.faults.iter().filter_map(|f| Some(f.code()?.to_string())).collect();
+        assert!(codes.iter().any(|c| c == code), "{start}: {codes:?}");
+        assert!(clock.elapsed().as_secs() < 20, "{start}: {:?}", clock.elapsed());
+        // The report shows what is near the fault, not a line of megabytes.
+        let shown = format!("{:?}", miette::Report::new(reading.faults));
+        assert!(shown.len() < 100_000, "{start}: a report of {} bytes", shown.len());
     }
 }

@@ -61,7 +61,7 @@ fn write_until_killed(dir: &Path) -> StoreError {
 fn writer() {
     if let Some(dir) = std::env::var_os("STORE_WRITER") {
         let error = write_until_killed(Path::new(&dir));
-        println!("writer stopped: {error}");
+        eprintln!("writer stopped: {error}");
         let _ = std::io::stdout().write_all(format!("stopped {error}\n").as_bytes());
     }
 }
@@ -126,7 +126,7 @@ fn what_was_acknowledged_outlives_the_writer() {
     let (store, _) = Store::open(dir.path()).unwrap();
     assert!(store.revision() >= known);
     check(&store);
-    println!("{known} transactions, {replayed} replayed, {torn} torn tails");
+    eprintln!("{known} transactions, {replayed} replayed, {torn} torn tails");
 }
 
 /// Run by `tests/faults/full-disk.sh`, which limits the size of files.
@@ -136,9 +136,20 @@ fn a_full_disk_stops_the_writer_and_costs_nothing() {
     let mut child = spawn(Path::new(&dir));
     let known = acknowledged(&mut child);
     child.wait().expect("the writer ends by itself");
-    println!("the writer stopped after {known} transactions");
+    eprintln!("the writer stopped after {known} transactions");
     assert!(known > 0);
     let (store, _) = Store::open_read_only(&dir).expect("the store can be read");
     assert!(store.revision() >= known);
+    check(&store);
+}
+
+/// Run by the scripts after a fault: opens the store of `STORE_CHECK`, which must be at `STORE_KNOWN` at least.
+#[test]
+fn checker() {
+    let Some(dir) = std::env::var_os("STORE_CHECK") else { return };
+    let known: u64 = std::env::var("STORE_KNOWN").ok().and_then(|n| n.parse().ok()).unwrap_or(0);
+    let (store, report) = Store::open(&dir).expect("the store opens");
+    eprintln!("at {} of {known} known: {report:?}", store.revision());
+    assert!(store.revision() >= known, "{known} was acknowledged");
     check(&store);
 }

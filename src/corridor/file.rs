@@ -114,6 +114,8 @@ struct Stop {
     entrance: Option<(Entrance, SourceSpan)>,
     junction: Option<Declared>,
     metres: Option<Cm>,
+    /// Something is said of what stands here, be it faulty: one fault is enough.
+    says: bool,
 }
 
 #[derive(Debug, Default)]
@@ -243,7 +245,8 @@ impl Reader {
         if entrance.is_some() && junction.is_some() {
             self.faults.push(CorridorFault::RoomAndJunction { vertex: number, at });
         }
-        Some(Stop { number, at, entrance, junction, metres })
+        let says = ["room", "side", "junction"].iter().any(|field| table.get(*field).is_some());
+        Some(Stop { number, at, entrance, junction, metres, says })
     }
 
     fn entrance(&mut self, table: Table<'_, '_>, at: SourceSpan) -> Option<(Entrance, SourceSpan)> {
@@ -329,7 +332,7 @@ impl Reader {
             let entrance_at = stop.entrance.as_ref().map(|_| stop.at);
             let declares = stop.junction.is_some();
             let Some((at, _, entrance, declared)) = first.get_mut(&stop.number) else {
-                first.insert(stop.number, (vertices.len(), stop.at, entrance_at, declares));
+                first.insert(stop.number, (vertices.len(), stop.at, entrance_at, stop.says));
                 let (number, floor) = (stop.number, String::new());
                 vertices.push(Vertex { number, kind, floor, at: None });
                 continue;
@@ -354,7 +357,7 @@ impl Reader {
                 }
                 (None, None) => {}
             }
-            *declared |= declares;
+            *declared |= stop.says;
         }
         for (&vertex, &(_, at, entrance, declared)) in &first {
             if entrance.is_none() && !declared {

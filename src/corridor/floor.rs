@@ -339,6 +339,9 @@ fn attach(floors: &mut [Floor], opening: &Opening) {
     }
 }
 
+/// By node: its vertex, and the segment ends that are its arms.
+type Junctions = BTreeMap<usize, (VertexIx, Vec<(usize, usize)>)>;
+
 /// Vertices and stretches gathered from all floors.
 #[derive(Debug, Default)]
 struct Parts {
@@ -397,12 +400,7 @@ impl Parts {
         VertexIx(self.vertices.len() - 1)
     }
 
-    fn corridor(
-        &mut self,
-        floor: &Floor,
-        walk: &Walk,
-        junctions: &BTreeMap<usize, (VertexIx, Vec<(usize, usize)>)>,
-    ) {
+    fn corridor(&mut self, floor: &Floor, walk: &Walk, junctions: &Junctions) {
         let port_at = |end: (usize, usize)| {
             let node = floor.segments[end.0].nodes[end.1]?;
             let (vertex, ends) = junctions.get(&node)?;
@@ -495,7 +493,7 @@ fn goes_through(floor: &Floor, ends: &[(usize, usize)]) -> bool {
 }
 
 /// Cuts the segments into walks; each segment is in one of them.
-fn walks(floor: &Floor, junctions: &BTreeMap<usize, (VertexIx, Vec<(usize, usize)>)>) -> Vec<Walk> {
+fn walks(floor: &Floor, junctions: &Junctions) -> Vec<Walk> {
     let mut walked = BTreeSet::new();
     let mut found = Vec::new();
     // The end of another segment at which a corridor goes on.

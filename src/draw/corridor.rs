@@ -169,9 +169,8 @@ fn draw_arc(svg: &mut String, points: &[Point], arc: &CorridorArc) {
         p.x, p.y, q.x, q.y
     );
     let middle = nalgebra::center(&p, &q) + aside * 1.45;
-    let style = format!(
-        "font-size=\"10.5\" text-anchor=\"middle\" dominant-baseline=\"central\" fill=\"{colour}\""
-    );
+    let style =
+        format!("font-size=\"10.5\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"{colour}\"");
     text(svg, middle.x, middle.y, &style, &arc.label);
 }
 
@@ -189,15 +188,14 @@ fn draw_vertex(svg: &mut String, vertex: &CorridorVertex, at: Point) {
         ),
     };
     let _ = writeln!(svg, "{shape}");
-    let style =
-        "font-size=\"13\" text-anchor=\"middle\" dominant-baseline=\"central\" fill=\"#22303c\"";
+    let style = "font-size=\"13\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"#22303c\"";
     text(svg, x, y, style, &vertex.label);
     let towards = vertex.name_towards;
     let unit = if towards.norm() > 1e-9 { towards.normalize() } else { Vector::new(0.0, -1.0) };
     let chars = vertex.name.chars().count() as f64;
     // A name needs more room sideways than up and down.
     let reach = RADIUS + 15.0 + unit.x.abs() * (chars * 4.0 - 2.0).max(0.0);
-    let style = "font-size=\"13\" font-weight=\"bold\" text-anchor=\"middle\" dominant-baseline=\"central\" fill=\"#2c5f8a\"";
+    let style = "font-size=\"13\" font-weight=\"bold\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"#2c5f8a\"";
     text(svg, x + unit.x * reach, y - unit.y * reach, style, &vertex.name);
 }
 

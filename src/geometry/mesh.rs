@@ -1,15 +1,14 @@
 //! Convex partition of a floor, and what is needed to walk over it.
 //!
 //! Constrained Delaunay triangulation (i_triangle), then every edge is dropped whose removal leaves both of its
-//! ends convex, the longest first (after Hertel and Mehlhorn 1983; never more than four times the fewest
-//! possible cells). All decisions are made on the integer grid, hence exact.
+//! ends convex, those first that serve no inward corner well (after Hertel and Mehlhorn 1983; never more than
+//! four times the fewest possible cells). All decisions are made on the integer grid, hence exact.
 //!
 //! **Invariant**: cells are convex and counter-clockwise, do not overlap, and fill the floor; where two share a
 //! border, both have it as one edge with the same two corners.
 
-use std::collections::{BTreeMap, HashMap};
-
 use i_overlay::core::solver::Solver;
+use i_triangle::advanced::delaunay::IntDelaunay;
 use i_triangle::int::triangulator::IntTriangulator;
 use i_triangle::int::validation::Validation;
 
@@ -41,30 +40,25 @@ impl Mesh {
         if shapes.is_empty() {
             return Self::default();
         }
-        let (nodes, triangles) = triangulate(shapes);
-        let mut edges = HalfEdges::of(&nodes, &triangles);
+        let mut edges = HalfEdges::of(shapes);
         edges.merge();
-        Self::from_faces(grid, &nodes, edges.faces())
-    }
-
-    fn from_faces(grid: &Grid, nodes: &[Node], mut faces: Vec<Vec<u32>>) -> Self {
-        // Faces in the order of their places, whatever order they were found in.
-        for face in &mut faces {
-            let first = (0..face.len())
-                .min_by_key(|&i| (nodes[face[i] as usize].y, nodes[face[i] as usize].x));
-            face.rotate_left(first.unwrap_or(0));
-        }
-        faces.sort_by_key(|f| {
-            f.iter().map(|&v| (nodes[v as usize].y, nodes[v as usize].x)).collect::<Vec<_>>()
-        });
-        let vertices: Vec<Point> = nodes.iter().map(|&n| grid.point(n)).collect();
+        let faces = edges.faces();
+        let vertices = edges.nodes.iter().map(|&n| grid.point(n)).collect();
         let mut mesh = Self { vertices, starts: vec![0], ..Self::default() };
+        let mut face_of = vec![NONE; edges.origin.len()];
+        for (number, face) in faces.iter().enumerate() {
+            face.iter().for_each(|&h| face_of[h as usize] = number as u32);
+        }
+        let beyond = |h: u32| match edges.twin[h as usize] {
+            NONE => NONE,
+            twin => face_of[twin as usize],
+        };
         for face in &faces {
-            mesh.ring.extend_from_slice(face);
+            mesh.ring.extend(face.iter().map(|&h| edges.origin[h as usize]));
+            mesh.across.extend(face.iter().map(|&h| beyond(h)));
             mesh.starts.push(mesh.ring.len() as u32);
         }
-        mesh.link();
-        mesh.is_corner = mesh.corners_of(nodes);
+        mesh.is_corner = edges.corners();
         mesh.component = mesh.components();
         mesh.buckets = Buckets::of(&mesh);
         mesh
@@ -198,48 +192,6 @@ impl Mesh {
         matches!(self.stretches(a, b)[..], [(from, to)] if from <= close && to >= 1.0 - close)
     }
 
-    /// Finds the cell across each edge.
-    fn link(&mut self) {
-        let mut by_edge = HashMap::with_capacity(self.ring.len());
-        for cell in self.cells() {
-            let span = self.span(cell);
-            for i in span.clone() {
-                by_edge.insert((self.ring[i], self.ring[next_in(&span, i)]), cell);
-            }
-        }
-        self.across = vec![NONE; self.ring.len()];
-        for cell in self.cells() {
-            let span = self.span(cell);
-            for i in span.clone() {
-                let back = (self.ring[next_in(&span, i)], self.ring[i]);
-                self.across[i] = by_edge.get(&back).copied().unwrap_or(NONE);
-            }
-        }
-    }
-
-    /// A border that turns to the right, or vertices at which borders meet.
-    fn corners_of(&self, nodes: &[Node]) -> Vec<bool> {
-        let mut leaving: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
-        let mut borders = Vec::new();
-        for cell in self.cells() {
-            let span = self.span(cell);
-            for i in span.clone().filter(|&i| self.across[i] == NONE) {
-                let (u, v) = (self.ring[i], self.ring[next_in(&span, i)]);
-                leaving.entry(u).or_default().push(v);
-                borders.push((u, v));
-            }
-        }
-        let mut corner = vec![false; nodes.len()];
-        for (u, v) in borders {
-            let after = leaving.get(&v).map_or(&[][..], Vec::as_slice);
-            corner[v as usize] |= match after {
-                [w] => orientation(nodes[u as usize], nodes[v as usize], nodes[*w as usize]) < 0,
-                _ => true,
-            };
-        }
-        corner
-    }
-
     fn components(&self) -> Vec<u32> {
         let mut component = vec![NONE; self.len()];
         let mut count = 0;
@@ -263,86 +215,68 @@ impl Mesh {
     }
 }
 
-fn next_in(span: &std::ops::Range<usize>, i: usize) -> usize {
-    if i + 1 == span.end { span.start } else { i + 1 }
-}
-
-/// Positive when a, b, c turn left; exact.
-fn orientation(a: Node, b: Node, c: Node) -> i128 {
-    let d = |p: i32, q: i32| i128::from(p) - i128::from(q);
+/// Positive when a, b, c turn left; exact, since the grid leaves two bits of 32 free.
+fn orientation(a: Node, b: Node, c: Node) -> i64 {
+    let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
     d(b.x, a.x) * d(c.y, b.y) - d(b.y, a.y) * d(c.x, b.x)
 }
 
-/// Distinct nodes and the triangles on them.
-fn triangulate(shapes: &Shapes) -> (Vec<Node>, Vec<[u32; 3]>) {
+fn triangulate(shapes: &Shapes) -> IntDelaunay<i32> {
     let count = shapes.iter().flatten().map(Vec::len).sum();
     let mut triangulator =
         IntTriangulator::<i32, u32>::new(count, Validation::default(), Solver::AUTO);
-    triangulator.delaunay = true;
-    let found = triangulator.uncheck_triangulate_shapes(shapes);
-    // Shapes that touch in a point bring it twice.
-    let mut nodes = Vec::with_capacity(found.points.len());
-    let mut numbers = HashMap::with_capacity(found.points.len());
-    let renumbered: Vec<u32> = found
-        .points
-        .iter()
-        .map(|&p| {
-            *numbers.entry((p.x, p.y)).or_insert_with(|| {
-                nodes.push(p);
-                nodes.len() as u32 - 1
-            })
-        })
-        .collect();
-    let triangles = found
-        .indices
-        .chunks_exact(3)
-        .map(|t| [0, 1, 2].map(|i| renumbered[t[i] as usize]))
-        .filter(|&[a, b, c]| a != b && b != c && c != a)
-        .map(|[a, b, c]| {
-            let turn = orientation(nodes[a as usize], nodes[b as usize], nodes[c as usize]);
-            if turn < 0 { [a, c, b] } else { [a, b, c] }
-        })
-        .collect();
-    (nodes, triangles)
+    let mut found = IntDelaunay { triangles: Vec::new(), points: Vec::new() };
+    triangulator.uncheck_delaunay_shapes_into(shapes, &mut found);
+    found
 }
 
 /// A planar subdivision whose edges can be dropped.
-struct HalfEdges<'a> {
-    nodes: &'a [Node],
+struct HalfEdges {
+    nodes: Vec<Node>,
     origin: Vec<u32>,
     next: Vec<u32>,
     prev: Vec<u32>,
+    /// The other half; [`NONE`] for a border of the floor.
     twin: Vec<u32>,
     dropped: Vec<bool>,
 }
 
-impl<'a> HalfEdges<'a> {
-    fn of(nodes: &'a [Node], triangles: &[[u32; 3]]) -> Self {
-        let n = 3 * triangles.len();
+impl HalfEdges {
+    /// The triangles of the shapes.
+    fn of(shapes: &Shapes) -> Self {
+        let found = triangulate(shapes);
+        let n = 3 * found.triangles.len();
         let mut edges = Self {
-            nodes,
-            origin: triangles.iter().flatten().copied().collect(),
+            nodes: found.points,
+            origin: Vec::with_capacity(n),
             next: (0..n as u32).map(|h| if h % 3 == 2 { h - 2 } else { h + 1 }).collect(),
             prev: (0..n as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect(),
             twin: vec![NONE; n],
             dropped: vec![false; n],
         };
-        let mut by_ends = HashMap::with_capacity(n);
-        for h in 0..n as u32 {
-            by_ends.insert((edges.origin[h as usize], edges.end(h)), h);
+        for triangle in &found.triangles {
+            let [a, b, c] = triangle.vertices.map(|v| v.index as u32);
+            let turns_right = orientation(edges.node(a), edges.node(b), edges.node(c)) < 0;
+            edges.origin.extend(if turns_right { [a, c, b] } else { [a, b, c] });
         }
-        for h in 0..n as u32 {
-            let twin = by_ends.get(&(edges.end(h), edges.origin[h as usize])).copied();
-            // An edge that three faces claim (overlapping slivers) stays a border for the third.
-            if let Some(t) =
-                twin.filter(|&t| edges.twin[t as usize] == NONE || edges.twin[t as usize] == h)
-            {
-                edges.twin[h as usize] = t;
+        for (t, triangle) in found.triangles.iter().enumerate() {
+            for h in 3 * t as u32..3 * t as u32 + 3 {
+                let ends = (edges.node(edges.origin[h as usize]), edges.node(edges.end(h)));
+                // Shapes that touch in a point have that corner twice: it is places that are compared.
+                edges.twin[h as usize] = triangle
+                    .neighbors
+                    .iter()
+                    .filter(|&&other| other < found.triangles.len())
+                    .flat_map(|&other| 3 * other as u32..3 * other as u32 + 3)
+                    .find(|&k| {
+                        (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends
+                    })
+                    .unwrap_or(NONE);
             }
         }
         for h in 0..n {
-            let t = edges.twin[h];
-            if t != NONE && edges.twin[t as usize] != h as u32 {
+            let twin = edges.twin[h];
+            if twin != NONE && edges.twin[twin as usize] != h as u32 {
                 edges.twin[h] = NONE;
             }
         }
@@ -357,23 +291,81 @@ impl<'a> HalfEdges<'a> {
         self.nodes[vertex as usize]
     }
 
-    /// Drops every edge that convexity does not need, the longest first.
+    /// Drops every edge that convexity does not need: first those that straighten no inward corner, last those
+    /// that straighten one at each end; the longer of equals first.
     fn merge(&mut self) {
-        let mut inner: Vec<u32> = (0..self.origin.len() as u32)
-            .filter(|&h| self.twin[h as usize] != NONE && h < self.twin[h as usize])
+        let borders = self.borders();
+        let inner = (0..self.origin.len() as u32)
+            .filter(|&h| self.twin[h as usize] != NONE && h < self.twin[h as usize]);
+        let mut ranked: Vec<_> = inner
+            .map(|h| {
+                let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
+                let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
+                let use_ =
+                    self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
+                let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
+                (
+                    use_,
+                    std::cmp::Reverse(length),
+                    (a.y, a.x).min((b.y, b.x)),
+                    (a.y, a.x).max((b.y, b.x)),
+                    h,
+                )
+            })
             .collect();
-        inner.sort_by_key(|&h| {
-            let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
-            let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
-            let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
-            let (low, high) = ((a.y, a.x).min((b.y, b.x)), (a.y, a.x).max((b.y, b.x)));
-            (std::cmp::Reverse(length), low, high)
-        });
-        for h in inner {
+        ranked.sort_unstable();
+        for (.., h) in ranked {
             if self.is_needless(h) {
                 self.drop_edge(h);
             }
         }
+    }
+
+    /// For each vertex the border edges that arrive and leave.
+    fn borders(&self) -> Vec<(u32, u32)> {
+        let mut borders = vec![(NONE, NONE); self.nodes.len()];
+        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
+            borders[self.origin[h as usize] as usize].1 = h;
+            borders[self.end(h) as usize].0 = h;
+        }
+        borders
+    }
+
+    /// What an edge does for the convexity of its origin: nothing, a part, or all.
+    fn usefulness(&self, borders: &[(u32, u32)], h: u32) -> u8 {
+        let at = self.origin[h as usize];
+        let (arriving, leaving) = borders[at as usize];
+        if arriving == NONE || leaving == NONE {
+            return 0;
+        }
+        let place = self.node(at);
+        let (before, after) =
+            (self.node(self.origin[arriving as usize]), self.node(self.end(leaving)));
+        let to = self.node(self.end(h));
+        if orientation(before, place, after) >= 0 {
+            0
+        } else if orientation(before, place, to) >= 0 && orientation(to, place, after) >= 0 {
+            2
+        } else {
+            1
+        }
+    }
+
+    /// The vertices where the border turns to the right, so that a shortest way may bend there.
+    fn corners(&self) -> Vec<bool> {
+        let mut corner = vec![false; self.nodes.len()];
+        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
+            // Round the end to the border that leaves it within the same floor.
+            let mut leaving = self.next[h as usize];
+            let mut steps = 0;
+            while self.twin[leaving as usize] != NONE && steps < self.origin.len() {
+                leaving = self.next[self.twin[leaving as usize] as usize];
+                steps += 1;
+            }
+            let [a, b, c] = [self.origin[h as usize], self.end(h), self.end(leaving)];
+            corner[b as usize] |= orientation(self.node(a), self.node(b), self.node(c)) < 0;
+        }
+        corner
     }
 
     /// Without the edge, the chain runs straight on or to the left at both of its ends.
@@ -392,7 +384,7 @@ impl<'a> HalfEdges<'a> {
         }
         let (a, b, c) = (self.node(a), self.node(b), self.node(c));
         let turn = orientation(a, b, c);
-        let d = |p: i32, q: i32| i128::from(p) - i128::from(q);
+        let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
         let ahead = d(b.x, a.x) * d(c.x, b.x) + d(b.y, a.y) * d(c.y, b.y);
         turn > 0 || (turn == 0 && ahead > 0)
     }
@@ -409,10 +401,15 @@ impl<'a> HalfEdges<'a> {
         self.dropped[t as usize] = true;
     }
 
-    /// The remaining faces; those without area are left out.
+    /// The remaining faces as chains of half-edges, in the order of their lowest corners, which come first; those
+    /// without area are left out.
     fn faces(&self) -> Vec<Vec<u32>> {
         let mut seen = self.dropped.clone();
         let mut faces = Vec::new();
+        let place = |h: u32| {
+            let node = self.node(self.origin[h as usize]);
+            (node.y, node.x)
+        };
         for seed in 0..self.origin.len() {
             if seen[seed] {
                 continue;
@@ -421,19 +418,22 @@ impl<'a> HalfEdges<'a> {
             let mut h = seed;
             while !seen[h] {
                 seen[h] = true;
-                face.push(self.origin[h]);
+                face.push(h as u32);
                 h = self.next[h] as usize;
             }
             if face.len() >= 3 && self.has_area(&face) {
+                let first = (0..face.len()).min_by_key(|&i| place(face[i])).unwrap_or(0);
+                face.rotate_left(first);
                 faces.push(face);
             }
         }
+        faces.sort_by(|a, b| a.iter().map(|&h| place(h)).cmp(b.iter().map(|&h| place(h))));
         faces
     }
 
     fn has_area(&self, face: &[u32]) -> bool {
-        let o = self.node(face[0]);
-        face.windows(2).any(|e| orientation(o, self.node(e[0]), self.node(e[1])) != 0)
+        let node = |h: u32| self.node(self.origin[h as usize]);
+        face.windows(2).any(|e| orientation(node(face[0]), node(e[0]), node(e[1])) != 0)
     }
 }
 
@@ -472,17 +472,23 @@ impl Buckets {
         let size =
             (extent.x * extent.y / boxes.len() as f64).sqrt().max(extent.amax() / 256.0).max(1e-3);
         let (columns, rows) = ((extent.x / size) as usize + 1, (extent.y / size) as usize + 1);
-        let mut buckets = Self { bounds, size, columns, rows, starts: vec![], cells: vec![] };
-        let mut lists = vec![Vec::new(); columns * rows];
-        for (cell, reach) in boxes.iter().enumerate() {
+        let starts = vec![0; columns * rows + 1];
+        let mut buckets = Self { bounds, size, columns, rows, starts, cells: vec![] };
+        for reach in &boxes {
             for bucket in buckets.covering(reach) {
-                lists[bucket].push(cell as u32);
+                buckets.starts[bucket + 1] += 1;
             }
         }
-        buckets.starts.push(0);
-        for list in lists {
-            buckets.cells.extend(list);
-            buckets.starts.push(buckets.cells.len() as u32);
+        for i in 0..columns * rows {
+            buckets.starts[i + 1] += buckets.starts[i];
+        }
+        buckets.cells = vec![0; buckets.starts[columns * rows] as usize];
+        let mut filled = buckets.starts.clone();
+        for (cell, reach) in boxes.iter().enumerate() {
+            for bucket in buckets.covering(reach) {
+                buckets.cells[filled[bucket] as usize] = cell as u32;
+                filled[bucket] += 1;
+            }
         }
         buckets
     }

@@ -13,6 +13,7 @@
 use super::graph::{ActionId, PlanningGraph};
 use super::no_good::NoGoods;
 use super::plan::Plan;
+use super::symmetry::Symmetry;
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
 
@@ -22,6 +23,8 @@ pub(super) enum Extraction {
     None,
     /// Not with any number of steps, because of these goals.
     Never(Vec<FactId>),
+    /// The effort allowed was not enough.
+    Open,
 }
 
 pub(super) struct Search<'a> {
@@ -29,6 +32,8 @@ pub(super) struct Search<'a> {
     limits: Limits,
     no_goods: NoGoods,
     ticks: u64,
+    /// Ticks at which the search gives up for now.
+    allowed: u64,
 }
 
 /// The choices made at one level.
@@ -42,10 +47,16 @@ struct Level<'g> {
     deep: bool,
 }
 
-/// Why a choice failed: either goals of the level, or a limit.
+/// Why a choice failed: either goals of the level, or the search stops.
 enum Failure {
     Goals(GoalSet),
+    Stop(Stop),
+}
+
+/// Why the search stops without an answer.
+enum Stop {
     Limit(Limit),
+    Effort,
 }
 
 /// A set of indices into a level's goals.
@@ -77,25 +88,50 @@ type Steps = Vec<Vec<ActionId>>;
 
 impl<'a> Search<'a> {
     pub(super) fn new(task: &'a Task, limits: Limits) -> Self {
-        Self { task, limits, no_goods: NoGoods::new(), ticks: 0 }
+        Self {
+            task,
+            limits,
+            no_goods: NoGoods::new(Symmetry::of(task), task.facts.len()),
+            ticks: 0,
+            allowed: 0,
+        }
     }
 
     pub(super) fn bytes(&self) -> usize {
         self.no_goods.bytes()
     }
 
-    /// Looks for a plan as long as the graph.
-    pub(super) fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
+    /// Looks for a plan of `length` steps, with so many choices at most.
+    pub(super) fn extract(
+        &mut self,
+        graph: &PlanningGraph,
+        length: usize,
+        choices: u64,
+    ) -> Result<Extraction, Limit> {
+        self.allowed = self.ticks + choices;
+        match self.try_extract(graph, length) {
+            Ok(extraction) => Ok(extraction),
+            Err(Stop::Limit(limit)) => Err(limit),
+            Err(Stop::Effort) => Ok(Extraction::Open),
+        }
+    }
+
+    /// Choices made so far.
+    pub(super) fn choices(&self) -> u64 {
+        self.ticks
+    }
+
+    fn never(&mut self, graph: &PlanningGraph) -> Extraction {
+        let goal = &self.task.goal;
+        let level = graph.leveled_off_at().expect("no-goods are pushed past level-off") as u32;
+        Extraction::Never(self.no_goods.subset_of(goal, level + 1).unwrap_or_else(|| goal.clone()))
+    }
+
+    fn try_extract(&mut self, graph: &PlanningGraph, length: usize) -> Result<Extraction, Stop> {
         let mut steps = Steps::new();
-        match self.reach(graph, graph.top(), &self.task.goal.clone(), &mut steps)? {
+        match self.reach(graph, length, &self.task.goal.clone(), &mut steps)? {
             None => Ok(Extraction::Plan(self.plan(graph, steps))),
-            Some(_) if self.push_no_goods(graph)? => {
-                let goal = &self.task.goal;
-                let level =
-                    graph.leveled_off_at().expect("no-goods are pushed past level-off") as u32;
-                let reason = self.no_goods.subset_of(goal, level + 1);
-                Ok(Extraction::Never(reason.unwrap_or_else(|| goal.clone())))
-            }
+            Some(_) if self.push_no_goods(graph, length)? => Ok(self.never(graph)),
             Some(_) => Ok(Extraction::None),
         }
     }
@@ -121,8 +157,7 @@ impl<'a> Search<'a> {
         level: usize,
         goals: &[FactId],
         steps: &mut Steps,
-    ) -> Result<Option<Vec<FactId>>, Limit> {
-        self.tick(graph)?;
+    ) -> Result<Option<Vec<FactId>>, Stop> {
         if let Some(missing) = goals.iter().find(|&&goal| graph.fact_level(goal) as usize > level) {
             return Ok(Some(vec![*missing]));
         }
@@ -135,7 +170,7 @@ impl<'a> Search<'a> {
         let mut choice = Level::new(graph, level, goals, true);
         match self.assign(&mut choice, 0, steps) {
             Ok(()) => Ok(None),
-            Err(Failure::Limit(limit)) => Err(limit),
+            Err(Failure::Stop(stop)) => Err(stop),
             Err(Failure::Goals(set)) => {
                 let reason = choice.facts(&set);
                 self.no_goods.insert(&reason, level as u32);
@@ -162,6 +197,7 @@ impl<'a> Search<'a> {
         let step = choice.level - 1;
         let mut reason = GoalSet::one(choice.goals.len(), index);
         for action in choice.ways(goal) {
+            self.tick(graph).map_err(Failure::Stop)?;
             let rival =
                 choice.chosen.iter().find(|&&(other, _)| graph.is_mutex(step, action, other));
             if let Some(&(_, owner)) = rival {
@@ -191,9 +227,8 @@ impl<'a> Search<'a> {
         needs.dedup();
         let below = choice.level - 1;
         let failed = if choice.deep {
-            self.reach(graph, below, &needs, steps).map_err(Failure::Limit)?
+            self.reach(graph, below, &needs, steps).map_err(Failure::Stop)?
         } else {
-            self.tick(graph).map_err(Failure::Limit)?;
             self.no_goods.subset_of(&needs, below as u32)
         };
         let Some(failed) = failed else {
@@ -216,9 +251,9 @@ impl<'a> Search<'a> {
     }
 
     /// Pushes no-goods up past level-off; whether some level then keeps none of its own.
-    fn push_no_goods(&mut self, graph: &PlanningGraph) -> Result<bool, Limit> {
+    fn push_no_goods(&mut self, graph: &PlanningGraph, length: usize) -> Result<bool, Stop> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(false) };
-        for level in leveled_off_at..graph.top() {
+        for level in leveled_off_at..length {
             let mut all_pushed = true;
             for set in self.no_goods.exactly_at(level as u32) {
                 if self.no_goods.subset_of(&set, level as u32 + 1).is_some() {
@@ -228,7 +263,7 @@ impl<'a> Search<'a> {
                 let mut choice = Level::new(graph, level + 1, &set, false);
                 match self.assign(&mut choice, 0, &mut Steps::new()) {
                     Ok(()) => all_pushed = false,
-                    Err(Failure::Limit(limit)) => return Err(limit),
+                    Err(Failure::Stop(stop)) => return Err(stop),
                     Err(Failure::Goals(reason)) => {
                         let reason = choice.facts(&reason);
                         self.no_goods.insert(&reason, level as u32 + 1);
@@ -243,10 +278,13 @@ impl<'a> Search<'a> {
         Ok(false)
     }
 
-    fn tick(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
+    fn tick(&mut self, graph: &PlanningGraph) -> Result<(), Stop> {
         self.ticks += 1;
+        if self.ticks > self.allowed {
+            return Err(Stop::Effort);
+        }
         if self.ticks.is_multiple_of(1024) {
-            self.limits.check(graph.bytes() + self.no_goods.bytes())?;
+            self.limits.check(graph.bytes() + self.no_goods.bytes()).map_err(Stop::Limit)?;
         }
         Ok(())
     }

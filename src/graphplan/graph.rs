@@ -144,6 +144,19 @@ impl PlanningGraph {
         &self.mutex[level.min(self.mutex.len() - 1)]
     }
 
+    /// Facts that exclude `fact` at a level, as far as they may hold there at all.
+    pub(super) fn exclusive_with(
+        &self,
+        level: usize,
+        fact: FactId,
+    ) -> impl Iterator<Item = FactId> {
+        self.mutex_at(level).row(fact).iter().enumerate().flat_map(|(word, &bits)| {
+            (0..64)
+                .filter(move |bit| bits >> bit & 1 == 1)
+                .map(move |bit| FactId((word * 64 + bit) as u32))
+        })
+    }
+
     /// Whether all facts may hold at the last level, as far as pairs tell.
     pub(super) fn is_possible(&self, facts: &[FactId]) -> bool {
         let mutex = self.mutex_at(self.top);

@@ -23,6 +23,9 @@ mod extract;
 mod graph;
 mod no_good;
 mod plan;
+mod sat;
+mod solver;
+mod symmetry;
 
 use std::time::Instant;
 
@@ -31,6 +34,7 @@ pub use plan::{Flaw, Plan, validate};
 use crate::strips::{FactId, Task};
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
+use sat::{Encoding, Verdict};
 
 /// What the search for a plan came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -101,22 +105,49 @@ pub fn solve(task: &Task, limits: &Limits) -> Outcome {
         std::thread::Builder::new()
             .name("graphplan".to_owned())
             .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, || search(task, limits).unwrap_or_else(Outcome::LimitReached))
+            .spawn_scoped(scope, || {
+                search(task, limits, Turn::default()).unwrap_or_else(Outcome::LimitReached)
+            })
             .map_or(Outcome::LimitReached(Limit::Memory), |search| {
                 search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
             })
     })
 }
 
-fn search(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
+/// What a conflict of the solver takes the time of, near enough.
+const CHOICES_A_CONFLICT: u64 = 50;
+
+/// What each way of extraction may spend in its first turn at a level.
+#[derive(Debug, Clone, Copy)]
+struct Turn {
+    /// Choices of the backward search.
+    choices: u64,
+    /// Conflicts of the solver.
+    conflicts: u64,
+}
+
+impl Default for Turn {
+    fn default() -> Self {
+        Self { choices: 1 << 16, conflicts: 1 << 10 }
+    }
+}
+
+fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
     let mut graph = PlanningGraph::new(task);
-    let mut search = Search::new(task, *limits);
+    let mut extractor = Extractor {
+        search: Search::new(task, *limits),
+        encoding: Encoding::new(task, limits),
+        limits,
+        turn,
+        solver_leads: false,
+        refuted: 0,
+    };
     loop {
-        limits.check(graph.bytes() + search.bytes())?;
+        limits.check(graph.bytes() + extractor.bytes())?;
         if graph.is_possible(&task.goal) {
-            match search.extract(&graph)? {
+            match extractor.extract(&graph)? {
                 Extraction::Plan(plan) => return Ok(Outcome::Plan(plan)),
-                Extraction::None => {}
+                Extraction::None | Extraction::Open => {}
                 Extraction::Never(goals) => {
                     let leveled_off_at =
                         graph.leveled_off_at().expect("never is said after level-off");
@@ -131,6 +162,74 @@ fn search(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
             return Err(Limit::Steps);
         }
         graph.expand(limits)?;
+    }
+}
+
+/// The two ways to look for a plan of a given length, taking turns.
+///
+/// Search is strong where a deep serial chain rules, the solver where many choices interact. Turns are counted in
+/// choices and conflicts, not in seconds: the same task always goes the same way.
+struct Extractor<'a> {
+    search: Search<'a>,
+    encoding: Encoding<'a>,
+    limits: &'a Limits,
+    turn: Turn,
+    /// Who decided the level before goes first.
+    solver_leads: bool,
+    /// The last number of steps that the search refuted.
+    refuted: usize,
+}
+
+impl Extractor<'_> {
+    fn bytes(&self) -> usize {
+        self.search.bytes() + self.encoding.bytes()
+    }
+
+    fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
+        if self.solver_leads
+            && let Some(extraction) = self.prove(graph)?
+        {
+            return Ok(extraction);
+        }
+        let mut round = 0;
+        loop {
+            if self.solver_leads || round > 0 {
+                match self.encoding.extract(graph, self.turn.conflicts << round, self.limits)? {
+                    Verdict::Plan(plan) => return Ok(Extraction::Plan(plan)),
+                    Verdict::None => {
+                        self.solver_leads = true;
+                        return Ok(Extraction::None);
+                    }
+                    Verdict::Open => {}
+                }
+            }
+            let extraction = self.search.extract(graph, graph.top(), self.turn.choices << round)?;
+            if !matches!(extraction, Extraction::Open) {
+                self.solver_leads = false;
+                self.refuted = graph.top();
+                return Ok(extraction);
+            }
+            round += 1;
+        }
+    }
+
+    /// The solver never proves that no length will do. Once the graph has leveled off, the search gets a share
+    /// of the effort for that, on the first length that it has not refuted itself; what it says of the present
+    /// length is an answer.
+    fn prove(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
+        let share = self.turn.choices * (graph.top() - leveled_off_at) as u64
+            + CHOICES_A_CONFLICT * self.encoding.conflicts();
+        self.refuted = self.refuted.max(leveled_off_at);
+        while self.refuted < graph.top() && self.search.choices() < share {
+            let allowed = share - self.search.choices();
+            match self.search.extract(graph, self.refuted + 1, allowed)? {
+                Extraction::None => self.refuted += 1,
+                Extraction::Open => return Ok(None),
+                answer => return Ok(Some(answer)),
+            }
+        }
+        Ok((self.refuted == graph.top()).then_some(Extraction::None))
     }
 }
 

@@ -117,11 +117,20 @@ fn fewest_steps(task: &Task) -> Option<usize> {
 
 #[test]
 fn answers_equal_those_of_breadth_first_search() {
+    compare(Turn::default());
+}
+
+#[test]
+fn answers_are_the_same_when_the_solver_finds_them() {
+    compare(Turn { choices: 16, conflicts: 1 << 10 });
+}
+
+fn compare(turn: Turn) {
     let (mut solved, mut unsolvable, mut searched) = (0, 0, 0);
     for seed in 1..=3000 {
         let task = random_task(seed);
         let fewest = fewest_steps(&task);
-        match solve(&task, &Limits::default()) {
+        match search(&task, &Limits::default(), turn).unwrap_or_else(Outcome::LimitReached) {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
                 assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");

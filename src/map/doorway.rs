@@ -67,6 +67,7 @@ impl World {
 mod tests {
     use super::*;
     use crate::map::Entity;
+    use crate::units::Cm;
 
     #[test]
     fn a_door_is_at_the_same_place_from_both_rooms() {
@@ -89,7 +90,7 @@ mod tests {
             });
             if let [one, other] = seen.collect::<Vec<_>>()[..] {
                 assert_eq!(one, (other.1, other.0), "{name}");
-                assert_eq!((one.0 - one.1).norm(), world.doors[&door].width.get());
+                assert_eq!(Cm::of((one.0 - one.1).norm()), world.doors[&door].width);
             }
         }
     }

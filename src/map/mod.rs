@@ -1,8 +1,35 @@
 //! The paper's nouns: Orthoframe, Object, Area, Fragment, Map, Domain, Door, and what must hold between them.
 //!
 //! After paper 1 §§1-4 and 6 and paper 2. A [`World`] is the whole model of an operating environment: one
-//! Domain with everything in it. A `World` that came out of [`World::load`](World) or of an edit has passed
+//! Domain with everything in it. A `World` that came out of [`World::load`] or of an edit has passed
 //! every check of this folder; what is built by hand must pass [`check`] before it is stored.
+//!
+//! ```
+//! use orthoframe::map::{Entity, Format, World};
+//! use orthoframe::units::Source;
+//!
+//! let text = r#"
+//!     format = 1
+//!     [orthoframe.floor]
+//!     rect = [400, 300]
+//!     height = 270
+//!     [area.study]
+//!     name = "Кабинет"
+//!     items = [{ id = "A", orthoframe = "floor" }]
+//!     [map.flat]
+//!     items = [{ area = "study" }]
+//! "#;
+//! let world = World::parse(&Source::new("study.toml", text), Format::Toml)?;
+//! assert!(matches!(world.find("кабинет")[..], [Entity::Area(_)]));
+//!
+//! // Every fault at once, each at its line and character column.
+//! let spoiled = text.replace("400", "-400").replace("area = \"study\"", "area = \"studio\"");
+//! let errors = World::parse(&Source::new("study.toml", spoiled), Format::Toml).unwrap_err();
+//! let shown: Vec<_> = errors.faults.iter().map(|f| (errors.position(f).unwrap(), f.to_string())).collect();
+//! assert_eq!(shown[0], ((4, 12), "Ортофрейм «floor»: векторы Базы идут по часовой стрелке".into()));
+//! assert_eq!(shown[1].0, (10, 23)); // Помещение «studio» не существует; может быть, «study»?
+//! # Ok::<(), orthoframe::map::MapErrors>(())
+//! ```
 
 mod check;
 mod door;

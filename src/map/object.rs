@@ -28,8 +28,9 @@ pub enum Face {
 /// A link between faces of two items (ObjectItemLinks, AreaItemLinks).
 ///
 /// The offset is that of the linked face from this one, in the frame of the Object: origin to origin for
-/// horizontal faces, corner to corresponding corner for sides (a side runs the other way when the items
-/// stand back to back, so its end then corresponds). Coinciding faces have offset zero.
+/// horizontal faces, corner to corresponding corner for sides. A side that runs the other way, by more than a right
+/// angle, stands back to back with this one: its end then corresponds to this one's start, and `rel_a` is taken
+/// from its direction turned round. So coinciding faces have offset zero, `rel_a` included.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ItemLink {
     pub item: String,

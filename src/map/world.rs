@@ -54,7 +54,7 @@ pub struct MapItem {
     pub is_base: bool,
 }
 
-/// Sides of two Areas bound together (table MapItemLinks). Offsets as in [`super::ItemLink`].
+/// Sides of two Areas bound together (table MapItemLinks). Offsets as in [`super::ItemLink`], in the frame of the Map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MapLink {
     pub area: AreaId,

@@ -8,9 +8,10 @@ use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
 use super::keep::Store;
 use super::open::{SledShelf, check_format, lock, write_format};
+use super::reader::replica_index;
 use super::schema::key_of;
 use super::tables::Table;
-use super::trees::{HISTORY, Trees, digests};
+use super::trees::{HISTORY, REPLICAS, Trees, digests};
 use super::vault::{Shelf, Vault, check_snapshot, snapshot_files, write_snapshot};
 use super::version::Version;
 
@@ -102,11 +103,12 @@ fn check_snapshots(disk: &dyn Disk, dir: &Path, report: &mut FsckReport) -> Resu
 
 /// Every version of every record: checksum, cells, key.
 fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
+    let mut astray = 0;
     let mut check = |table: Table, key: &[u8], bytes: &[u8]| {
         let fault = match Version::decode(table, key, bytes) {
             Err(error) => error.to_string(),
             Ok(version) => match key_of(table.columns(), &version.row) {
-                Some(own) if own.as_bytes() == key => return,
+                Some(own) if own.as_bytes() == key && table.fits(&version.row) => return,
                 _ => format!("таблица {}: запись стоит не под своим ключом", table.name()),
             },
         };
@@ -115,6 +117,9 @@ fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
     for table in Table::ALL.iter().copied().filter(|t| t.is_stored()) {
         trees.scan(table.code(), &[], &mut |key, bytes| {
             check(table, key, bytes);
+            if table == Table::AreaObjects && trees.get(REPLICAS, &replica_index(key))?.is_none() {
+                astray += 1;
+            }
             Ok(true)
         })?;
     }
@@ -125,7 +130,11 @@ fn check_records(trees: &dyn Trees, report: &mut FsckReport) -> Result<()> {
             check(table, key, bytes);
         }
         Ok(true)
-    })
+    })?;
+    if astray > 0 {
+        report.find(Severity::Broken, format!("в указателе нет экземпляров: {astray}"));
+    }
+    Ok(())
 }
 
 fn check_map(store: Result<Store>, report: &mut FsckReport) {

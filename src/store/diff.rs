@@ -3,11 +3,14 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
+use crate::map::World;
+
 use super::cell::{Cell, Key, Row};
 use super::error::Result;
-use super::keep::Store;
+use super::keep::{Edits, Store};
 use super::reader::Reader;
 use super::schema::Record;
+use super::sheet::Sheet;
 use super::tables::{self as t, Table};
 
 /// What became of a record.
@@ -97,21 +100,26 @@ fn noun(table: Table) -> (&'static str, Option<Table>) {
 }
 
 /// Names of what bears an id, at two revisions: a thing that is gone still has its old name.
+#[derive(Default)]
 struct Names(BTreeMap<(Table, u32), String>);
 
 impl Names {
+    fn add(&mut self, table: Table, row: &Row) {
+        if let Some((id, name)) = display_name(table, row) {
+            self.0.insert((table, id), name);
+        }
+    }
+
     fn of(from: &Reader, to: &Reader) -> Result<Self> {
-        let mut names = BTreeMap::new();
+        let mut names = Self::default();
         for reader in [from, to] {
             for table in super::ids::tables() {
                 for (_, version) in reader.versions(table, &Key::new())? {
-                    if let Some((id, name)) = display_name(table, &version.row) {
-                        names.insert((table, id), name);
-                    }
+                    names.add(table, &version.row);
                 }
             }
         }
-        Ok(Self(names))
+        Ok(names)
     }
 
     fn get(&self, table: Table, id: u32) -> String {
@@ -148,19 +156,50 @@ impl Store {
         for revision in from.min(to) + 1..=from.max(to) {
             keys.extend(self.reader().touched(revision)?);
         }
-        let mut pairs = BTreeMap::<(Table, Key), [Option<Row>; 2]>::new();
+        let mut pairs = Pairs::default();
         for (table, key) in keys {
             let live = |reader: &Reader| -> Result<Option<Row>> {
                 Ok(reader.version(table, &key)?.filter(|v| !v.stamp.deleted).map(|v| v.row))
             };
-            let rows = [live(&old)?, live(&new)?];
-            let [was, is] = pairs.entry((table, same_thing(table, &key, &rows))).or_default();
-            let [before, after] = rows;
-            *was = was.take().or(before);
-            *is = is.take().or(after);
+            pairs.add(table, &key, [live(&old)?, live(&new)?]);
         }
-        let differences = pairs.into_iter().filter(|(_, [was, is])| was != is);
-        Ok(differences.map(|((table, _), rows)| difference(table, rows, &names)).collect())
+        Ok(pairs.differences(&names))
+    }
+}
+
+/// What differs between two worlds with the same ids: an edit before it is made.
+///
+/// # Errors
+/// [`StoreError::Duplicate`](super::StoreError::Duplicate) when two parts of a world have one key.
+pub fn compare(old: &World, new: &World) -> Result<Vec<Difference>> {
+    let (old, new) = (Sheet::of(old)?, Sheet::of(new)?);
+    let mut names = Names::default();
+    for sheet in [&old, &new] {
+        sheet.iter().for_each(|(table, _, row)| names.add(table, row));
+    }
+    let mut pairs = Pairs::default();
+    for (table, key) in Edits::between(&old, &new).rows.into_keys() {
+        let rows = [old.get(table, &key).cloned(), new.get(table, &key).cloned()];
+        pairs.add(table, &key, rows);
+    }
+    Ok(pairs.differences(&names))
+}
+
+/// Rows before and after, by what they speak of.
+#[derive(Default)]
+struct Pairs(BTreeMap<(Table, Key), [Option<Row>; 2]>);
+
+impl Pairs {
+    fn add(&mut self, table: Table, key: &Key, rows: [Option<Row>; 2]) {
+        let [was, is] = self.0.entry((table, same_thing(table, key, &rows))).or_default();
+        let [before, after] = rows;
+        *was = was.take().or(before);
+        *is = is.take().or(after);
+    }
+
+    fn differences(self, names: &Names) -> Vec<Difference> {
+        let differing = self.0.into_iter().filter(|(_, [was, is])| was != is);
+        differing.map(|((table, _), rows)| difference(table, &rows, names)).collect()
     }
 }
 
@@ -173,8 +212,8 @@ fn same_thing(table: Table, key: &Key, rows: &[Option<Row>; 2]) -> Key {
     }
 }
 
-fn difference(table: Table, rows: [Option<Row>; 2], names: &Names) -> Difference {
-    let [was, is] = &rows;
+fn difference(table: Table, rows: &[Option<Row>; 2], names: &Names) -> Difference {
+    let [was, is] = rows;
     let fate = match (was, is) {
         (None, _) => Fate::Created,
         (_, None) => Fate::Deleted,

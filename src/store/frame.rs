@@ -258,7 +258,7 @@ mod tests {
             let scan = scan(&file[..file.len() - cut], JOURNAL).unwrap();
             assert_eq!((scan.frames.len(), scan.tail), (2, Tail::Torn), "{cut}");
         }
-        let mut holed = file.clone();
+        let mut holed = file;
         holed[FILE_HEADER + frame + FRAME_HEADER] ^= 1;
         let scan = scan(&holed, JOURNAL).unwrap();
         assert_eq!((scan.frames.len(), scan.tail), (1, Tail::Corrupt));

@@ -16,12 +16,12 @@ use super::error::{Result, StoreError};
 use super::frame::Op;
 use super::ids::{self, Known};
 use super::open::{SledShelf, check_format, format_is_whole, lock, write_format};
-use super::reader::{Reader, encode_touched, history_key, key_of_record};
+use super::reader::{Reader, encode_touched, history_key, key_of_record, replica_index};
 use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
 use super::time::Timestamp;
-use super::trees::{CHANGES, HISTORY};
+use super::trees::{CHANGES, HISTORY, REPLICAS};
 use super::vault::{Change as Write, OpenReport, Vault};
 use super::version::{Stamp, Version};
 
@@ -246,10 +246,15 @@ impl Store {
     /// The store as it stood at a revision; 0 is the empty store.
     ///
     /// # Errors
-    /// [`StoreError::UnknownRevision`] when there is none of that number yet.
+    /// [`StoreError::UnknownRevision`] when there is none of that number yet, [`StoreError::ForgottenRevision`]
+    /// when it was collected as garbage.
     pub fn reader_at(&self, revision: u64) -> Result<Reader> {
         if revision > self.revision {
             return Err(StoreError::UnknownRevision { wanted: revision, last: self.revision });
+        }
+        let first = self.first_revision()?;
+        if revision < first {
+            return Err(StoreError::ForgottenRevision { wanted: revision, first });
         }
         Ok(Reader::new(Arc::clone(self.vault.trees()), revision))
     }
@@ -327,6 +332,21 @@ impl Store {
     /// As [`Store::import`]; [`StoreError::IdReused`] when a new thing bears the id of an old one.
     pub fn commit(&mut self, world: &World, change: &Change) -> Result<ImportReport> {
         self.become_world(world, change, RevisionKind::Edit)
+    }
+
+    /// Makes the map of the store equal to records that came from elsewhere, a base of SQL tables for one.
+    /// Their ids are kept.
+    ///
+    /// # Errors
+    /// As [`Store::commit`]; [`StoreError::BadRecord`] or [`StoreError::BrokenReference`] when the records make
+    /// no world.
+    pub fn import_sheet(&mut self, sheet: &Sheet, change: &Change) -> Result<ImportReport> {
+        if sheet.world()?.is_none() {
+            let what = "в записях нет ни одного Домейна".to_owned();
+            return Err(StoreError::BrokenReference { table: Table::Domain.name(), what });
+        }
+        let edits = Edits::between(&self.reader().sheet()?, sheet);
+        self.write(&edits, change, RevisionKind::Import, None)
     }
 
     fn become_world(
@@ -425,6 +445,9 @@ impl Store {
             if let (Some(old), Some(was)) = (&old, &was) {
                 let key = history_key(*table, key.as_bytes(), was.stamp.revision);
                 draft.put(HISTORY, key, old.clone(), None);
+            }
+            if *table == Table::AreaObjects && was.is_none() {
+                draft.put(REPLICAS, replica_index(key.as_bytes()), Vec::new(), None);
             }
             draft.put(table.code(), key.as_bytes().to_vec(), bytes, old);
             draft.touched.push((*table, key.clone()));

@@ -28,6 +28,7 @@ mod diff;
 mod disk;
 mod error;
 mod frame;
+mod gc;
 mod ids;
 mod keep;
 mod observe;
@@ -49,7 +50,7 @@ mod write;
 
 pub use cell::{Cell, Key, Kind, Row};
 pub use check::{Finding, FsckReport, Severity, fsck};
-pub use diff::{Difference, Fate, FieldChange};
+pub use diff::{Difference, Fate, FieldChange, compare};
 pub use error::StoreError;
 pub use keep::{Change, Counts, Edits, ImportReport, Revision, RevisionKind, Store};
 pub use observe::{Belief, Observation, Proposal, Seen};

@@ -6,14 +6,14 @@
 use std::sync::Arc;
 
 use crate::map::{Replica, World};
-use crate::units::{AreaId, DomainId, MapId};
+use crate::units::{AreaId, DomainId, MapId, ReplicaId};
 
 use super::cell::{Key, Row};
 use super::error::{Result, StoreError};
 use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
-use super::trees::{CHANGES, HISTORY, Trees};
+use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
 use super::version::Version;
 
 /// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
@@ -187,6 +187,49 @@ impl Reader {
         Ok(versions)
     }
 
+    /// All that is known of where a replica stood by the map, the oldest version first, whichever the Area.
+    ///
+    /// Where it went to another Area, the old place's mark of deletion is left out.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a version is broken.
+    pub fn replica_history(&self, replica: ReplicaId) -> Result<Vec<Version>> {
+        let mut versions = Vec::new();
+        for key in self.replica_keys(replica)? {
+            versions.extend(self.history(Table::AreaObjects, &key)?);
+        }
+        versions.sort_by_key(|v| (v.stamp.revision, v.stamp.deleted));
+        versions.dedup_by(|later, first| {
+            later.stamp.deleted && later.stamp.revision == first.stamp.revision
+        });
+        Ok(versions)
+    }
+
+    /// A replica of the map, by its id alone.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn replica(&self, id: ReplicaId) -> Result<Option<Replica>> {
+        for key in self.replica_keys(id)? {
+            if let Some(placed) = self.record::<t::AreaObjects>(&key)? {
+                let fragment = self.fragment(AreaId(placed.area_id))?;
+                return Ok(fragment.into_iter().find(|r| r.id == id));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The keys of AreaObjects that a replica ever had.
+    fn replica_keys(&self, replica: ReplicaId) -> Result<Vec<Key>> {
+        let mut keys = Vec::new();
+        self.trees.scan(REPLICAS, &replica.0.to_be_bytes(), &mut |key, _| {
+            let (id, place) = key.split_at(key.len().min(4));
+            keys.push(Key::from_bytes(&[place, id].concat()));
+            Ok(true)
+        })?;
+        Ok(keys)
+    }
+
     /// The keys that a revision touched.
     pub(crate) fn touched(&self, revision: u64) -> Result<Vec<(Table, Key)>> {
         let mut keys = Vec::new();
@@ -200,6 +243,12 @@ impl Reader {
         })?;
         Ok(keys)
     }
+}
+
+/// `ReplID AreaID ObjectID`: a key of AreaObjects, the id first.
+pub(crate) fn replica_index(key: &[u8]) -> Vec<u8> {
+    let split = key.len().min(8);
+    [&key[split..], &key[..split]].concat()
 }
 
 fn record<T: Record>(row: &Row) -> Result<T> {

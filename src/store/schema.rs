@@ -95,6 +95,13 @@ macro_rules! tables {
                 match self { $(Self::$record => Origin::$origin,)+ }
             }
 
+            /// Whether these cells are a record of this table.
+            #[must_use]
+            pub fn fits(self, row: &[Cell]) -> bool {
+                row.len() <= self.columns().len()
+                    && match self { $(Self::$record => $record::from_row(row).is_some(),)+ }
+            }
+
             #[must_use]
             pub fn columns(self) -> &'static [Column] {
                 match self {

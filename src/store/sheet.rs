@@ -61,6 +61,29 @@ impl Sheet {
         self.tables.entry(table).or_default().insert(key, row);
     }
 
+    /// Adds a row that came from elsewhere, a table of SQL for one.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when the cells do not fit the table's columns, [`StoreError::Duplicate`] when
+    /// there is a row with this key already, [`StoreError::DerivedTable`] for a table that is computed.
+    pub fn add(&mut self, table: Table, row: Row) -> Result<()> {
+        if !table.is_stored() {
+            return Err(StoreError::DerivedTable { table: table.name() });
+        }
+        let described = || (table.name(), describe_key(table, &row));
+        let key = key_of(table.columns(), &row).filter(|_| table.fits(&row));
+        let Some(key) = key else {
+            let (table, key) = described();
+            return Err(StoreError::BadRecord { table, key });
+        };
+        if self.get(table, &key).is_some() {
+            let (table, key) = described();
+            return Err(StoreError::Duplicate { table, key });
+        }
+        self.insert(table, key, row);
+        Ok(())
+    }
+
     #[must_use]
     pub fn get(&self, table: Table, key: &Key) -> Option<&Row> {
         self.tables.get(&table)?.get(key)

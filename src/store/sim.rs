@@ -120,12 +120,13 @@ impl Inner {
             }
             let (short, long) = (old.len().min(new.len()), old.len().max(new.len()));
             let length = short + self.dice.roll(long - short + 1);
-            let mut left = vec![0; length];
+            let mut left = Vec::with_capacity(length);
             for start in (0..length).step_by(SECTOR) {
                 let from = if self.dice.roll(2) == 0 { old } else { new };
-                for at in start..length.min(start + SECTOR) {
-                    left[at] = from.get(at).copied().unwrap_or(0);
-                }
+                left.extend(
+                    (start..length.min(start + SECTOR))
+                        .map(|at| from.get(at).copied().unwrap_or(0)),
+                );
             }
             inode.now.clone_from(&left);
             inode.synced = left;

@@ -53,7 +53,7 @@ impl FromStr for Timestamp {
         let parts = |text: &str, by: char| -> Result<[i64; 3], TimestampError> {
             let parts: Vec<i64> =
                 text.split(by).map(number).collect::<Option<_>>().ok_or(TimestampError)?;
-            parts.try_into().map_err(|_: Vec<i64>| TimestampError)
+            parts.try_into().map_err(|_too_many_or_few: Vec<i64>| TimestampError)
         };
         let [year, month, day] = parts(date, '-')?;
         let [hour, minute, second] = parts(time, ':')?;

@@ -22,10 +22,13 @@ pub(crate) const HISTORY: u8 = 200;
 /// The keys that each revision touched.
 pub(crate) const CHANGES: u8 = 201;
 
+/// Every key under which a replica ever stood, by its id: a replica that goes to another Area gets another key.
+pub(crate) const REPLICAS: u8 = 202;
+
 /// All trees of a store by their codes, with their names.
 pub(crate) fn tree_names() -> impl Iterator<Item = (u8, &'static str)> {
     let tables = Table::ALL.iter().filter(|t| t.is_stored()).map(|t| (t.code(), t.name()));
-    tables.chain([(HISTORY, "~history"), (CHANGES, "~changes")])
+    tables.chain([(HISTORY, "~history"), (CHANGES, "~changes"), (REPLICAS, "~replicas")])
 }
 
 /// The sequence number up to which frames were applied, and what the trees then hold.
@@ -238,10 +241,13 @@ impl Trees for SledTrees {
     }
 }
 
+/// Values by tree and key.
+type Records = BTreeMap<(u8, Vec<u8>), Vec<u8>>;
+
 /// Trees in memory.
 #[derive(Default)]
 pub(crate) struct MemoryTrees {
-    inner: RwLock<(BTreeMap<(u8, Vec<u8>), Vec<u8>>, State)>,
+    inner: RwLock<(Records, State)>,
 }
 
 impl Trees for MemoryTrees {

@@ -278,7 +278,7 @@ fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> 
         what: what.to_owned(),
     };
     let bytes = disk.read(path).map_err(StoreError::io("прочитать", path))?;
-    let found = scan(&bytes, SNAPSHOT).map_err(|_: HeadError| bad("начало файла испорчено"))?;
+    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| bad("начало файла испорчено"))?;
     let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
         return Err(bad("файл испорчен или записан не до конца"));
     };

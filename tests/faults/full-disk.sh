@@ -12,5 +12,7 @@ for kib in 100 300 700 1500 3000; do
         ulimit -f "$((kib * 2))" 2>/dev/null || ulimit -f "$kib"
         STORE_FULL_DISK="$dir" cargo test --quiet --test all store_faults::a_full_disk -- --nocapture
     )
+    # Now there is room again.
+    STORE_CHECK="$dir" cargo test --quiet --test all store_faults::checker
     rm -r "$dir"
 done

@@ -30,10 +30,8 @@ impl<'w> Checker<'w> {
             }
             let name = || door.name.clone();
             match mounts.get(&door.id).map(Vec::as_slice) {
-                None if !of_objects.contains(&door.id) => {
-                    if all_groups_read {
-                        self.fault(MapError::DoorUnused { door: name() }, spot);
-                    }
+                None if all_groups_read && !of_objects.contains(&door.id) => {
+                    self.fault(MapError::DoorUnused { door: name() }, spot);
                 }
                 None => {}
                 Some(mounts) => {

@@ -106,16 +106,16 @@ impl de::Error for DecodeError {
 
     fn unknown_variant(word: &str, expected: &'static [&'static str]) -> Self {
         Self::new(MapError::UnknownWord {
-            word: word.to_owned(),
-            nearest: nearest_name(word, expected.iter().copied()).map(str::to_owned),
+            word: shortened(word),
+            nearest: likely(word, expected),
             expected: expected.join(", "),
         })
     }
 
     fn unknown_field(field: &str, expected: &'static [&'static str]) -> Self {
         Self::new(MapError::UnknownField {
-            field: field.to_owned(),
-            nearest: nearest_name(field, expected.iter().copied()).map(str::to_owned),
+            field: shortened(field),
+            nearest: likely(field, expected),
             expected: expected.join(", "),
         })
     }
@@ -162,14 +162,21 @@ fn expected_words(expected: &str) -> String {
     words.to_owned()
 }
 
+/// Longer words are nobody's slip of the pen, and comparing them takes long.
+pub(super) const LONGEST_WORD: usize = 80;
+
 /// A text fit for a message.
-fn shortened(text: &str) -> String {
-    const LIMIT: usize = 40;
-    if text.chars().count() <= LIMIT {
-        text.to_owned()
-    } else {
-        text.chars().take(LIMIT).chain(['…']).collect()
+pub(super) fn shortened(text: &str) -> String {
+    match text.char_indices().nth(LONGEST_WORD) {
+        None => text.to_owned(),
+        Some((end, _)) => format!("{}…", &text[..end]),
     }
+}
+
+/// What was meant, if anything was.
+pub(super) fn likely(word: &str, known: &[&str]) -> Option<String> {
+    let is_word = word.len() <= 2 * LONGEST_WORD;
+    is_word.then(|| nearest_name(word, known.iter().copied()).map(str::to_owned)).flatten()
 }
 
 /// A value, and what is left out of it.

@@ -74,7 +74,7 @@ pub(super) struct Misprint {
 pub(super) fn parse(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
     match format {
         Format::Toml => parse_toml(text),
-        Format::Yaml | Format::Json => parse_yaml(text, format).map_err(|fault| vec![fault]),
+        Format::Yaml | Format::Json => parse_yaml(text, format),
     }
 }
 
@@ -130,17 +130,32 @@ fn toml_value(value: DeValue<'_>) -> Value {
     }
 }
 
+/// How deep tables may lie within tables: twice what the format needs. The reader's recursion takes much of the stack.
+const MOST_DEPTH: usize = 16;
+
 /// YAML, and JSON as its subset.
-fn parse_yaml(text: &str, format: Format) -> Result<Node, Misprint> {
+fn parse_yaml(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
     let name = if format == Format::Json { "JSON" } else { "YAML" };
-    // A room may be named «Y» or «No»: only true and false are truth values.
-    let options = serde_saphyr::options! { strict_booleans: true };
+    let options = serde_saphyr::options! {
+        // A room may be named «Y» or «No»: only true and false are truth values.
+        strict_booleans: true,
+        budget: serde_saphyr::budget! {
+            max_depth: MOST_DEPTH,
+            flow_nesting_limit: MOST_DEPTH,
+            // Forty thousand replicas, two dozen values each.
+            max_nodes: 2_000_000,
+            max_events: 4_000_000,
+            max_aliases: 1_000,
+        },
+        // Anchors spare a person repetitions; they need not multiply a text.
+        alias_limits: serde_saphyr::alias_limits! { max_total_replayed_events: 10_000 },
+    };
     let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
-        Misprint {
+        vec![Misprint {
             error: MapError::Syntax { format: name, message: e.to_string() },
             span: e.location().map(|at| span_in(text, at)),
-        }
+        }]
     })?;
     Ok(root.into())
 }

@@ -4,26 +4,24 @@ use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 
 use serde::Deserialize;
 
-use super::decode::decode;
+use super::decode::{LONGEST_WORD, decode, likely, shortened};
 use super::node::{Entry, Misprint, Node, Span};
+use super::records::type_entry;
 use super::schema::{
-    AreaFile, At, DomainFile, DoorFile, DoorStateFile, FORMAT, ItemFile, ItemLinkFile, MountFile,
-    Number, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile,
-    SideTraitsFile, StatusFile, TypeFile,
+    AreaFile, DoorFile, FORMAT, ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile,
+    TypeFile,
 };
 use crate::map::fault::{Fault, MapError, Record, Spot};
-use crate::map::{
-    Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
-    DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
-    Permeability, Place, Replica, RobotProfile, SideRef, TypeEntry, TypeKind, TypeLists, World,
-};
+use crate::map::{TypeKind, TypeLists, World};
 use crate::units::{
-    AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
-    TypeId, name_key, nearest_name,
+    AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key, nearest_name,
 };
 
 const SECTIONS: [&str; 9] =
     ["format", "domain", "robot", "type", "orthoframe", "door", "object", "area", "map"];
+
+/// Looking for the likeliest of forty thousand names takes its time; a file with more slips has another trouble.
+const MOST_GUESSES: usize = 30;
 
 /// A world as far as it could be read, its faults, and where its records stand in the tree.
 pub(super) struct Draft<'n> {
@@ -52,6 +50,7 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
         origins: BTreeMap::new(),
         broken: BTreeSet::new(),
         left_out: HashSet::new(),
+        guesses_left: MOST_GUESSES,
         names: Names::default(),
     };
     let world = reader.world();
@@ -59,30 +58,32 @@ pub(super) fn build(root: &Node) -> Draft<'_> {
     Draft { world, faults, origins, broken, left_out }
 }
 
-struct Reader<'n> {
-    root: &'n Node,
+pub(super) struct Reader<'n> {
+    pub(super) root: &'n Node,
     faults: Vec<Fault>,
-    origins: BTreeMap<Record, Origin<'n>>,
-    broken: BTreeSet<Record>,
+    pub(super) origins: BTreeMap<Record, Origin<'n>>,
+    pub(super) broken: BTreeSet<Record>,
     left_out: HashSet<Span>,
+    /// Names for which a likely one is still looked for among all there are.
+    guesses_left: usize,
     names: Names,
 }
 
 /// What references may name.
 #[derive(Default)]
-struct Names {
+pub(super) struct Names {
     types: HashMap<TypeKind, Index<TypeId>>,
-    orthoframes: Index<OrFrId>,
-    doors: Index<DoorId>,
-    objects: Index<ObjectId>,
-    areas: Index<AreaId>,
-    maps: Index<MapId>,
-    replicas: Index<ReplicaId>,
-    places: Index<PlaceId>,
+    pub(super) orthoframes: Index<OrFrId>,
+    pub(super) doors: Index<DoorId>,
+    pub(super) objects: Index<ObjectId>,
+    pub(super) areas: Index<AreaId>,
+    pub(super) maps: Index<MapId>,
+    pub(super) replicas: Index<ReplicaId>,
+    pub(super) places: Index<PlaceId>,
 }
 
 /// The records of one kind by key and by name.
-struct Index<Id> {
+pub(super) struct Index<Id> {
     keys: HashMap<String, Id>,
     folded: HashMap<String, Id>,
     spellings: Vec<String>,
@@ -116,11 +117,11 @@ impl<Id: Copy> Index<Id> {
 }
 
 /// A record of the file before its references are followed.
-struct Raw<'n, Id, T> {
-    id: Id,
-    key: String,
-    file: T,
-    entry: &'n Entry,
+pub(super) struct Raw<'n, Id, T> {
+    pub(super) id: Id,
+    pub(super) key: String,
+    pub(super) file: T,
+    pub(super) entry: &'n Entry,
 }
 
 /// Kinds of records that a section holds.
@@ -148,7 +149,7 @@ fn number(given: &[Option<u32>]) -> Vec<u32> {
     let mut used: HashSet<u32> = given.iter().flatten().copied().collect();
     let mut highest = used.iter().copied().max().unwrap_or(0);
     let mut last = 0;
-    let mut next = |given: &Option<u32>| {
+    let next = |given: &Option<u32>| {
         last = given.unwrap_or_else(|| {
             let follows = u32::saturating_add(last, 1);
             // Saturation ends in a duplicate, which is reported.
@@ -158,7 +159,7 @@ fn number(given: &[Option<u32>]) -> Vec<u32> {
         highest = highest.max(last);
         last
     };
-    given.iter().map(|given| next(given)).collect()
+    given.iter().map(next).collect()
 }
 
 impl<'n> Reader<'n> {
@@ -209,7 +210,7 @@ impl<'n> Reader<'n> {
     }
 
     /// A fault of a record, which is checked no further.
-    fn fault(&mut self, error: MapError, spot: Spot) {
+    pub(super) fn fault(&mut self, error: MapError, spot: Spot) {
         self.broken.insert(spot.record);
         let mut fault = Fault::new(error, vec![spot]);
         fault.locate(&self.origins, &self.left_out);
@@ -220,7 +221,7 @@ impl<'n> Reader<'n> {
         self.faults.extend(misprints.into_iter().map(Fault::from));
     }
 
-    fn decode<T: Deserialize<'n>>(&mut self, node: &'n Node, name: &Span) -> Option<T> {
+    pub(super) fn decode<T: Deserialize<'n>>(&mut self, node: &'n Node, name: &Span) -> Option<T> {
         let mut misprints = Vec::new();
         let value = decode(node, name, &mut self.left_out, &mut misprints);
         self.misprints(misprints);
@@ -234,8 +235,8 @@ impl<'n> Reader<'n> {
             if !SECTIONS.contains(&entry.key.as_str()) {
                 misprints.push(Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, SECTIONS).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &SECTIONS),
                         expected: SECTIONS.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
@@ -326,7 +327,7 @@ impl<'n> Reader<'n> {
     }
 
     /// Follows a reference; a fault when it leads nowhere.
-    fn follow<Id: Copy>(
+    pub(super) fn follow<Id: Copy>(
         &mut self,
         index: impl Fn(&Names) -> &Index<Id>,
         what: &'static str,
@@ -336,18 +337,23 @@ impl<'n> Reader<'n> {
         let index = index(&self.names);
         let found = index.get(name);
         if found.is_none() && !index.broken.contains(&name_key(name)) {
-            let nearest = nearest_name(name, index.spellings.iter().map(String::as_str));
-            let error = MapError::UnknownReference {
-                what,
-                name: name.to_owned(),
-                nearest: nearest.map(str::to_owned),
-            };
-            self.fault(error, spot);
+            let may_guess = self.guesses_left > 0 && name.len() <= 2 * LONGEST_WORD;
+            let nearest = may_guess
+                .then(|| nearest_name(name, index.spellings.iter().map(String::as_str)))
+                .flatten()
+                .map(str::to_owned);
+            self.guesses_left = self.guesses_left.saturating_sub(1);
+            self.fault(MapError::UnknownReference { what, name: shortened(name), nearest }, spot);
         }
         found
     }
 
-    fn type_of(&mut self, kind: TypeKind, name: Option<&str>, spot: Spot) -> Option<TypeId> {
+    pub(super) fn type_of(
+        &mut self,
+        kind: TypeKind,
+        name: Option<&str>,
+        spot: Spot,
+    ) -> Option<TypeId> {
         let name = name?;
         if self.names.types.contains_key(&kind) {
             self.follow(|names| &names.types[&kind], "Тип", name, spot)
@@ -372,8 +378,8 @@ impl<'n> Reader<'n> {
                 let fields = TypeKind::ALL.map(TypeKind::field);
                 self.misprints(vec![Misprint {
                     error: MapError::UnknownField {
-                        field: entry.key.clone(),
-                        nearest: nearest_name(&entry.key, fields).map(str::to_owned),
+                        field: shortened(&entry.key),
+                        nearest: likely(&entry.key, &fields),
                         expected: fields.join(", "),
                     },
                     span: Some(entry.key_span.clone()),
@@ -469,477 +475,6 @@ impl<'n> Reader<'n> {
         }
         (lines, index)
     }
-
-    fn domain(&mut self, maps: &[Raw<'_, MapId, PlanFile>]) -> Domain {
-        let entry = self.root.entry("domain");
-        if let Some(entry) = entry {
-            let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
-            self.origins.insert(Record::Domain, origin);
-        }
-        let file: DomainFile =
-            entry.and_then(|entry| self.decode(&entry.node, &entry.key_span)).unwrap_or_default();
-        let spot = |field, i| Spot::of(Record::Domain).field(field).index(i);
-        let mut domain_maps = Vec::new();
-        let none_is_base = file.maps.iter().all(|m| !m.base);
-        for (i, item) in file.maps.iter().enumerate() {
-            let frame = self.frame(&item.at, item.angle, &spot("maps", i));
-            let map = self.follow(|n| &n.maps, "Карта", &item.map, spot("maps", i).field("map"));
-            let is_base = item.base || (none_is_base && i == 0);
-            domain_maps.extend(map.map(|map| DomainMap { map, frame, is_base }));
-        }
-        if let ([], [only]) = (&file.maps[..], maps) {
-            domain_maps.push(DomainMap { map: only.id, frame: Frame::IDENTITY, is_base: true });
-        }
-        let mut lifts = Vec::new();
-        for (i, lift) in file.lifts.iter().enumerate() {
-            let mut stops = Vec::new();
-            for (j, stop) in lift.stops.iter().enumerate() {
-                let at = spot("lifts", i).field("stops").index(j);
-                let area = self.follow(|n| &n.areas, "Помещение", stop, at);
-                stops.extend(area.map(|area| LiftStop { area }));
-            }
-            lifts.push((lift.name.clone(), stops));
-        }
-        let key = if file.key.is_empty() { "domain".to_owned() } else { file.key };
-        Domain {
-            id: DomainId(file.id.unwrap_or(1)),
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            description: file.description,
-            maps: domain_maps,
-            lifts,
-        }
-    }
-
-    fn robot(&mut self) -> RobotProfile {
-        let mut robot = RobotProfile::default();
-        let Some(entry) = self.root.entry("robot") else { return robot };
-        let origin = Origin { node: &entry.node, name: entry.key_span.clone() };
-        self.origins.insert(Record::Robot, origin);
-        let Some(file) = self.decode::<RobotFile>(&entry.node, &entry.key_span) else {
-            return robot;
-        };
-        let or = |given: Option<Number>, default: Cm| given.map_or(default, |n| Cm::of(n.0));
-        robot.radius = or(file.radius, robot.radius);
-        robot.height = or(file.height, robot.height);
-        robot.step = or(file.step, robot.step);
-        robot.clearance = or(file.clearance, robot.clearance);
-        robot.speed = file.speed.map_or(robot.speed, |n| n.0);
-        robot.turn_rate = file.turn_rate.map_or(robot.turn_rate, |n| n.0);
-        if let Some(start) = file.start {
-            let spot = Spot::of(Record::Robot).field("start");
-            robot.start = self.follow(|n| &n.places, "Место", &start, spot);
-        }
-        robot
-    }
-
-    /// A frame from `at` and `angle`.
-    fn frame(&mut self, at: &At, angle: Option<Number>, spot: &Spot) -> Frame {
-        let angle = angle.map_or(Deg::ZERO, |n| Deg::of(n.0));
-        match at.0[..] {
-            [] => Frame { angle, ..Frame::IDENTITY },
-            [x, y] => Frame::new(x.0, y.0, 0.0, angle),
-            [x, y, z] => Frame::new(x.0, y.0, z.0, angle),
-            _ => {
-                let error = MapError::WrongKind {
-                    found: format!("список из {} значений", at.0.len()),
-                    expected: "два или три числа [x, y, z]".to_owned(),
-                };
-                self.fault(error, spot.clone().field("at"));
-                Frame::IDENTITY
-            }
-        }
-    }
-
-    fn orthoframe(&mut self, raw: Raw<'_, OrFrId, OrthoframeFile>) -> Orthoframe {
-        let Raw { id, key, file, .. } = raw;
-        let spot = Spot::of(Record::Orthoframe(id));
-        let mut base = self.base(&key, &file, &spot);
-        // A base that could not be read has no sides to speak of.
-        let sides = if base.is_empty() { Vec::new() } else { file.side.0 };
-        for (side, traits) in sides {
-            let at = spot.clone().field("side").key(&side);
-            match base.iter_mut().find(|v| v.id == side) {
-                Some(vector) => self.apply_traits(vector, traits, at),
-                None => {
-                    let nearest = nearest_name(&side, base.iter().map(|v| v.id.as_str()));
-                    let nearest = nearest.map(str::to_owned);
-                    let error =
-                        MapError::UnknownReference { what: "Сторона", name: side, nearest };
-                    self.fault(error, at);
-                }
-            }
-        }
-        if file.reverse && area(&base) < 0.0 {
-            base.reverse();
-            base.iter_mut().for_each(|v| std::mem::swap(&mut v.start, &mut v.end));
-        }
-        Orthoframe {
-            id,
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            description: file.description,
-            frame_type: self.type_of(
-                TypeKind::Orthoframe,
-                file.r#type.as_deref(),
-                spot.clone().field("type"),
-            ),
-            shape: self.type_of(TypeKind::Shape, file.shape.as_deref(), spot.field("shape")),
-            base,
-            height: Cm::of(file.height.map_or(0.0, |n| n.0)),
-            base_permeability: file.base.into(),
-            roof_permeability: file.roof.into(),
-            roof_scale: file.roof_scale.map_or(1.0, |n| n.0),
-            properties: file.properties,
-        }
-    }
-
-    /// The base vectors, whichever way they are given.
-    fn base(&mut self, key: &str, file: &OrthoframeFile, spot: &Spot) -> Vec<BaseVector> {
-        let ways = usize::from(file.rect.is_some())
-            + usize::from(file.regular.is_some())
-            + usize::from(!file.points.is_empty())
-            + usize::from(!file.sides.is_empty());
-        if ways != 1 {
-            // A base that could not be read is one already.
-            if ways > 1 || !self.broken.contains(&spot.record) {
-                let error = MapError::BaseForm { name: key.to_owned(), count: ways };
-                self.fault(error, spot.clone());
-            }
-            return Vec::new();
-        }
-        if let Some([w, d]) = file.rect {
-            let corners = [(0.0, 0.0), (w.0, 0.0), (w.0, d.0), (0.0, d.0)];
-            return lettered(&corners.map(|(x, y)| Point::new(x, y)));
-        }
-        if let Some(regular) = &file.regular {
-            let (corners, radius) = (regular.corners, regular.radius.0);
-            let at = |field| spot.clone().field("regular").field(field);
-            if !(3..=360).contains(&corners) {
-                let (value, range) = (f64::from(corners), "от 3 до 360");
-                self.fault(MapError::OutOfRange { what: "corners", value, range }, at("corners"));
-                return Vec::new();
-            }
-            if radius <= 0.0 {
-                let (value, range) = (radius, "больше 0");
-                self.fault(MapError::OutOfRange { what: "radius", value, range }, at("radius"));
-                return Vec::new();
-            }
-            return lettered(&regular_corners(corners, radius));
-        }
-        if !file.points.is_empty() {
-            let corners: Vec<_> = file.points.iter().map(|p| Point::new(p[0].0, p[1].0)).collect();
-            return lettered(&corners);
-        }
-        let mut vectors = Vec::new();
-        for (i, side) in file.sides.iter().enumerate() {
-            let mut vector = BaseVector {
-                id: side.id.clone(),
-                start: Point::new(side.from[0].0, side.from[1].0),
-                end: Point::new(side.to[0].0, side.to[1].0),
-                side_type: None,
-                permeability: Permeability::Impermeable,
-                names: Vec::new(),
-                properties: BTreeMap::new(),
-            };
-            let traits = SideTraitsFile {
-                r#type: side.r#type.clone(),
-                permeability: side.permeability,
-                names: side.names.clone(),
-                properties: side.properties.clone(),
-            };
-            self.apply_traits(&mut vector, traits, spot.clone().field("sides").index(i));
-            vectors.push(vector);
-        }
-        vectors
-    }
-
-    fn apply_traits(&mut self, vector: &mut BaseVector, traits: SideTraitsFile, spot: Spot) {
-        vector.side_type =
-            self.type_of(TypeKind::Side, traits.r#type.as_deref(), spot.field("type"));
-        vector.permeability = traits.permeability.into();
-        vector.names = traits.names;
-        vector.properties = traits.properties;
-    }
-
-    fn door(&mut self, raw: Raw<'_, DoorId, DoorFile>) -> Door {
-        let Raw { id, key, file, .. } = raw;
-        let kind: DoorKind = file.kind.into();
-        let equal_share = 1.0 / file.leaves.len().max(1) as f64;
-        let full = if kind == DoorKind::Hinged { 90.0 } else { 100.0 };
-        let leaves = file.leaves.iter().map(|leaf| DoorLeaf {
-            hinge: leaf.hinge.into(),
-            share: leaf.share.map_or(equal_share, |n| n.0),
-            thickness: Cm::of(leaf.thickness.map_or(4.0, |n| n.0)),
-            max_open: leaf.max_open.map_or(full, |n| n.0),
-        });
-        let spot = Spot::of(Record::Door(id)).field("type");
-        Door {
-            id,
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            door_type: self.type_of(TypeKind::Door, file.r#type.as_deref(), spot),
-            kind,
-            width: Cm::of(file.width.0),
-            height: Cm::of(file.height.0),
-            leaves: leaves.collect(),
-            state: door_state(file.state, file.opening),
-            properties: file.properties,
-            forms: file.forms,
-        }
-    }
-
-    fn object(&mut self, raw: Raw<'_, ObjectId, ObjectFile>) -> Object {
-        let Raw { id, key, file, .. } = raw;
-        let spot = Spot::of(Record::Object(id));
-        let items = self.items(&file.items, &spot);
-        Object {
-            id,
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            description: file.description,
-            object_type: self.type_of(
-                TypeKind::Object,
-                file.r#type.as_deref(),
-                spot.clone().field("type"),
-            ),
-            links: self.item_links(&file.links, &spot),
-            front: file.front.and_then(|f| self.side(&f, &items, spot.clone().field("front"))),
-            back: file.back.and_then(|b| self.side(&b, &items, spot.clone().field("back"))),
-            doors: self.mounts(&file.doors, &items, &spot),
-            items,
-            properties: file.properties,
-        }
-    }
-
-    fn area(&mut self, raw: Raw<'_, AreaId, AreaFile>) -> Area {
-        let Raw { id, key, file, .. } = raw;
-        let spot = Spot::of(Record::Area(id));
-        let items = self.items(&file.items, &spot);
-        Area {
-            id,
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            description: file.description,
-            area_type: self.type_of(
-                TypeKind::Area,
-                file.r#type.as_deref(),
-                spot.clone().field("type"),
-            ),
-            links: self.item_links(&file.links, &spot),
-            doors: self.mounts(&file.doors, &items, &spot),
-            items,
-            properties: file.properties,
-            forms: file.forms,
-        }
-    }
-
-    fn items(&mut self, files: &[ItemFile], spot: &Spot) -> Vec<Item> {
-        let none_is_base = files.iter().all(|item| !item.base);
-        let mut items = Vec::new();
-        for (i, file) in files.iter().enumerate() {
-            let at = spot.clone().field("items").index(i);
-            let frame = self.frame(&file.at, file.angle, &at);
-            let orthoframe = self.follow(
-                |n| &n.orthoframes,
-                "Ортофрейм",
-                &file.orthoframe,
-                at.field("orthoframe"),
-            );
-            items.extend(orthoframe.map(|orthoframe| Item {
-                id: file.id.clone(),
-                orthoframe,
-                frame,
-                is_base: file.base || (none_is_base && i == 0),
-            }));
-        }
-        items
-    }
-
-    fn item_links(&mut self, files: &[ItemLinkFile], spot: &Spot) -> Vec<ItemLink> {
-        let mut links = Vec::new();
-        for (i, file) in files.iter().enumerate() {
-            let at = spot.clone().field("links").index(i);
-            let offset = self.frame(&file.rel, file.angle, &at);
-            let from = self.face(&file.from, at.clone().field("from"));
-            let to = self.face(&file.to, at.field("to"));
-            if let (Some((item, face)), Some((to_item, to_face))) = (from, to) {
-                links.push(ItemLink {
-                    item,
-                    face,
-                    to_item,
-                    to_face,
-                    rel_x: offset.x,
-                    rel_y: offset.y,
-                    rel_z: offset.z,
-                    rel_a: offset.angle,
-                });
-            }
-        }
-        links
-    }
-
-    fn face(&mut self, text: &str, spot: Spot) -> Option<(String, Face)> {
-        let Some((item, face)) = text.rsplit_once('.') else {
-            let wanted = "«часть.roof», «часть.base» или «часть.сторона»";
-            self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
-            return None;
-        };
-        let face = match face {
-            "base" | "база" => Face::Base,
-            "roof" | "потолок" => Face::Roof,
-            side => Face::Side(side.to_owned()),
-        };
-        Some((item.to_owned(), face))
-    }
-
-    fn side(&mut self, text: &str, items: &[Item], spot: Spot) -> Option<SideRef> {
-        let side_ref =
-            |item: &str, side: &str| SideRef { item: item.to_owned(), side: side.to_owned() };
-        match (text.rsplit_once('.'), items) {
-            (Some((item, side)), _) => Some(side_ref(item, side)),
-            (None, [only]) => Some(side_ref(&only.id, text)),
-            // Without items the group has a fault of its own.
-            (None, []) => None,
-            (None, _) => {
-                let wanted = "«часть.сторона»";
-                self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
-                None
-            }
-        }
-    }
-
-    fn mounts(&mut self, files: &[MountFile], items: &[Item], spot: &Spot) -> Vec<DoorMount> {
-        let mut mounts = Vec::new();
-        for (i, file) in files.iter().enumerate() {
-            let at = spot.clone().field("doors").index(i);
-            let side = self.side(&file.side, items, at.clone().field("side"));
-            let door = self.follow(|n| &n.doors, "Дверь", &file.door, at.field("door"));
-            if let (Some(SideRef { item, side }), Some(door)) = (side, door) {
-                mounts.push(DoorMount { item, side, door, opens: file.opens.into() });
-            }
-        }
-        mounts
-    }
-
-    fn replica(&mut self, line: (AreaId, ReplicaId, ReplicaFile)) -> Option<(ReplicaId, Replica)> {
-        let (area, id, file) = line;
-        let spot = Spot::of(Record::Replica(id));
-        let frame = self.frame(&file.at, file.angle, &spot);
-        if file.move_prob > 100 {
-            let error = MapError::OutOfRange {
-                what: "move_prob",
-                value: f64::from(file.move_prob),
-                range: "от 0 до 100",
-            };
-            self.fault(error, spot.clone().field("move_prob"));
-        }
-        let mut door_states = BTreeMap::new();
-        for (door, state) in file.doors.0 {
-            let at = spot.clone().field("doors").key(&door);
-            let door = self.follow(|n| &n.doors, "Дверь", &door, at);
-            let DoorStateFile { state, opening } = state;
-            door_states.extend(door.map(|door| (door, door_state(state, opening))));
-        }
-        let object = self.follow(|n| &n.objects, "Объект", &file.object, spot.field("object"))?;
-        let replica = Replica {
-            id,
-            area,
-            object,
-            name: file.name,
-            name_en: file.name_en,
-            frame,
-            move_prob: file.move_prob.min(100) as u8,
-            properties: file.properties,
-            door_states,
-            forms: file.forms,
-        };
-        Some((id, replica))
-    }
-
-    fn place(&mut self, line: (AreaId, PlaceId, PlaceFile)) -> (PlaceId, Place) {
-        let (area, id, file) = line;
-        let serves = file.serves.and_then(|name| {
-            let spot = Spot::of(Record::Place(id)).field("serves");
-            self.follow(|n| &n.replicas, "Экземпляр", &name, spot)
-        });
-        let place = Place {
-            id,
-            area,
-            name: file.name,
-            name_en: file.name_en,
-            at: Point::new(file.at[0].0, file.at[1].0),
-            heading: file.heading.map(|n| Deg::of(n.0)),
-            serves,
-            forms: file.forms,
-        };
-        (id, place)
-    }
-
-    fn plan(&mut self, raw: Raw<'_, MapId, PlanFile>, areas: &BTreeMap<AreaId, Area>) -> Map {
-        let Raw { id, key, file, .. } = raw;
-        let spot = Spot::of(Record::Map(id));
-        let none_is_base = file.items.iter().all(|item| !item.base);
-        let mut items = Vec::new();
-        for (i, item) in file.items.iter().enumerate() {
-            let at = spot.clone().field("items").index(i);
-            let frame = self.frame(&item.at, item.angle, &at);
-            let area = self.follow(|n| &n.areas, "Помещение", &item.area, at.field("area"));
-            let is_base = item.base || (none_is_base && i == 0);
-            items.extend(area.map(|area| MapItem { area, frame, is_base }));
-        }
-        let mut links = Vec::new();
-        for (i, link) in file.links.iter().enumerate() {
-            let at = spot.clone().field("links").index(i);
-            let offset = self.frame(&link.rel, link.angle, &at);
-            let from = self.area_side(&link.from, areas, at.clone().field("from"));
-            let to = self.area_side(&link.to, areas, at.field("to"));
-            if let (Some((area, side)), Some((to_area, to_side))) = (from, to) {
-                links.push(MapLink {
-                    area,
-                    side,
-                    to_area,
-                    to_side,
-                    rel_x: offset.x,
-                    rel_y: offset.y,
-                    rel_z: offset.z,
-                    rel_a: offset.angle,
-                });
-            }
-        }
-        Map {
-            id,
-            name: or_key(file.name, &key),
-            key,
-            name_en: file.name_en,
-            description: file.description,
-            map_type: self.type_of(TypeKind::Map, file.r#type.as_deref(), spot.field("type")),
-            items,
-            links,
-        }
-    }
-
-    /// "area.side" or "area.item.side".
-    fn area_side(
-        &mut self,
-        text: &str,
-        areas: &BTreeMap<AreaId, Area>,
-        spot: Spot,
-    ) -> Option<(AreaId, SideRef)> {
-        let Some((name, side)) = text.split_once('.') else {
-            let wanted = "«помещение.сторона» или «помещение.часть.сторона»";
-            self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
-            return None;
-        };
-        let area = self.follow(|n| &n.areas, "Помещение", name, spot.clone())?;
-        let items = areas.get(&area).map_or(&[][..], |area| &area.items);
-        Some((area, self.side(side, items, spot)?))
-    }
 }
 
 impl From<Misprint> for Fault {
@@ -947,73 +482,4 @@ impl From<Misprint> for Fault {
         let spans = misprint.span.map(|span| span.into()).into_iter().collect();
         Self { error: misprint.error, spots: Vec::new(), spans }
     }
-}
-
-fn or_key(name: String, key: &str) -> String {
-    if name.is_empty() { key.to_owned() } else { name }
-}
-
-fn type_entry(id: TypeId, file: TypeFile) -> TypeEntry {
-    TypeEntry {
-        id,
-        name: file.name,
-        name_en: file.name_en,
-        description: file.description,
-        gender: file.gender,
-        animate: file.animate,
-        synonyms: file.synonyms,
-        forms: file.forms,
-        traits: file.traits,
-    }
-}
-
-fn door_state(status: StatusFile, opening: Option<Number>) -> DoorState {
-    let status: DoorStatus = status.into();
-    let full = if status == DoorStatus::Open { 100.0 } else { 0.0 };
-    DoorState { status, opening: opening.map_or(full, |n| n.0) }
-}
-
-/// A, B … Z, AA, AB …
-pub(super) fn letters(index: usize) -> String {
-    let last = char::from(b'A' + (index % 26) as u8);
-    if index < 26 { last.to_string() } else { format!("{}{last}", letters(index / 26 - 1)) }
-}
-
-/// Sides A, B, C … through the given corners.
-pub(super) fn lettered(corners: &[Point]) -> Vec<BaseVector> {
-    let end = |i| corners[(i + 1) % corners.len()];
-    corners
-        .iter()
-        .enumerate()
-        .map(|(i, &start)| BaseVector {
-            id: letters(i),
-            start,
-            end: end(i),
-            side_type: None,
-            permeability: Permeability::Impermeable,
-            names: Vec::new(),
-            properties: BTreeMap::new(),
-        })
-        .collect()
-}
-
-/// Corners of a regular polygon, counter-clockwise, the first at the origin and the second on +x.
-fn regular_corners(count: u32, radius: f64) -> Vec<Point> {
-    let step = std::f64::consts::TAU / f64::from(count);
-    let (half_side, inner) = (radius * (step / 2.0).sin(), radius * (step / 2.0).cos());
-    // Rounded to a micrometre, so that the file and its copies read the same.
-    let round = |x: f64| (x * 1e4).round() / 1e4 + 0.0;
-    (0..count)
-        .map(|i| {
-            let turn = step * (f64::from(i) - 0.5) - std::f64::consts::FRAC_PI_2;
-            let (x, y) = (half_side + radius * turn.cos(), inner + radius * turn.sin());
-            Point::new(round(x), round(y))
-        })
-        .collect()
-}
-
-/// Twice the signed area of a base, positive when counter-clockwise.
-fn area(base: &[BaseVector]) -> f64 {
-    let Some(first) = base.first() else { return 0.0 };
-    base.iter().map(|v| (v.start - first.start).perp(&(v.end - first.start))).sum()
 }

@@ -153,14 +153,13 @@ macro_rules! tables {
 
         impl Lines for $name {
             fn lines(&self) -> String {
-                let mut lines = Vec::new();
-                $( lines.push(line(stringify!($req), &self.$req)); )*
-                $( if !is_default(&self.$opt) {
-                    lines.push(line(stringify!($opt), &self.$opt));
-                } )*
+                let mut lines = vec![$( Some(line(stringify!($req), &self.$req)), )* $(
+                    (!is_default(&self.$opt)).then(|| line(stringify!($opt), &self.$opt)),
+                )*];
                 // What is said in a word stands before what takes many lines.
-                lines.sort_by_key(|line| line.matches('\n').count() > 1);
-                lines.concat()
+                let takes_many = |line: &String| line.matches('\n').count() > 1;
+                lines.sort_by_key(|line| line.as_ref().is_some_and(takes_many));
+                lines.into_iter().flatten().collect()
             }
         }
     )+};

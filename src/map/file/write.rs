@@ -1,6 +1,6 @@
 //! From a [`World`] to the text of its map file: a header per record, a line per part, replica and link.
 
-use super::read::{lettered, letters};
+use super::records::{lettered, letters};
 use super::schema::{
     AreaFile, At, DomainFile, DomainMapFile, DoorFile, DoorStateFile, FORMAT, FormsFile, ItemFile,
     ItemLinkFile, LeafFile, LiftFile, MapFile, MountFile, Number, ObjectFile, OrthoframeFile,
@@ -14,8 +14,13 @@ use crate::map::{
 };
 use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
 
+/// The types of the file, from which any notation can be written.
+pub(super) fn to_file(world: &World) -> MapFile {
+    Writer { world }.file()
+}
+
 pub(super) fn to_toml(world: &World) -> String {
-    let file = Writer { world }.file();
+    let file = to_file(world);
     let mut text = format!("format = {}\n", file.format);
     table(&mut text, "domain", &file.domain);
     table(&mut text, "robot", &file.robot);

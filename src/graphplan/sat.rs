@@ -1,0 +1,261 @@
+//! Extraction by satisfiability (H. Kautz, B. Selman, 1999): the planning graph as clauses.
+//!
+//! One variable says that a fact holds at a level, one that an operator is carried out in a step. Levels are
+//! added once and kept, with all that the solver learned about them; the goal is assumed at the last one.
+//!
+//! Interference is encoded in linear space: whoever needs a fact without deleting it makes it hold after the
+//! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
+
+use super::graph::{ActionId, PlanningGraph};
+use super::plan::Plan;
+use super::solver::{Answer, Literal, Solver};
+use super::{Limit, Limits};
+use crate::strips::{FactId, OperatorId, Task};
+
+pub(super) struct Encoding<'a> {
+    task: &'a Task,
+    solver: Solver,
+    /// Per level, the variable of each fact that may hold there.
+    facts: Vec<Vec<Option<Literal>>>,
+    /// Per step, the variable of each operator that may be carried out there.
+    operators: Vec<Vec<Option<Literal>>>,
+    /// Operators that need, and that delete, each fact.
+    users: Vec<Users>,
+}
+
+#[derive(Default, Clone)]
+struct Users {
+    keepers: Vec<OperatorId>,
+    takers: Vec<OperatorId>,
+    breakers: Vec<OperatorId>,
+}
+
+/// What the solver found out about a number of steps.
+pub(super) enum Verdict {
+    Plan(Plan),
+    /// No plan of this many steps.
+    None,
+    /// The effort allowed was not enough.
+    Open,
+}
+
+impl<'a> Encoding<'a> {
+    pub(super) fn new(task: &'a Task, limits: &Limits) -> Self {
+        let mut users = vec![Users::default(); task.facts.len()];
+        for id in task.operator_ids() {
+            let operator = task.operator(id);
+            for fact in &operator.preconditions {
+                let users = &mut users[fact.index()];
+                let taken = operator.del_effects.contains(fact);
+                if taken { &mut users.takers } else { &mut users.keepers }.push(id);
+            }
+            for fact in &operator.del_effects {
+                if !operator.preconditions.contains(fact) {
+                    users[fact.index()].breakers.push(id);
+                }
+            }
+        }
+        Self {
+            task,
+            solver: Solver::new(limits.deadline),
+            facts: Vec::new(),
+            operators: Vec::new(),
+            users,
+        }
+    }
+
+    /// Looks for a plan as long as the graph, with so many conflicts at most.
+    pub(super) fn extract(
+        &mut self,
+        graph: &PlanningGraph,
+        conflicts: u64,
+        limits: &Limits,
+    ) -> Result<Verdict, Limit> {
+        while self.facts.len() <= graph.top() {
+            self.add_level(graph);
+            limits.check(self.bytes() + graph.bytes())?;
+        }
+        let level = graph.top();
+        let goal: Vec<Literal> = self
+            .task
+            .goal
+            .iter()
+            .map(|goal| self.facts[level][goal.index()].expect("the goal is possible"))
+            .collect();
+        Ok(match self.solver.solve(&goal, conflicts) {
+            Answer::Satisfiable => Verdict::Plan(self.plan(level)),
+            Answer::Unsatisfiable => Verdict::None,
+            Answer::Open => {
+                limits.check(self.bytes() + graph.bytes())?;
+                Verdict::Open
+            }
+        })
+    }
+
+    /// Conflicts met so far.
+    pub(super) fn conflicts(&self) -> u64 {
+        self.solver.conflicts()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        self.solver.bytes()
+    }
+
+    fn add_level(&mut self, graph: &PlanningGraph) {
+        let level = self.facts.len();
+        let facts: Vec<Option<Literal>> = self
+            .task
+            .fact_ids()
+            .map(|fact| {
+                (graph.fact_level(fact) as usize <= level).then(|| self.solver.new_variable())
+            })
+            .collect();
+        self.facts.push(facts);
+        if level > 0 {
+            self.add_step(graph, level - 1);
+        } else {
+            for fact in &self.task.init {
+                let holds = self.facts[0][fact.index()].expect("what holds at first is at level 0");
+                self.solver.add_clause(&[holds]);
+            }
+        }
+        self.add_fact_mutexes(graph, level);
+    }
+
+    fn add_step(&mut self, graph: &PlanningGraph, step: usize) {
+        let possible = |id: OperatorId| graph.action_level(ActionId(id.0)) as usize <= step;
+        let variables: Vec<Option<Literal>> = self
+            .task
+            .operator_ids()
+            .map(|id| possible(id).then(|| self.solver.new_variable()))
+            .collect();
+        for id in self.task.operator_ids() {
+            let Some(done) = variables[id.index()] else { continue };
+            let operator = self.task.operator(id);
+            for fact in &operator.preconditions {
+                let holds = self.facts[step][fact.index()]
+                    .expect("preconditions come before their operator");
+                self.solver.add_clause(&[!done, holds]);
+            }
+            for fact in &operator.add_effects {
+                let holds =
+                    self.facts[step + 1][fact.index()].expect("effects follow their operator");
+                self.solver.add_clause(&[!done, holds]);
+            }
+            for fact in &operator.del_effects {
+                if let Some(holds) = self.facts[step + 1][fact.index()] {
+                    self.solver.add_clause(&[!done, !holds]);
+                }
+            }
+        }
+        for fact in self.task.fact_ids() {
+            let Some(holds) = self.facts[step + 1][fact.index()] else { continue };
+            let mut clause = vec![!holds];
+            clause.extend(self.facts[step][fact.index()]);
+            clause.extend(
+                graph
+                    .achievers(fact)
+                    .iter()
+                    .filter(|&&a| !graph.is_no_op(a))
+                    .filter_map(|a| variables[a.index()]),
+            );
+            self.solver.add_clause(&clause);
+            self.add_interference(fact, step, &variables);
+        }
+        self.operators.push(variables);
+    }
+
+    fn add_interference(&mut self, fact: FactId, step: usize, variables: &[Option<Literal>]) {
+        let Users { keepers, takers, breakers } = &self.users[fact.index()];
+        let present = |ids: &[OperatorId]| -> Vec<Literal> {
+            ids.iter().filter_map(|id| variables[id.index()]).collect()
+        };
+        let (takers, breakers) = (present(takers), present(breakers));
+        if takers.is_empty() && breakers.is_empty() {
+            return;
+        }
+        let after = self.facts[step + 1][fact.index()].expect("a fact that is deleted may hold");
+        for keeper in present(keepers) {
+            self.solver.add_clause(&[!keeper, after]);
+        }
+        self.at_most_one(&takers);
+        if !takers.is_empty() && !breakers.is_empty() {
+            let broken = self.solver.new_variable();
+            for breaker in breakers {
+                self.solver.add_clause(&[!breaker, broken]);
+            }
+            for taker in takers {
+                self.solver.add_clause(&[!taker, !broken]);
+            }
+        }
+    }
+
+    /// Pairs while they are few, a chain of "one of those so far" beyond.
+    fn at_most_one(&mut self, literals: &[Literal]) {
+        const FEW: usize = 6;
+        if literals.len() <= FEW {
+            for (at, &a) in literals.iter().enumerate() {
+                for &b in &literals[..at] {
+                    self.solver.add_clause(&[!a, !b]);
+                }
+            }
+            return;
+        }
+        let mut so_far = literals[0];
+        for &next in &literals[1..] {
+            self.solver.add_clause(&[!so_far, !next]);
+            let either = self.solver.new_variable();
+            self.solver.add_clause(&[!so_far, either]);
+            self.solver.add_clause(&[!next, either]);
+            so_far = either;
+        }
+    }
+
+    fn add_fact_mutexes(&mut self, graph: &PlanningGraph, level: usize) {
+        for fact in self.task.fact_ids() {
+            let Some(one) = self.facts[level][fact.index()] else { continue };
+            for other in graph.exclusive_with(level, fact) {
+                if let (true, Some(other)) = (other < fact, self.facts[level][other.index()]) {
+                    self.solver.add_clause(&[!one, !other]);
+                }
+            }
+        }
+    }
+
+    /// The operators of a model that are needed: those that first make a needed fact hold.
+    fn plan(&self, level: usize) -> Plan {
+        let holds = |level: usize, fact: FactId| {
+            self.facts[level][fact.index()].is_some_and(|variable| self.solver.value(variable))
+        };
+        let mut needed = vec![false; self.task.facts.len()];
+        self.task.goal.iter().for_each(|fact| needed[fact.index()] = true);
+        let mut steps = Vec::new();
+        for step in (0..level).rev() {
+            let mut chosen: Vec<OperatorId> = Vec::new();
+            let mut before = vec![false; needed.len()];
+            for fact in self.task.fact_ids().filter(|fact| needed[fact.index()]) {
+                if holds(step, fact) {
+                    before[fact.index()] = true;
+                } else if !chosen
+                    .iter()
+                    .any(|&id| self.task.operator(id).add_effects.contains(&fact))
+                {
+                    let done = |id: &OperatorId| {
+                        self.operators[step][id.index()].is_some_and(|v| self.solver.value(v))
+                            && self.task.operator(*id).add_effects.contains(&fact)
+                    };
+                    chosen
+                        .push(self.task.operator_ids().find(done).expect("a new fact has a cause"));
+                }
+            }
+            for &id in &chosen {
+                self.task.operator(id).preconditions.iter().for_each(|f| before[f.index()] = true);
+            }
+            chosen.sort_unstable();
+            steps.push(chosen);
+            needed = before;
+        }
+        steps.reverse();
+        Plan { steps }
+    }
+}

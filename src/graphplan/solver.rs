@@ -1,0 +1,97 @@
+//! The satisfiability solver behind [`super::sat`]: batsat, a MiniSat in Rust, held to a number of conflicts.
+
+use std::cell::Cell;
+use std::time::Instant;
+
+use batsat::callbacks::Callbacks;
+use batsat::{Lit, SolverInterface, lbool};
+
+/// A variable or its negation.
+pub(super) type Literal = Lit;
+
+pub(super) enum Answer {
+    Satisfiable,
+    Unsatisfiable,
+    /// The conflicts allowed were used up, or the time.
+    Open,
+}
+
+pub(super) struct Solver {
+    inner: batsat::Solver<Effort>,
+    literals: usize,
+    clause: Vec<Lit>,
+}
+
+/// Stops the solver by the number of conflicts, which repeats, and by the clock, which is a limit.
+struct Effort {
+    conflicts: Cell<u64>,
+    allowed: u64,
+    deadline: Option<Instant>,
+    late: Cell<bool>,
+}
+
+impl Callbacks for Effort {
+    fn on_new_clause(&mut self, _clause: &[Lit], source: batsat::ClauseKind) {
+        if source == batsat::ClauseKind::Learnt {
+            self.conflicts.set(self.conflicts.get() + 1);
+        }
+    }
+
+    fn stop(&self) -> bool {
+        // Looking at the clock costs more than a propagation.
+        if self.conflicts.get().is_multiple_of(64)
+            && self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
+        {
+            self.late.set(true);
+        }
+        self.late.get() || self.conflicts.get() >= self.allowed
+    }
+}
+
+impl Solver {
+    pub(super) fn new(deadline: Option<Instant>) -> Self {
+        let effort =
+            Effort { conflicts: Cell::new(0), allowed: 0, deadline, late: Cell::new(false) };
+        Self {
+            inner: batsat::Solver::new(batsat::SolverOpts::default(), effort),
+            literals: 0,
+            clause: Vec::new(),
+        }
+    }
+
+    pub(super) fn new_variable(&mut self) -> Literal {
+        // Most facts are false most of the time.
+        Lit::new(self.inner.new_var(lbool::TRUE, true), true)
+    }
+
+    pub(super) fn add_clause(&mut self, literals: &[Literal]) {
+        self.literals += literals.len() + 2;
+        self.clause.clear();
+        self.clause.extend_from_slice(literals);
+        self.inner.add_clause_reuse(&mut self.clause);
+    }
+
+    pub(super) fn solve(&mut self, assumptions: &[Literal], conflicts: u64) -> Answer {
+        let effort = self.inner.cb_mut();
+        effort.allowed = effort.conflicts.get() + conflicts;
+        match self.inner.solve_limited(assumptions) {
+            answer if answer == lbool::TRUE => Answer::Satisfiable,
+            answer if answer == lbool::FALSE => Answer::Unsatisfiable,
+            _ => Answer::Open,
+        }
+    }
+
+    /// A literal's value in the model found last.
+    pub(super) fn value(&self, literal: Literal) -> bool {
+        self.inner.value_lit(literal) == lbool::TRUE
+    }
+
+    pub(super) fn conflicts(&self) -> u64 {
+        self.inner.cb().conflicts.get()
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        // Literals with their watches, and variables with theirs.
+        self.literals * 12 + self.inner.num_vars() as usize * 100
+    }
+}
