@@ -40,12 +40,16 @@ fn demo(c: &mut Criterion) {
         b.iter_with_large_drop(|| {
             let dir = tempfile::tempdir().expect("a temporary directory");
             let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
-            engine.import(Path::new(MAP), &Change::new("bench", Timestamp(0), "bench")).expect("a sound map");
+            engine
+                .import(Path::new(MAP), &Change::new("bench", Timestamp(0), "bench"))
+                .expect("a sound map");
             (engine, dir)
         });
     });
     group.bench_function("read the relation rules", |b| b.iter(RelationRules::standard));
-    group.bench_function("measure and derive", |b| b.iter(|| derive(black_box(&world), &rules, Profile::Surveyed)));
+    group.bench_function("measure and derive", |b| {
+        b.iter(|| derive(black_box(&world), &rules, Profile::Surveyed))
+    });
     group.bench_function("ground", |b| b.iter(|| ground(&scenario.domain, black_box(&problem))));
     group.bench_function("plan", |b| b.iter(|| solve(black_box(&task), &Limits::default())));
     group.bench_function("free floor and Passframes", |b| {
@@ -58,7 +62,9 @@ fn demo(c: &mut Criterion) {
         b.iter_with_large_drop(|| {
             let dir = tempfile::tempdir().expect("a temporary directory");
             let mut engine = Engine::open(&dir.path().join("store"), None).expect("a new store");
-            engine.import(Path::new(MAP), &Change::new("bench", Timestamp(0), "bench")).expect("a sound map");
+            engine
+                .import(Path::new(MAP), &Change::new("bench", Timestamp(0), "bench"))
+                .expect("a sound map");
             engine.relations().expect("relations");
             engine.perform("Принеси лекарство", &mut |_| {}).expect("the medicine is fetched");
             (engine, dir)

@@ -308,28 +308,3 @@ fn rebuilding_after_any_move_equals_building_anew() {
         }
     }
 }
-#[test]
-fn zz_counts() {
-    let (mut frames, mut bound) = (0, 0);
-    for seed in 0..60 {
-        let plan = build(&random_world(seed));
-        for floor in plan.fragments() {
-            frames += floor.passframes.len();
-            for r in &floor.free {
-                let mut reflex = 0;
-                for c in r.contours() {
-                    let n = c.corners.len();
-                    for i in 0..n {
-                        let (a, b, d) =
-                            (c.corners[i], c.corners[(i + 1) % n], c.corners[(i + 2) % n]);
-                        if (b - a).perp(&(d - b)) < -1e-9 {
-                            reflex += 1;
-                        }
-                    }
-                }
-                bound += (1 + (reflex + 1) / 2 - r.holes.len() as i32).max(1);
-            }
-        }
-    }
-    eprintln!("frames {frames} bound {bound}");
-}

@@ -5,6 +5,7 @@ mod corridor;
 mod corridor_lattice;
 mod facts;
 mod facts_naive;
+mod floor_cases;
 mod floor_properties;
 mod floors;
 mod generated_worlds;

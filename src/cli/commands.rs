@@ -262,7 +262,9 @@ pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Resul
         Drawing::Route { from, to } => {
             let answer = engine.route(from, to, Method::Shortest)?;
             match answer.route {
-                Ok(route) => (answer.map, Sheet { legs: vec![(1, route.points)], ..Sheet::default() }),
+                Ok(route) => {
+                    (answer.map, Sheet { legs: vec![(1, route.points)], ..Sheet::default() })
+                }
                 Err(why) => {
                     note(&why.to_string());
                     return Ok(Answer::No);

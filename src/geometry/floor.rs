@@ -11,6 +11,8 @@
 //! **Invariant**: `free` and the dead zones do not overlap and together are the floor inside the doorways'
 //! lines; `centre` lies in `free`, at least the robot's radius and clearance (less [`SLACK`]) from everything.
 
+use std::collections::BTreeMap;
+
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
@@ -107,6 +109,7 @@ pub(super) struct Site<'a> {
     /// Replicas near any place.
     pub(super) nearby: &'a dyn Fn(&Bounds) -> Vec<ReplicaId>,
     pub(super) doorways: &'a [Doorway],
+    pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
     pub(super) robot: &'a RobotProfile,
     pub(super) states: &'a DoorStates,
 }
@@ -147,11 +150,12 @@ impl Site<'_> {
     }
 
     /// The doorways of an Area, each with the Area's index in it.
-    fn doorways_of(&self, area: AreaId) -> impl Iterator<Item = (usize, &Doorway, usize)> {
-        self.doorways
-            .iter()
-            .enumerate()
-            .filter_map(move |(i, d)| d.index_of(area).map(|side| (i, d, side)))
+    pub(super) fn doorways_of(
+        &self,
+        area: AreaId,
+    ) -> impl Iterator<Item = (usize, &Doorway, usize)> {
+        let own = self.by_area.get(&area).map_or(&[][..], Vec::as_slice);
+        own.iter().map(|&(doorway, side)| (doorway, &self.doorways[doorway], side))
     }
 }
 
@@ -373,6 +377,9 @@ impl Storey {
 
     /// Joins items along shared open sides, and parts them along shared walls.
     fn weld(&mut self, site: &Site<'_>, placed: &PlacedArea, reached: &[usize]) {
+        if reached.len() < 2 {
+            return;
+        }
         let step = site.robot.step.get().max(0.0) + 1e-9;
         let sides: Vec<&Side> = self.sides.iter().filter(|s| reached.contains(&s.item)).collect();
         let (mut floor, mut walls) = (Vec::new(), Vec::new());

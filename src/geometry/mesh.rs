@@ -301,11 +301,11 @@ impl HalfEdges {
             .map(|h| {
                 let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
                 let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
-                let use_ =
+                let service =
                     self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
                 let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
                 (
-                    use_,
+                    service,
                     std::cmp::Reverse(length),
                     (a.y, a.x).min((b.y, b.x)),
                     (a.y, a.x).max((b.y, b.x)),

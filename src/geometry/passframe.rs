@@ -264,8 +264,7 @@ fn faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
             site.world.orthoframe_of(item).base.get(side).map_or_else(Vec::new, |v| v.names.clone())
         })
     };
-    for (index, doorway) in site.doorways.iter().enumerate() {
-        let Some(at) = doorway.index_of(floor.area) else { continue };
+    for (index, doorway, at) in site.doorways_of(floor.area) {
         let beyond =
             Beyond::Doorway { doorway: index, door: doorway.door, area: doorway.areas[1 - at] };
         let names = sides

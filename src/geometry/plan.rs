@@ -13,7 +13,7 @@ use crate::map::{DoorState, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::doors::{Doorway, doorways};
-use super::floor::{Exit, FragmentFloor, Site};
+use super::floor::{FragmentFloor, Site};
 use super::scene::{PlacedReplica, Scene};
 use super::search::{CellKey, Cells, Edge};
 use super::{Bounds, Passframe, PassframeId};
@@ -42,6 +42,8 @@ pub struct FloorPlan {
     scene: Arc<Scene>,
     index: Arc<ReplicaIndex>,
     doorways: Arc<Vec<Doorway>>,
+    /// For each Area its doorways, and which of their two sides it is.
+    by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
     portals: Vec<Vec<Portal>>,
@@ -57,12 +59,20 @@ impl FloorPlan {
     #[must_use]
     pub fn build(world: &World, map: MapId, robot: &RobotProfile, states: &DoorStates) -> Self {
         let scene = Scene::of(world, map);
+        let doorways = doorways(world, &scene, map);
+        let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
+        for (index, doorway) in doorways.iter().enumerate() {
+            for side in [0, 1] {
+                by_area.entry(doorway.areas[side]).or_default().push((index, side));
+            }
+        }
         let mut plan = Self {
             map,
             robot: robot.clone(),
             states: states.clone(),
             index: Arc::new(ReplicaIndex::of(&scene)),
-            doorways: Arc::new(doorways(world, &scene, map)),
+            doorways: Arc::new(doorways),
+            by_area: Arc::new(by_area),
             scene: Arc::new(scene),
             fragments: Vec::new(),
             portals: Vec::new(),
@@ -72,7 +82,7 @@ impl FloorPlan {
         plan.fragments = plan.with_site(world, |site| {
             areas.iter().map(|&a| Arc::new(FragmentFloor::build(site, a))).collect()
         });
-        plan.connect();
+        plan.connect(0..areas.len());
         plan
     }
 
@@ -83,6 +93,7 @@ impl FloorPlan {
             scene: &self.scene,
             nearby: &nearby,
             doorways: &self.doorways,
+            by_area: &self.by_area,
             robot: &self.robot,
             states: &self.states,
         })
@@ -92,14 +103,23 @@ impl FloorPlan {
     pub fn rebuild(&mut self, world: &World, area: AreaId) {
         let mut touched = self.footprint_of(area);
         let scene = Arc::make_mut(&mut self.scene);
-        scene.replicas.retain(|_, r| r.area != area);
+        let index = Arc::make_mut(&mut self.index);
+        for id in index.by_area.remove(&area).unwrap_or_default() {
+            if let Some(gone) = scene.replicas.remove(&id) {
+                index.remove(&gone);
+            }
+        }
         if let Some(frame) = scene.areas.get(&area).map(|a| a.frame) {
             for replica in world.replicas_in(area) {
                 let placed = PlacedReplica::new(world, replica.id, frame.compose(&replica.frame));
+                // It may have stood in another Fragment, which is rebuilt on its own turn.
+                if let Some(gone) = scene.replicas.remove(&replica.id) {
+                    index.remove(&gone);
+                }
+                index.insert(&placed);
                 scene.replicas.insert(replica.id, placed);
             }
         }
-        self.index = Arc::new(ReplicaIndex::of(&self.scene));
         touched.extend(self.footprint_of(area));
         let reach = 3.0 * (self.robot.radius.get() + self.robot.clearance.get()) + 10.0;
         let stale: Vec<AreaId> = self
@@ -118,7 +138,8 @@ impl FloorPlan {
     }
 
     fn footprint_of(&self, area: AreaId) -> Vec<Bounds> {
-        self.scene.replicas_in(area).map(|r| r.bounds).collect()
+        let ids = self.index.by_area.get(&area).into_iter().flatten();
+        ids.filter_map(|id| self.scene.replicas.get(id)).map(|r| r.bounds).collect()
     }
 
     /// The same floor with doors in other states: those in `states` as given, the others as before.
@@ -170,7 +191,8 @@ impl FloorPlan {
                 self.fragments[number] = floor;
             }
         }
-        self.connect();
+        let numbers: Vec<usize> = stale.iter().filter_map(|&a| self.number(a)).collect();
+        self.connect(numbers);
     }
 
     #[must_use]
@@ -251,38 +273,48 @@ impl FloorPlan {
         self.portals.iter().flatten().map(|p| p.doorway).collect()
     }
 
-    /// Finds where Fragments touch, and what hangs together.
-    fn connect(&mut self) {
-        let mut at_doorway: HashMap<usize, Vec<(u32, Exit)>> = HashMap::new();
-        for (number, fragment) in self.fragments.iter().enumerate() {
-            for exit in &fragment.exits {
-                at_doorway.entry(exit.doorway).or_default().push((number as u32, *exit));
+    /// Finds where the given Fragments touch others, and what hangs together now.
+    fn connect(&mut self, stale: impl IntoIterator<Item = usize>) {
+        let mut touched: BTreeSet<usize> = BTreeSet::new();
+        for number in stale {
+            touched.insert(number);
+            let area = self.fragments[number].area;
+            for &(doorway, side) in self.by_area.get(&area).into_iter().flatten() {
+                touched.extend(self.number(self.doorways[doorway].areas[1 - side]));
             }
         }
-        let mut portals: Vec<Vec<Portal>> = vec![Vec::new(); self.fragments.len()];
-        for (&doorway, exits) in &at_doorway {
-            for &(from, exit) in exits {
-                for &(to, entry) in exits.iter().filter(|(other, _)| *other != from) {
-                    let (a, b) = self.fragments[from as usize].cells.edge(exit.cell, exit.edge);
-                    let (c, d) = self.fragments[to as usize].cells.edge(entry.cell, entry.edge);
-                    if let Some((right, left)) = overlap((a, b), (c, d)) {
-                        portals[from as usize].push(Portal {
-                            from: (from, exit.cell),
-                            edge: exit.edge,
-                            to: (to, entry.cell),
-                            right,
-                            left,
-                            doorway,
-                        });
-                    }
+        self.portals.resize(self.fragments.len(), Vec::new());
+        for number in touched {
+            self.portals[number] = self.portals_from(number);
+        }
+        self.regions = self.join_components();
+    }
+
+    /// The places where a Fragment's centre space touches another's.
+    fn portals_from(&self, number: usize) -> Vec<Portal> {
+        let fragment = &self.fragments[number];
+        let mut portals = Vec::new();
+        for exit in &fragment.exits {
+            let doorway = &self.doorways[exit.doorway];
+            let other = doorway.index_of(fragment.area).map(|side| doorway.areas[1 - side]);
+            let Some(to) = other.and_then(|a| self.number(a)) else { continue };
+            let own = fragment.cells.edge(exit.cell, exit.edge);
+            for entry in self.fragments[to].exits.iter().filter(|e| e.doorway == exit.doorway) {
+                let opposite = self.fragments[to].cells.edge(entry.cell, entry.edge);
+                if let Some((right, left)) = overlap(own, opposite) {
+                    portals.push(Portal {
+                        from: (number as u32, exit.cell),
+                        edge: exit.edge,
+                        to: (to as u32, entry.cell),
+                        right,
+                        left,
+                        doorway: exit.doorway,
+                    });
                 }
             }
         }
-        for list in &mut portals {
-            list.sort_by_key(|p| (p.from, p.edge, p.to));
-        }
-        self.portals = portals;
-        self.regions = self.join_components();
+        portals.sort_by_key(|p| (p.from, p.edge, p.to));
+        portals
     }
 
     fn join_components(&self) -> Vec<Vec<u32>> {
@@ -362,11 +394,12 @@ fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<(Point, Poi
 }
 
 /// Replicas by place.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, Default)]
 struct ReplicaIndex {
     cells: HashMap<(i32, i32), Vec<ReplicaId>>,
     /// Those that are spread over too many cells to list in each.
     wide: Vec<ReplicaId>,
+    by_area: BTreeMap<AreaId, Vec<ReplicaId>>,
     bounds: HashMap<ReplicaId, Bounds>,
 }
 
@@ -374,22 +407,41 @@ impl ReplicaIndex {
     const CELL: f64 = 300.0;
 
     fn of(scene: &Scene) -> Self {
-        let mut index = Self { cells: HashMap::new(), wide: Vec::new(), bounds: HashMap::new() };
-        for replica in scene.replicas.values() {
-            let ((left, bottom), (right, top)) = Self::span(&replica.bounds);
-            // Leaves of its own doors may stick out.
-            index.bounds.insert(replica.id, replica.bounds.grown(150.0));
-            if i64::from(right) - i64::from(left) > 30 || i64::from(top) - i64::from(bottom) > 30 {
-                index.wide.push(replica.id);
-                continue;
-            }
-            for x in left..=right {
-                for y in bottom..=top {
-                    index.cells.entry((x, y)).or_default().push(replica.id);
-                }
-            }
-        }
+        let mut index = Self::default();
+        scene.replicas.values().for_each(|replica| index.insert(replica));
         index
+    }
+
+    /// The cells that a replica is listed in; none for one that is spread over too many.
+    fn cells_of(bounds: &Bounds) -> Option<impl Iterator<Item = (i32, i32)> + use<>> {
+        let ((left, bottom), (right, top)) = Self::span(bounds);
+        let is_wide =
+            i64::from(right) - i64::from(left) > 30 || i64::from(top) - i64::from(bottom) > 30;
+        (!is_wide).then(|| (left..=right).flat_map(move |x| (bottom..=top).map(move |y| (x, y))))
+    }
+
+    fn insert(&mut self, replica: &PlacedReplica) {
+        // Leaves of its own doors may stick out.
+        self.bounds.insert(replica.id, replica.bounds.grown(150.0));
+        self.by_area.entry(replica.area).or_default().push(replica.id);
+        match Self::cells_of(&replica.bounds) {
+            Some(cells) => {
+                cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
+            }
+            None => self.wide.push(replica.id),
+        }
+    }
+
+    fn remove(&mut self, replica: &PlacedReplica) {
+        let is_other = |id: &ReplicaId| *id != replica.id;
+        self.bounds.remove(&replica.id);
+        self.by_area.entry(replica.area).or_default().retain(is_other);
+        match Self::cells_of(&replica.bounds) {
+            Some(cells) => {
+                cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
+            }
+            None => self.wide.retain(is_other),
+        }
     }
 
     fn span(bounds: &Bounds) -> ((i32, i32), (i32, i32)) {

@@ -1,0 +1,233 @@
+//! What can be seen from a pose (M12): which faces of which things, and a scan such as a laser would bring.
+//!
+//! At the height of the eye every side of every prism is a segment of the floor plan; permeable sides and open
+//! doorways are seen through. Beams are cast with parry. The visible stretches are found by casting between the
+//! directions of all segments' ends, and halving where something crosses in between.
+//!
+//! **Invariant**: nothing solid stands between the eye and a stretch that is called visible.
+
+use std::f64::consts::PI;
+
+use parry2d_f64::math::Vector as Vec2;
+use parry2d_f64::query::Ray;
+use parry2d_f64::shape::{CompositeShapeRef, Polyline};
+
+use crate::map::{DoorStatus, Permeability, World};
+use crate::units::{Point, Pose, Vector};
+
+use super::floor::{Blocker, FragmentFloor};
+use super::nearest_on_segment;
+use super::plan::FloorPlan;
+use super::scene::Prism;
+
+/// A face that a beam can meet.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct SeenFace {
+    pub blocker: Blocker,
+    /// The side of its Orthoframe; none for jambs and leaves.
+    pub side: Option<usize>,
+}
+
+/// What one beam meets.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Beam {
+    /// Radians counter-clockwise from +x of the Map.
+    pub direction: f64,
+    /// In cm; the range where nothing is met.
+    pub distance: f64,
+    pub face: Option<SeenFace>,
+}
+
+/// A stretch of a face that is seen, from right to left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Visible {
+    pub face: SeenFace,
+    pub right: Point,
+    pub left: Point,
+}
+
+/// Everything that can be met at one height, ready to be looked at from anywhere.
+pub struct Sight {
+    faces: Vec<SeenFace>,
+    ends: Vec<(Point, Point)>,
+    shape: Option<Polyline>,
+}
+
+impl FloorPlan {
+    /// What there is to see at `height` above the Map's zero, in cm.
+    #[must_use]
+    pub fn sight(&self, world: &World, height: f64) -> Sight {
+        let mut found: Vec<(SeenFace, (Point, Point))> = Vec::new();
+        for fragment in self.fragments() {
+            for &(a, b) in &fragment.walls {
+                found.push((self.wall_face(fragment, a, b), (a, b)));
+            }
+        }
+        for doorway in self.doorways() {
+            let Some(door) = doorway.door.and_then(|d| world.doors.get(&d)) else { continue };
+            if door.height.get() > 0.0 && door.height.get() <= height {
+                continue;
+            }
+            for (leaf, polygon) in
+                doorway.leaf_obstacles(door, self.door_state(world, door.id)).iter().enumerate()
+            {
+                let blocker = Blocker::DoorLeaf { door: door.id, leaf };
+                found.extend(polygon.edges().map(|e| (SeenFace { blocker, side: None }, e)));
+            }
+        }
+        for replica in self.scene().replicas.values() {
+            for prism in replica.prisms.iter().filter(|p| p.bottom <= height && height < p.top) {
+                let blocker = Blocker::Replica { replica: replica.id, item: prism.item };
+                for (side, edge) in section(prism, height).into_iter().enumerate() {
+                    if is_solid(world, replica.id, prism, side) {
+                        found.push((SeenFace { blocker, side: Some(side) }, edge));
+                    }
+                }
+            }
+        }
+        Sight::of(found)
+    }
+
+    /// The side of the Area on which a piece of wall lies.
+    fn wall_face(&self, fragment: &FragmentFloor, a: Point, b: Point) -> SeenFace {
+        let near =
+            |p: Point, (u, v): (Point, Point)| (p - nearest_on_segment(p, u, v)).norm() < 0.01;
+        let prisms = self.scene().areas.get(&fragment.area).map_or(&[][..], |p| &p.prisms);
+        let side = prisms.iter().enumerate().find_map(|(item, prism)| {
+            let side = prism.polygon.edges().position(|e| near(a, e) && near(b, e))?;
+            Some((item, side))
+        });
+        let (item, number) = side.unwrap_or((0, 0));
+        let blocker = Blocker::Wall { area: fragment.area, item, side: number };
+        SeenFace { blocker, side: side.map(|s| s.1) }
+    }
+}
+
+/// The sides of a prism at a height: a Uniframe narrows or widens towards its roof.
+fn section(prism: &Prism, height: f64) -> Vec<(Point, Point)> {
+    let share = ((height - prism.bottom) / (prism.top - prism.bottom)).clamp(0.0, 1.0);
+    let scale = 1.0 + (prism.roof_scale - 1.0) * share;
+    let centre = prism.polygon.centroid();
+    let place = |p: Point| centre + (p - centre) * scale;
+    prism.polygon.edges().map(|(a, b)| (place(a), place(b))).collect()
+}
+
+/// Whether a side stops a beam: walls do, doors of Objects while they are shut.
+fn is_solid(world: &World, replica: crate::units::ReplicaId, prism: &Prism, side: usize) -> bool {
+    match prism.sides[side].permeability {
+        Permeability::Impermeable => true,
+        Permeability::Permeable => false,
+        Permeability::Conditional => {
+            let Some(model) = world.replicas.get(&replica) else { return true };
+            let object = &world.objects[&model.object];
+            let item = object.items.get(prism.item).map(|i| i.id.as_str());
+            let mount = object
+                .doors
+                .iter()
+                .find(|m| Some(m.item.as_str()) == item && m.side == prism.sides[side].id);
+            let Some(mount) = mount else { return true };
+            let state = model.door_states.get(&mount.door).copied();
+            let state = state.or_else(|| world.doors.get(&mount.door).map(|d| d.state));
+            state.is_none_or(|s| s.status != DoorStatus::Open)
+        }
+    }
+}
+
+impl Sight {
+    fn of(found: Vec<(SeenFace, (Point, Point))>) -> Self {
+        let (faces, ends): (Vec<_>, Vec<_>) =
+            found.into_iter().filter(|(_, (a, b))| (b - a).norm() > 1e-9).unzip();
+        let vertices =
+            ends.iter().flat_map(|&(a, b)| [a, b]).map(|p| Vec2::new(p.x, p.y)).collect();
+        let indices = (0..ends.len() as u32).map(|i| [2 * i, 2 * i + 1]).collect();
+        let shape = (!ends.is_empty()).then(|| Polyline::new(vertices, Some(indices)));
+        Self { faces, ends, shape }
+    }
+
+    /// Casts one beam.
+    #[must_use]
+    pub fn beam(&self, from: Point, direction: f64, range: f64) -> Beam {
+        let (sin, cos) = direction.sin_cos();
+        let ray = Ray::new(Vec2::new(from.x, from.y), Vec2::new(cos, sin));
+        let hit = self
+            .shape
+            .as_ref()
+            .and_then(|s| CompositeShapeRef(s).cast_local_ray(&ray, range, true));
+        match hit {
+            Some((segment, distance)) => {
+                Beam { direction, distance, face: Some(self.faces[segment as usize]) }
+            }
+            None => Beam { direction, distance: range, face: None },
+        }
+    }
+
+    /// A scan of `beams` beams over a field of view of `field` degrees about the heading, from right to left.
+    #[must_use]
+    pub fn scan(&self, pose: Pose, field: f64, beams: usize, range: f64) -> Vec<Beam> {
+        let field = field.clamp(0.0, 360.0).to_radians();
+        let step = if beams > 1 { field / (beams - 1) as f64 } else { 0.0 };
+        let first = pose.heading.radians() - if beams > 1 { field / 2.0 } else { 0.0 };
+        (0..beams).map(|k| self.beam(pose.at, first + step * k as f64, range)).collect()
+    }
+
+    /// The stretches of faces that are seen within a field of view of `field` degrees, from right to left.
+    #[must_use]
+    pub fn visible(&self, pose: Pose, field: f64, range: f64) -> Vec<Visible> {
+        let half = field.clamp(0.0, 360.0).to_radians() / 2.0;
+        let heading = pose.heading.radians();
+        let turn = |p: Point| {
+            let v: Vector = p - pose.at;
+            (v.y.atan2(v.x) - heading + PI).rem_euclid(2.0 * PI) - PI
+        };
+        let mut turns: Vec<f64> = self
+            .ends
+            .iter()
+            .filter(|&&(a, b)| (nearest_on_segment(pose.at, a, b) - pose.at).norm() <= range)
+            .flat_map(|&(a, b)| [turn(a), turn(b)])
+            .filter(|t| t.abs() < half)
+            .chain([-half, half])
+            .collect();
+        turns.sort_by(f64::total_cmp);
+        turns.dedup_by(|a, b| *a - *b < 1e-9);
+        let mut seen = Vec::new();
+        for pair in turns.windows(2) {
+            let inset = ((pair[1] - pair[0]) / 4.0).min(1e-7);
+            let cast = |t: f64| self.beam(pose.at, heading + t, range);
+            self.between(pose.at, cast(pair[0] + inset), cast(pair[1] - inset), range, &mut seen);
+        }
+        join(seen)
+    }
+
+    /// Stretches between two beams: one if both and their middle meet the same face, else halves.
+    fn between(&self, from: Point, right: Beam, left: Beam, range: f64, seen: &mut Vec<Visible>) {
+        let middle = self.beam(from, (right.direction + left.direction) / 2.0, range);
+        let is_one = right.face == left.face && middle.face == right.face;
+        if is_one || left.direction - right.direction < 1e-4 {
+            if let (Some(face), true) = (right.face, right.face == left.face) {
+                seen.push(Visible { face, right: end_of(from, right), left: end_of(from, left) });
+            }
+            return;
+        }
+        self.between(from, right, middle, range, seen);
+        self.between(from, middle, left, range, seen);
+    }
+}
+
+fn end_of(from: Point, beam: Beam) -> Point {
+    from + Vector::new(beam.direction.cos(), beam.direction.sin()) * beam.distance
+}
+
+/// Stretches of one face that follow each other, joined.
+fn join(seen: Vec<Visible>) -> Vec<Visible> {
+    let mut joined: Vec<Visible> = Vec::new();
+    for next in seen {
+        match joined.last_mut() {
+            Some(last) if last.face == next.face && (last.left - next.right).norm() < 0.1 => {
+                last.left = next.left;
+            }
+            _ => joined.push(next),
+        }
+    }
+    joined.retain(|v| (v.left - v.right).norm() > 1e-3);
+    joined
+}
