@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::graphplan::Limits;
+use crate::robot::Wanted;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
@@ -135,12 +136,19 @@ pub(super) struct PlanArgs {
     /// Write the plan here, in the format that plan validators read
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// A plan soon, not proven to be the shortest
+    #[arg(long)]
+    pub any: bool,
     /// Give up after this many seconds
     #[arg(long, value_name = "SECONDS")]
     pub time_limit: Option<u64>,
 }
 
 impl PlanArgs {
+    pub(super) fn wanted(&self) -> Wanted {
+        if self.any { Wanted::Any } else { Wanted::Shortest }
+    }
+
     pub(super) fn limits(&self) -> Limits {
         let deadline =
             self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
