@@ -49,6 +49,8 @@ pub struct FloorPlan {
     portals: Vec<Vec<Portal>>,
     /// Which components of centre space hang together over open doorways: by Fragment, by component.
     regions: Vec<Vec<u32>>,
+    /// See [`Branches`].
+    branches: Branches,
 }
 
 impl FloorPlan {
@@ -77,6 +79,7 @@ impl FloorPlan {
             fragments: Vec::new(),
             portals: Vec::new(),
             regions: Vec::new(),
+            branches: Branches::default(),
         };
         let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
         plan.fragments = plan.with_site(world, |site| {
@@ -288,6 +291,12 @@ impl FloorPlan {
             self.portals[number] = self.portals_from(number);
         }
         self.regions = self.join_components();
+        self.branches = Branches::of(&self.portals);
+    }
+
+    /// The Fragments that a shortest way between two of them can pass.
+    pub(super) fn between(&self, start: u32, goal: u32) -> Vec<u32> {
+        self.branches.between(start, goal)
     }
 
     /// The places where a Fragment's centre space touches another's.
@@ -350,10 +359,79 @@ impl FloorPlan {
     }
 }
 
+/// The upper level of the network: Fragments as nodes, open doorways as edges; what hangs on one doorway is cut
+/// off again and again, until only rings are left.
+///
+/// A way never enters a Fragment only to come back through the same doorway, since the straight line between the
+/// two crossings is free. So a query looks at the branches of its start and its goal, and at the rings between.
+#[derive(Debug, Clone, Default)]
+struct Branches {
+    /// The Fragment that a branch hangs on; none in the rings, and for the last of a tree.
+    parent: Vec<Option<u32>>,
+    rings: Vec<u32>,
+}
+
+impl Branches {
+    fn of(portals: &[Vec<Portal>]) -> Self {
+        let mut graph = petgraph::graph::UnGraph::<(), usize, u32>::with_capacity(portals.len(), 0);
+        portals.iter().for_each(|_| {
+            graph.add_node(());
+        });
+        let mut doorways = BTreeSet::new();
+        for portal in portals.iter().flatten().filter(|p| p.from.0 < p.to.0) {
+            if doorways.insert(portal.doorway) {
+                graph.add_edge(portal.from.0.into(), portal.to.0.into(), portal.doorway);
+            }
+        }
+        let mut degree: Vec<usize> = graph.node_indices().map(|n| graph.edges(n).count()).collect();
+        let mut parent = vec![None; portals.len()];
+        let mut is_cut = vec![false; portals.len()];
+        let mut leaves: Vec<usize> = (0..portals.len()).filter(|&n| degree[n] == 1).collect();
+        while let Some(leaf) = leaves.pop() {
+            is_cut[leaf] = true;
+            let on = graph.neighbors((leaf as u32).into()).map(|n| n.index()).find(|&n| !is_cut[n]);
+            if let Some(on) = on {
+                parent[leaf] = Some(on as u32);
+                degree[on] -= 1;
+                if degree[on] == 1 {
+                    leaves.push(on);
+                }
+            }
+        }
+        let rings =
+            (0..portals.len() as u32).filter(|&n| degree[n as usize] > 1 && !is_cut[n as usize]);
+        Self { rings: rings.collect(), parent }
+    }
+
+    /// From a Fragment up to its ring or the last of its tree.
+    fn trunk(&self, from: u32) -> Vec<u32> {
+        std::iter::successors(Some(from), |&n| self.parent[n as usize]).collect()
+    }
+
+    fn between(&self, start: u32, goal: u32) -> Vec<u32> {
+        let (mut up, mut down) = (self.trunk(start), self.trunk(goal));
+        match up.iter().position(|n| down.contains(n)) {
+            Some(meet) => {
+                let top = up[meet];
+                up.truncate(meet + 1);
+                down.truncate(down.iter().position(|&n| n == top).unwrap_or(0));
+                up.extend(down);
+            }
+            None => {
+                up.extend(down);
+                up.extend(&self.rings);
+            }
+        }
+        up.sort_unstable();
+        up.dedup();
+        up
+    }
+}
+
 /// The cells of a plan as a search may use them.
 pub(super) struct Walkable<'a> {
     pub(super) plan: &'a FloorPlan,
-    /// Fragments to stay in; all if none are named.
+    /// Fragments to stay in, sorted; all if none are named.
     pub(super) within: Option<Vec<u32>>,
 }
 
@@ -375,7 +453,7 @@ impl Cells for Walkable<'_> {
             });
         }
         for portal in self.plan.portals_of(cell) {
-            if self.within.as_ref().is_none_or(|w| w.contains(&portal.to.0)) {
+            if self.within.as_ref().is_none_or(|w| w.binary_search(&portal.to.0).is_ok()) {
                 let Portal { right, left, to, .. } = *portal;
                 visit(Edge { right, left, right_bends: true, left_bends: true, to });
             }

@@ -14,7 +14,7 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, Pose, ReplicaId, Vector}
 
 use super::blocked::{NoRoute, explain};
 use super::doors::Doorway;
-use super::floor::Blocker;
+use super::floor::{Blocker, FragmentFloor};
 use super::nearest_on_segment;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::{FloorPlan, Walkable};
@@ -114,16 +114,23 @@ impl FloorPlan {
         method: Method,
         areas: Option<&[AreaId]>,
     ) -> Result<Route, NoRoute> {
-        let within: Option<Vec<u32>> = areas
-            .map(|list| list.iter().filter_map(|&a| self.number(a)).map(|n| n as u32).collect());
+        let within: Option<Vec<u32>> = areas.map(|list| {
+            let numbers: BTreeSet<u32> =
+                list.iter().filter_map(|&a| self.number(a)).map(|n| n as u32).collect();
+            numbers.into_iter().collect()
+        });
         let start = self.anchor(from, None, within.as_deref()).ok_or(NoRoute::NoFloor)?;
         let goals = self.goals(world, &start, target)?;
-        let walkable = Walkable { plan: self, within };
         let mut best: Option<Route> = None;
+        let mut passed = Vec::new();
         for goal in &goals {
             if self.region(goal.anchor.cell) != self.region(start.cell) {
                 continue;
             }
+            let useful = self.between(start.cell.0, goal.anchor.cell.0);
+            let admitted = |n: &u32| within.as_ref().is_none_or(|w| w.contains(n));
+            let useful: Vec<u32> = useful.into_iter().filter(admitted).collect();
+            let walkable = Walkable { plan: self, within: Some(useful.clone()) };
             let points = match method {
                 Method::Shortest => self.shortest_points(&walkable, &start, &goal.anchor),
                 Method::Paper => self.paper_points(&walkable, &start, &goal.anchor),
@@ -140,11 +147,12 @@ impl FloorPlan {
                     moved_goal: goal.anchor.moved.clone(),
                     points,
                 });
+                passed = useful;
             }
         }
         match best {
             Some(mut route) => {
-                (route.chain, route.doorways) = self.chain(&route.points);
+                (route.chain, route.doorways) = self.chain(&route.points, &passed);
                 Ok(route)
             }
             None => {
@@ -519,14 +527,17 @@ impl FloorPlan {
     }
 
     /// The Passframes and doorways that a way passes.
-    fn chain(&self, points: &[Point]) -> (Vec<(AreaId, PassframeId)>, Vec<usize>) {
+    fn chain(&self, points: &[Point], among: &[u32]) -> (Vec<(AreaId, PassframeId)>, Vec<usize>) {
         let mut chain: Vec<(AreaId, PassframeId)> = Vec::new();
         let mut doorways = Vec::new();
+        let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.floor(n)).collect();
+        let near: BTreeSet<usize> =
+            fragments.iter().flat_map(|f| f.exits.iter().map(|e| e.doorway)).collect();
         for leg in points.windows(2) {
             let length = (leg[1] - leg[0]).norm();
             let reach = super::Bounds::of([leg[0], leg[1]]).grown(1.0);
             let mut passed = Vec::new();
-            for fragment in self.fragments().filter(|f| f.bounds.meets(&reach)) {
+            for fragment in fragments.iter().filter(|f| f.bounds.grown(100.0).meets(&reach)) {
                 for cell in fragment.frames.near_segment(leg[0], leg[1]) {
                     let Some((from, to)) = fragment.frames.clip(cell, leg[0], leg[1]) else {
                         continue;
@@ -543,11 +554,9 @@ impl FloorPlan {
                     chain.push(frame);
                 }
             }
-            let mut crossed: Vec<(f64, usize)> = self
-                .doorways()
+            let mut crossed: Vec<(f64, usize)> = near
                 .iter()
-                .enumerate()
-                .filter_map(|(i, d)| Some((crossing(leg[0], leg[1], d)?, i)))
+                .filter_map(|&i| Some((crossing(leg[0], leg[1], &self.doorways()[i])?, i)))
                 .collect();
             crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
             for (_, doorway) in crossed {
