@@ -110,7 +110,9 @@ fn hospital(replicas: usize) -> World {
             }
             let id = ReplicaId(number as u32 + 1);
             let name = format!("{}-{n}", thing.name);
-            world.replicas.insert(id, Replica { id, area: AreaId(n as u32 + 1), name, ..thing.clone() });
+            world
+                .replicas
+                .insert(id, Replica { id, area: AreaId(n as u32 + 1), name, ..thing.clone() });
         }
     }
     world
@@ -127,19 +129,23 @@ fn main() {
     let wanted: Vec<usize> = std::env::args().filter_map(|a| a.parse().ok()).collect();
     let sizes = if wanted.is_empty() { vec![1_000, 5_000, 20_000, 50_000] } else { wanted };
     let rules = RelationRules::standard();
-    println!("replicas | near pairs | measure ms | rows and rules ms | relations | one move: measure ms | in all ms");
+    println!(
+        "replicas | near pairs | measure ms | rows and rules ms | relations | one move: measure ms | in all ms"
+    );
     for size in sizes {
         let world = hospital(size);
         let _warm = (size < 10_000).then(|| derive(&world, &rules, Profile::Surveyed));
         let (measured, measuring) = time(|| Measurements::of(&world, rules.reach()));
         let pairs = measured.pair_count();
-        let (relations, deriving) = time(|| derive_from(&world, &rules, Profile::Surveyed, measured));
+        let (relations, deriving) =
+            time(|| derive_from(&world, &rules, Profile::Surveyed, measured));
         let mut relations = relations.expect("standard rules end");
         let tuples: usize = relations.counts().iter().map(|c| c.count).sum();
         // The cup of the middle ward goes from the tray to the bookcase.
         let mut after = world.clone();
         let id = ReplicaId((size / 50 * 25 + 16) as u32);
-        after.replicas.get_mut(&id).expect("within the hospital").frame = Frame::new(420.0, 350.0, 75.0, Deg::ZERO);
+        after.replicas.get_mut(&id).expect("within the hospital").frame =
+            Frame::new(420.0, 350.0, 75.0, Deg::ZERO);
         let mut alone = relations.measurements().clone();
         let (_, moving) = time(|| alone.update(&after, id));
         let (moved, updating) = time(|| relations.update(&after, id));
@@ -147,7 +153,10 @@ fn main() {
         let ms = |d: Duration| d.as_secs_f64() * 1e3;
         println!(
             "{size} | {pairs} | {:.1} | {:.1} | {tuples} | {:.3} | {:.1}",
-            ms(measuring), ms(deriving), ms(moving), ms(updating)
+            ms(measuring),
+            ms(deriving),
+            ms(moving),
+            ms(updating)
         );
     }
 }

@@ -320,8 +320,11 @@ fn zz_counts() {
                 for c in r.contours() {
                     let n = c.corners.len();
                     for i in 0..n {
-                        let (a, b, d) = (c.corners[i], c.corners[(i + 1) % n], c.corners[(i + 2) % n]);
-                        if (b - a).perp(&(d - b)) < -1e-9 { reflex += 1; }
+                        let (a, b, d) =
+                            (c.corners[i], c.corners[(i + 1) % n], c.corners[(i + 2) % n]);
+                        if (b - a).perp(&(d - b)) < -1e-9 {
+                            reflex += 1;
+                        }
                     }
                 }
                 bound += (1 + (reflex + 1) / 2 - r.holes.len() as i32).max(1);

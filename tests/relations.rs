@@ -885,7 +885,8 @@ fn why_not_names_the_premise_that_failed_with_its_numbers() {
                 ),
             },
         ]
-    "#]].assert_debug_eq(&rule.failed().collect::<Vec<_>>());
+    "#]]
+    .assert_debug_eq(&rule.failed().collect::<Vec<_>>());
 }
 
 #[test]

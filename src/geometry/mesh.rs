@@ -268,7 +268,9 @@ impl HalfEdges {
                     .iter()
                     .filter(|&&other| other < found.triangles.len())
                     .flat_map(|&other| 3 * other as u32..3 * other as u32 + 3)
-                    .find(|&k| (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends)
+                    .find(|&k| {
+                        (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends
+                    })
                     .unwrap_or(NONE);
             }
         }
@@ -299,9 +301,16 @@ impl HalfEdges {
             .map(|h| {
                 let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
                 let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
-                let use_ = self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
+                let use_ =
+                    self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
                 let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
-                (use_, std::cmp::Reverse(length), (a.y, a.x).min((b.y, b.x)), (a.y, a.x).max((b.y, b.x)), h)
+                (
+                    use_,
+                    std::cmp::Reverse(length),
+                    (a.y, a.x).min((b.y, b.x)),
+                    (a.y, a.x).max((b.y, b.x)),
+                    h,
+                )
             })
             .collect();
         ranked.sort_unstable();
@@ -330,7 +339,8 @@ impl HalfEdges {
             return 0;
         }
         let place = self.node(at);
-        let (before, after) = (self.node(self.origin[arriving as usize]), self.node(self.end(leaving)));
+        let (before, after) =
+            (self.node(self.origin[arriving as usize]), self.node(self.end(leaving)));
         let to = self.node(self.end(h));
         if orientation(before, place, after) >= 0 {
             0
