@@ -154,7 +154,7 @@ impl Draft {
     }
 
     pub(super) fn raise_id(&mut self, table: Table, row: &Row) {
-        if let Some((id, _)) = ids::identity(table, row) {
+        if let Some(id) = ids::id_of(table, row) {
             let last = self.last_ids.entry(table).or_default();
             *last = (*last).max(id);
         }

@@ -77,7 +77,7 @@ impl Store {
             deleted: false,
         };
         self.put_log(&mut draft, &mark, &stamp)?;
-        self.vault.commit(&draft.writes)?;
+        self.vault.commit(draft.writes)?;
         self.checkpoint()?;
         Ok(dropped)
     }

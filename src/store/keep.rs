@@ -336,7 +336,7 @@ impl Store {
         }
         self.note_ids(&mut draft, &stamp(false))?;
         note_revision(&mut draft, &report, &stamp(false), change, kind, undoes);
-        self.vault.commit(&draft.writes)?;
+        self.vault.commit(draft.writes)?;
         self.revision = revision;
         Ok(report)
     }

@@ -219,7 +219,7 @@ impl Store {
             *no += 1;
             self.put_log(&mut draft, &record, &self.stamp(&o.observer, o.at))?;
         }
-        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(&draft.writes) }
+        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(draft.writes) }
     }
 
     /// Notes where the robot stands.
@@ -242,7 +242,7 @@ impl Store {
         };
         let mut draft = Draft::default();
         self.put_log(&mut draft, &record, &self.stamp(user, now))?;
-        self.vault.commit(&draft.writes)
+        self.vault.commit(draft.writes)
     }
 
     /// The replicas that are believed to stand elsewhere than the map says.
@@ -294,7 +294,7 @@ impl Store {
         };
         let mut draft = Draft::default();
         self.put_log(&mut draft, &record, &self.stamp(&change.user, change.at))?;
-        self.vault.commit(&draft.writes)
+        self.vault.commit(draft.writes)
     }
 
     fn stamp(&self, user: &str, at: Timestamp) -> Stamp {

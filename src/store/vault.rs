@@ -310,12 +310,12 @@ impl Vault {
     }
 
     /// One transaction: on the disk when this returns.
-    pub(crate) fn commit(&mut self, changes: &[Change]) -> Result<()> {
+    pub(crate) fn commit(&mut self, changes: Vec<Change>) -> Result<()> {
         if let Some(reason) = &self.read_only {
             return Err(StoreError::ReadOnly { reason: reason.clone() });
         }
-        let ops: Vec<Op> = changes.iter().map(|c| c.op.clone()).collect();
-        let touched = self.digests_after(changes);
+        let touched = self.digests_after(&changes);
+        let ops: Vec<Op> = changes.into_iter().map(|c| c.op).collect();
         let lsn = self.state.lsn + 1;
         let frame = encode_frame(lsn, &ops, &touched);
         self.append(&frame)?;
