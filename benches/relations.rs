@@ -16,7 +16,7 @@ object = [{ name = "Мебель" }, { name = "Ёмкость", traits = ["conta
 floor = { name = "Пол", height = 270, points = [[0, 0], [200, 0], [300, 0], [500, 0], [500, 400], [0, 400]], side.B = { permeability = "permeable" } }
 top = { name = "Столешница", rect = [120, 60], height = 3 }
 leg = { name = "Ножка", rect = [5, 5], height = 72 }
-frame = { name = "Рама", rect = [90, 200], height = 20 }
+frame = { name = "Рама", rect = [90, 200], height = 40 }
 mattress = { name = "Матрас", rect = [88, 196], height = 20 }
 head = { name = "Изголовье", rect = [90, 4], height = 100 }
 case = { name = "Корпус", rect = [80, 30], height = 180, side = { A = { permeability = "permeable" } } }
@@ -35,7 +35,7 @@ desk = { name = "Стол", type = "Мебель", front = "T.A", back = "T.C", 
   { id = "A", orthoframe = "leg" }, { id = "B", orthoframe = "leg", at = [115, 0] }, { id = "C", orthoframe = "leg", at = [115, 55] },
   { id = "D", orthoframe = "leg", at = [0, 55] }, { id = "T", orthoframe = "top", at = [0, 0, 72] } ] }
 bed = { name = "Кровать", type = "Мебель", front = "A.A", back = "A.C", items = [
-  { id = "A", orthoframe = "frame", at = [0, 0, 20] }, { id = "B", orthoframe = "mattress", at = [1, 2, 40] }, { id = "C", orthoframe = "head", at = [0, 200] } ] }
+  { id = "A", orthoframe = "frame" }, { id = "B", orthoframe = "mattress", at = [1, 2, 40] }, { id = "C", orthoframe = "head", at = [0, 200] } ] }
 bookcase = { name = "Стеллаж", type = "Ёмкость", front = "A.A", back = "A.C", items = [
   { id = "A", orthoframe = "case" }, { id = "B", orthoframe = "shelf", at = [1, 1, 50] }, { id = "C", orthoframe = "shelf", at = [1, 1, 100] }, { id = "D", orthoframe = "shelf", at = [1, 1, 140] } ] }
 bedside = { name = "Тумбочка", type = "Ёмкость", front = "A", back = "C", items = [{ id = "A", orthoframe = "box" }] }

@@ -127,7 +127,7 @@ fn paper_all_104_pairs_of_state_and_goal() {
         }
     }
     assert_eq!(pairs, 104);
-    expect_file!["../golden/corridor/paper4/all-pairs.txt"].assert_eq(&text);
+    expect_file!["golden/corridor/paper4/all-pairs.txt"].assert_eq(&text);
 }
 
 #[test]
@@ -405,7 +405,7 @@ fn paper_figures_2_and_3() {
     for variant in [Variant::Single, Variant::Double] {
         let way = directions(&system, "206", Some((5, 6)), "210", variant).unwrap();
         let svg = drawn(&system, &way, variant);
-        let name = format!("../golden/corridor/paper4/variant-{}.svg", variant.number());
+        let name = format!("golden/corridor/paper4/variant-{}.svg", variant.number());
         expect_file![name].assert_eq(&svg);
     }
 }

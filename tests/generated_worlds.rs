@@ -317,7 +317,7 @@ fn hang(world: &mut World, dice: &mut Dice) -> (DoorId, DoorKind) {
         id,
         key: format!("дверь {}", id.0),
         name: format!("Дверь-{}", id.0),
-        name_en: dice.chance().then(|| format!("Door {}", id.0)).unwrap_or_default(),
+        name_en: if dice.chance() { format!("Door {}", id.0) } else { Default::default() },
         door_type: dice.pick(&type_ids(world, TypeKind::Door)),
         kind,
         width: Cm::of(dice.number(60.0, 110.0)),

@@ -141,3 +141,48 @@ fn a_plan_text_breaks_where_it_is_wrong() {
     );
     assert_eq!(check("0: 0: )"), Err(vec!["strips::syntax".into()]));
 }
+
+#[test]
+fn things_that_no_plan_needs_leave_the_task() {
+    let problem = |things: usize, held: &str| {
+        let things: Vec<String> =
+            (0..things).map(|n| format!("НА(Вещь-{n}, Стол) НА(Вещь-{n}, Пол)")).collect();
+        let text = format!(
+            "Действие: Взять (Параметры: вещь ?t, опора ?s)
+             (Предусловие: НА(?t, ?s) РУКА-СВОБОДНА()) (Эффект+: ДЕРЖИТ(?t)) (Эффект-: НА(?t, ?s) РУКА-СВОБОДНА())
+             Действие: Положить (Параметры: вещь ?t, опора ?s)
+             (Предусловие: ДЕРЖИТ(?t) ЕСТЬ(?s)) (Эффект+: НА(?t, ?s) РУКА-СВОБОДНА()) (Эффект-: ДЕРЖИТ(?t))
+             Факты: НА(Чашка, Стол) ЕСТЬ(Стол) ЕСТЬ(Пол) {held} {}
+             Цель: НА(Чашка, Пол)",
+            things.join(" ")
+        );
+        Scenario::parse(&Source::new("вещи", text)).unwrap().ground().unwrap()
+    };
+    let free = "РУКА-СВОБОДНА()";
+    assert_eq!(problem(40, free).operators.len(), problem(0, free).operators.len());
+    // What the robot holds at first it must put down: that one thing is no bystander, the others are.
+    let held = problem(3, "ДЕРЖИТ(Вещь-0)");
+    assert_eq!(directives(&held).len(), 3);
+    assert!(held.operators.iter().all(|operator| !operator.args.contains(&"Вещь-1".into())));
+}
+
+#[test]
+fn files_that_are_no_texts_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let code = |name: &str, bytes: &[u8]| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, bytes).unwrap();
+        let rules = Scenario::read(&path).err().map(|faults| faults.codes().remove(0));
+        assert!(Scenario::read_pddl(&path, &path).is_err(), "{name}");
+        rules.unwrap_or_default()
+    };
+    assert_eq!(code("пусто.strips", b""), "strips::empty");
+    assert_eq!(code("двоичный.strips", &[0xff, 0xfe, 0, 1, 2]), "strips::not_text");
+    assert_eq!(code("строка.strips", &vec![b'x'; 100 << 20]), "strips::too_large");
+    assert_eq!(code("круг.strips", "Включить: круг.strips".as_bytes()), "strips::include_cycle");
+    let long =
+        code("длинное-слово.strips", "Факты: ".to_owned().into_bytes().repeat(1000).as_slice());
+    assert_eq!(long, "", "a file of headings says nothing, and says it well");
+    let missing = Scenario::read(&folder.path().join("нет.strips")).unwrap_err();
+    assert_eq!(missing.codes(), ["strips::unreadable"]);
+}

@@ -663,8 +663,9 @@ fn a_deep_check_finds_what_is_broken_and_opening_mends_it() {
     std::fs::write(&newest, &bytes).unwrap();
     std::fs::remove_dir_all(dir.path().join("sled")).unwrap();
     let report = fsck(dir.path()).unwrap();
-    assert_eq!(report.findings.len(), 2, "{:#?}", report.findings);
-    assert!(report.findings.iter().all(|f| f.severity == Severity::Mendable));
+    let mendable = report.findings.iter().filter(|f| f.severity == Severity::Mendable).count();
+    assert_eq!(mendable, 2, "{:#?}", report.findings);
+    assert!(report.findings.iter().all(|f| f.severity < Severity::Broken));
     // The snapshot before it and the journal since then are enough.
     let (store, opened) = Store::open(dir.path()).unwrap();
     assert!(opened.tables_rebuilt.is_some());

@@ -17,7 +17,7 @@ fn absent(all: &Relation<(u32, ())>, without: &Relation<u32>) -> Relation<u32> {
     rest.complete()
 }
 
-pub fn closure(edges: &[Edge]) -> usize {
+pub(crate) fn closure(edges: &[Edge]) -> usize {
     let edge: Relation<Edge> = edges.iter().collect();
     let mut iteration = Iteration::new();
     let path_by_end = iteration.variable::<Edge>("path_by_end");
@@ -30,7 +30,7 @@ pub fn closure(edges: &[Edge]) -> usize {
     path_by_end.complete().len()
 }
 
-pub fn same_generation(parents: &[Edge]) -> usize {
+pub(crate) fn same_generation(parents: &[Edge]) -> usize {
     let child: Relation<Edge> = parents.iter().collect();
     let mut iteration = Iteration::new();
     let same = iteration.variable::<Edge>("same");
@@ -52,7 +52,7 @@ pub fn same_generation(parents: &[Edge]) -> usize {
 }
 
 /// `out(a, d) :- r(a, b), s(b, c), t(c, d), a < 100, d > a.`
-pub fn three_way(r: &[Edge], s: &[Edge], t: &[Edge]) -> usize {
+pub(crate) fn three_way(r: &[Edge], s: &[Edge], t: &[Edge]) -> usize {
     let r_by_b: Relation<Edge> = r.iter().filter(|(a, _)| *a < 100).map(|&(a, b)| (b, a)).collect();
     let s: Relation<Edge> = s.iter().collect();
     let t: Relation<Edge> = t.iter().collect();
@@ -62,7 +62,7 @@ pub fn three_way(r: &[Edge], s: &[Edge], t: &[Edge]) -> usize {
 }
 
 /// `source(x)`: nothing leads there; `degree(x, n)`: so many edges go out; `busy(x)`: at least three.
-pub fn counts(edges: &[Edge]) -> usize {
+pub(crate) fn counts(edges: &[Edge]) -> usize {
     let edge: Relation<Edge> = edges.iter().collect();
     let node: Relation<u32> = edges.iter().flat_map(|&(a, b)| [a, b]).collect();
     let target: Relation<u32> = edges.iter().map(|&(_, b)| b).collect();
@@ -82,7 +82,7 @@ pub fn counts(edges: &[Edge]) -> usize {
 
 type InRoom = (u32, [i32; 7]);
 
-pub fn spatial(boxes: &[Box8], doors: &[Edge]) -> usize {
+pub(crate) fn spatial(boxes: &[Box8], doors: &[Edge]) -> usize {
     let in_room = |b: &Box8| -> InRoom {
         let c = |n: usize| b[n] as i32;
         (c(1) as u32, [c(0), c(2), c(3), c(4), c(5), c(6), c(7)])

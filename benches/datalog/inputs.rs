@@ -2,13 +2,13 @@
 
 use std::collections::BTreeSet;
 
-pub type Edge = (u32, u32);
+pub(crate) type Edge = (u32, u32);
 
 /// A small generator of numbers: the same seed, the same input on every machine.
-pub struct Dice(u64);
+pub(crate) struct Dice(u64);
 
 impl Dice {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
@@ -20,7 +20,7 @@ impl Dice {
     }
 
     /// A number from `least` to `most`, both included.
-    pub fn between(&mut self, least: i64, most: i64) -> i64 {
+    pub(crate) fn between(&mut self, least: i64, most: i64) -> i64 {
         least + ((self.next() >> 33) as i64) % (most - least + 1)
     }
 
@@ -29,12 +29,12 @@ impl Dice {
     }
 }
 
-pub fn chain(nodes: u32) -> Vec<Edge> {
+pub(crate) fn chain(nodes: u32) -> Vec<Edge> {
     (0..nodes).map(|n| (n, n + 1)).collect()
 }
 
 /// Right and down on a square.
-pub fn grid(side: u32) -> Vec<Edge> {
+pub(crate) fn grid(side: u32) -> Vec<Edge> {
     let mut edges = Vec::new();
     for i in 0..side {
         for j in 0..side {
@@ -49,7 +49,7 @@ pub fn grid(side: u32) -> Vec<Edge> {
     edges
 }
 
-pub fn random(nodes: i64, edges: usize, seed: u64) -> Vec<Edge> {
+pub(crate) fn random(nodes: i64, edges: usize, seed: u64) -> Vec<Edge> {
     let mut dice = Dice::new(seed);
     let mut edge = || (dice.between(0, nodes - 1) as u32, dice.between(0, nodes - 1) as u32);
     let distinct: BTreeSet<Edge> = (0..edges).map(|_| edge()).collect();
@@ -57,15 +57,15 @@ pub fn random(nodes: i64, edges: usize, seed: u64) -> Vec<Edge> {
 }
 
 /// Parent and child in a full binary tree.
-pub fn tree(depth: u32) -> Vec<Edge> {
+pub(crate) fn tree(depth: u32) -> Vec<Edge> {
     (1..1 << depth).flat_map(|n| [(n, 2 * n), (n, 2 * n + 1)]).collect()
 }
 
 /// Id, room, corners on the floor, height above it, own height.
-pub type Box8 = [i64; 8];
+pub(crate) type Box8 = [i64; 8];
 
 /// A floor plan of rooms in rows of ten, each with furniture, things on it and things in it; and the doors.
-pub fn boxes(count: usize, per_room: usize, seed: u64) -> (Vec<Box8>, Vec<Edge>) {
+pub(crate) fn boxes(count: usize, per_room: usize, seed: u64) -> (Vec<Box8>, Vec<Edge>) {
     let mut dice = Dice::new(seed);
     let mut boxes: Vec<Box8> = Vec::new();
     let mut doors = BTreeSet::new();

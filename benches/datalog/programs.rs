@@ -1,20 +1,20 @@
 //! The same programs as rule text.
 
-pub const CLOSURE: &str = "
+pub(crate) const CLOSURE: &str = "
 .decl edge(a: number, b: number) .input edge
 .decl path(a: number, b: number) .output path
 path(A, B) :- edge(A, B).
 path(A, C) :- path(A, B), edge(B, C).
 ";
 
-pub const SAME_GENERATION: &str = "
+pub(crate) const SAME_GENERATION: &str = "
 .decl parent(a: number, b: number) .input parent
 .decl same(a: number, b: number) .output same
 same(X, Y) :- parent(P, X), parent(P, Y), X != Y.
 same(X, Y) :- parent(A, X), same(A, B), parent(B, Y).
 ";
 
-pub const THREE_WAY: &str = "
+pub(crate) const THREE_WAY: &str = "
 .decl r(a: number, b: number) .input r
 .decl s(a: number, b: number) .input s
 .decl t(a: number, b: number) .input t
@@ -22,7 +22,7 @@ pub const THREE_WAY: &str = "
 out(A, D) :- r(A, B), s(B, C), t(C, D), A < 100, D > A.
 ";
 
-pub const COUNTS: &str = "
+pub(crate) const COUNTS: &str = "
 .decl edge(a: number, b: number) .input edge
 .decl node(a: number) .output node
 .decl target(a: number)
@@ -38,7 +38,7 @@ busy(X) :- degree(X, N), N >= 3.
 quiet(X) :- node(X), !busy(X), !source(X).
 ";
 
-pub const SPATIAL: &str = "
+pub(crate) const SPATIAL: &str = "
 .decl box(i:number,r:number,x1:number,y1:number,x2:number,y2:number,z:number,h:number) .input box
 .decl door(a:number,b:number) .input door
 .decl on_top_of(a:number,b:number) .printsize on_top_of

@@ -4,10 +4,10 @@
 use std::fmt::Write;
 
 /// PDDL texts of a domain and a problem.
-pub struct Instance {
-    pub name: String,
-    pub domain: String,
-    pub problem: String,
+pub(crate) struct Instance {
+    pub(crate) name: String,
+    pub(crate) domain: String,
+    pub(crate) problem: String,
 }
 
 /// xorshift64*: the same instances on every machine.
@@ -43,7 +43,13 @@ fn objects(prefix: &str, count: usize, kind: &str) -> String {
     format!("{text}- {kind} ")
 }
 
-fn instance(name: String, domain: &str, objects: &str, init: &[String], goal: &[String]) -> Instance {
+fn instance(
+    name: String,
+    domain: &str,
+    objects: &str,
+    init: &[String],
+    goal: &[String],
+) -> Instance {
     let problem = format!(
         "(define (problem p) (:domain d)\n (:objects {objects})\n (:init {})\n (:goal (and {})))",
         init.join(" "),
@@ -53,7 +59,7 @@ fn instance(name: String, domain: &str, objects: &str, init: &[String], goal: &[
 }
 
 /// A robot with two hands carries balls from one room to another.
-pub fn gripper(balls: usize) -> Instance {
+pub(crate) fn gripper(balls: usize) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types room ball gripper)
  (:predicates (at-robby ?r - room) (at ?b - ball ?r - room) (free ?g - gripper) (carry ?b - ball ?g - gripper))
  (:action move :parameters (?a ?b - room) :precondition (at-robby ?a) :effect (and (at-robby ?b) (not (at-robby ?a))))
@@ -61,26 +67,29 @@ pub fn gripper(balls: usize) -> Instance {
   :effect (and (carry ?b ?g) (not (at ?b ?r)) (not (free ?g))))
  (:action drop :parameters (?b - ball ?r - room ?g - gripper) :precondition (and (carry ?b ?g) (at-robby ?r))
   :effect (and (at ?b ?r) (free ?g) (not (carry ?b ?g)))))";
-    let mut init: Vec<String> = ["(at-robby ra)", "(free left)", "(free right)"].map(String::from).into();
+    let mut init: Vec<String> =
+        ["(at-robby ra)", "(free left)", "(free right)"].map(String::from).into();
     init.extend((0..balls).map(|b| format!("(at b{b} ra)")));
     let goal: Vec<String> = (0..balls).map(|b| format!("(at b{b} rb)")).collect();
     let all = format!("ra rb - room left right - gripper {}", objects("b", balls, "ball"));
     instance(format!("gripper-{balls}"), domain, &all, &init, &goal)
 }
 
-/// Two rockets with fuel for one flight each bring cargo to two places.
-pub fn rocket(cargos: usize, seed: u64) -> Instance {
-    let domain = "(define (domain d) (:requirements :strips :typing) (:types place - object rocket cargo - thing)
- (:predicates (at ?x - thing ?p - place) (in ?c - cargo ?r - rocket) (has-fuel ?r - rocket))
- (:action move :parameters (?r - rocket ?a ?b - place) :precondition (and (at ?r ?a) (has-fuel ?r) (not (= ?a ?b)))
-  :effect (and (at ?r ?b) (not (at ?r ?a)) (not (has-fuel ?r))))
+/// Two rockets with fuel for so many flights each bring cargo to two places.
+pub(crate) fn rocket(cargos: usize, flights: usize, seed: u64) -> Instance {
+    let domain = "(define (domain d) (:requirements :strips :typing) (:types place fuel - object rocket cargo - thing)
+ (:predicates (at ?x - thing ?p - place) (in ?c - cargo ?r - rocket) (has-fuel ?r - rocket ?f - fuel))
+ (:action move :parameters (?r - rocket ?a ?b - place ?f - fuel) :precondition (and (at ?r ?a) (has-fuel ?r ?f) (not (= ?a ?b)))
+  :effect (and (at ?r ?b) (not (at ?r ?a)) (not (has-fuel ?r ?f))))
  (:action load :parameters (?c - cargo ?r - rocket ?p - place) :precondition (and (at ?c ?p) (at ?r ?p))
   :effect (and (in ?c ?r) (not (at ?c ?p))))
  (:action unload :parameters (?c - cargo ?r - rocket ?p - place) :precondition (and (in ?c ?r) (at ?r ?p))
   :effect (and (at ?c ?p) (not (in ?c ?r)))))";
     let mut random = Random::new(seed);
-    let mut init: Vec<String> =
-        (0..2).map(|r| format!("(at r{r} p{}) (has-fuel r{r})", r % 2)).collect();
+    let mut init: Vec<String> = (0..2).map(|r| format!("(at r{r} p{r})")).collect();
+    for flight in 0..flights {
+        init.push(format!("(has-fuel r0 f{flight}) (has-fuel r1 f{flight})"));
+    }
     let mut goal = Vec::new();
     for cargo in 0..cargos {
         init.push(format!("(at c{cargo} p{})", random.below(2)));
@@ -90,13 +99,19 @@ pub fn rocket(cargos: usize, seed: u64) -> Instance {
         "{}{}{}",
         objects("p", 4, "place"),
         objects("r", 2, "rocket"),
-        objects("c", cargos, "cargo")
+        objects("c", cargos, "cargo") + &objects("f", flights, "fuel")
     );
-    instance(format!("rocket-{cargos}/{seed}"), domain, &all, &init, &goal)
+    instance(format!("rocket-{cargos}-{flights}/{seed}"), domain, &all, &init, &goal)
 }
 
 /// Packages by trucks within cities and by airplanes between them.
-pub fn logistics(cities: usize, places: usize, planes: usize, packages: usize, seed: u64) -> Instance {
+pub(crate) fn logistics(
+    cities: usize,
+    places: usize,
+    planes: usize,
+    packages: usize,
+    seed: u64,
+) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing)
  (:types city place thing - object airport - place vehicle package - thing truck plane - vehicle)
  (:predicates (at ?x - thing ?p - place) (in ?x - package ?v - vehicle) (in-city ?p - place ?c - city))
@@ -139,7 +154,7 @@ pub fn logistics(cities: usize, places: usize, planes: usize, packages: usize, s
 }
 
 /// Towers of blocks, moved by one hand.
-pub fn blocks(count: usize, seed: u64) -> Instance {
+pub(crate) fn blocks(count: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips)
  (:predicates (on ?x ?y) (ontable ?x) (clear ?x) (handempty) (holding ?x))
  (:action pick-up :parameters (?x) :precondition (and (clear ?x) (ontable ?x) (handempty))
@@ -151,7 +166,7 @@ pub fn blocks(count: usize, seed: u64) -> Instance {
  (:action unstack :parameters (?x ?y) :precondition (and (on ?x ?y) (clear ?x) (handempty))
   :effect (and (holding ?x) (clear ?y) (not (clear ?x)) (not (handempty)) (not (on ?x ?y)))))";
     let mut random = Random::new(seed);
-    let mut towers = |random: &mut Random, whole: bool| {
+    let towers = |random: &mut Random, whole: bool| {
         let mut facts = Vec::new();
         let mut top: Option<usize> = None;
         for block in random.shuffled(count) {
@@ -179,7 +194,7 @@ pub fn blocks(count: usize, seed: u64) -> Instance {
 }
 
 /// Crates on pallets, hoisted onto trucks.
-pub fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> Instance {
+pub(crate) fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing)
  (:types place truck hoist surface - object pallet crate - surface)
  (:predicates (at ?t - truck ?p - place) (hoist-at ?h - hoist ?p - place) (rests ?s - surface ?p - place)
@@ -199,10 +214,12 @@ pub fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> Instance
     let mut random = Random::new(seed);
     let mut init = Vec::new();
     for place in 0..places {
-        init.push(format!("(hoist-at h{place} p{place}) (available h{place}) (rests s{place} p{place})"));
+        init.push(format!(
+            "(hoist-at h{place} p{place}) (available h{place}) (rests s{place} p{place})"
+        ));
     }
     init.extend((0..trucks).map(|t| format!("(at t{t} p{})", random.below(places))));
-    let mut stack = |random: &mut Random, init: Option<&mut Vec<String>>| {
+    let stack = |random: &mut Random, init: Option<&mut Vec<String>>| {
         let mut top: Vec<String> = (0..places).map(|p| format!("s{p}")).collect();
         let mut facts = Vec::new();
         for number in random.shuffled(crates) {
@@ -230,7 +247,13 @@ pub fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> Instance
 }
 
 /// Drivers walk to trucks and drive packages.
-pub fn driverlog(places: usize, drivers: usize, trucks: usize, packages: usize, seed: u64) -> Instance {
+pub(crate) fn driverlog(
+    places: usize,
+    drivers: usize,
+    trucks: usize,
+    packages: usize,
+    seed: u64,
+) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types place thing - object driver truck package - thing)
  (:predicates (at ?x - thing ?p - place) (in ?x - package ?t - truck) (driving ?d - driver ?t - truck) (empty ?t - truck)
   (link ?a ?b - place) (path ?a ?b - place))
@@ -271,11 +294,17 @@ pub fn driverlog(places: usize, drivers: usize, trucks: usize, packages: usize, 
         objects("t", trucks, "truck"),
         objects("x", packages, "package")
     );
-    instance(format!("driverlog-{places}-{drivers}-{trucks}-{packages}/{seed}"), domain, &all, &init, &goal)
+    instance(
+        format!("driverlog-{places}-{drivers}-{trucks}-{packages}/{seed}"),
+        domain,
+        &all,
+        &init,
+        &goal,
+    )
 }
 
 /// Rovers sample rocks and soil, take images and send them to a lander.
-pub fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance {
+pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types rover place store camera mode lander objective)
  (:predicates (at ?r - rover ?p - place) (lander-at ?l - lander ?p - place) (road ?r - rover ?a ?b - place) (visible ?a ?b - place)
   (store-of ?s - store ?r - rover) (empty ?s - store) (full ?s - store) (soil ?p - place) (rock ?p - place) (for-soil ?r - rover) (for-rock ?r - rover)
@@ -311,13 +340,18 @@ pub fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance
         init.push(format!("(visible p{a} p{b}) (visible p{b} p{a})"));
     }
     for rover in 0..rovers {
-        init.push(format!("(at r{rover} p{}) (store-of s{rover} r{rover}) (empty s{rover})", random.below(places)));
+        init.push(format!(
+            "(at r{rover} p{}) (store-of s{rover} r{rover}) (empty s{rover})",
+            random.below(places)
+        ));
         init.push(format!("(for-soil r{rover}) (for-rock r{rover}) (on-board c{rover} r{rover})"));
         init.push(format!("(target c{rover} o{})", random.below(objectives)));
         init.extend((0..2).map(|m| format!("(supports c{rover} m{m})")));
         for place in 1..places {
             let other = random.below(place);
-            init.push(format!("(road r{rover} p{place} p{other}) (road r{rover} p{other} p{place})"));
+            init.push(format!(
+                "(road r{rover} p{place} p{other}) (road r{rover} p{other} p{place})"
+            ));
         }
     }
     for objective in 0..objectives {
@@ -346,7 +380,13 @@ pub fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance
 }
 
 /// Satellites turn, calibrate instruments and take images.
-pub fn satellite(satellites: usize, instruments: usize, directions: usize, images: usize, seed: u64) -> Instance {
+pub(crate) fn satellite(
+    satellites: usize,
+    instruments: usize,
+    directions: usize,
+    images: usize,
+    seed: u64,
+) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types satellite direction instrument mode)
  (:predicates (on-board ?i - instrument ?s - satellite) (supports ?i - instrument ?m - mode) (pointing ?s - satellite ?d - direction)
   (power ?s - satellite) (on ?i - instrument) (calibrated ?i - instrument) (image ?d - direction ?m - mode) (target ?i - instrument ?d - direction))
@@ -362,14 +402,28 @@ pub fn satellite(satellites: usize, instruments: usize, directions: usize, image
     let mut random = Random::new(seed);
     let mut init = Vec::new();
     for satellite in 0..satellites {
-        init.push(format!("(power s{satellite}) (pointing s{satellite} d{})", random.below(directions)));
+        init.push(format!(
+            "(power s{satellite}) (pointing s{satellite} d{})",
+            random.below(directions)
+        ));
     }
     for number in 0..instruments {
-        init.push(format!("(on-board i{number} s{}) (target i{number} d{})", number % satellites, random.below(directions)));
-        init.push(format!("(supports i{number} m{}) (supports i{number} m{})", number % 3, random.below(3)));
+        init.push(format!(
+            "(on-board i{number} s{}) (target i{number} d{})",
+            number % satellites,
+            random.below(directions)
+        ));
+        init.push(format!(
+            "(supports i{number} m{}) (supports i{number} m{})",
+            number % 3,
+            random.below(3)
+        ));
     }
-    let mut goal: Vec<String> =
-        (0..images).map(|_| format!("(image d{} m{})", random.below(directions), random.below(3.min(instruments)))).collect();
+    let mut goal: Vec<String> = (0..images)
+        .map(|_| {
+            format!("(image d{} m{})", random.below(directions), random.below(3.min(instruments)))
+        })
+        .collect();
     goal.push(format!("(pointing s0 d{})", random.below(directions)));
     let all = format!(
         "{}{}{}{}",
@@ -378,11 +432,17 @@ pub fn satellite(satellites: usize, instruments: usize, directions: usize, image
         objects("i", instruments, "instrument"),
         objects("m", 3, "mode")
     );
-    instance(format!("satellite-{satellites}-{instruments}-{images}/{seed}"), domain, &all, &init, &goal)
+    instance(
+        format!("satellite-{satellites}-{instruments}-{images}/{seed}"),
+        domain,
+        &all,
+        &init,
+        &goal,
+    )
 }
 
 /// Aircraft with levels of fuel carry people between cities.
-pub fn zenotravel(planes: usize, people: usize, cities: usize, seed: u64) -> Instance {
+pub(crate) fn zenotravel(planes: usize, people: usize, cities: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types city level thing - object plane person - thing)
  (:predicates (at ?x - thing ?c - city) (in ?p - person ?a - plane) (fuel ?a - plane ?l - level) (next ?a ?b - level))
  (:action board :parameters (?p - person ?a - plane ?c - city) :precondition (and (at ?p ?c) (at ?a ?c)) :effect (and (not (at ?p ?c)) (in ?p ?a)))
@@ -398,7 +458,11 @@ pub fn zenotravel(planes: usize, people: usize, cities: usize, seed: u64) -> Ins
     let mut init: Vec<String> = (1..7).map(|l| format!("(next f{} f{l})", l - 1)).collect();
     let mut goal = Vec::new();
     for plane in 0..planes {
-        init.push(format!("(at a{plane} c{}) (fuel a{plane} f{})", random.below(cities), random.below(4)));
+        init.push(format!(
+            "(at a{plane} c{}) (fuel a{plane} f{})",
+            random.below(cities),
+            random.below(4)
+        ));
     }
     for person in 0..people {
         init.push(format!("(at p{person} c{})", random.below(cities)));
@@ -416,7 +480,7 @@ pub fn zenotravel(planes: usize, people: usize, cities: usize, seed: u64) -> Ins
 }
 
 /// A lift serves passengers.
-pub fn miconic(passengers: usize, seed: u64) -> Instance {
+pub(crate) fn miconic(passengers: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types floor passenger)
  (:predicates (origin ?p - passenger ?f - floor) (destination ?p - passenger ?f - floor) (above ?a ?b - floor)
   (boarded ?p - passenger) (served ?p - passenger) (lift-at ?f - floor))
@@ -442,7 +506,7 @@ pub fn miconic(passengers: usize, seed: u64) -> Instance {
 }
 
 /// Vehicles with room for few, fuel that places run out of.
-pub fn mystery(places: usize, vehicles: usize, cargos: usize, seed: u64) -> Instance {
+pub(crate) fn mystery(places: usize, vehicles: usize, cargos: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types place fuel space thing - object vehicle cargo - thing)
  (:predicates (at ?x - thing ?p - place) (road ?a ?b - place) (has-fuel ?p - place ?f - fuel) (less-fuel ?a ?b - fuel)
   (in ?c - cargo ?v - vehicle) (has-space ?v - vehicle ?s - space) (less-space ?a ?b - space))
@@ -467,9 +531,12 @@ pub fn mystery(places: usize, vehicles: usize, cargos: usize, seed: u64) -> Inst
         init.push(format!("(road p{a} p{b}) (road p{b} p{a})"));
     }
     init.extend((0..places).map(|p| format!("(has-fuel p{p} f{})", random.below(4))));
-    init.extend((0..vehicles).map(|v| format!("(at v{v} p{}) (has-space v{v} s{})", random.below(places), 1 + random.below(3))));
+    init.extend((0..vehicles).map(|v| {
+        format!("(at v{v} p{}) (has-space v{v} s{})", random.below(places), 1 + random.below(3))
+    }));
     init.extend((0..cargos).map(|c| format!("(at c{c} p{})", random.below(places))));
-    let goal: Vec<String> = (0..3).map(|c| format!("(at c{c} p{})", random.below(places))).collect();
+    let goal: Vec<String> =
+        (0..3).map(|c| format!("(at c{c} p{})", random.below(places))).collect();
     let all = format!(
         "{}{}{}{}{}",
         objects("p", places, "place"),
@@ -482,7 +549,13 @@ pub fn mystery(places: usize, vehicles: usize, cargos: usize, seed: u64) -> Inst
 }
 
 /// Trucks buy goods at markets and store them at a depot, by levels of stock.
-pub fn tpp(goods: usize, markets: usize, trucks: usize, levels: usize, seed: u64) -> Instance {
+pub(crate) fn tpp(
+    goods: usize,
+    markets: usize,
+    trucks: usize,
+    levels: usize,
+    seed: u64,
+) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types place truck goods level - object depot market - place)
  (:predicates (loaded ?g - goods ?t - truck ?l - level) (ready ?g - goods ?m - market ?l - level) (stored ?g - goods ?l - level)
   (sale ?g - goods ?m - market ?l - level) (next ?a ?b - level) (at ?t - truck ?p - place) (road ?a ?b - place))
@@ -523,7 +596,13 @@ pub fn tpp(goods: usize, markets: usize, trucks: usize, levels: usize, seed: u64
 }
 
 /// Solitaire with cells: every card home, suit by suit.
-pub fn freecell(ranks: usize, suits: usize, cells: usize, columns: usize, seed: u64) -> Instance {
+pub(crate) fn freecell(
+    ranks: usize,
+    suits: usize,
+    cells: usize,
+    columns: usize,
+    seed: u64,
+) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types card num suit)
  (:predicates (on ?a ?b - card) (incell ?c - card) (clear ?c - card) (cellspace ?n - num) (colspace ?n - num) (home ?c - card)
   (bottom ?c - card) (canstack ?a ?b - card) (suit ?c - card ?s - suit) (value ?c - card ?n - num) (successor ?a ?b - num))
@@ -554,14 +633,17 @@ pub fn freecell(ranks: usize, suits: usize, cells: usize, columns: usize, seed: 
   :effect (and (home ?c) (cellspace ?y) (not (home ?h)) (not (incell ?c)) (not (cellspace ?x)))))";
     let mut random = Random::new(seed);
     let numbers = (ranks + 1).max(cells + 1).max(columns + 1);
-    let mut init: Vec<String> = (1..numbers).map(|n| format!("(successor n{n} n{})", n - 1)).collect();
+    let mut init: Vec<String> =
+        (1..numbers).map(|n| format!("(successor n{n} n{})", n - 1)).collect();
     init.push(format!("(cellspace n{cells})"));
     let mut cards = String::new();
     for suit in 0..suits {
         for rank in 0..=ranks {
             write!(cards, "k{suit}x{rank} ").expect("a string takes all text");
             init.push(format!("(suit k{suit}x{rank} s{suit}) (value k{suit}x{rank} n{rank})"));
-            for other in (0..suits).filter(|other| other % 2 != suit % 2 && rank > 0 && rank < ranks) {
+            for other in
+                (0..suits).filter(|other| other % 2 != suit % 2 && rank > 0 && rank < ranks)
+            {
                 init.push(format!("(canstack k{suit}x{rank} k{other}x{})", rank + 1));
             }
         }
@@ -578,15 +660,21 @@ pub fn freecell(ranks: usize, suits: usize, cells: usize, columns: usize, seed: 
     init.extend(column.iter().flatten().map(|card| format!("(clear {card})")));
     init.push(format!("(colspace n{})", column.iter().filter(|top| top.is_none()).count()));
     let goal: Vec<String> = (0..suits).map(|s| format!("(home k{s}x{ranks})")).collect();
-    let all = format!("{cards}- card {}{}", objects("n", numbers, "num"), objects("s", suits, "suit"));
+    let all =
+        format!("{cards}- card {}{}", objects("n", numbers, "num"), objects("s", suits, "suit"));
     instance(format!("freecell-{ranks}x{suits}/{seed}"), domain, &all, &init, &goal)
 }
 
 /// All sizes that are measured, smaller first within each family.
-pub fn all() -> Vec<Instance> {
+pub(crate) fn all() -> Vec<Instance> {
     let mut all: Vec<Instance> = [4, 6, 8, 12, 16].map(gripper).into();
-    all.extend([rocket(10, 1), rocket(10, 2)]);
-    all.extend([logistics(3, 3, 1, 8, 1), logistics(4, 3, 2, 9, 2), logistics(5, 3, 2, 11, 3), logistics(7, 3, 2, 14, 4)]);
+    all.extend([rocket(10, 1, 1), rocket(10, 2, 1), rocket(10, 2, 2)]);
+    all.extend([
+        logistics(3, 3, 1, 8, 1),
+        logistics(4, 3, 2, 9, 2),
+        logistics(5, 3, 2, 11, 3),
+        logistics(7, 3, 2, 14, 4),
+    ]);
     all.extend([logistics(2, 2, 1, 6, 5), logistics(3, 2, 1, 9, 6), logistics(4, 2, 1, 12, 7)]);
     all.extend([blocks(8, 1), blocks(10, 2), blocks(14, 3)]);
     all.extend([depot(3, 2, 4, 1), depot(3, 2, 6, 2), depot(6, 2, 6, 3)]);

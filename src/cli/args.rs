@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::graphplan::Limits;
+use crate::robot::Wanted;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
@@ -13,7 +14,7 @@ use crate::graphplan::Limits;
 #[command(
     after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 internal error."
 )]
-pub struct Arguments {
+pub(super) struct Arguments {
     #[command(flatten)]
     pub common: Common,
     #[command(subcommand)]
@@ -22,7 +23,7 @@ pub struct Arguments {
 
 /// What every command takes.
 #[derive(Debug, Clone, Args)]
-pub struct Common {
+pub(super) struct Common {
     /// Store directory
     #[arg(long, global = true, env = "ORTHO_STORE", value_name = "DIR")]
     pub store: Option<PathBuf>,
@@ -47,13 +48,13 @@ pub struct Common {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Lang {
+pub(super) enum Lang {
     Ru,
     En,
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Command {
+pub(super) enum Command {
     /// The whole way once: import the rb2 map, derive, plan "Принеси лекарство", drive, report, draw
     Demo {
         /// Store directory to use and keep; a temporary one when absent
@@ -122,7 +123,7 @@ pub enum Command {
 }
 
 #[derive(Debug, Args)]
-pub struct PlanArgs {
+pub(super) struct PlanArgs {
     /// Scenario file (.strips)
     #[arg(required_unless_present = "problem")]
     pub scenario: Option<PathBuf>,
@@ -135,13 +136,20 @@ pub struct PlanArgs {
     /// Write the plan here, in the format that plan validators read
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// A plan soon, not proven to be the shortest
+    #[arg(long)]
+    pub any: bool,
     /// Give up after this many seconds
     #[arg(long, value_name = "SECONDS")]
     pub time_limit: Option<u64>,
 }
 
 impl PlanArgs {
-    pub fn limits(&self) -> Limits {
+    pub(super) fn wanted(&self) -> Wanted {
+        if self.any { Wanted::Any } else { Wanted::Shortest }
+    }
+
+    pub(super) fn limits(&self) -> Limits {
         let deadline =
             self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
         Limits { deadline, ..Limits::default() }
@@ -149,7 +157,7 @@ impl PlanArgs {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum RouteMethod {
+pub(super) enum RouteMethod {
     /// The shortest way that keeps the robot's clearance
     Shortest,
     /// Depth-first over Passframes, midpoints of their borders (paper 1 §8)
@@ -157,7 +165,7 @@ pub enum RouteMethod {
 }
 
 #[derive(Debug, Subcommand)]
-pub enum Drawing {
+pub(super) enum Drawing {
     /// Rooms, doors, furniture
     Map {
         /// The map; may be left out when there is only one

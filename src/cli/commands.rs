@@ -8,7 +8,7 @@ use crate::engine::{
     Drawing as Sheet, Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose,
     plan_alone,
 };
-use crate::graphplan::{Limits, Outcome};
+use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 use crate::strips::Scenario;
 use crate::units::MapId;
@@ -166,9 +166,9 @@ pub(super) fn relations(
 pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     let answer = match (&args.scenario, &args.domain, &args.problem) {
         (None, Some(domain), Some(problem)) => {
-            plan_alone(Scenario::read_pddl(domain, problem)?, &args.limits())?
+            plan_alone(Scenario::read_pddl(domain, problem)?, &args.limits(), args.wanted())?
         }
-        (Some(scenario), _, _) => plan_scenario(common, scenario, &args.limits())?,
+        (Some(scenario), _, _) => plan_scenario(common, scenario, args)?,
         _ => unreachable!("clap asks for a scenario or for both PDDL files"),
     };
     for warning in &answer.warnings {
@@ -191,20 +191,22 @@ pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> 
 fn plan_scenario(
     common: &Common,
     path: &Path,
-    limits: &Limits,
+    args: &PlanArgs,
 ) -> Result<crate::engine::PlanAnswer, Failure> {
+    let (limits, wanted) = (&args.limits(), args.wanted());
     let scenario = Scenario::read(path)?;
     if common.store.is_some() {
-        return Ok(open(common)?.plan(scenario, limits)?);
+        return Ok(open(common)?.plan(scenario, limits, wanted)?);
     }
     if let Some(map) = scenario.map.clone() {
         let (world, _) = check_map(&map)?;
-        return Ok(Engine::in_memory(world, rules_dir(common).as_deref())?.plan(scenario, limits)?);
+        return Ok(Engine::in_memory(world, rules_dir(common).as_deref())?
+            .plan(scenario, limits, wanted)?);
     }
     if Path::new(DEFAULT_STORE).is_dir() {
-        return Ok(open(common)?.plan(scenario, limits)?);
+        return Ok(open(common)?.plan(scenario, limits, wanted)?);
     }
-    Ok(plan_alone(scenario, limits)?)
+    Ok(plan_alone(scenario, limits, wanted)?)
 }
 
 pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {
@@ -262,7 +264,9 @@ pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Resul
         Drawing::Route { from, to } => {
             let answer = engine.route(from, to, Method::Shortest)?;
             match answer.route {
-                Ok(route) => (answer.map, Sheet { legs: vec![route.points], ..Sheet::default() }),
+                Ok(route) => {
+                    (answer.map, Sheet { legs: vec![(1, route.points)], ..Sheet::default() })
+                }
                 Err(why) => {
                     note(&why.to_string());
                     return Ok(Answer::No);

@@ -73,8 +73,8 @@ pub(super) fn perform(common: &Common, engine: &Engine, task: &str) -> Result<Ta
 
 /// The map with Passframes and the way driven.
 pub(super) fn draw(engine: &Engine, answer: &TaskAnswer, path: &Path) -> Result<(), Failure> {
-    let legs =
-        answer.reports.iter().filter(|r| !r.points.is_empty()).map(|r| r.points.clone()).collect();
+    let driven = answer.reports.iter().filter(|r| !r.points.is_empty());
+    let legs = driven.map(|r| (r.number, r.points.clone())).collect();
     let svg = engine.draw(answer.map, &Drawing { floor: true, legs, robot: Some(answer.start) })?;
     if let Some(dir) = path.parent() {
         std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;

@@ -33,7 +33,7 @@ pub(super) fn plan(solved: &Solved) -> Value {
         "parallel_steps": steps.len(),
         "actions": steps.iter().map(Vec::len).sum::<usize>(),
         "steps": steps,
-        "optimal": matches!(solved.outcome, Outcome::Plan(_)),
+        "optimal": solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_)),
         "assumptions": solved.assumptions,
         "explanation": solved.explanation,
     });
@@ -58,6 +58,7 @@ pub(super) fn plan(solved: &Solved) -> Value {
                 Limit::Time => "time",
                 Limit::Memory => "memory",
                 Limit::Steps => "steps",
+                Limit::Effort => "effort",
             });
         }
         Outcome::Plan(_) => {}

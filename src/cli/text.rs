@@ -80,15 +80,15 @@ pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
         return lang.pick("Цель уже достигнута.", "The goal holds already.").to_owned();
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
+    let proof = match (solved.is_shortest, lang) {
+        (true, Lang::Ru) => "меньше шагов нельзя, это доказано",
+        (true, Lang::En) => "fewer steps are proven impossible",
+        (false, Lang::Ru) => "что он кратчайший, не доказано",
+        (false, Lang::En) => "not proven to be the shortest",
+    };
     let mut text = match lang {
-        Lang::Ru => format!(
-            "План: шагов {}, действий {actions}; меньше шагов нельзя, это доказано.",
-            steps.len()
-        ),
-        Lang::En => format!(
-            "Plan: {} steps, {actions} actions; fewer steps are proven impossible.",
-            steps.len()
-        ),
+        Lang::Ru => format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
+        Lang::En => format!("Plan: {} steps, {actions} actions; {proof}.", steps.len()),
     };
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {

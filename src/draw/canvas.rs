@@ -67,6 +67,28 @@ pub(super) enum Anchor {
     Middle,
 }
 
+/// How a text looks.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Lettering {
+    /// Of the font, cm on the sheet.
+    pub size: f64,
+    pub color: &'static str,
+    pub bold: bool,
+    pub anchor: Anchor,
+    /// A light rim that parts the letters from the lines below them.
+    pub halo: bool,
+}
+
+impl Lettering {
+    pub(super) const fn plain(size: f64, color: &'static str) -> Self {
+        Self { size, color, bold: false, anchor: Anchor::Middle, halo: true }
+    }
+
+    pub(super) const fn bold(size: f64, color: &'static str) -> Self {
+        Self { bold: true, ..Self::plain(size, color) }
+    }
+}
+
 /// Collects shapes; [`Canvas::into_svg`] frames them.
 pub(super) struct Canvas {
     bounds: Bounds,
@@ -144,29 +166,27 @@ impl Canvas {
         self.nodes.append(rectangle);
     }
 
-    /// A line of text with a light halo, its baseline a third of the size below `p`.
-    pub(super) fn text(
-        &mut self,
-        p: Point,
-        text: &str,
-        size: f64,
-        color: &'static str,
-        anchor: Anchor,
-        bold: bool,
-    ) {
+    /// A line of text at the height of `p`.
+    pub(super) fn text(&mut self, p: Point, text: &str, lettering: Lettering) {
         let (x, y) = self.at(p);
+        let size = lettering.size;
+        let anchor = if lettering.anchor == Anchor::Middle { "middle" } else { "start" };
         let mut node = Text::new(text)
             .set("x", x)
+            // The baseline lies about a third of the size below the middle of the letters.
             .set("y", round(y + size * 0.36))
             .set("font-size", number(size))
-            .set("fill", color)
-            .set("stroke", "#ffffff")
-            .set("stroke-opacity", "0.8")
-            .set("stroke-width", number(size * 0.22))
-            .set("stroke-linejoin", "round")
-            .set("paint-order", "stroke")
-            .set("text-anchor", if anchor == Anchor::Middle { "middle" } else { "start" });
-        if bold {
+            .set("fill", lettering.color)
+            .set("text-anchor", anchor);
+        if lettering.halo {
+            node = node
+                .set("stroke", "#ffffff")
+                .set("stroke-opacity", "0.8")
+                .set("stroke-width", number(size * 0.22))
+                .set("stroke-linejoin", "round")
+                .set("paint-order", "stroke");
+        }
+        if lettering.bold {
             node = node.set("font-weight", "bold");
         }
         self.nodes.append(node);

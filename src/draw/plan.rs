@@ -4,7 +4,7 @@ use crate::geometry::{Bounds, Owner, Polygon, Prism, Region, Scene};
 use crate::map::{Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
-use super::canvas::{Anchor, Canvas, Style, text_width};
+use super::canvas::{Anchor, Canvas, Lettering, Style, text_width};
 
 /// Free floor and its partition, as the drawing needs them.
 #[derive(Debug, Clone, Default)]
@@ -18,7 +18,8 @@ pub struct FloorLayer {
 /// A drivable line, cut into the directives' legs.
 #[derive(Debug, Clone, Default)]
 pub struct RouteLayer {
-    pub legs: Vec<Vec<Point>>,
+    /// The number of the directive, and its way.
+    pub legs: Vec<(usize, Vec<Point>)>,
     pub start: Option<Pose>,
     /// Radius of the robot's disc, cm.
     pub robot_radius: f64,
@@ -114,13 +115,8 @@ impl PlanDrawing<'_> {
     }
 
     fn route(&self, canvas: &mut Canvas) {
-        for leg in &self.route.legs {
+        for (_, leg) in &self.route.legs {
             canvas.polyline(leg, ROUTE);
-        }
-        for (number, leg) in self.route.legs.iter().enumerate() {
-            let Some(&end) = leg.last() else { continue };
-            canvas.circle(end, 10.0, Style::fill("#1f5fbf").outlined("#ffffff", 1.6));
-            canvas.text(end, &(number + 1).to_string(), 12.0, "#10305f", Anchor::Middle, true);
         }
         if let Some(pose) = self.route.start {
             let (sin, cos) = pose.heading.sin_cos();
@@ -134,84 +130,105 @@ impl PlanDrawing<'_> {
         }
     }
 
-    /// Names of rooms, places and furniture, the large before the small, none over another.
+    /// Numbers of the directives at the ends of their legs; those that end at one point share a badge.
+    fn badges(&self, canvas: &mut Canvas) -> Vec<Bounds> {
+        let mut badges: Vec<(Point, String)> = Vec::new();
+        for (number, leg) in &self.route.legs {
+            let Some(&end) = leg.last() else { continue };
+            match badges.iter_mut().find(|(at, _)| (at - end).norm() < 16.0) {
+                Some((_, text)) => text.push_str(&format!(" · {number}")),
+                None => badges.push((end, number.to_string())),
+            }
+        }
+        let mut taken = Vec::new();
+        for (at, text) in badges {
+            let frame = around(at, (text_width(&text, 11.0) + 8.0).max(18.0), 18.0);
+            canvas.rectangle(frame, Style::fill("#1f5fbf").outlined("#ffffff", 1.6), 9.0);
+            canvas.text(at, &text, Lettering { halo: false, ..Lettering::bold(11.0, "#ffffff") });
+            taken.push(frame);
+        }
+        taken
+    }
+
+    /// Names of places, rooms and furniture, the large before the small, none over another.
     fn labels(&self, canvas: &mut Canvas) {
-        let mut taken: Vec<Bounds> = self
-            .route
-            .legs
-            .iter()
-            .filter_map(|l| l.last())
-            .map(|&p| around(p, 22.0, 22.0))
-            .collect();
-        for (p, name) in &self.places {
+        for (p, _) in &self.places {
             canvas.circle(*p, 3.2, Style::fill("#b3261e"));
-            place_label(canvas, &mut taken, *p, name, 13.0, "#b3261e", &Self::AROUND_A_POINT, true);
+        }
+        let mut taken = self.badges(canvas);
+        for (p, name) in &self.places {
+            place_label(
+                canvas,
+                &mut taken,
+                *p,
+                name,
+                Lettering::bold(13.0, "#b3261e"),
+                &AROUND_A_POINT,
+            );
         }
         for area in self.scene.areas.values() {
-            let Some(prism) = area
-                .prisms
-                .iter()
-                .max_by(|a, b| a.polygon.signed_area().total_cmp(&b.polygon.signed_area()))
-            else {
-                continue;
-            };
+            let area_of = |prism: &Prism| prism.polygon.signed_area();
+            let largest = area.prisms.iter().max_by(|a, b| area_of(a).total_cmp(&area_of(b)));
+            let Some(prism) = largest else { continue };
             let name = &self.world.areas[&area.id].name;
             place_label(
                 canvas,
                 &mut taken,
                 prism.polygon.centroid(),
                 name,
-                21.0,
-                INK,
-                &Self::ROOM,
-                true,
+                Lettering::bold(21.0, INK),
+                &IN_A_ROOM,
             );
         }
         let mut replicas: Vec<_> = self.scene.replicas.values().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
         replicas.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
         for replica in replicas {
-            let center = replica.bounds.min + (replica.bounds.max - replica.bounds.min) / 2.0;
+            let center = nalgebra::center(&replica.bounds.min, &replica.bounds.max);
             let name = &self.world.replicas[&replica.id].name;
-            place_label(canvas, &mut taken, center, name, 9.0, "#5b5647", &Self::THING, false);
+            place_label(
+                canvas,
+                &mut taken,
+                center,
+                name,
+                Lettering::plain(9.0, "#5b5647"),
+                &ON_A_THING,
+            );
         }
     }
-
-    /// Offsets to try, in widths and heights of the label.
-    const AROUND_A_POINT: [(f64, f64); 6] =
-        [(0.0, 1.1), (0.0, -1.1), (0.62, 0.5), (-0.62, 0.5), (0.62, -0.5), (-0.62, -0.5)];
-    const ROOM: [(f64, f64); 9] = [
-        (0.0, 0.0),
-        (0.0, 1.2),
-        (0.0, -1.2),
-        (0.0, 2.5),
-        (0.0, -2.5),
-        (0.6, 1.2),
-        (-0.6, 1.2),
-        (0.6, -1.2),
-        (-0.6, -1.2),
-    ];
-    const THING: [(f64, f64); 5] = [(0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.0, 1.7), (0.0, -1.7)];
 }
 
+/// Offsets to try for a label, in its widths and heights.
+const AROUND_A_POINT: [(f64, f64); 6] =
+    [(0.0, 1.7), (0.0, -1.7), (0.75, 0.9), (-0.75, 0.9), (0.75, -0.9), (-0.75, -0.9)];
+const IN_A_ROOM: [(f64, f64); 9] = [
+    (0.0, 0.0),
+    (0.0, 1.2),
+    (0.0, -1.2),
+    (0.0, 2.5),
+    (0.0, -2.5),
+    (0.6, 1.2),
+    (-0.6, 1.2),
+    (0.6, -1.2),
+    (-0.6, -1.2),
+];
+const ON_A_THING: [(f64, f64); 5] = [(0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.0, 1.7), (0.0, -1.7)];
+
 /// Draws a label at the first offset where it covers no other; not at all when there is none.
-#[expect(clippy::too_many_arguments, reason = "a label is a text with its whole look")]
 fn place_label(
     canvas: &mut Canvas,
     taken: &mut Vec<Bounds>,
     at: Point,
     text: &str,
-    size: f64,
-    color: &'static str,
+    lettering: Lettering,
     offsets: &[(f64, f64)],
-    bold: bool,
 ) {
-    let (width, height) = (text_width(text, size), size * 1.15);
+    let (width, height) = (text_width(text, lettering.size), lettering.size * 1.15);
     for (dx, dy) in offsets {
         let p = at + Vector::new(dx * width, dy * height);
         let frame = around(p, width, height);
         if !taken.iter().any(|t| t.meets(&frame)) {
-            canvas.text(p, text, size, color, Anchor::Middle, bold);
+            canvas.text(p, text, lettering);
             taken.push(frame);
             return;
         }
@@ -251,14 +268,19 @@ fn legend(canvas: &mut Canvas, extent: Bounds, floor: bool, route: bool) {
         };
         canvas.rectangle(bar, Style::fill(color).outlined(INK, 1.0), 0.0);
     }
-    canvas.text(Point::new(x, y - 12.0), "0", 12.0, INK, Anchor::Middle, false);
-    canvas.text(Point::new(x + 100.0, y - 12.0), "1 м", 12.0, INK, Anchor::Middle, false);
-    canvas.text(Point::new(x + 200.0, y - 12.0), "2 м", 12.0, INK, Anchor::Middle, false);
+    let small = Lettering::plain(12.0, INK);
+    canvas.text(Point::new(x, y - 12.0), "0", small);
+    canvas.text(Point::new(x + 100.0, y - 12.0), "1 м", small);
+    canvas.text(Point::new(x + 200.0, y - 12.0), "2 м", small);
     let mut x = x + 260.0;
     let mut entry = |canvas: &mut Canvas, style: Style, text: &str| {
         let swatch = Bounds { min: Point::new(x, y - 6.0), max: Point::new(x + 24.0, y + 8.0) };
         canvas.rectangle(swatch, style, 2.0);
-        canvas.text(Point::new(x + 32.0, y + 1.0), text, 12.0, INK, Anchor::Start, false);
+        canvas.text(
+            Point::new(x + 32.0, y + 1.0),
+            text,
+            Lettering { anchor: Anchor::Start, ..small },
+        );
         x += 50.0 + text_width(text, 12.0);
     };
     if floor {

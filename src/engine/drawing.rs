@@ -1,9 +1,9 @@
 //! Drawings of a map with what is known of it.
 
 use crate::draw::{DoorGlyph, FloorLayer, PlanDrawing, RouteLayer};
-use crate::geometry::FloorPlan;
+use crate::geometry::{FloorPlan, Polygon};
 use crate::map::{DoorKind, World};
-use crate::units::{MapId, Point, Pose};
+use crate::units::{MapId, Point, Pose, Vector};
 
 use super::{Engine, Error};
 
@@ -12,8 +12,8 @@ use super::{Engine, Error};
 pub struct Drawing {
     /// Passframes and dead zones.
     pub floor: bool,
-    /// The legs of a way, one a directive.
-    pub legs: Vec<Vec<Point>>,
+    /// The legs of a way, each with its directive's number.
+    pub legs: Vec<(usize, Vec<Point>)>,
     /// Where the robot stands.
     pub robot: Option<Pose>,
 }
@@ -48,12 +48,29 @@ fn door_glyphs(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
             return Vec::new();
         };
         let leaves = doorway.leaves(door, door.state);
-        let swept =
-            (door.kind == DoorKind::Hinged).then(|| doorway.swept(door)).unwrap_or_default();
+        let swept = if door.kind == DoorKind::Hinged { doorway.swept(door) } else { Vec::new() };
         let mut swept = swept.into_iter();
         leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next() }).collect()
     };
-    floor.doorways().iter().flat_map(glyphs).collect()
+    let between = floor.doorways().iter().flat_map(glyphs);
+    between.chain(outer_doors(world, floor)).collect()
+}
+
+/// Doors that lead out of the map: a shut leaf in the wall.
+fn outer_doors(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
+    let joined: Vec<_> = floor.doorways().iter().filter_map(|d| d.door).collect();
+    let mut glyphs = Vec::new();
+    for (id, placed) in &floor.scene().areas {
+        for mount in world.areas[id].doors.iter().filter(|m| !joined.contains(&m.door)) {
+            let Some((right, left)) = world.threshold(*id, mount.door) else { continue };
+            let (right, left) = (placed.frame.apply(right), placed.frame.apply(left));
+            let along = (left - right).normalize();
+            let half = Vector::new(along.y, -along.x) * 2.5;
+            let leaf = Polygon::new(vec![right - half, right + half, left + half, left - half]);
+            glyphs.push(DoorGlyph { leaf, swept: None });
+        }
+    }
+    glyphs
 }
 
 fn floor_layer(floor: &FloorPlan) -> FloorLayer {

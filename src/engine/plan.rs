@@ -1,7 +1,7 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
 use crate::graphplan::{Limits, Outcome};
-use crate::robot::{Solved, facts_of_map, solve, state};
+use crate::robot::{Solved, Wanted, facts_of_map, solve, state};
 use crate::strips::{RuleFault, Scenario};
 
 use super::{Engine, Error};
@@ -48,14 +48,19 @@ impl Engine {
     ///
     /// # Errors
     /// All faults of the scenario.
-    pub fn plan(&self, scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
+    pub fn plan(
+        &self,
+        scenario: Scenario,
+        limits: &Limits,
+        wanted: Wanted,
+    ) -> Result<PlanAnswer, Error> {
         let mut problem = scenario.problem;
         if let Ok(world) = self.world() {
             for fact in facts_of_map(world, self.relations()?) {
                 state(&mut problem, &fact);
             }
         }
-        let solved = solve(&scenario.domain, &problem, limits)?;
+        let solved = solve(&scenario.domain, &problem, limits, wanted)?;
         Ok(PlanAnswer { solved, warnings: scenario.warnings })
     }
 }
@@ -64,7 +69,11 @@ impl Engine {
 ///
 /// # Errors
 /// All faults of the scenario.
-pub fn plan_alone(scenario: Scenario, limits: &Limits) -> Result<PlanAnswer, Error> {
-    let solved = solve(&scenario.domain, &scenario.problem, limits)?;
+pub fn plan_alone(
+    scenario: Scenario,
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<PlanAnswer, Error> {
+    let solved = solve(&scenario.domain, &scenario.problem, limits, wanted)?;
     Ok(PlanAnswer { solved, warnings: scenario.warnings })
 }

@@ -120,7 +120,7 @@ pub fn parse_pose(text: &str) -> Result<Pose, RequestError> {
         .split(',')
         .map(|part| part.trim().parse::<f64>())
         .collect::<Result<_, _>>()
-        .map_err(|_| bad("нужны числа через запятую"))?;
+        .map_err(|e| bad(&format!("нужны числа через запятую ({e})")))?;
     let (x, y, heading) = match numbers[..] {
         [x, y] => (x, y, 0.0),
         [x, y, heading] => (x, y, heading),

@@ -301,8 +301,9 @@ impl<'a> Evaluation<'a> {
             .iter()
             .map(|(_, plan)| {
                 let order = |request: &Request| match request {
-                    Request::Growing { relation, first, .. } => {
-                        growing.get_mut(relation).map_or(0, |rows| rows.order(&mut orders, first))
+                    Request::Growing { relation, first, version } => {
+                        let rows = growing.get_mut(relation);
+                        rows.map_or(0, |rows| rows.order(&mut orders, first, *version))
                     }
                     _ => 0,
                 };
@@ -318,7 +319,9 @@ impl<'a> Evaluation<'a> {
             orders.changed();
             for ((clause, plan), orders) in rounds.iter().zip(&orders_of) {
                 let limit = self.limit(clause.head);
-                let room = limit.saturating_sub(growing[&clause.head].len());
+                let is_limited = limit < MAX_ROWS;
+                let held = if is_limited { growing[&clause.head].len() } else { 0 };
+                let room = limit.saturating_sub(held);
                 let parts = parts(plan, orders, &growing);
                 self.emit(clause, plan, &parts, room, &mut *growing[&clause.head].sink());
             }
@@ -351,7 +354,7 @@ impl<'a> Evaluation<'a> {
         let unsigned: Vec<usize> =
             (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
         let row = vec![0; clause.args.len()];
-        let mut head = Head { args: &clause.args, unsigned, limit, row, sink };
+        let mut head = Head { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink };
         let mut registers = vec![0; clause.variables.len()];
         self.finished.run(plan, parts, &mut registers, &mut head);
     }
@@ -428,7 +431,10 @@ struct Head<'a> {
     args: &'a [Expr],
     /// Columns that hold no negative number; a solution that would put one there is none.
     unsigned: Vec<usize>,
+    /// Of `.limitsize`.
     limit: usize,
+    /// Solutions still accepted, whatever the rules say.
+    left: usize,
     row: Vec<Word>,
     sink: &'a mut dyn Sink,
 }
@@ -445,11 +451,13 @@ impl Goal for Head<'_> {
                 },
             };
         }
-        if self.sink.len() >= self.limit
-            || self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0)
-        {
+        if self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0) {
             return false;
         }
+        if self.left == 0 || self.limit < MAX_ROWS && self.sink.len() >= self.limit {
+            return false;
+        }
+        self.left -= 1;
         self.sink.push(&self.row);
         true
     }

@@ -39,7 +39,7 @@ pub enum FilesError {
         path: PathBuf,
         line: usize,
         #[source]
-        cause: FactError,
+        cause: Box<FactError>,
     },
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -123,7 +123,11 @@ fn read(
     for (n, line) in text.lines().enumerate() {
         let tuple = tuple_of(line, info, delimiter(parameters));
         let inserted = database.insert(relation, &tuple);
-        inserted.map_err(|cause| FilesError::Line { path: path.clone(), line: n + 1, cause })?;
+        inserted.map_err(|cause| FilesError::Line {
+            path: path.clone(),
+            line: n + 1,
+            cause: cause.into(),
+        })?;
     }
     Ok(())
 }
@@ -204,9 +208,9 @@ mod tests {
             "{message}"
         );
         let (report, _) = run("А\n");
-        assert!(matches!(
-            report,
-            Err(FilesError::Line { line: 1, cause: FactError::Arity { .. }, .. })
-        ));
+        let Err(FilesError::Line { line, cause, .. }) = report else {
+            panic!("a short line is refused")
+        };
+        assert!(line == 1 && matches!(*cause, FactError::Arity { .. }));
     }
 }

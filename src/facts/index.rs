@@ -116,7 +116,13 @@ fn column(rows: &dyn RowSet, order: Option<&[u32]>, expr: &Expr, words: &mut Wor
     let len = order.map_or(rows.len(), <[u32]>::len);
     let row = |at: usize| rows.row(order.map_or(at, |order| order[at] as usize));
     match expr {
-        Expr::Variable(c) => (0..len).map(|at| row(at)[*c as usize]).collect(),
+        Expr::Variable(c) => {
+            let all = rows.column(*c as usize);
+            match order {
+                Some(order) => order.iter().map(|at| all[*at as usize]).collect(),
+                None => all,
+            }
+        }
         _ => (0..len)
             .map(|at| value::compute(expr, &|c| row(at)[c as usize], words).unwrap_or(NO_WORD))
             .collect(),

@@ -47,6 +47,7 @@ mod program;
 mod proof;
 mod rows;
 mod run;
+mod seen;
 mod syntax;
 mod value;
 mod why_not;

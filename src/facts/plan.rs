@@ -49,6 +49,7 @@ impl Plan {
         for step in &mut self.steps {
             if let Step::Scan(scan) = step {
                 scan.once = false;
+                scan.counts = true;
             }
         }
     }
@@ -128,6 +129,7 @@ fn mark_once(steps: &mut [Step], wanted: &[VariableId]) {
             for step in &mut steps[n + 1..end] {
                 if let Step::Scan(scan) = step {
                     scan.once = false;
+                    scan.counts = true;
                 }
             }
         }

@@ -11,6 +11,8 @@ use std::sync::{Arc, OnceLock};
 
 use datafrog::{Iteration, Relation, Variable};
 
+use super::plan::Version;
+use super::seen::Seen;
 use super::word::Word;
 
 /// A tuple, filled up with zeros to its width.
@@ -18,6 +20,7 @@ use super::word::Word;
 pub(super) struct Row<const N: usize>(pub(super) [Word; N]);
 
 impl<const N: usize> Row<N> {
+    #[inline]
     fn of(words: &[Word]) -> Self {
         let mut row = [0; N];
         row[..words.len()].copy_from_slice(words);
@@ -67,6 +70,8 @@ macro_rules! at_width {
 pub(super) trait RowSet {
     fn len(&self) -> usize;
     fn row(&self, at: usize) -> &[Word];
+    /// One column of all rows.
+    fn column(&self, column: usize) -> Vec<Word>;
     /// The rows that start with the key.
     fn range(&self, key: &[Word]) -> Range<usize>;
 
@@ -85,6 +90,10 @@ impl<const N: usize> RowSet for Relation<Row<N>> {
 
     fn row(&self, at: usize) -> &[Word] {
         &self.elements[at].0
+    }
+
+    fn column(&self, column: usize) -> Vec<Word> {
+        self.elements.iter().map(|row| row.0[column]).collect()
     }
 
     fn range(&self, key: &[Word]) -> Range<usize> {
@@ -143,9 +152,33 @@ pub(super) fn heap(columns: usize) -> Box<dyn Heap> {
 }
 
 fn sorted<const N: usize>(mut rows: Vec<Row<N>>) -> Relation<Row<N>> {
-    rows.sort_unstable();
+    if !rows.is_sorted() {
+        if N <= 2 && rows.len() > 512 { radix_sort(&mut rows) } else { rows.sort_unstable() }
+    }
     rows.dedup();
     Relation { elements: rows }
+}
+
+/// Sorts rows of one or two words byte by byte, those bytes left out that are the same in all rows.
+fn radix_sort<const N: usize>(rows: &mut Vec<Row<N>>) {
+    let key = |row: &Row<N>| if N == 1 { u64::from(row.0[0]) } else { row.pair() };
+    let first = key(&rows[0]);
+    let varying = rows.iter().fold(0, |varying, row| varying | (key(row) ^ first));
+    let mut spare = rows.clone();
+    for shift in (0..64).step_by(8).filter(|shift| (varying >> shift) & 0xff != 0) {
+        let digit = |row: &Row<N>| (key(row) >> shift) as usize & 0xff;
+        let mut starts = [0usize; 257];
+        rows.iter().for_each(|row| starts[digit(row) + 1] += 1);
+        for n in 1..starts.len() {
+            starts[n] += starts[n - 1];
+        }
+        for row in rows.iter() {
+            let at = &mut starts[digit(row)];
+            spare[*at] = *row;
+            *at += 1;
+        }
+        std::mem::swap(rows, &mut spare);
+    }
 }
 
 /// A relation under semi-naive evaluation: datafrog's variable, and one more for each other order of its columns.
@@ -157,7 +190,7 @@ pub(super) trait Growing {
     /// After a step of the iteration: brings the other orders up to it.
     fn follow(&mut self);
     /// The number of the order that starts with these columns.
-    fn order(&mut self, iteration: &mut Iteration, columns: &[usize]) -> usize;
+    fn order(&mut self, iteration: &mut Iteration, columns: &[usize], version: Version) -> usize;
     fn recent(&self, order: usize) -> Ref<'_, dyn RowSet>;
     fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>>;
     fn len(&self) -> usize;
@@ -168,22 +201,98 @@ struct GrowingRows<const N: usize> {
     columns: usize,
     rows: Variable<Row<N>>,
     orders: Vec<(Vec<usize>, Variable<Row<N>>)>,
-    pushed: RefCell<Vec<Row<N>>>,
+    pushed: RefCell<Pushed<N>>,
+    /// Some rule reads rows from before the last round.
+    needs_stable: bool,
+    /// Some rule looks rows of the last round up by key.
+    needs_sorted: bool,
+    /// Rows from which on it is worth trying [`Seen`] again.
+    try_seen_at: usize,
+}
+
+/// Rows since the last flush.
+#[derive(Debug)]
+struct Pushed<const N: usize> {
+    rows: Vec<Row<N>>,
+    /// With it, `rows` are new and distinct.
+    seen: Option<Seen>,
+    /// Rows beyond the range of `seen`.
+    outside: Vec<Row<N>>,
+}
+
+impl<const N: usize> Sink for Pushed<N> {
+    #[inline]
+    fn push(&mut self, row: &[Word]) {
+        let row = Row::of(row);
+        match &mut self.seen {
+            None if self.rows.last() == Some(&row) => {}
+            None => self.rows.push(row),
+            Some(seen) => match seen.insert(&row) {
+                Some(true) => self.rows.push(row),
+                Some(false) => {}
+                None => self.outside.push(row),
+            },
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.rows.len() + self.outside.len()
+    }
 }
 
 /// A growing relation of so many columns.
 pub(super) fn growing(iteration: &mut Iteration, name: &str, columns: usize) -> Box<dyn Growing> {
     at_width!(columns, N => Box::new(GrowingRows::<N> {
         columns,
-        rows: iteration.variable(name),
+        // Rows are told apart here, before they are handed over.
+        rows: iteration.variable_indistinct(name),
         orders: Vec::new(),
-        pushed: RefCell::default(),
+        pushed: RefCell::new(Pushed { rows: Vec::new(), seen: None, outside: Vec::new() }),
+        needs_stable: false,
+        needs_sorted: false,
+        try_seen_at: 16,
     }))
 }
 
 impl<const N: usize> GrowingRows<N> {
     fn variable(&self, order: usize) -> &Variable<Row<N>> {
         if order == 0 { &self.rows } else { &self.orders[order - 1].1 }
+    }
+
+    /// Gives the bits up: a row lies beyond their range.
+    fn leave_seen(&self, seen: &Seen, new: &[Row<N>]) {
+        if !self.needs_stable {
+            let mut old = Relation { elements: seen.rows::<N>() };
+            let new = sorted(new.to_vec());
+            subtract(&mut old.elements, &new);
+            *self.rows.stable.borrow_mut() = vec![old];
+            self.forget_recent();
+        }
+    }
+
+    fn forget_recent(&self) {
+        *self.rows.recent.borrow_mut() = Relation { elements: Vec::new() };
+    }
+
+    /// Goes over to bits where the relation is dense enough.
+    fn try_seen(&mut self, new: &[Row<N>]) {
+        let len = self.len() + new.len();
+        if len < self.try_seen_at || self.columns != 2 {
+            return;
+        }
+        self.try_seen_at = len * 2;
+        let (stable, recent) = (self.rows.stable.borrow(), self.rows.recent.borrow());
+        let all = stable.iter().flat_map(|batch| batch.iter()).chain(recent.iter()).chain(new);
+        let Some(mut seen) = Seen::over(all.clone()) else { return };
+        all.for_each(|row| {
+            seen.insert(row);
+        });
+        drop((stable, recent));
+        if !self.needs_stable {
+            self.rows.stable.borrow_mut().clear();
+            self.forget_recent();
+        }
+        self.pushed.get_mut().seen = Some(seen);
     }
 }
 
@@ -193,8 +302,29 @@ impl<const N: usize> Growing for GrowingRows<N> {
     }
 
     fn flush(&mut self) {
-        let pushed = self.pushed.take();
-        self.rows.insert(sorted(pushed));
+        let pushed = self.pushed.get_mut();
+        let mut rows = std::mem::take(&mut pushed.rows);
+        if !pushed.outside.is_empty() {
+            let outside = std::mem::take(&mut pushed.outside);
+            if let Some(seen) = pushed.seen.take() {
+                self.leave_seen(&seen, &rows);
+            }
+            rows.extend(outside);
+        }
+        if self.pushed.get_mut().seen.is_some() {
+            if !self.needs_stable {
+                self.forget_recent();
+            }
+            if self.needs_stable || self.needs_sorted {
+                rows = sorted(rows).elements;
+            }
+        } else {
+            rows = sorted(rows).elements;
+            self.rows.stable.borrow().iter().for_each(|batch| subtract(&mut rows, batch));
+            subtract(&mut rows, &self.rows.recent.borrow());
+            self.try_seen(&rows);
+        }
+        self.rows.insert(Relation { elements: rows });
     }
 
     fn follow(&mut self) {
@@ -211,10 +341,12 @@ impl<const N: usize> Growing for GrowingRows<N> {
         }
     }
 
-    fn order(&mut self, iteration: &mut Iteration, columns: &[usize]) -> usize {
+    fn order(&mut self, iteration: &mut Iteration, columns: &[usize], version: Version) -> usize {
         let mut order = columns.to_vec();
         order.extend((0..self.columns).filter(|column| !columns.contains(column)));
         if order.iter().copied().eq(0..self.columns) {
+            self.needs_stable |= version != Version::Recent;
+            self.needs_sorted |= !columns.is_empty();
             return 0;
         }
         if let Some(known) = self.orders.iter().position(|(known, _)| *known == order) {
@@ -238,13 +370,43 @@ impl<const N: usize> Growing for GrowingRows<N> {
     }
 
     fn len(&self) -> usize {
+        let pushed = self.pushed.borrow();
+        if let Some(seen) = &pushed.seen {
+            return seen.len - pushed.rows.len();
+        }
         let stable: usize = self.rows.stable.borrow().iter().map(|batch| batch.len()).sum();
         stable + self.rows.recent.borrow().len()
     }
 
     fn complete(self: Box<Self>) -> SharedRows {
-        Arc::new(self.rows.complete())
+        let Self { rows, pushed, needs_stable, .. } = *self;
+        match pushed.into_inner().seen {
+            Some(seen) if !needs_stable => Arc::new(Relation { elements: seen.rows::<N>() }),
+            _ => Arc::new(rows.complete()),
+        }
     }
+}
+
+/// Takes out of ascending rows those that others hold.
+fn subtract<const N: usize>(rows: &mut Vec<Row<N>>, others: &[Row<N>]) {
+    let mut rest = others;
+    let is_large = others.len() > 4 * rows.len();
+    rows.retain(|row| {
+        if is_large {
+            // The next partner is near: look in steps that double.
+            let mut step = 1;
+            while step < rest.len() && rest[step] < *row {
+                step *= 2;
+            }
+            let near = &rest[..rest.len().min(step + 1)];
+            rest = &rest[near.partition_point(|other| other < row)..];
+        } else {
+            while rest.first().is_some_and(|other| other < row) {
+                rest = &rest[1..];
+            }
+        }
+        rest.first() != Some(row)
+    });
 }
 
 /// A set of rows that is edited one by one.

@@ -19,6 +19,7 @@
 //! # Ok::<(), orthoframe::strips::RuleFaults>(())
 //! ```
 
+mod any;
 mod extract;
 mod graph;
 mod no_good;
@@ -68,6 +69,8 @@ pub enum Limit {
     Time,
     Memory,
     Steps,
+    /// A turn's share of effort; seen only within this module.
+    Effort,
 }
 
 /// How far the search may go.
@@ -99,15 +102,45 @@ impl Limits {
 /// Equal tasks give equal plans.
 #[must_use]
 pub fn solve(task: &Task, limits: &Limits) -> Outcome {
+    with_stack(|| search(task, limits, Turn::default()))
+}
+
+/// Finds some plan soon, where the shortest is out of reach. The plan is rid of needless operators, but not
+/// proven to be the shortest; that there is no plan is proven all the same.
+#[must_use]
+pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
+    /// Turns of the graph's extraction at one level, when forward search is stuck.
+    const FEW_TURNS: u32 = 3;
+    let found = |found| match found {
+        any::Found::Plan(plan) => Some(Outcome::Plan(plan)),
+        // The planning graph tells why.
+        any::Found::Exhausted => Some(solve(task, limits)),
+        any::Found::Open => None,
+    };
+    let tries = || -> Result<Outcome, Limit> {
+        if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
+            return Ok(outcome);
+        }
+        // Where forward search loses its way, the graph may see at once that there is none.
+        let brief =
+            with_stack(|| search(task, limits, Turn { turns: FEW_TURNS, ..Turn::default() }));
+        if !matches!(brief, Outcome::LimitReached(Limit::Effort)) {
+            return Ok(brief);
+        }
+        Ok(found(any::search(task, limits, any::Effort::All)?)
+            .expect("all effort leaves nothing open"))
+    };
+    tries().unwrap_or_else(Outcome::LimitReached)
+}
+
+fn with_stack(search: impl FnOnce() -> Result<Outcome, Limit> + Send) -> Outcome {
     // The search goes as deep as a plan has goals and steps; its stack must not depend on the caller's.
     const STACK_BYTES: usize = 1 << 29;
     std::thread::scope(|scope| {
         std::thread::Builder::new()
             .name("graphplan".to_owned())
             .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, || {
-                search(task, limits, Turn::default()).unwrap_or_else(Outcome::LimitReached)
-            })
+            .spawn_scoped(scope, || search().unwrap_or_else(Outcome::LimitReached))
             .map_or(Outcome::LimitReached(Limit::Memory), |search| {
                 search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
             })
@@ -115,7 +148,7 @@ pub fn solve(task: &Task, limits: &Limits) -> Outcome {
 }
 
 /// What a conflict of the solver takes the time of, near enough.
-const CHOICES_A_CONFLICT: u64 = 50;
+const CHOICES_A_CONFLICT: u64 = 1_000;
 
 /// What each way of extraction may spend in its first turn at a level.
 #[derive(Debug, Clone, Copy)]
@@ -124,11 +157,13 @@ struct Turn {
     choices: u64,
     /// Conflicts of the solver.
     conflicts: u64,
+    /// Turns at one level before giving up.
+    turns: u32,
 }
 
 impl Default for Turn {
     fn default() -> Self {
-        Self { choices: 1 << 16, conflicts: 1 << 10 }
+        Self { choices: 1 << 18, conflicts: 1 << 9, turns: 40 }
     }
 }
 
@@ -146,7 +181,10 @@ fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
         limits.check(graph.bytes() + extractor.bytes())?;
         if graph.is_possible(&task.goal) {
             match extractor.extract(&graph)? {
-                Extraction::Plan(plan) => return Ok(Outcome::Plan(plan)),
+                Extraction::Plan(mut plan) => {
+                    any::drop_needless(task, &mut plan.steps);
+                    return Ok(Outcome::Plan(plan));
+                }
                 Extraction::None | Extraction::Open => {}
                 Extraction::Never(goals) => {
                     let leveled_off_at =
@@ -210,6 +248,9 @@ impl Extractor<'_> {
                 return Ok(extraction);
             }
             round += 1;
+            if round >= self.turn.turns {
+                return Err(Limit::Effort);
+            }
         }
     }
 

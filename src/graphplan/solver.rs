@@ -60,8 +60,8 @@ impl Solver {
     }
 
     pub(super) fn new_variable(&mut self) -> Literal {
-        // Most facts are false most of the time.
-        Lit::new(self.inner.new_var(lbool::TRUE, true), true)
+        // Left to itself the solver tries "false" first and later its last choice: few actions by nature.
+        Lit::new(self.inner.new_var(lbool::UNDEF, true), true)
     }
 
     pub(super) fn add_clause(&mut self, literals: &[Literal]) {

@@ -181,3 +181,60 @@ impl<'a> Index<'a> {
             && maps(&operator.del_effects, &image.del_effects)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Facts `a`, `b` and an operator from the one to the other, for each of three objects.
+    fn task() -> Task {
+        let object = |number: usize| -> Vec<Arc<str>> { vec![format!("object{number}").into()] };
+        let fact = |name: &str, number| Fact {
+            predicate: name.into(),
+            args: object(number),
+            negated: false,
+        };
+        Task {
+            facts: (0..3).flat_map(|number| [fact("a", number), fact("b", number)]).collect(),
+            operators: (0..3)
+                .map(|number| Operator {
+                    name: "swap".into(),
+                    args: object(number),
+                    preconditions: vec![FactId(2 * number as u32)],
+                    add_effects: vec![FactId(2 * number as u32 + 1)],
+                    del_effects: vec![FactId(2 * number as u32)],
+                    cost: 1,
+                })
+                .collect(),
+            init: [0, 2, 4].map(FactId).into(),
+            goal: vec![FactId(1)],
+            assumptions: Vec::new(),
+        }
+    }
+
+    /// The image of each fact, itself where it has none.
+    fn images(task: &Task) -> Vec<u32> {
+        let symmetry = Symmetry::of(task);
+        task.fact_ids().map(|fact| symmetry.role(fact).map_or(fact, |role| role.image).0).collect()
+    }
+
+    #[test]
+    fn objects_alike_share_an_image() {
+        // The goal speaks of one object only; what can be reached does not depend on it.
+        assert_eq!(images(&task()), [0, 1, 0, 1, 0, 1]);
+    }
+
+    #[test]
+    fn another_initial_fact_tells_an_object_apart() {
+        let mut task = task();
+        task.init = [0, 3, 4].map(FactId).into();
+        assert_eq!(images(&task), [0, 1, 2, 3, 0, 1]);
+    }
+
+    #[test]
+    fn another_effect_tells_an_object_apart() {
+        let mut task = task();
+        task.operators[1].del_effects.clear();
+        assert_eq!(images(&task), [0, 1, 2, 3, 0, 1]);
+    }
+}

@@ -15,7 +15,7 @@ use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
 use super::placing::spot_on;
-use super::solve::{Solved, solve};
+use super::solve::{Solved, Wanted, solve};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -142,7 +142,7 @@ impl<'r> Mission<'r> {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
             problem.add_goal(&fact.predicate, &args);
         }
-        let solved = solve(self.domain, &problem, &self.limits)?;
+        let solved = solve(self.domain, &problem, &self.limits, Wanted::Shortest)?;
         let steps = match &solved.outcome {
             Outcome::Plan(plan) => {
                 let directive = |&o| Directive::of(self.domain, solved.task.operator(o));

@@ -20,4 +20,4 @@ pub use mission::{
 };
 pub use placing::spot_on;
 pub use simulator::{Moment, Simulator};
-pub use solve::{Solved, solve};
+pub use solve::{Solved, Wanted, solve};

@@ -8,19 +8,40 @@ use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachab
 pub struct Solved {
     pub task: Task,
     pub outcome: Outcome,
+    /// A plan is proven to have the fewest parallel steps.
+    pub is_shortest: bool,
     /// The assumptions that the plan rests on, in the words of the rule files.
     pub assumptions: Vec<String>,
     /// Why there is no plan; none when there is one.
     pub explanation: Option<String>,
 }
 
-/// Grounds a problem and finds the plan with the fewest parallel steps, or why there is none.
+/// Which plan is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Wanted {
+    /// The one with the fewest parallel steps, proven.
+    #[default]
+    Shortest,
+    /// Any, soon.
+    Any,
+}
+
+/// Grounds a problem and finds a plan, or why there is none.
 ///
 /// # Errors
 /// The problem names what the rules do not know.
-pub fn solve(domain: &Domain, problem: &Problem, limits: &Limits) -> Result<Solved, RuleFaults> {
+pub fn solve(
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<Solved, RuleFaults> {
     let task = ground(domain, problem)?;
-    let outcome = graphplan::solve(&task, limits);
+    let outcome = match wanted {
+        Wanted::Shortest => graphplan::solve(&task, limits),
+        Wanted::Any => graphplan::solve_any(&task, limits),
+    };
+    let is_shortest = wanted == Wanted::Shortest;
     let assumptions = match &outcome {
         Outcome::Plan(plan) => {
             plan.assumptions(&task).iter().map(|&f| task.fact(f).to_string()).collect()
@@ -28,7 +49,7 @@ pub fn solve(domain: &Domain, problem: &Problem, limits: &Limits) -> Result<Solv
         _ => Vec::new(),
     };
     let explanation = explain(domain, problem, &task, &outcome)?;
-    Ok(Solved { task, outcome, assumptions, explanation })
+    Ok(Solved { task, outcome, is_shortest, assumptions, explanation })
 }
 
 fn explain(
@@ -56,6 +77,7 @@ fn explain(
         }
         Outcome::LimitReached(Limit::Time) => "время вышло раньше, чем нашёлся план".to_owned(),
         Outcome::LimitReached(Limit::Memory) => "память вышла раньше, чем нашёлся план".to_owned(),
+        Outcome::LimitReached(Limit::Effort) => "силы вышли раньше, чем нашёлся план".to_owned(),
         Outcome::LimitReached(Limit::Steps) => {
             "плана нет в пределах наибольшего числа шагов".to_owned()
         }

@@ -8,8 +8,8 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{
-    Database, Derived, EvaluateError, FactError, Faults, Program, Proof, RelationId, RelationInfo,
-    Value, WhyNot,
+    Database, Derived, EvaluateError, FactError, Faults, Live, Program, Proof, RelationId,
+    RelationInfo, Value, WhyNot,
 };
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
@@ -183,8 +183,7 @@ pub struct Relations {
     symbols: Symbols,
     measured: Measurements,
     openings: Vec<Opening>,
-    database: Database,
-    derived: Derived,
+    live: Live,
     areas: BTreeMap<ReplicaId, AreaId>,
     supports: BTreeMap<ReplicaId, ReplicaId>,
     bearing: BTreeSet<ReplicaId>,
@@ -232,21 +231,24 @@ pub fn derive_from(
     if let Some(fault) = rows.fault {
         return Err(RelationError::Schema { fault });
     }
-    let derived = rules.program.evaluate(&rows.database)?;
+    let live = Live::new(rules.program.clone(), rows.database)?;
     let mut relations = Relations {
         rules: rules.clone(),
         profile,
         symbols,
         measured,
         openings,
-        database: rows.database,
-        derived,
+        live,
         areas: BTreeMap::new(),
         supports: BTreeMap::new(),
         bearing: BTreeSet::new(),
     };
     relations.index();
     Ok(relations)
+}
+
+fn tuple(cells: &[Cell<'_>]) -> Vec<Value> {
+    cells.iter().map(|&c| c.into()).collect()
 }
 
 /// Keeps the first fault. A rule text may do without a measurement.
@@ -264,8 +266,7 @@ pub(super) struct Rows {
 
 impl Rows {
     pub(super) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
-        let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
-        if let Err(fault) = self.database.insert(relation, &tuple) {
+        if let Err(fault) = self.database.insert(relation, &tuple(cells)) {
             note(&mut self.fault, fault);
         }
     }
@@ -289,27 +290,29 @@ impl Relations {
         }
         let change = self.measured.update(world, moved);
         let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
-        let mut database = std::mem::replace(&mut self.database, self.rules.program.database());
-        let mut fault = None;
+        let (live, mut fault) = (&mut self.live, None);
         let mut take = |relation: &'static str, cells: &[Cell<'_>]| {
-            let tuple: Vec<Value> = cells.iter().map(|&c| c.into()).collect();
-            let _ = database.remove(relation, &tuple).map_err(|e| note(&mut fault, e));
+            if let Err(e) = live.remove(relation, &tuple(cells)) {
+                note(&mut fault, e);
+            }
         };
         change.single_before.iter().for_each(|s| feed.single(moved, s, &mut take));
         change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut take));
-        let mut rows = Rows { database, fault };
-        let mut put = |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells);
+        let mut put = |relation: &'static str, cells: &[Cell<'_>]| {
+            if let Err(e) = live.insert(relation, &tuple(cells)) {
+                note(&mut fault, e);
+            }
+        };
         change.single_after.iter().for_each(|s| feed.single(moved, s, &mut put));
         for key in &change.added {
             if let Some(pair) = self.measured.pairs.get(key) {
                 feed.pair(*key, pair, &mut put);
             }
         }
-        self.database = rows.database;
-        if let Some(fault) = rows.fault {
+        if let Some(fault) = fault {
             return Err(RelationError::Schema { fault });
         }
-        self.derived = self.rules.program.evaluate(&self.database)?;
+        self.live.update()?;
         self.index();
         Ok(true)
     }
@@ -321,7 +324,7 @@ impl Relations {
             .map(|(id, info)| RelationCount {
                 name: info.name.clone(),
                 name_en: info.second_name.clone().unwrap_or_default(),
-                count: self.derived.len(id).unwrap_or(0),
+                count: self.derived().len(id).unwrap_or(0),
             })
             .collect()
     }
@@ -332,7 +335,7 @@ impl Relations {
     /// [`RelationError::UnknownRelation`] with the nearest name.
     pub fn tuples(&self, name: &str) -> Result<Vec<Vec<Value>>, RelationError> {
         let relation = self.rules.program.relation(name).ok_or_else(|| self.unknown(name))?;
-        self.derived.sorted(relation).map_err(|fault| RelationError::Schema { fault })
+        self.derived().sorted(relation).map_err(|fault| RelationError::Schema { fault })
     }
 
     /// Every tuple that speaks of a thing, with its relation. What is true of its Object as a kind counts too.
@@ -349,7 +352,7 @@ impl Relations {
         for (id, info) in self.public() {
             let kinds = matches!(info.second_name.as_deref(), Some(n) if n.ends_with("PART_OF") || n == "CONSISTS_OF");
             let wanted = if kinds { wanted.as_slice() } else { &wanted[..1] };
-            let tuples = self.derived.sorted(id).unwrap_or_default();
+            let tuples = self.derived().sorted(id).unwrap_or_default();
             let about = tuples.into_iter().filter(|t| t.iter().any(|v| wanted.contains(v)));
             found.extend(about.map(|t| (info.name.clone(), t)));
         }
@@ -364,7 +367,7 @@ impl Relations {
             name_key(&info.name) == key
                 || info.second_name.as_deref().is_some_and(|n| name_key(n) == key)
         };
-        let mut relations = self.derived.relations();
+        let mut relations = self.derived().relations();
         relations
             .find(|(_, info)| is_it(info))
             .map_or_else(|| name.to_owned(), |(_, info)| info.name.clone())
@@ -374,7 +377,7 @@ impl Relations {
     #[must_use]
     pub fn holds(&self, name: &str, symbols: &[&str]) -> bool {
         let tuple: Vec<Value> = symbols.iter().map(|&s| Value::from(s)).collect();
-        self.derived.contains(name, &tuple).unwrap_or(false)
+        self.derived().contains(name, &tuple).unwrap_or(false)
     }
 
     /// Why a tuple holds: its rules and premises, down to what was measured. None when it does not hold.
@@ -383,7 +386,7 @@ impl Relations {
     /// [`RelationError::UnknownRelation`], [`RelationError::Schema`] for too many or too few names.
     pub fn why(&self, name: &str, symbols: &[&str]) -> Result<Option<Proof>, RelationError> {
         let (relation, tuple) = self.question(name, symbols)?;
-        self.derived.why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
+        self.derived().why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
     }
 
     /// Why a tuple does not hold: the rule that came closest and the premise that failed, with its numbers.
@@ -392,7 +395,7 @@ impl Relations {
     /// As [`Relations::why`].
     pub fn why_not(&self, name: &str, symbols: &[&str]) -> Result<WhyNot, RelationError> {
         let (relation, tuple) = self.question(name, symbols)?;
-        let answer = self.derived.explain().why_not(relation, &tuple);
+        let answer = self.derived().explain().why_not(relation, &tuple);
         answer.map_err(|fault| RelationError::Schema { fault })
     }
 
@@ -439,7 +442,7 @@ impl Relations {
     /// Doors and passages between Areas, both ways.
     #[must_use]
     pub fn joins(&self) -> Vec<Join> {
-        let Ok(tuples) = self.derived.tuples("JOINS") else { return Vec::new() };
+        let Ok(tuples) = self.derived().tuples("JOINS") else { return Vec::new() };
         let area = |symbol: Option<&str>| match self.symbols.subject(symbol?)? {
             Subject::Entity(Entity::Area(id)) => Some(id),
             _ => None,
@@ -476,13 +479,13 @@ impl Relations {
 
     #[must_use]
     pub fn derived(&self) -> &Derived {
-        &self.derived
+        self.live.derived()
     }
 
     /// The input facts: what was measured.
     #[must_use]
     pub fn database(&self) -> &Database {
-        &self.database
+        self.live.database()
     }
 
     #[must_use]
@@ -497,7 +500,7 @@ impl Relations {
 
     /// Relations that people ask for: put out, and named in both languages.
     fn public(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
-        self.derived.relations().filter(|(_, i)| i.output.is_some() && i.second_name.is_some())
+        self.derived().relations().filter(|(_, i)| i.output.is_some() && i.second_name.is_some())
     }
 
     /// Looks up once what others ask for often.
@@ -510,7 +513,7 @@ impl Relations {
             Subject::Entity(Entity::Area(id)) => Some(id),
             _ => None,
         };
-        let pairs = |name: &'static str| self.derived.tuples(name).into_iter().flatten();
+        let pairs = |name: &'static str| self.derived().tuples(name).into_iter().flatten();
         let areas =
             pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
         let supports =

@@ -6,8 +6,9 @@ use std::fmt;
 use crate::map::World;
 
 use super::cell::{Cell, Key, Row};
+use super::edits::Edits;
 use super::error::Result;
-use super::keep::{Edits, Store};
+use super::keep::Store;
 use super::reader::Reader;
 use super::schema::Record;
 use super::sheet::Sheet;
@@ -206,8 +207,8 @@ impl Pairs {
 /// A replica is one thing wherever it stands; all else is known by its key.
 fn same_thing(table: Table, key: &Key, rows: &[Option<Row>; 2]) -> Key {
     let row = rows.iter().flatten().next();
-    match row.and_then(|row| super::ids::identity(table, row)) {
-        Some((id, _)) => Key::new().id(id),
+    match row.and_then(|row| super::ids::id_of(table, row)) {
+        Some(id) => Key::new().id(id),
         None => key.clone(),
     }
 }

@@ -4,9 +4,10 @@
 //! forgotten are still never given again.
 
 use super::cell::Key;
+use super::edits::{Change, Draft};
 use super::error::{Result, StoreError};
 use super::frame::Op;
-use super::keep::{Change, Draft, Store};
+use super::keep::Store;
 use super::reader::replica_index;
 use super::tables::{self as t, Table};
 use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
@@ -76,7 +77,7 @@ impl Store {
             deleted: false,
         };
         self.put_log(&mut draft, &mark, &stamp)?;
-        self.vault.commit(&draft.writes)?;
+        self.vault.commit(draft.writes)?;
         self.checkpoint()?;
         Ok(dropped)
     }

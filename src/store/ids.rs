@@ -43,15 +43,21 @@ fn cell<'a>(table: Table, row: &'a Row, column: &str) -> Option<&'a Cell> {
     row.get(table.columns().iter().position(|c| c.name == column)?)
 }
 
+/// The id that a record bears; none in a table without ids.
+pub(crate) fn id_of(table: Table, row: &Row) -> Option<u32> {
+    let (_, id, _) = NAMED.iter().find(|(t, ..)| *t == table)?;
+    let Cell::Int(id) = cell(table, row, id)? else { return None };
+    u32::try_from(*id).ok()
+}
+
 /// The id that a record bears and the name by which it is known again; none in a table without ids.
 pub(crate) fn identity(table: Table, row: &Row) -> Option<(u32, String)> {
-    let (_, id, names) = NAMED.iter().find(|(t, ..)| *t == table)?;
-    let Cell::Int(id) = cell(table, row, id)? else { return None };
+    let (_, _, names) = NAMED.iter().find(|(t, ..)| *t == table)?;
     let name = names.iter().find_map(|name| match cell(table, row, name)? {
         Cell::Text(text) if !text.is_empty() => Some(name_key(text)),
         _ => None,
     });
-    Some((u32::try_from(*id).ok()?, name.unwrap_or_default()))
+    Some((id_of(table, row)?, name.unwrap_or_default()))
 }
 
 /// The names that a store knows, with their ids.

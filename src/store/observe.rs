@@ -15,8 +15,9 @@ use crate::map::Replica;
 use crate::units::{AreaId, Cm, Deg, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::cell::Key;
+use super::edits::{Change, Draft, Edits, ImportReport};
 use super::error::{Result, StoreError};
-use super::keep::{Change, Draft, Edits, ImportReport, Store};
+use super::keep::Store;
 use super::reader::Reader;
 use super::tables::{self as t, Table};
 use super::time::Timestamp;
@@ -218,7 +219,7 @@ impl Store {
             *no += 1;
             self.put_log(&mut draft, &record, &self.stamp(&o.observer, o.at))?;
         }
-        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(&draft.writes) }
+        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(draft.writes) }
     }
 
     /// Notes where the robot stands.
@@ -241,7 +242,7 @@ impl Store {
         };
         let mut draft = Draft::default();
         self.put_log(&mut draft, &record, &self.stamp(user, now))?;
-        self.vault.commit(&draft.writes)
+        self.vault.commit(draft.writes)
     }
 
     /// The replicas that are believed to stand elsewhere than the map says.
@@ -293,7 +294,7 @@ impl Store {
         };
         let mut draft = Draft::default();
         self.put_log(&mut draft, &record, &self.stamp(&change.user, change.at))?;
-        self.vault.commit(&draft.writes)
+        self.vault.commit(draft.writes)
     }
 
     fn stamp(&self, user: &str, at: Timestamp) -> Stamp {

@@ -423,11 +423,11 @@ impl Run {
                 .collect();
             self.past.truncate(vault.lsn() as usize + 1);
             self.past.push(after);
-            match vault.commit(&changes) {
+            match vault.commit(changes.clone()) {
                 Ok(()) => self.acknowledged = vault.lsn(),
                 Err(_) => {
                     assert!(vault.read_only().is_some(), "after a failed write nothing is written");
-                    assert!(vault.commit(&changes).is_err());
+                    assert!(vault.commit(changes).is_err());
                     return;
                 }
             }

@@ -102,6 +102,9 @@ impl Drop for SledTrees {
 }
 
 const STATE_KEY: &[u8] = b"state";
+/// Beyond so many operations a transaction's own bookkeeping costs more than the work, and it writes in the
+/// order of a hash table, which suits no B-tree.
+const TRANSACTION_OPS: usize = 256;
 
 /// Runs a call into sled, turning its panics into errors.
 fn guarded<T>(call: impl FnOnce() -> std::result::Result<T, sled::Error>) -> Result<T> {
@@ -141,6 +144,27 @@ impl SledTrees {
     fn tree(&self, tree: u8) -> Result<&sled::Tree> {
         self.open_trees().trees.get(&tree).ok_or_else(|| StoreError::Tables {
             what: format!("нет таблицы с номером {tree}"),
+        })
+    }
+}
+
+impl SledTrees {
+    /// Many operations one after the other, the history first and the state last.
+    ///
+    /// A reader of an older revision finds in the history what it misses in the tables, as after a transaction;
+    /// a crash midway leaves the old state, and opening applies the whole frame again.
+    fn apply_in_order(&self, batches: &[(&sled::Tree, Vec<&Op>)], state: &[u8]) -> Result<()> {
+        guarded(|| {
+            for (tree, ops) in batches.iter().rev() {
+                for op in ops {
+                    match &op.value {
+                        Some(value) => tree.insert(op.key.as_slice(), value.as_slice())?,
+                        None => tree.remove(op.key.as_slice())?,
+                    };
+                }
+            }
+            self.open_trees().state.insert(STATE_KEY, state)?;
+            Ok(())
         })
     }
 }
@@ -203,8 +227,12 @@ impl Trees for SledTrees {
             touched.entry(op.tree).or_default().push(op);
         }
         let mut trees = touched.keys().map(|t| self.tree(*t)).collect::<Result<Vec<_>>>()?;
-        trees.push(&self.open_trees().state);
         let state = encode_state(state);
+        if ops.len() > TRANSACTION_OPS {
+            let batches: Vec<_> = trees.into_iter().zip(touched.into_values()).collect();
+            return self.apply_in_order(&batches, &state);
+        }
+        trees.push(&self.open_trees().state);
         guarded(|| {
             let done = trees.as_slice().transaction(|trees| {
                 let (last, trees) = trees.split_last().expect("the state's tree is always there");

@@ -4,8 +4,9 @@
 //! it was after 6. So the history stays whole, and an undo can be undone.
 
 use super::cell::Key;
+use super::edits::{Change, Edits, ImportReport, Revision, RevisionKind};
 use super::error::{Result, StoreError};
-use super::keep::{Change, Edits, ImportReport, Revision, RevisionKind, Store};
+use super::keep::Store;
 use super::reader::Reader;
 use super::sheet::describe_key;
 use super::tables::Table;

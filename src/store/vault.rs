@@ -14,17 +14,18 @@
 //! **Invariant**: when [`Vault::commit`] returns `Ok`, the frame is on the disk; after it returned an error
 //! from the journal, nothing more is written until the store is opened again.
 
-use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use super::disk::{Appender, Disk};
+use super::disk::Disk;
 use super::error::{Result, StoreError};
-use super::frame::{
-    Digests, FORMAT, HeadError, JOURNAL, Op, Payload, SNAPSHOT, Scan, Tail, encode_frame,
-    file_header, scan,
+use super::frame::{Digests, Op, encode_frame};
+use super::journal::{
+    Journal, Log, begin_journal, journal_dir, numbered, numbered_files, snapshot_dir,
+    snapshot_files,
 };
-use super::trees::{State, Trees, digests, tree_names};
+use super::snapshot::{load_snapshot, write_snapshot};
+use super::trees::{State, Trees, digests};
 
 /// What opening a store found and mended.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -58,13 +59,6 @@ pub(crate) trait Shelf: Send {
     /// Puts broken trees away, so that [`Shelf::open`] then gives empty ones.
     fn set_aside(&mut self) -> Result<()>;
 }
-
-struct Journal {
-    file: Box<dyn Appender>,
-    path: PathBuf,
-    length: u64,
-}
-
 /// See the module.
 pub(crate) struct Vault {
     disk: Arc<dyn Disk>,
@@ -82,170 +76,6 @@ pub(crate) struct Vault {
 /// A snapshot is taken when the journal outgrows this, or twice the last snapshot if that is more.
 const CHECKPOINT_BYTES: u64 = 16 << 20;
 const SNAPSHOTS_KEPT: usize = 3;
-/// Snapshots are written in frames of about this size.
-const CHUNK_BYTES: usize = 1 << 20;
-
-fn journal_dir(dir: &Path) -> PathBuf {
-    dir.join("journal")
-}
-
-fn snapshot_dir(dir: &Path) -> PathBuf {
-    dir.join("snapshots")
-}
-
-fn numbered(dir: &Path, lsn: u64, extension: &str) -> PathBuf {
-    dir.join(format!("{lsn:020}.{extension}"))
-}
-
-/// Files named by a number, in its order.
-fn numbered_files(disk: &dyn Disk, dir: &Path, extension: &str) -> Result<Vec<(u64, PathBuf)>> {
-    let names = disk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
-    let number = |name: &String| {
-        let (stem, end) = name.split_once('.')?;
-        (end == extension && stem.len() == 20).then(|| stem.parse().ok()).flatten()
-    };
-    Ok(names.iter().filter_map(|n| Some((number(n)?, dir.join(n)))).collect())
-}
-
-/// The snapshots of a store, the oldest first.
-pub(crate) fn snapshot_files(disk: &dyn Disk, dir: &Path) -> Result<Vec<(u64, PathBuf)>> {
-    numbered_files(disk, &snapshot_dir(dir), "snapshot")
-}
-
-/// All that the journal files hold.
-#[derive(Default)]
-struct Log {
-    files: Vec<(u64, PathBuf, Vec<u8>)>,
-    /// Sequence number → file and payload.
-    frames: BTreeMap<u64, (usize, std::ops::Range<usize>)>,
-    /// Where the last file's good part ends, and how much follows.
-    end: u64,
-    torn: u64,
-    fault: Option<StoreError>,
-}
-
-impl Log {
-    fn read(disk: &dyn Disk, dir: &Path) -> Result<Self> {
-        let mut log = Self::default();
-        let mut torn_files = Vec::new();
-        for (first, path) in numbered_files(disk, &journal_dir(dir), "journal")? {
-            let bytes = disk.read(&path).map_err(StoreError::io("прочитать", &path))?;
-            let index = log.files.len();
-            let corrupt = |offset: usize| StoreError::JournalCorrupt {
-                path: path.display().to_string(),
-                offset: offset as u64,
-            };
-            (log.end, log.torn) = (bytes.len() as u64, 0);
-            match scan(&bytes, JOURNAL) {
-                Ok(scan) if scan.lsn == first => {
-                    log.end = scan.good as u64;
-                    log.torn = bytes.len() as u64 - log.end;
-                    if scan.tail == Tail::Torn {
-                        torn_files.push((first + scan.frames.len() as u64, corrupt(scan.good)));
-                    }
-                    log.take(index, &scan, &bytes, &corrupt);
-                }
-                Err(HeadError::Short) => {
-                    (log.end, log.torn) = (0, bytes.len() as u64);
-                }
-                Err(HeadError::Format(found)) => {
-                    return Err(StoreError::UnknownFormat {
-                        dir: dir.display().to_string(),
-                        found: found.to_string(),
-                        known: FORMAT,
-                    });
-                }
-                Ok(_) | Err(HeadError::Broken) => {
-                    log.fault.get_or_insert(corrupt(0));
-                    // The frames may be whole though the head is not.
-                    let mut mended = file_header(JOURNAL, first);
-                    mended.extend(bytes.get(mended.len()..).unwrap_or_default());
-                    if let Ok(scan) = scan(&mended, JOURNAL) {
-                        log.take(index, &scan, &mended, &corrupt);
-                    }
-                }
-            }
-            log.files.push((first, path, bytes));
-        }
-        // A tear is harmless only where nothing was written after it.
-        for (next, fault) in torn_files {
-            if log.frames.range(next..).next().is_some() {
-                log.fault.get_or_insert(fault);
-            }
-        }
-        Ok(log)
-    }
-
-    fn take(
-        &mut self,
-        file: usize,
-        found: &Scan,
-        bytes: &[u8],
-        corrupt: &dyn Fn(usize) -> StoreError,
-    ) {
-        for (lsn, payload) in &found.frames {
-            self.frames.insert(*lsn, (file, payload.clone()));
-        }
-        if found.tail == Tail::Corrupt {
-            self.fault.get_or_insert_with(|| corrupt(found.good));
-            // What stands behind the hole may be all that the trees lack.
-            let mut at = found.good + 1;
-            while at < bytes.len() {
-                let mut rest = file_header(JOURNAL, 0);
-                let head = rest.len();
-                rest.extend(&bytes[at..]);
-                match scan(&rest, JOURNAL) {
-                    Ok(later) if !later.frames.is_empty() => {
-                        for (lsn, payload) in &later.frames {
-                            let place = payload.start - head + at..payload.end - head + at;
-                            self.frames.insert(*lsn, (file, place));
-                        }
-                        at += (later.good - head).max(1);
-                    }
-                    _ => at += next_magic(&bytes[at + 1..]) + 1,
-                }
-            }
-        }
-    }
-
-    /// Whether something stood in a journal of which nothing can be read any more.
-    fn lost_head(&self) -> bool {
-        self.fault.is_some() && self.frames.is_empty()
-    }
-
-    /// The last sequence number that is known of: a file that begins with 4 has had 3 before it.
-    fn last(&self) -> u64 {
-        let before = self.files.last().map_or(0, |(first, ..)| first.saturating_sub(1));
-        self.frames.keys().next_back().copied().unwrap_or(0).max(before)
-    }
-
-    /// Whether every frame from `after + 1` to `last` is there.
-    fn reaches(&self, after: u64, last: u64) -> bool {
-        last <= after || self.frames.range(after + 1..=last).count() as u64 == last - after
-    }
-
-    fn payload(&self, lsn: u64) -> Option<Payload> {
-        let (file, range) = self.frames.get(&lsn)?;
-        Payload::decode(self.files[*file].2.get(range.clone())?)
-    }
-}
-
-/// How many bytes to skip to the next place where a frame may begin.
-fn next_magic(bytes: &[u8]) -> usize {
-    bytes.windows(4).position(|w| w == b"OFJ\x01").unwrap_or(bytes.len())
-}
-
-/// A journal file that begins with the given sequence number.
-fn begin_journal(disk: &dyn Disk, dir: &Path, lsn: u64) -> Result<Journal> {
-    let dir = journal_dir(dir);
-    let path = numbered(&dir, lsn, "journal");
-    let head = file_header(JOURNAL, lsn);
-    let mut file = disk.appender(&path).map_err(StoreError::io("создать", &path))?;
-    let written = file.append(&head).and_then(|()| file.sync());
-    written.map_err(StoreError::io("записать", &path))?;
-    disk.sync_dir(&dir).map_err(StoreError::io("записать каталог", &dir))?;
-    Ok(Journal { file, path, length: head.len() as u64 })
-}
 
 /// Applies the frames after the trees' own state, and checks what comes out of it.
 fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
@@ -270,47 +100,6 @@ fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
     }
     Ok((state.clone(), state.lsn - before))
 }
-
-/// Puts a snapshot's records into empty trees.
-fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> {
-    let bad = |what: &str| StoreError::BadFile {
-        path: path.display().to_string(),
-        what: what.to_owned(),
-    };
-    let bytes = disk.read(path).map_err(StoreError::io("прочитать", path))?;
-    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| bad("начало файла испорчено"))?;
-    let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
-        return Err(bad("файл испорчен или записан не до конца"));
-    };
-    let payload = |(_, range): &(u64, std::ops::Range<usize>)| {
-        Payload::decode(&bytes[range.clone()]).ok_or_else(|| bad("кадр не читается"))
-    };
-    // The last frame holds the digests alone: without it the snapshot is not whole.
-    let end = payload(last)?;
-    if last.0 != found.lsn || !end.ops.is_empty() {
-        return Err(bad("файл записан не до конца"));
-    }
-    for chunk in chunks {
-        trees.apply(&payload(chunk)?.ops, &State::default())?;
-    }
-    trees.apply(&[], &State { lsn: found.lsn, digests: end.digests })
-}
-
-/// Whether a snapshot file is whole, without putting it anywhere.
-pub(crate) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
-    let trees = super::trees::MemoryTrees::default();
-    load_snapshot(disk, path, &trees)?;
-    let state = trees.state()?;
-    if digests(&trees)? == state.digests {
-        Ok(state)
-    } else {
-        Err(StoreError::BadFile {
-            path: path.display().to_string(),
-            what: "записи не совпадают с контрольной суммой".into(),
-        })
-    }
-}
-
 impl Vault {
     /// Opens what is there, or makes it; see the module's table.
     pub(crate) fn open(
@@ -521,12 +310,12 @@ impl Vault {
     }
 
     /// One transaction: on the disk when this returns.
-    pub(crate) fn commit(&mut self, changes: &[Change]) -> Result<()> {
+    pub(crate) fn commit(&mut self, changes: Vec<Change>) -> Result<()> {
         if let Some(reason) = &self.read_only {
             return Err(StoreError::ReadOnly { reason: reason.clone() });
         }
-        let ops: Vec<Op> = changes.iter().map(|c| c.op.clone()).collect();
-        let touched = self.digests_after(changes);
+        let touched = self.digests_after(&changes);
+        let ops: Vec<Op> = changes.into_iter().map(|c| c.op).collect();
         let lsn = self.state.lsn + 1;
         let frame = encode_frame(lsn, &ops, &touched);
         self.append(&frame)?;
@@ -624,35 +413,6 @@ impl Vault {
         Ok(())
     }
 }
-
-/// Writes the records of some trees as a snapshot file; returns its size.
-pub(crate) fn write_snapshot(
-    disk: &dyn Disk,
-    path: &Path,
-    trees: &dyn Trees,
-    state: &State,
-) -> Result<u64> {
-    let mut chunks = vec![file_header(SNAPSHOT, state.lsn)];
-    let (mut ops, mut size) = (Vec::new(), 0);
-    for (tree, _) in tree_names() {
-        trees.scan(tree, &[], &mut |key, value| {
-            size += key.len() + value.len();
-            ops.push(Op { tree, key: key.to_vec(), value: Some(value.to_vec()) });
-            if size > CHUNK_BYTES {
-                chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
-                ops.clear();
-                size = 0;
-            }
-            Ok(true)
-        })?;
-    }
-    chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
-    chunks.push(encode_frame(state.lsn, &[], &state.digests));
-    let total = chunks.iter().map(|c| c.len() as u64).sum();
-    disk.replace(path, &chunks).map_err(StoreError::io("записать снимок", path))?;
-    Ok(total)
-}
-
 fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError) -> StoreError {
     let journal = log.fault.as_ref().unwrap_or(rebuild);
     StoreError::BothCorrupt {

@@ -17,7 +17,7 @@ use super::task::Task;
 use crate::units::name_key;
 
 /// More ground actions than a planner could use.
-const MAX_OPERATORS: usize = 2_000_000;
+const MAX_OPERATORS: usize = 1_000_000;
 
 /// Grounds a problem.
 ///

@@ -16,6 +16,9 @@ use crate::units::Source;
 /// No rule file that a person wrote is longer.
 pub const MAX_FILE_BYTES: u64 = 16 << 20;
 
+/// Beyond this many faults nobody reads on.
+const MOST_FAULTS: usize = 200;
+
 /// Rules and a problem read from one text and the files that it includes.
 #[derive(Debug, Clone)]
 pub struct Scenario {
@@ -96,6 +99,7 @@ impl Scenario {
         let problem = Problem::of(&document, &mut faults);
         problem.check(&domain, &mut faults);
         if !faults.is_empty() {
+            faults.truncate(MOST_FAULTS);
             return Err(RuleFaults(faults));
         }
         let map = document.map.as_ref().map(|name| beside(name, Path::new(name.at.source.name())));

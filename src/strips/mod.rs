@@ -22,6 +22,7 @@
 //! # Ok::<(), orthoframe::strips::RuleFaults>(())
 //! ```
 
+mod bystander;
 mod check;
 mod domain;
 mod error;

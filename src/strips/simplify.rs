@@ -7,6 +7,7 @@
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
 
+use super::bystander::bystanders;
 use super::task::{Fact, FactId, Operator, Task};
 
 pub(super) struct DraftOperator {
@@ -39,6 +40,8 @@ pub(super) fn simplify(mut draft: Draft) -> Task {
     let goal = complement(&mut draft, &mut facts);
     let reachable = reachable(&draft, facts.len());
     keep(&mut draft.operators, reachable);
+    let bystanders = bystanders(&draft, &facts, &goal);
+    keep(&mut draft.operators, bystanders);
     let fixed = always_true(&draft, facts.len());
     for operator in &mut draft.operators {
         operator.preconditions.retain(|&fact| !fixed[fact as usize]);

@@ -69,6 +69,7 @@ impl Frame {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exactness is what these tests are about")]
 mod tests {
     use super::*;
 

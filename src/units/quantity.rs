@@ -217,6 +217,7 @@ fn round_for_people(value: f64) -> f64 {
 }
 
 #[cfg(test)]
+#[expect(clippy::float_cmp, reason = "exactness is what these tests are about")]
 mod tests {
     use super::*;
 

@@ -1,0 +1,78 @@
+//! The pairs that a recursive relation holds already, as one bit for each possible pair.
+//!
+//! A closure over a few thousand things holds a good part of all pairs of them. A bit then tells at once
+//! whether a pair is new, so that duplicates are never sorted, old rows never merged, and the finished
+//! relation is read off the bits in order. Where pairs are thinner than [`BITS_PER_ROW`] this does not pay.
+
+use super::rows::Row;
+use super::word::Word;
+
+/// The bits may take so many for each row: twice the space of the row itself.
+const BITS_PER_ROW: usize = 128;
+
+#[derive(Debug, Clone)]
+pub(super) struct Seen {
+    least: [Word; 2],
+    width: [usize; 2],
+    bits: Vec<u64>,
+    pub(super) len: usize,
+}
+
+impl Seen {
+    /// An empty set over the range of the given rows; none where they are too thin, or are no pairs.
+    pub(super) fn over<'a, const N: usize>(
+        rows: impl Iterator<Item = &'a Row<N>> + Clone,
+    ) -> Option<Self> {
+        let mut least = [Word::MAX; 2];
+        let mut most = [0; 2];
+        let mut len = 0;
+        for row in rows {
+            len += 1;
+            for (n, word) in [row.0[0], row.0[N - 1]].into_iter().enumerate() {
+                least[n] = least[n].min(word);
+                most[n] = most[n].max(word);
+            }
+        }
+        if N != 2 || len == 0 {
+            return None;
+        }
+        // One column's values are likely to turn up in the other.
+        let least = [least[0].min(least[1]); 2];
+        let span = (most[0].max(most[1]) - least[0]) as usize + 1;
+        let bits = span.checked_mul(span).filter(|bits| *bits <= len * BITS_PER_ROW)?;
+        Some(Self { least, width: [span; 2], bits: vec![0; bits.div_ceil(64)], len: 0 })
+    }
+
+    /// Whether the pair is new; none when it lies outside the range.
+    #[inline]
+    pub(super) fn insert<const N: usize>(&mut self, row: &Row<N>) -> Option<bool> {
+        let first = row.0[0].wrapping_sub(self.least[0]) as usize;
+        let second = row.0[N - 1].wrapping_sub(self.least[1]) as usize;
+        if first >= self.width[0] || second >= self.width[1] {
+            return None;
+        }
+        let at = first * self.width[1] + second;
+        let (word, bit) = (&mut self.bits[at / 64], 1 << (at % 64));
+        let is_new = *word & bit == 0;
+        *word |= bit;
+        self.len += usize::from(is_new);
+        Some(is_new)
+    }
+
+    /// All pairs in ascending order.
+    pub(super) fn rows<const N: usize>(&self) -> Vec<Row<N>> {
+        let mut rows = Vec::with_capacity(self.len);
+        for (n, word) in self.bits.iter().enumerate() {
+            let mut rest = *word;
+            while rest != 0 {
+                let at = n * 64 + rest.trailing_zeros() as usize;
+                rest &= rest - 1;
+                let mut row = [0; N];
+                row[0] = self.least[0] + (at / self.width[1]) as Word;
+                row[N - 1] = self.least[1] + (at % self.width[1]) as Word;
+                rows.push(Row(row));
+            }
+        }
+        rows
+    }
+}

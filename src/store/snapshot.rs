@@ -1,0 +1,85 @@
+//! Snapshots: all records of a store in one checksummed file, which is a backup too.
+//!
+//! ```text
+//! snapshot := head, frames of records, a last frame without records that holds the digests
+//! ```
+//! Written aside, synced, renamed, and the folder synced: a snapshot is whole or not there.
+
+use std::path::Path;
+
+use super::disk::Disk;
+use super::error::{Result, StoreError};
+use super::frame::{
+    Digests, HeadError, Op, Payload, SNAPSHOT, Tail, encode_frame, file_header, scan,
+};
+use super::trees::{State, Trees, digests, tree_names};
+
+/// Snapshots are written in frames of about this size.
+const CHUNK_BYTES: usize = 1 << 20;
+
+/// Puts a snapshot's records into empty trees.
+pub(super) fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> Result<()> {
+    let bad = |what: &str| StoreError::BadFile {
+        path: path.display().to_string(),
+        what: what.to_owned(),
+    };
+    let bytes = disk.read(path).map_err(StoreError::io("прочитать", path))?;
+    let found = scan(&bytes, SNAPSHOT).map_err(|_head: HeadError| bad("начало файла испорчено"))?;
+    let (Tail::Whole, Some((last, chunks))) = (&found.tail, found.frames.split_last()) else {
+        return Err(bad("файл испорчен или записан не до конца"));
+    };
+    let payload = |(_, range): &(u64, std::ops::Range<usize>)| {
+        Payload::decode(&bytes[range.clone()]).ok_or_else(|| bad("кадр не читается"))
+    };
+    // The last frame holds the digests alone: without it the snapshot is not whole.
+    let end = payload(last)?;
+    if last.0 != found.lsn || !end.ops.is_empty() {
+        return Err(bad("файл записан не до конца"));
+    }
+    for chunk in chunks {
+        trees.apply(&payload(chunk)?.ops, &State::default())?;
+    }
+    trees.apply(&[], &State { lsn: found.lsn, digests: end.digests })
+}
+
+/// Whether a snapshot file is whole, without putting it anywhere.
+pub(super) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
+    let trees = super::trees::MemoryTrees::default();
+    load_snapshot(disk, path, &trees)?;
+    let state = trees.state()?;
+    if digests(&trees)? == state.digests {
+        Ok(state)
+    } else {
+        Err(StoreError::BadFile {
+            path: path.display().to_string(),
+            what: "записи не совпадают с контрольной суммой".into(),
+        })
+    }
+}
+/// Writes the records of some trees as a snapshot file; returns its size.
+pub(super) fn write_snapshot(
+    disk: &dyn Disk,
+    path: &Path,
+    trees: &dyn Trees,
+    state: &State,
+) -> Result<u64> {
+    let mut chunks = vec![file_header(SNAPSHOT, state.lsn)];
+    let (mut ops, mut size) = (Vec::new(), 0);
+    for (tree, _) in tree_names() {
+        trees.scan(tree, &[], &mut |key, value| {
+            size += key.len() + value.len();
+            ops.push(Op { tree, key: key.to_vec(), value: Some(value.to_vec()) });
+            if size > CHUNK_BYTES {
+                chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
+                ops.clear();
+                size = 0;
+            }
+            Ok(true)
+        })?;
+    }
+    chunks.push(encode_frame(state.lsn, &ops, &Digests::new()));
+    chunks.push(encode_frame(state.lsn, &[], &state.digests));
+    let total = chunks.iter().map(|c| c.len() as u64).sum();
+    disk.replace(path, &chunks).map_err(StoreError::io("записать снимок", path))?;
+    Ok(total)
+}
