@@ -102,6 +102,21 @@ pub(super) enum Command {
         /// How the way is found
         #[arg(long, value_enum, default_value_t = RouteMethod::Shortest)]
         method: RouteMethod,
+        /// Say the way in sentences
+        #[arg(long)]
+        words: bool,
+    },
+    /// Directions through corridors by counting entrances (paper 4)
+    Corridor(CorridorArgs),
+    /// Run a Datalog program in Soufflé's dialect
+    Datalog {
+        program: PathBuf,
+        /// Directory of the .facts files
+        #[arg(short = 'F', long, default_value = ".", value_name = "DIR")]
+        facts: PathBuf,
+        /// Directory for the .csv files
+        #[arg(short = 'D', long, default_value = ".", value_name = "DIR")]
+        output: PathBuf,
     },
     /// Where a pose is, in words
     Where {
@@ -120,6 +135,42 @@ pub(super) enum Command {
         #[arg(short, long, global = true, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CorridorArgs {
+    /// Corridor file (TOML), e.g. maps/corridor-paper4.toml
+    #[arg(required_unless_present = "map")]
+    pub file: Option<PathBuf>,
+    /// A map of the store, or a map file
+    #[arg(long, conflicts_with = "file", value_name = "MAP")]
+    pub map: Option<String>,
+    /// Room where the robot stands, or #N for a vertex
+    #[arg(long, value_name = "ROOM")]
+    pub from: String,
+    /// The arc driven last, by its vertices; without it the heading is unknown
+    #[arg(long, value_name = "N,N", value_parser = parse_arc)]
+    pub last: Option<(u32, u32)>,
+    /// Room to go to
+    #[arg(long, value_name = "ROOM")]
+    pub to: String,
+    /// The paper's first or second road graph
+    #[arg(long, default_value_t = 1, value_parser = clap::value_parser!(u8).range(1..=2))]
+    pub variant: u8,
+    /// Count metres instead of arcs, where the map knows them
+    #[arg(long)]
+    pub metres: bool,
+}
+
+fn parse_arc(text: &str) -> Result<(u32, u32), String> {
+    let numbers: Vec<u32> = text
+        .split(',')
+        .map(|n| n.trim().parse::<u32>().map_err(|e| format!("{n}: {e}")))
+        .collect::<Result<_, _>>()?;
+    match numbers[..] {
+        [from, to] => Ok((from, to)),
+        _ => Err("two vertex numbers are wanted, such as 1,0".to_owned()),
+    }
 }
 
 #[derive(Debug, Args)]
@@ -173,6 +224,8 @@ pub(super) enum Drawing {
     },
     /// The map with free floor, dead zones and Passframes
     Floor { name: Option<String> },
+    /// The road graph of corridors, with the way
+    Corridor(CorridorArgs),
     /// The map with a route
     Route {
         #[arg(long, value_name = "PLACE")]

@@ -11,7 +11,6 @@ use crate::engine::{
 use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 use crate::strips::Scenario;
-use crate::units::MapId;
 
 use super::args::{Common, Drawing, PlanArgs, RouteMethod};
 use super::fault::{Failure, drawn};
@@ -29,7 +28,7 @@ pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
 }
 
 /// Opens a store that is there already.
-fn open(common: &Common) -> Result<Engine, Failure> {
+pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
     let engine = Engine::open_existing(&store_dir(common), rules_dir(common).as_deref())?;
     note_repairs(&engine);
     Ok(engine)
@@ -226,6 +225,7 @@ pub(super) fn route(
     from: &str,
     to: &str,
     method: RouteMethod,
+    words: bool,
 ) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let method = match method {
@@ -235,7 +235,13 @@ pub(super) fn route(
     let answer = engine.route(from, to, method)?;
     let world = engine.world()?;
     if common.json {
-        say(&json::route(world, &answer).to_string())?;
+        let mut view = json::route(world, &answer);
+        if words && answer.route.is_ok() {
+            view["words"] = json!(engine.route_in_words(&answer, common.lang.language())?);
+        }
+        say(&view.to_string())?;
+    } else if words && answer.route.is_ok() {
+        say(&engine.route_in_words(&answer, common.lang.language())?.join("\n"))?;
     } else {
         say(&text::route(world, engine.floor(answer.map)?, &answer, common.lang))?;
     }
@@ -254,18 +260,49 @@ pub(super) fn locate(common: &Common, map: Option<&str>, at: &str) -> Result<Ans
     say(&found.position.say(common.lang.language()))
 }
 
+pub(super) fn datalog(
+    common: &Common,
+    program: &Path,
+    facts: &Path,
+    output: &Path,
+) -> Result<Answer, Failure> {
+    let report = crate::facts::run_files(program, facts, output)
+        .map_err(|e| crate::engine::Error::from(Box::new(e)))?;
+    for warning in &report.warnings {
+        note(drawn(warning).trim_end());
+    }
+    if common.json {
+        let sizes: Vec<_> =
+            report.sizes.iter().map(|(name, n)| json!({"relation": name, "tuples": n})).collect();
+        return say(
+            &json!({"outcome": "done", "sizes": sizes, "written": report.written}).to_string()
+        );
+    }
+    let lines: Vec<String> = report
+        .sizes
+        .iter()
+        .map(|(name, n)| format!("{name}\t{n}"))
+        .chain(report.written.iter().map(|path| path.display().to_string()))
+        .collect();
+    say(&lines.join("\n"))
+}
+
 pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Result<Answer, Failure> {
-    let engine = open(common)?;
-    let (map, sheet) = match what {
-        Drawing::Map { name } => (engine.map_named(name.as_deref())?, Sheet::default()),
-        Drawing::Floor { name } => {
-            (engine.map_named(name.as_deref())?, Sheet { floor: true, ..Sheet::default() })
-        }
+    let plan = |name: &Option<String>, sheet: Sheet| -> Result<String, Failure> {
+        let engine = open(common)?;
+        Ok(engine.draw(engine.map_named(name.as_deref())?, &sheet)?)
+    };
+    let svg = match what {
+        Drawing::Map { name } => plan(name, Sheet::default())?,
+        Drawing::Floor { name } => plan(name, Sheet { floor: true, ..Sheet::default() })?,
+        Drawing::Corridor(args) => super::corridor::draw(common, args)?,
         Drawing::Route { from, to } => {
+            let engine = open(common)?;
             let answer = engine.route(from, to, Method::Shortest)?;
             match answer.route {
                 Ok(route) => {
-                    (answer.map, Sheet { legs: vec![(1, route.points)], ..Sheet::default() })
+                    let sheet = Sheet { legs: vec![(1, route.points)], ..Sheet::default() };
+                    engine.draw(answer.map, &sheet)?
                 }
                 Err(why) => {
                     note(&why.to_string());
@@ -274,21 +311,15 @@ pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Resul
             }
         }
     };
-    write(&engine, map, &sheet, out)
+    put(&svg, out)
 }
 
-fn write(
-    engine: &Engine,
-    map: MapId,
-    sheet: &Sheet,
-    out: Option<&Path>,
-) -> Result<Answer, Failure> {
-    let svg = engine.draw(map, sheet)?;
+fn put(svg: &str, out: Option<&Path>) -> Result<Answer, Failure> {
     match out {
         Some(path) => {
             std::fs::write(path, svg).map_err(|e| Failure::file(path, &e))?;
             Ok(Answer::Yes)
         }
-        None => say(&svg),
+        None => say(svg),
     }
 }

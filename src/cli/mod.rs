@@ -5,6 +5,7 @@
 
 mod args;
 mod commands;
+mod corridor;
 mod demo;
 mod fault;
 mod json;
@@ -52,7 +53,13 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Plan(plan) => commands::plan(common, plan),
         Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
-        Command::Route { from, to, method } => commands::route(common, from, to, *method),
+        Command::Route { from, to, method, words } => {
+            commands::route(common, from, to, *method, *words)
+        }
+        Command::Corridor(corridor) => corridor::run(common, corridor),
+        Command::Datalog { program, facts, output } => {
+            commands::datalog(common, program, facts, output)
+        }
         Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
         Command::Draw { what, out } => commands::draw(common, what, out.as_deref()),
     }

@@ -3,6 +3,8 @@
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::corridor::{CorridorError, CorridorFileError};
+use crate::facts::FilesError;
 use crate::language::command::Misheard;
 use crate::map::MapErrors;
 use crate::robot::MissionError;
@@ -28,6 +30,15 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Misheard(#[from] Misheard),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Corridor(#[from] CorridorError),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    CorridorFile(#[from] CorridorFileError),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Datalog(#[from] Box<FilesError>),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Request(#[from] RequestError),
@@ -134,6 +145,9 @@ impl Error {
             | Self::Rules(_)
             | Self::Relations(_)
             | Self::Misheard(_)
+            | Self::Corridor(_)
+            | Self::CorridorFile(_)
+            | Self::Datalog(_)
             | Self::Request(_) => true,
             Self::Store(error) => {
                 !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })

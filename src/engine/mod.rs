@@ -23,6 +23,7 @@ mod position;
 mod route;
 mod rules;
 mod task;
+mod words;
 
 use std::cell::OnceCell;
 use std::collections::BTreeMap;

@@ -1,0 +1,114 @@
+//! `ortho corridor` and `ortho draw corridor`: directions by counting entrances.
+
+use std::path::Path;
+
+use serde_json::json;
+
+use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, figure};
+use crate::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
+use crate::engine::{Error, RequestError, check_map};
+use crate::units::Source;
+
+use super::args::{Common, CorridorArgs, Lang};
+use super::fault::Failure;
+use super::{Answer, commands, say};
+
+pub(super) fn run(common: &Common, args: &CorridorArgs) -> Result<Answer, Failure> {
+    let (_, way) = solve(common, args)?;
+    if common.json {
+        return say(&view(&way).to_string());
+    }
+    if way.steps.is_empty() {
+        return say(common.lang.pick("Вы уже у цели.", "You are there already."));
+    }
+    let mut lines = Vec::new();
+    for (i, step) in way.steps.iter().enumerate() {
+        lines.push(format!(
+            "{:>3}. {}",
+            i + 1,
+            if common.lang == Lang::Ru { &step.ru } else { &step.en }
+        ));
+    }
+    let sentences = if common.lang == Lang::Ru { &way.ru } else { &way.en };
+    say(&format!("{}\n\n{}", lines.join("\n"), sentences.join("\n")))
+}
+
+/// The road graph with the way in red.
+pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failure> {
+    let (system, way) = solve(common, args)?;
+    let figure = figure(&system, way.variant, &way.path).map_err(Error::from)?;
+    let vertices = figure.vertices.into_iter().map(|v| CorridorVertex {
+        at: v.at,
+        mark: if v.is_junction { CorridorMark::Junction } else { CorridorMark::Entrance },
+        label: v.label,
+        name: v.name,
+        name_towards: v.name_towards,
+    });
+    let arcs = figure.arcs.into_iter().map(|a| CorridorArc {
+        from: a.from,
+        to: a.to,
+        label: a.label,
+        on_way: a.on_way,
+        faint: a.is_u_turn,
+    });
+    let title = match common.lang {
+        Lang::Ru => format!("{}: вариант {}", system.name, way.variant.number()),
+        Lang::En => format!("{}: variant {}", system.name, way.variant.number()),
+    };
+    let notes = if common.lang == Lang::Ru { way.ru } else { way.en };
+    Ok(corridor_svg(&CorridorDrawing {
+        title,
+        vertices: vertices.collect(),
+        arcs: arcs.collect(),
+        notes,
+    }))
+}
+
+fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Directions), Failure> {
+    let mut system = match (&args.file, &args.map) {
+        (Some(file), _) => read(file)?,
+        (None, Some(map)) if Path::new(map).is_file() => {
+            let (world, _) = check_map(Path::new(map))?;
+            CorridorSystem::from_world(&world).map_err(Error::from)?
+        }
+        (None, map) => {
+            let engine = commands::open(common)?;
+            let map = engine.map_named(map.as_deref())?;
+            CorridorSystem::from_map(engine.world()?, map).map_err(Error::from)?
+        }
+    };
+    if args.metres {
+        system.weights.measure = Measure::Metres;
+    }
+    let variant = Variant::numbered(args.variant).unwrap_or_default();
+    let way = directions(&system, &args.from, args.last, &args.to, variant).map_err(Error::from)?;
+    Ok((system, way))
+}
+
+fn read(file: &Path) -> Result<CorridorSystem, Failure> {
+    let source = Source::read(file).map_err(|e| RequestError::File {
+        path: file.display().to_string(),
+        reason: e.to_string(),
+    })?;
+    Ok(CorridorSystem::from_toml(&source).map_err(Error::from)?)
+}
+
+fn view(way: &Directions) -> serde_json::Value {
+    let steps: Vec<_> = way
+        .steps
+        .iter()
+        .map(|s| json!({"command": s.command.key(), "ru": s.ru, "en": s.en}))
+        .collect();
+    json!({
+        "outcome": "directions",
+        "variant": way.variant.number(),
+        "from": {"room": way.from_room, "vertex": way.from_vertex, "last": way.last.map(|(a, b)| [a, b])},
+        "to": {"room": way.to_room, "vertex": way.to_vertex},
+        "path": way.path,
+        "cost": way.cost,
+        "steps": steps,
+        "ru": way.ru,
+        "en": way.en,
+        "arrived_by": way.arrived_by.map(|(a, b)| [a, b]),
+    })
+}
