@@ -94,9 +94,9 @@ pub enum Command {
     },
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         from: String,
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         to: String,
         /// How the way is found
         #[arg(long, value_enum, default_value_t = RouteMethod::Shortest)]
@@ -167,9 +167,9 @@ pub enum Drawing {
     Floor { name: Option<String> },
     /// The map with a route
     Route {
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         from: String,
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         to: String,
     },
 }
