@@ -15,5 +15,6 @@ mod routes;
 mod store;
 mod store_faults;
 mod store_world;
+mod story;
 mod words;
 mod worlds;
