@@ -16,5 +16,6 @@ mod routes;
 mod store;
 mod store_faults;
 mod store_world;
+mod story;
 mod words;
 mod worlds;

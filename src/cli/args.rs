@@ -95,9 +95,9 @@ pub(super) enum Command {
     },
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         from: String,
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         to: String,
         /// How the way is found
         #[arg(long, value_enum, default_value_t = RouteMethod::Shortest)]
@@ -228,9 +228,9 @@ pub(super) enum Drawing {
     Corridor(CorridorArgs),
     /// The map with a route
     Route {
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         from: String,
-        #[arg(long, value_name = "PLACE")]
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         to: String,
     },
 }

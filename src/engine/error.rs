@@ -130,9 +130,19 @@ pub enum RequestError {
     )]
     RobotNowhere,
 
+    /// A directory of rule files that was named and is not there.
+    #[error("каталога правил «{dir}» нет")]
+    #[diagnostic(
+        code(engine::no_rules),
+        help(
+            "укажите каталог с relations.dl или service-robot.strips либо уберите --rules: правила есть и в самой программе"
+        )
+    )]
+    NoRules { dir: String },
+
     /// A file that cannot be read or written.
     #[error("файл «{path}»: {reason}")]
-    #[diagnostic(code(engine::file))]
+    #[diagnostic(code(engine::file), help("проверьте путь и права доступа"))]
     File { path: String, reason: String },
 }
 

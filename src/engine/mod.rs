@@ -50,6 +50,8 @@ use crate::semantics::{Profile, derive};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};
 use crate::units::{MapId, nearest_name};
 
+use lexicon::form_index;
+
 /// The knowledge of one building, and what follows from it.
 #[derive(Debug)]
 pub struct Engine {
@@ -249,15 +251,24 @@ impl Engine {
         })
     }
 
-    /// What a name means, in any of its forms.
+    /// What a name means: as the map spells it, else in any of its forms, however it was typed.
     ///
     /// # Errors
     /// Nothing bears the name, or several things do.
     pub fn find(&self, name: &str) -> Result<Entity, Error> {
         let world = self.world()?;
-        match world.find(name)[..] {
+        let mut found = world.find(name);
+        let mut near = Vec::new();
+        if found.is_empty() {
+            let index = form_index(world);
+            found = index.find(name).into_iter().map(|hit| *hit.id).collect();
+            near = index.near(name, NEAR_MISSES).into_iter().map(str::to_owned).collect();
+        }
+        match found[..] {
             [only] => Ok(only),
-            [] => Err(unknown_name(name, world.names().map(|(_, n)| n)).into()),
+            [] => {
+                Err(RequestError::UnknownName { name: name.to_owned(), help: offer(&near) }.into())
+            }
             ref several => {
                 let candidates: Vec<&str> = several.iter().map(|&e| world.name(e)).collect();
                 Err(RequestError::AmbiguousName {
@@ -268,6 +279,20 @@ impl Engine {
             }
         }
     }
+}
+
+/// How many names are offered for one that nothing bears.
+const NEAR_MISSES: usize = 3;
+
+/// «может быть, «Точка-А» или «Точка-К»?»
+fn offer(names: &[String]) -> Option<String> {
+    let quoted: Vec<String> = names.iter().map(|name| format!("«{name}»")).collect();
+    let names = "имена: ortho relations --name СОДЕРЖИТ";
+    Some(if quoted.is_empty() {
+        names.to_owned()
+    } else {
+        format!("может быть, {}?", quoted.join(" или "))
+    })
 }
 
 /// Reads a map file, without touching any store. With the world come the warnings.

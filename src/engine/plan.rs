@@ -6,6 +6,9 @@ use crate::strips::{RuleFault, Scenario};
 
 use super::{Engine, Error};
 
+/// The types of things that the Map alone makes known.
+const OF_MAP: [&str; 2] = ["помещение", "дверь"];
+
 /// One action of a plan.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct PlanStep {
@@ -59,6 +62,7 @@ impl Engine {
             for fact in facts_of_map(world, self.relations()?) {
                 state(&mut problem, &fact);
             }
+            problem.check_supplied(&scenario.domain, &OF_MAP)?;
         }
         let solved = solve(&scenario.domain, &problem, limits, wanted)?;
         Ok(PlanAnswer { solved, warnings: scenario.warnings })

@@ -57,7 +57,8 @@ impl Engine {
     /// A name that means nothing, or something where one cannot stand.
     pub fn locate_name(&self, name: &str) -> Result<Located, Error> {
         let world = self.world()?;
-        if let Ok(pose) = parse_pose(name) {
+        if is_pair(name) {
+            let pose = parse_pose(name)?;
             let map = self.map_named(None)?;
             return Ok(Located { map, at: pose.at, target: Target::Point(pose.at) });
         }
@@ -107,6 +108,11 @@ fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
     let leaves_by = route.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));
     debug_assert!(route.doorways.iter().all(|&d| d < floor.doorways().len()));
     areas.into_iter().zip(leaves_by).map(|(area, leaves_by)| Stage { area, leaves_by }).collect()
+}
+
+/// Numbers divided by commas, sound or not: coordinates are meant, not a name.
+fn is_pair(text: &str) -> bool {
+    text.contains(',') && text.split(',').all(|part| part.trim().parse::<f64>().is_ok())
 }
 
 /// Reads `X,Y` or `X,Y,HEADING` in cm and degrees.

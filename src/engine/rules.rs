@@ -6,7 +6,7 @@ use crate::semantics::RelationRules;
 use crate::strips::{Domain, RuleFaults, Scenario};
 use crate::units::Source;
 
-use super::Error;
+use super::{Error, RequestError};
 
 const RELATIONS: &str = "relations.dl";
 const ROBOT: &str = "service-robot.strips";
@@ -23,9 +23,12 @@ impl Rules {
     /// without a directory, the text that was built in.
     ///
     /// # Errors
-    /// All faults of the first faulty file.
+    /// There is no such directory; else all faults of the first faulty file.
     pub fn read(dir: Option<&Path>) -> Result<Self, Error> {
-        let file = |name: &str| dir.map(|d| d.join(name)).filter(|p| p.is_file());
+        if let Some(missing) = dir.filter(|d| !d.is_dir()) {
+            return Err(RequestError::NoRules { dir: missing.display().to_string() }.into());
+        }
+        let file = |name: &str| dir.map(|d| d.join(name)).filter(|p| p.exists());
         let relations = match file(RELATIONS) {
             Some(path) => RelationRules::load(&path)?,
             None => RelationRules::standard(),

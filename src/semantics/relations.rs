@@ -21,6 +21,8 @@ use super::openings::{Opening, openings};
 
 /// The rule text that the crate brings along.
 pub const STANDARD: &str = include_str!("../../rules/relations.dl");
+/// No rule file that a person wrote is longer.
+const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// OUTSIDE is derived for all things while there are no more pairs of thing and Area than this.
 const MOST_OUTSIDE: usize = 100_000;
@@ -35,6 +37,20 @@ pub enum RelationError {
         help("проверьте путь и права доступа; файл должен быть в UTF-8")
     )]
     Unreadable { path: String, message: String },
+    /// Longer than what a person writes.
+    #[error("файл правил «{path}» слишком велик: {bytes} байт, предел {MAX_FILE_BYTES}")]
+    #[diagnostic(
+        code(semantics::too_large),
+        help("правила – это текст, написанный человеком; проверьте, тот ли это файл")
+    )]
+    TooLarge { path: String, bytes: u64 },
+    /// Nothing but white space.
+    #[error("файл правил «{path}» пуст")]
+    #[diagnostic(
+        code(semantics::empty),
+        help("уберите его, и будут действовать правила, которые есть в самой программе")
+    )]
+    Empty { path: String },
     /// The rule text is at fault.
     #[error(transparent)]
     #[diagnostic(transparent)]
@@ -101,12 +117,20 @@ impl RelationRules {
     }
 
     /// # Errors
-    /// [`RelationError::Unreadable`], [`RelationError::Rules`] with all faults of the text, [`RelationError::Schema`].
+    /// [`RelationError::Unreadable`], [`RelationError::TooLarge`], [`RelationError::Empty`],
+    /// [`RelationError::Rules`] with all faults of the text, [`RelationError::Schema`].
     pub fn load(path: &Path) -> Result<Self, RelationError> {
-        let source = Source::read(path).map_err(|e| RelationError::Unreadable {
-            path: path.to_string_lossy().into_owned(),
-            message: e.to_string(),
-        })?;
+        let name = || path.to_string_lossy().into_owned();
+        let unreadable =
+            |e: std::io::Error| RelationError::Unreadable { path: name(), message: e.to_string() };
+        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
+        if bytes > MAX_FILE_BYTES {
+            return Err(RelationError::TooLarge { path: name(), bytes });
+        }
+        let source = Source::read(path).map_err(unreadable)?;
+        if source.text().trim().is_empty() {
+            return Err(RelationError::Empty { path: name() });
+        }
         Self::parse(&[source])
     }
 

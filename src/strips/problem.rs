@@ -119,6 +119,34 @@ impl Problem {
             .filter(move |name| seen.insert(name_key(name)))
     }
 
+    /// Holds the objects of some types to be those that came from outside or were declared: a text that
+    /// speaks of a room must not make it so.
+    ///
+    /// # Errors
+    /// Each place where the text names another.
+    pub fn check_supplied(&self, domain: &Domain, kinds: &[&str]) -> Result<(), RuleFaults> {
+        let kinds: Vec<_> = kinds.iter().filter_map(|kind| domain.kind(kind)).collect();
+        let known: HashSet<String> = self.objects.iter().map(|o| name_key(&o.name)).collect();
+        let mut faults = Vec::new();
+        for statement in self.facts.iter().chain(&self.goal).filter(|s| s.text.is_some()) {
+            let Some(predicate) = domain.predicate(&statement.predicate) else { continue };
+            let signature = &domain.predicates[predicate.index()].args;
+            for (place, (name, wanted)) in statement.args.iter().zip(signature).enumerate() {
+                let is_theirs = wanted.iter().any(|kind| kinds.contains(kind));
+                if !is_theirs || known.contains(&name_key(name)) {
+                    continue;
+                }
+                let help = hint(name, self.objects.iter().map(|o| o.name.as_str())).or_else(|| {
+                    Some("карта не знает такого имени; нового назовите в «Объекты»".to_owned())
+                });
+                let name = name.clone();
+                let error = |at| RuleError::UnknownObject { name, help, at };
+                faults.push(statement.argument_fault(place, error));
+            }
+        }
+        if faults.is_empty() { Ok(()) } else { Err(RuleFaults(faults)) }
+    }
+
     /// The statements of a document.
     pub(super) fn of(document: &Document, faults: &mut Vec<RuleFault>) -> Self {
         let mut problem = Self {
