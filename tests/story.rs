@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use orthoframe::robot::Wanted;
 use orthoframe::Engine;
 use orthoframe::engine::{PlanStep, Progress, TaskAnswer, TaskEnding, change_now};
 use orthoframe::geometry::{Scene, doorways, nearest_on_segment};
@@ -71,7 +72,7 @@ fn the_walk_is_the_papers_five_directives_in_every_world() {
     for (how, world) in worlds() {
         let (scenario, expected) = (walk(&world), in_names_of(&world, paper));
         let engine = Engine::in_memory(world, None).unwrap();
-        let answer = engine.plan(scenario, &Limits::default()).unwrap();
+        let answer = engine.plan(scenario, &Limits::default(), Wanted::Shortest).unwrap();
         let steps = answer.steps();
         assert!(steps.iter().all(|step| step.len() == 1), "{how}");
         assert_eq!(shown(&steps), expected, "{how}");

@@ -1,0 +1,30 @@
+//! A robot's program in twenty lines: open a store, import a map, ask, plan and drive, hear where it is.
+
+use std::error::Error;
+use std::path::Path;
+
+use orthoframe::Engine;
+use orthoframe::engine::{Method, Progress, change_now};
+use orthoframe::language::Language;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let dir = tempfile::tempdir()?;
+    let mut engine = Engine::open(&dir.path().join("store"), None)?;
+    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("maps/rb2.toml");
+    engine.import(&map, &change_now("operator", "survey"))?;
+
+    // What lies on the table? Either name of a relation serves.
+    for (relation, fact) in engine.facts(Some("ON_TOP_OF"), Some("Стол-1"))? {
+        println!("{} {relation} {}", fact[0], fact[1]);
+    }
+    let way = engine.route("Точка-А", "Комната-Y", Method::Shortest)?;
+    println!("{:.1} м", way.route?.length / 100.0);
+
+    engine.perform("Принеси лекарство", &mut |progress| {
+        if let Progress::Finished(report) = progress {
+            let place = report.position.as_ref().map(|p| p.say(Language::Russian));
+            println!("{}\n    {}", report.directive, place.unwrap_or_default());
+        }
+    })?;
+    Ok(())
+}
