@@ -1,5 +1,7 @@
 //! A robot's program in twenty lines: open a store, import a map, ask, plan and drive, hear where it is.
 
+#![expect(clippy::print_stdout, reason = "an example shows what it finds")]
+
 use std::error::Error;
 use std::path::Path;
 

@@ -22,6 +22,9 @@ pub(crate) fn p(x: f64, y: f64) -> Point {
     Point::new(x, y)
 }
 
+/// An item of an Area: corners, where it stands, and which of its sides are open.
+pub(crate) type Part<'a> = (&'a [Point], Frame, &'a [(usize, Opening)]);
+
 impl Builder {
     pub(crate) fn new() -> Self {
         let map = Map {
@@ -119,12 +122,7 @@ impl Builder {
     }
 
     /// An Area of several items.
-    pub(crate) fn area_of(
-        &mut self,
-        name: &str,
-        parts: &[(&[Point], Frame, &[(usize, Opening)])],
-        frame: Frame,
-    ) -> AreaId {
+    pub(crate) fn area_of(&mut self, name: &str, parts: &[Part<'_>], frame: Frame) -> AreaId {
         let id = AreaId(self.id());
         let mut items = Vec::new();
         let mut doors = Vec::new();
@@ -277,6 +275,10 @@ impl Builder {
     }
 
     /// A box of `w` × `d` × `height` on the floor, its corner at `(x, y)` of the Area, turned about it.
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "a table of boxes reads best with one line a box"
+    )]
     pub(crate) fn put(
         &mut self,
         area: AreaId,
@@ -289,24 +291,6 @@ impl Builder {
     ) -> ReplicaId {
         let object = self.object(&[(&rectangle(w, d), 0.0, height)]);
         self.place_object(area, object, Frame::new(x, y, 0.0, Deg::of(turn)))
-    }
-
-    pub(crate) fn place(&mut self, area: AreaId, name: &str, x: f64, y: f64) -> PlaceId {
-        let id = PlaceId(self.id());
-        self.world.places.insert(
-            id,
-            Place {
-                id,
-                area,
-                name: name.to_owned(),
-                name_en: String::new(),
-                at: p(x, y),
-                heading: None,
-                serves: None,
-                forms: Forms::new(),
-            },
-        );
-        id
     }
 
     /// The world turned about the origin and moved.

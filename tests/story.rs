@@ -2,13 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use orthoframe::robot::Wanted;
 use orthoframe::Engine;
 use orthoframe::engine::{PlanStep, Progress, TaskAnswer, TaskEnding, change_now};
 use orthoframe::geometry::{Scene, doorways, nearest_on_segment};
 use orthoframe::graphplan::{Limits, Outcome, validate};
 use orthoframe::language::Language;
 use orthoframe::map::{DoorState, Entity, Permeability, World};
+use orthoframe::robot::Wanted;
 use orthoframe::robot::{Obstruction, Surprise};
 use orthoframe::strips::Scenario;
 use orthoframe::units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};

@@ -1,6 +1,6 @@
 //! Where a pose is, from the terms of geometry to a report in words (SPEC T4).
 
-use crate::geometry::{Bounds, Owner, Scene};
+use crate::geometry::{Bounds, FloorPlan, Owner, Scene};
 use crate::language::report::{Beside, Doorway, Facing, Named, Opening, Position, Spot};
 use crate::map::{Entity, Permeability, World};
 use crate::semantics::{self, Nearness, Relations, Way, Whereabouts, whereabouts};
@@ -32,12 +32,17 @@ impl Engine {
             pose,
             facing.then(|| self.floor(map)).transpose()?.map(|f| f.scene()),
         );
-        found.ok_or_else(|| {
-            let rooms = self.floor(map).map(|f| extent(f.scene())).unwrap_or_default();
-            let name = world.maps[&map].name.clone();
-            RequestError::Nowhere { x: pose.at.x, y: pose.at.y, map: name, extent: rooms }.into()
-        })
+        match found {
+            Some(found) => Ok(found),
+            None => Err(nowhere_on(world, self.floor(map)?, pose.at).into()),
+        }
     }
+}
+
+/// A point that no Area of a map holds.
+pub(super) fn nowhere_on(world: &World, floor: &FloorPlan, at: Point) -> RequestError {
+    let map = world.maps[&floor.map()].name.clone();
+    RequestError::Nowhere { x: at.x, y: at.y, map, extent: extent(floor.scene()) }
 }
 
 fn extent(scene: &Scene) -> String {

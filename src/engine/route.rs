@@ -4,6 +4,7 @@ use crate::geometry::{FloorPlan, Method, NoRoute, Route, Target};
 use crate::map::{Entity, World};
 use crate::units::{AreaId, Deg, MapId, Point, Pose};
 
+use super::position::nowhere_on;
 use super::{Engine, Error, RequestError};
 
 /// A way from one place to another, or why there is none.
@@ -60,6 +61,10 @@ impl Engine {
         if is_pair(name) {
             let pose = parse_pose(name)?;
             let map = self.map_named(None)?;
+            let floor = self.floor(map)?;
+            if floor.locate(pose.at).is_none() {
+                return Err(nowhere_on(world, floor, pose.at).into());
+            }
             return Ok(Located { map, at: pose.at, target: Target::Point(pose.at) });
         }
         let nowhere = || Error::from(RequestError::NotAPlace { name: name.to_owned() });

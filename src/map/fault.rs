@@ -223,7 +223,7 @@ pub enum MapError {
         help("совместите стороны: их концы должны лежать в одних точках")
     )]
     LinkApart { owner: String, link: String, distance: Cm },
-    /// Two parts of an Area lie on one another.
+    /// Two parts of an Area, or two solid parts of an Object, lie in one another.
     #[error("{owner}: части «{item}» и «{other}» накладываются, например в точке {at}")]
     #[diagnostic(
         code(map::items_overlap),

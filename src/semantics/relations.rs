@@ -230,7 +230,7 @@ pub fn derive(
 /// Derives the relations of a world that was measured before.
 ///
 /// # Errors
-/// As [`derive`].
+/// As [`derive()`].
 pub fn derive_from(
     world: &World,
     rules: &RelationRules,
@@ -297,13 +297,13 @@ impl Rows {
 }
 
 impl Relations {
-    /// Follows a move of one replica: measures it anew and derives what follows, with the same result as [`derive`].
+    /// Follows a move of one replica: measures it anew and derives what follows, with the same result as [`derive()`].
     ///
-    /// A replica that was added, removed, renamed or made of another Object needs [`derive`]; `false` says so, and
+    /// A replica that was added, removed, renamed or made of another Object needs [`derive()`]; `false` says so, and
     /// nothing is changed.
     ///
     /// # Errors
-    /// As [`derive`].
+    /// As [`derive()`].
     pub fn update(&mut self, world: &World, moved: ReplicaId) -> Result<bool, RelationError> {
         let known = self.measured.of_thing(moved).map(|s| s.object);
         let now = world.replicas.get(&moved);

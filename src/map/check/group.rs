@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use crate::map::fault::{MapError, Record, Spot};
-use crate::map::{BaseVector, DoorMount, Face, Item, ItemLink, Permeability, SideRef, TypeKind};
+use crate::map::{
+    BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind,
+};
 use crate::units::{Cm, Deg, Frame, Point};
 
 use super::base::is_good_id;
@@ -212,9 +214,7 @@ impl<'w> Checker<'w> {
         if all_there && self.is_sound(group.items) {
             self.origin(group);
             let bodies = self.bodies(group.items);
-            if group.is_area {
-                self.item_overlaps(group, &bodies);
-            }
+            self.item_overlaps(group, &bodies);
             self.connected_items(group, &bodies);
         }
     }
@@ -374,11 +374,21 @@ impl<'w> Checker<'w> {
         item.frame.z.get() + if *face == Face::Roof { height } else { 0.0 }
     }
 
+    /// Parts of an Area never lie in one another; parts of an Object may when one of them is hollow: a shelf in
+    /// the body of a bookcase.
     fn item_overlaps(&mut self, group: &Group<'_>, bodies: &[Body]) {
         let boxes: Vec<_> = bodies.iter().map(|b| b.bounds).collect();
+        let hollow: Vec<bool> = group
+            .items
+            .iter()
+            .map(|i| !group.is_area && is_hollow(self.world.orthoframe_of(i)))
+            .collect();
         let mut overlaps = Vec::new();
         near_pairs(&boxes, 0.0, |i, j| {
-            if let Some(p) = overlap(&bodies[i], &bodies[j]) {
+            if !hollow[i]
+                && !hollow[j]
+                && let Some(p) = overlap(&bodies[i], &bodies[j])
+            {
                 overlaps.push((i, j, p));
             }
             if overlaps.len() < MOST_OVERLAPS {
@@ -430,6 +440,13 @@ impl<'w> Checker<'w> {
             }
         }
     }
+}
+
+/// Something can be inside: a face is open, or is a door.
+fn is_hollow(orthoframe: &Orthoframe) -> bool {
+    let faces = [orthoframe.base_permeability, orthoframe.roof_permeability];
+    let sides = orthoframe.base.iter().map(|v| v.permeability);
+    faces.into_iter().chain(sides).any(|p| p != Permeability::Impermeable)
 }
 
 /// A point in the common part of two bodies, when they share more than a touch.
