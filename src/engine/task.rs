@@ -225,9 +225,7 @@ impl Engine {
         let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
             facts
                 .iter()
-                .find(|f| {
-                    f.predicate.trim_end_matches('_') == predicate && f.arguments[at].name == wanted
-                })
+                .find(|f| f.predicate == predicate && f.arguments[at].name == wanted)
                 .map(|f| f.arguments[give].name.clone())
         };
         let support = about(predicate::THING_ON, 0, name, 1);

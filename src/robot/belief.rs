@@ -207,7 +207,7 @@ fn fact(predicate: &'static str, arguments: &[(&str, &'static str)]) -> InitialF
 }
 
 fn is(fact: &InitialFact, predicate: &str) -> bool {
-    fact.predicate.trim_end_matches('_') == predicate
+    fact.predicate == predicate
 }
 
 fn speaks_of_robot(fact: &InitialFact) -> bool {

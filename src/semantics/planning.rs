@@ -11,6 +11,7 @@ use crate::map::{DoorKind, DoorStatus, World};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::measure::Located;
+use super::predicate;
 use super::relations::Relations;
 
 /// Things whose base is this near to the floor stand on it, in tenths of a millimetre: one can step up to them.
@@ -133,16 +134,16 @@ impl Writer<'_> {
     fn doors(&mut self) {
         for join in self.relations.joins() {
             let (from, to) = (self.area(join.from), self.area(join.to));
-            self.fact("ДВЕРЬ_НАХОДИТСЯ-В_", &[(&join.opening, DOOR), (&from, ROOM)]);
+            self.fact(predicate::DOOR_IN, &[(&join.opening, DOOR), (&from, ROOM)]);
             let door = join.door.and_then(|d| self.world.doors.get(&d));
             let leafed = door.filter(|d| d.kind != DoorKind::Passage && !d.leaves.is_empty());
             if leafed.is_some() {
-                self.fact("ДВЕРЬ_ИМЕЕТ-СТВОРКУ_", &[(&join.opening, DOOR)]);
+                self.fact(predicate::DOOR_HAS_LEAF, &[(&join.opening, DOOR)]);
             }
             let predicate = match leafed.map(|d| d.state.status) {
-                None | Some(DoorStatus::Open) => "ДВЕРЬ_ИЗ_В_ОТКРЫТА_",
-                Some(DoorStatus::Closed) => "ДВЕРЬ_ИЗ_В_ЗАКРЫТА_",
-                Some(DoorStatus::Locked) => "ДВЕРЬ_ИЗ_В_ЗАПЕРТА_",
+                None | Some(DoorStatus::Open) => predicate::DOOR_OPEN,
+                Some(DoorStatus::Closed) => predicate::DOOR_CLOSED,
+                Some(DoorStatus::Locked) => predicate::DOOR_LOCKED,
             };
             let arguments =
                 [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
@@ -159,7 +160,7 @@ impl Writer<'_> {
 
     fn place(&mut self, name: String, area: AreaId, source: PlaceSource) {
         let room = self.area(area);
-        self.fact("ПОЗИЦИЯ_НАХОДИТСЯ-В_", &[(&name, PLACE), (&room, ROOM)]);
+        self.fact(predicate::PLACE_IN, &[(&name, PLACE), (&room, ROOM)]);
         self.places.insert(name, (area, source));
     }
 
@@ -175,17 +176,17 @@ impl Writer<'_> {
             let root = chain.last().copied().unwrap_or(id);
             if self.is(id, "person") {
                 for place in self.places_of(root, area) {
-                    self.fact("ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PERSON), (&place, PLACE)]);
+                    self.fact(predicate::PERSON_AT_PLACE, &[(&name, PERSON), (&place, PLACE)]);
                 }
             } else if self.is(id, "portable") {
                 self.portable(id, &name, &chain, root, area);
             } else {
                 for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
-                    self.fact("ПОЗИЦИЯ_НАХОДИТСЯ-У_", &[(&place, PLACE), (&name, OBJECT)]);
+                    self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, OBJECT)]);
                 }
             }
             if let Some(door) = replica.properties.get("КЛЮЧ_ОТ") {
-                self.fact("КЛЮЧ_ПОДХОДИТ-К_", &[(&name, ITEM), (door, DOOR)]);
+                self.fact(predicate::KEY_FITS, &[(&name, ITEM), (door, DOOR)]);
             }
         }
     }
@@ -205,11 +206,11 @@ impl Writer<'_> {
         match chain.iter().find(|&&s| !self.is(s, "portable")) {
             Some(&support) => {
                 let on = self.relations.symbols().replica(support).to_string();
-                self.fact("ПРЕДМЕТ_НАХОДИТСЯ-НА_", &[(name, ITEM), (&on, OBJECT)]);
+                self.fact(predicate::THING_ON, &[(name, ITEM), (&on, OBJECT)]);
             }
             None => {
                 for place in self.places_of(root, area) {
-                    self.fact("ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(name, ITEM), (&place, PLACE)]);
+                    self.fact(predicate::THING_AT_PLACE, &[(name, ITEM), (&place, PLACE)]);
                 }
             }
         }
@@ -264,29 +265,29 @@ impl Writer<'_> {
 
     fn robot(&mut self, state: &RobotState) {
         let room = self.area(state.area);
-        self.fact("РОБОТ-НАХОДИТСЯ-В_", &[(&room, ROOM)]);
+        self.fact(predicate::ROBOT_IN, &[(&room, ROOM)]);
         match &state.at {
-            RobotAt::Door(door) => self.fact("РОБОТ-НАХОДИТСЯ-У-ДВЕРИ_", &[(door, DOOR)]),
+            RobotAt::Door(door) => self.fact(predicate::ROBOT_AT_DOOR, &[(door, DOOR)]),
             RobotAt::Place(id) => {
                 let name = self.relations.symbols().place(*id).to_string();
-                self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PLACE)]);
+                self.fact(predicate::ROBOT_AT_PLACE, &[(&name, PLACE)]);
             }
             RobotAt::Before(id) => {
                 for name in self.places_of(*id, state.area).into_iter().take(1) {
-                    self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(&name, PLACE)]);
+                    self.fact(predicate::ROBOT_AT_PLACE, &[(&name, PLACE)]);
                 }
             }
             RobotAt::Elsewhere => {
                 self.place(ROBOT_PLACE.to_owned(), state.area, PlaceSource::Robot);
-                self.fact("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_", &[(ROBOT_PLACE, PLACE)]);
+                self.fact(predicate::ROBOT_AT_PLACE, &[(ROBOT_PLACE, PLACE)]);
             }
         }
         match state.holds {
             Some(id) => {
                 let name = self.relations.symbols().replica(id).to_string();
-                self.fact("РОБОТ-ДЕРЖИТ_", &[(&name, ITEM)]);
+                self.fact(predicate::ROBOT_HOLDS, &[(&name, ITEM)]);
             }
-            None => self.fact("РУКА-СВОБОДНА_", &[]),
+            None => self.fact(predicate::HAND_FREE, &[]),
         }
     }
 
