@@ -154,8 +154,8 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
     );
     match &answer.ending {
         TaskEnding::Done => match lang {
-            Lang::Ru => format!("\nСделано: {spent} пути."),
-            Lang::En => format!("\nDone: {spent} on the way."),
+            Lang::Ru => format!("\nСделано: {spent}."),
+            Lang::En => format!("\nDone: {spent}."),
         },
         TaskEnding::AlreadyTrue => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
         TaskEnding::NoPlan(planned) => text::plan(&planned.solved, lang),
