@@ -409,3 +409,28 @@ fn paper_figures_2_and_3() {
         expect_file![name].assert_eq(&svg);
     }
 }
+
+/// `ortho route --words`: through a corridor the way is told by its road graph, elsewhere by rooms and doors.
+#[test]
+fn a_way_in_words_counts_entrances_along_corridors() {
+    let mut world = crate::worlds::rb2();
+    for door in world.doors.values_mut() {
+        match door.name.as_str() {
+            "Дверь-КY" => door.state = orthoframe::map::DoorState::OPEN,
+            "Дверь-ВZ" => door.state = orthoframe::map::DoorState::CLOSED,
+            _ => {}
+        }
+    }
+    let engine = orthoframe::engine::Engine::in_memory(world, None).unwrap();
+    let answer = engine.route("Точка-А", "Точка-К", orthoframe::engine::Method::Shortest).unwrap();
+    let words = |language| engine.route_in_words(&answer, language).unwrap().join("\n");
+    expect![[r#"
+        Выезжайте из Комнаты-В через Проход-ВК в Коридор.
+        Встаньте вдоль коридора, чтобы дверь была слева.
+        Проезжайте до 1-го входа, дверь прямо.
+        Цель: Точка-К."#]]
+    .assert_eq(&words(orthoframe::language::Language::Russian));
+    let english = words(orthoframe::language::Language::English);
+    assert!(english.starts_with("Leave Room V through Passage VK into"), "{english}");
+    assert!(english.contains("1st entrance"), "{english}");
+}
