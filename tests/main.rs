@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one file a capability.
 
 mod architecture;
+mod cli;
 mod corridor;
 mod corridor_lattice;
 mod facts;

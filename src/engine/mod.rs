@@ -308,6 +308,11 @@ pub fn check_map(file: &Path) -> Result<(World, MapErrors), MapErrors> {
 }
 
 fn unknown_name<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> RequestError {
-    let help = nearest_name(name, names).map(|near| format!("может быть, «{near}»?"));
+    let names: Vec<&str> = names.collect();
+    let help = match nearest_name(name, names.iter().copied()) {
+        Some(near) => format!("может быть, «{near}»?"),
+        None => format!("есть имена: {}", names.join(", ")),
+    };
+    let help = Some(help);
     RequestError::UnknownName { name: name.to_owned(), help }
 }

@@ -1,0 +1,507 @@
+//! The program as it is run: answers, exit codes, and what wrong input comes to.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use orthoframe::map::World;
+use orthoframe::store::Store;
+use serde_json::Value;
+use tempfile::TempDir;
+
+const AT_THE_DOOR: &str = "Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z.";
+
+fn project(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+/// A working directory of its own, with a store in it.
+struct Place {
+    dir: TempDir,
+}
+
+/// What a run came to.
+struct Run {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+impl Place {
+    fn empty() -> Self {
+        Self { dir: tempfile::tempdir().unwrap() }
+    }
+
+    fn with_rb2() -> Self {
+        let place = Self::empty();
+        place.run(&["import", &rb2()]).is(0);
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: impl AsRef<[u8]>) -> String {
+        let path = self.path(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        path.display().to_string()
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_ortho"));
+        command.current_dir(self.dir.path()).args(args).stdin(Stdio::null());
+        for name in ["ORTHO_STORE", "ORTHO_RULES", "ORTHO_USER"] {
+            command.env_remove(name);
+        }
+        command
+    }
+
+    fn run(&self, args: &[&str]) -> Run {
+        let output = self.command(args).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("ortho writes UTF-8");
+        let code = output.status.code().expect("ortho ends by itself");
+        let run = Run { code, out: text(output.stdout), err: text(output.stderr) };
+        assert!(!run.err.contains("panicked"), "{args:?}: {}", run.err);
+        run
+    }
+
+    fn json(&self, args: &[&str], code: i32) -> Value {
+        let args: Vec<&str> = args.iter().copied().chain(["--json"]).collect();
+        let run = self.run(&args).is(code);
+        assert_eq!(run.out.lines().count(), 1, "{args:?}: {}", run.out);
+        serde_json::from_str(&run.out).expect("one JSON value a line")
+    }
+
+    /// What the store holds: its revision and its world.
+    fn store(&self) -> Option<(u64, Option<World>)> {
+        let dir = self.path("ortho-store");
+        let (store, _) = dir.is_dir().then(|| Store::open_read_only(dir).unwrap())?;
+        Some((store.revision(), store.world().unwrap()))
+    }
+}
+
+impl Run {
+    #[track_caller]
+    fn is(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "{}{}", self.out, self.err);
+        self
+    }
+}
+
+fn rb2() -> String {
+    project("maps/rb2.toml").display().to_string()
+}
+
+fn walk() -> String {
+    project("rules/scenarios/medicine-walk.strips").display().to_string()
+}
+
+#[test]
+fn a_map_is_checked_and_imported() {
+    let place = Place::empty();
+    assert!(place.run(&["check", &rb2()]).is(0).out.contains("Карта исправна"));
+    assert!(place.store().is_none(), "a check leaves no store behind");
+    let first = place.json(&["import", &rb2()], 0);
+    assert_eq!((&first["outcome"], &first["revision"]), (&"imported".into(), &1.into()));
+    assert_eq!(first["world"]["areas"], 4);
+    assert!(first["world"]["replicas"].as_u64().unwrap() >= 40);
+    let again = place.json(&["import", &rb2()], 0);
+    assert_eq!((&again["created"], &again["changed"]), (&0.into(), &0.into()));
+    let schema: Value = serde_json::from_str(&place.run(&["schema"]).is(0).out).unwrap();
+    assert!(schema["properties"]["format"].is_object());
+}
+
+#[test]
+fn relations_answer_to_both_names() {
+    let place = Place::with_rb2();
+    let counts = place.json(&["relations"], 0);
+    assert!(counts["relations"].as_array().unwrap().len() > 20);
+    let facts = |args: &[&str]| place.json(args, 0)["facts"].clone();
+    let russian = facts(&["relations", "--name", "НАХОДИТСЯ_СВЕРХУ_НА"]);
+    assert_eq!(russian, facts(&["relations", "--name", "ON_TOP_OF"]));
+    let medicine = serde_json::json!(
+        {"relation": "НАХОДИТСЯ_СВЕРХУ_НА", "args": ["Лекарство", "Тумбочка-2"]}
+    );
+    assert!(russian.as_array().unwrap().contains(&medicine), "{russian}");
+    let of_medicine = facts(&["relations", "--of", "Лекарство"]);
+    assert!(of_medicine.as_array().unwrap().contains(&medicine), "{of_medicine}");
+    // Another case, another alphabet, other letters.
+    for name in ["лекарства", "Medicine", "ЛЕКАРСТВОМ"] {
+        assert_eq!(facts(&["relations", "--of", name]), of_medicine, "{name}");
+    }
+    let both = facts(&["relations", "--name", "ON_TOP_OF", "--of", "Лекарство"]);
+    assert_eq!(both, serde_json::json!([medicine]));
+}
+
+#[test]
+fn the_papers_walk_is_planned() {
+    let place = Place::with_rb2();
+    let action =
+        |action: &str, args: &[&str]| serde_json::json!([{"action": action, "args": args}]);
+    let steps = serde_json::json!([
+        action("Движение-в_от-места_до-двери", &["Комната-В", "Точка-А", "Дверь-ВZ"]),
+        action("Движение-из_в_через-дверь", &["Комната-В", "Комната-Z", "Дверь-ВZ"]),
+        action("Движение-в_от-двери_до-двери", &["Комната-Z", "Дверь-ВZ", "Дверь-ZY"]),
+        action("Движение-из_в_через-дверь", &["Комната-Z", "Комната-Y", "Дверь-ZY"]),
+        action("Движение-в_от-двери_до-места", &["Комната-Y", "Дверь-ZY", "Точка-К"]),
+    ]);
+    let stored = ["--store", "ortho-store"];
+    let walk = walk();
+    for extra in [&stored[..], &[]] {
+        let args = [&["plan", walk.as_str()], extra].concat();
+        let plan = place.json(&args, 0);
+        assert_eq!(plan["outcome"], "plan");
+        assert_eq!(plan["parallel_steps"], 5);
+        assert_eq!(plan["steps"], steps);
+    }
+    let text = place.run(&["plan", &walk, "--out", "plan.txt"]).is(0).out;
+    assert!(
+        text.contains("5. Движение-в_от-двери_до-места_(Комната-Y, Дверь-ZY, Точка-К)"),
+        "{text}"
+    );
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    assert_eq!(written.matches("Движение").count(), 5, "{written}");
+}
+
+#[test]
+fn no_plan_is_the_answer_no() {
+    let folder = project("../shared/data/homebot");
+    if !folder.is_dir() {
+        println!("skipped: there is no {}", folder.display());
+        return;
+    }
+    let place = Place::empty();
+    let domain = folder.join("domain.pddl").display().to_string();
+    for name in ["u1", "u2", "u3"] {
+        let problem = folder.join(format!("{name}.pddl")).display().to_string();
+        let plan = place.json(&["plan", "--domain", &domain, "--problem", &problem], 1);
+        assert_eq!((&plan["outcome"], &plan["parallel_steps"]), (&"no_plan".into(), &0.into()));
+        assert!(plan["explanation"].as_str().is_some_and(|why| !why.is_empty()), "{name}");
+    }
+}
+
+#[test]
+fn a_goal_behind_a_locked_door_is_the_answer_no() {
+    let place = Place::empty();
+    let map = std::fs::read_to_string(rb2()).unwrap();
+    let locked = map.replace(r#"state = "open""#, r#"state = "locked""#);
+    let locked = locked.replace(
+        "width = 100\nheight = 205\nleaves = [{ hinge = \"left\", share = 1, thickness = 4, max_open = 100 }]\nstate = \"closed\"",
+        "width = 100\nheight = 205\nleaves = [{ hinge = \"left\", share = 1, thickness = 4, max_open = 100 }]\nstate = \"locked\"",
+    );
+    assert_ne!(locked, map);
+    place.run(&["import", &place.write("locked.toml", locked)]).is(0);
+    let done = place.json(&["do", "Принеси лекарство"], 1);
+    assert_eq!(done["outcome"], "no_plan");
+    assert!(done["plan"]["explanation"].as_str().unwrap().contains("Дверь"), "{done}");
+    let route = place.json(&["route", "--from", "Точка-А", "--to", "Точка-К"], 1);
+    assert_eq!(route["outcome"], "no_route");
+    let why = route["explanation"].as_str().unwrap();
+    assert!(why.to_lowercase().contains("двер"), "{why}");
+    place.run(&["draw", "route", "--from", "Точка-А", "--to", "Точка-К"]).is(1);
+}
+
+#[test]
+fn a_task_is_carried_out() {
+    let place = Place::with_rb2();
+    let done = place.json(&["do", "Принеси лекарство", "--draw", "way/plan.svg"], 0);
+    assert_eq!((&done["outcome"], &done["replans"]), (&"done".into(), &0.into()));
+    let directives = done["directives"].as_array().unwrap();
+    assert!(directives.iter().any(|d| d["ru"] == AT_THE_DOOR), "{done}");
+    assert!(directives.iter().all(|d| d["en"].is_string()));
+    assert!(std::fs::read_to_string(place.path("way/plan.svg")).unwrap().contains("<svg"));
+    let text = place.run(&["do", "Bring the medicine", "--lang", "en"]).is(0).out;
+    assert!(text.contains("Done:"), "{text}");
+    assert!(text.contains("I am in Room V at the door leading from Room V to Room Z."), "{text}");
+    let misheard = place.json(&["do", "Станцуй вальс"], 2);
+    assert_eq!(misheard["outcome"], "error");
+}
+
+#[test]
+fn ways_are_found_between_names_in_any_case() {
+    let place = Place::with_rb2();
+    let length = |from: &str, to: &str| {
+        let route = place.json(&["route", "--from", from, "--to", to], 0);
+        assert_eq!(route["outcome"], "route");
+        assert!(route["points"].as_array().unwrap().len() >= 2);
+        route["length_cm"].as_f64().unwrap()
+    };
+    let plain = length("Точка-А", "Точка-К");
+    assert!((600.0..1500.0).contains(&plain));
+    // Another case, small letters, a Latin A; and the numbers that the name stands for.
+    for from in ["Точки-А", "точка-а", "Точка-A", "Point A", "330,150"] {
+        assert!((length(from, "Точку-К") - plain).abs() < 0.01, "{from}");
+    }
+    assert!(length("Комнаты-В", "Комнату-Y") > 300.0);
+    let text = place.run(&["route", "--from", "Точка-А", "--to", "Комната-Y"]).is(0).out;
+    assert!(text.contains("Комната-В → Дверь-ВZ → Комната-Z → Дверь-ZY → Комната-Y"), "{text}");
+    let fault = |args: &[&str]| place.json(args, 2)["errors"][0].clone();
+    let near = fault(&["route", "--from", "Точка-Ы", "--to", "Точка-К"]);
+    assert_eq!(near["code"], "engine::unknown_name");
+    assert!(near["help"].as_str().unwrap().contains("Точка-"), "{near}");
+    for pose in ["NaN,1", "1e300,5", "-inf,2"] {
+        let bad = fault(&["route", "--from", pose, "--to", "Точка-К"]);
+        assert_eq!(bad["code"], "engine::bad_pose", "{pose}");
+    }
+    assert_eq!(fault(&["route", "--from", "", "--to", "Точка-К"])["code"], "engine::unknown_name");
+}
+
+#[test]
+fn a_pose_is_told_in_words() {
+    let place = Place::with_rb2();
+    let says = |args: &[&str]| place.run(args).is(0).out.trim().to_owned();
+    assert_eq!(says(&["where", "--map", "Квартира РБ-2", "--at", "225,395"]), AT_THE_DOOR);
+    assert_eq!(
+        says(&["where", "--at", "225,395", "--lang", "en"]),
+        "I am in Room V at the door leading from Room V to Room Z."
+    );
+    let whereabout = place.json(&["where", "--at", "225,395,90"], 0);
+    assert_eq!(whereabout["area"], "Комната-В");
+    assert_eq!(whereabout["spot"]["kind"], "at_door");
+    assert_eq!(whereabout["spot"]["way"]["door"], "Дверь-ВZ");
+    for (at, code) in [
+        ("", "engine::bad_pose"),
+        ("1", "engine::bad_pose"),
+        ("1,2,3,4", "engine::bad_pose"),
+        ("NaN,1", "engine::bad_pose"),
+        ("1e999,1", "engine::bad_pose"),
+        ("-100000,1", "engine::nowhere"),
+    ] {
+        let fault = place.json(&["where", "--at", at], 2);
+        assert_eq!(fault["errors"][0]["code"], code, "{at}");
+        assert!(fault["errors"][0]["help"].is_string(), "{at}");
+    }
+}
+
+#[test]
+fn drawings_are_svg() {
+    let place = Place::with_rb2();
+    for args in [
+        &["draw", "map"][..],
+        &["draw", "floor"],
+        &["draw", "route", "--from", "Точка-А", "--to", "Точка-К"],
+    ] {
+        let printed = place.run(args).is(0).out;
+        assert!(printed.starts_with("<svg") && printed.contains("Комната-В"), "{args:?}");
+        place.run(&[args, &["--out", "drawn.svg"]].concat()).is(0);
+        let written = std::fs::read_to_string(place.path("drawn.svg")).unwrap();
+        assert_eq!(written.trim(), printed.trim());
+    }
+    let nowhere = place.json(&["draw", "map", "--out", "no/such/folder/x.svg"], 2);
+    assert_eq!(nowhere["errors"][0]["code"], "engine::file");
+}
+
+#[test]
+fn the_demo_does_the_main_job() {
+    let place = Place::empty();
+    let told = place.run(&["demo"]).is(0).out;
+    for words in ["НАХОДИТСЯ_СВЕРХУ_НА", AT_THE_DOOR, "Передать_(Лекарство", "Сделано", "plan.svg"]
+    {
+        assert!(told.contains(words), "{words} is missing in {told}");
+    }
+    let drawing = std::fs::read_to_string(place.path("demo/plan.svg")).unwrap();
+    assert!(drawing.contains("<svg"));
+    assert!(place.store().is_none(), "without a directory, no store is kept");
+    let kept = place.json(&["demo", "kept"], 0);
+    assert_eq!(kept["outcome"], "done");
+    assert_eq!(place.json(&["--store", "kept", "where", "--at", "225,395"], 0)["ru"], AT_THE_DOOR);
+}
+
+/// Wrong input: exit code 2, a remedy, the store untouched; gives the first fault.
+fn refused(place: &Place, args: &[&str]) -> Value {
+    let before = place.store();
+    let text = place.run(args).is(2);
+    assert!(text.err.contains("help:"), "{args:?} offers no remedy: {}", text.err);
+    let fault = place.json(args, 2);
+    assert_eq!(fault["outcome"], "error");
+    let first = fault["errors"][0].clone();
+    assert!(first["help"].as_str().is_some_and(|h| !h.is_empty()), "{args:?}: {fault}");
+    assert!(place.store() == before, "{args:?} changed the store");
+    first
+}
+
+/// A fault with a place in the text.
+fn refused_at_place(place: &Place, args: &[&str]) -> Value {
+    let fault = refused(place, args);
+    assert!(fault["line"].as_u64().is_some_and(|n| n > 0), "{args:?}: {fault}");
+    assert!(fault["column"].as_u64().is_some_and(|n| n > 0), "{args:?}: {fault}");
+    assert!(fault["file"].is_string(), "{args:?}: {fault}");
+    fault
+}
+
+#[test]
+fn broken_maps_leave_the_store_as_it_was() {
+    let place = Place::with_rb2();
+    let map = std::fs::read_to_string(rb2()).unwrap();
+    let broken = |name: &str, from: &str, to: &str, code: &str| {
+        let text = map.replacen(from, to, 1);
+        assert_ne!(text, map, "{name}: rb2 has no such text");
+        let file = place.write(name, text);
+        for command in ["import", "check"] {
+            refused_at_place(&place, &[command, &file]);
+            let all = place.json(&[command, &file], 2)["errors"].clone();
+            let all = all.as_array().unwrap();
+            let ours = all.iter().find(|fault| fault["code"] == code);
+            let ours = ours.unwrap_or_else(|| panic!("{name}: {all:#?}"));
+            assert!(ours["line"].is_u64() && ours["column"].is_u64(), "{name}: {ours}");
+        }
+    };
+    broken(
+        "unclosed.toml",
+        "rect = [90, 30]\nheight = 10",
+        r#"sides = [
+  { id = "A", from = [0, 0], to = [90, 0] },
+  { id = "B", from = [90, 0], to = [90, 30] },
+  { id = "C", from = [90, 30], to = [0, 30] },
+  { id = "D", from = [0, 30], to = [0, 5] },
+]
+height = 10"#,
+        "map::base_not_closed",
+    );
+    // The passage of the corridor, narrower than that of the room.
+    broken("lengths.toml", "[0, 170], [0, 60]]", "[0, 160], [0, 60]]", "map::link_length");
+}
+
+#[test]
+fn rubbish_is_refused_wherever_it_stands() {
+    let place = Place::with_rb2();
+    let rubbish: Vec<u8> =
+        (0..4000_u32).map(|i| (i.wrapping_mul(2_654_435_761) >> 24) as u8).collect();
+    let long = format!("format = 1 # {}\n", "а".repeat(50_000_000));
+    std::fs::create_dir(place.path("folder")).unwrap();
+    let files = [
+        place.write("rubbish", rubbish),
+        place.write("empty", ""),
+        place.write("long", long),
+        place.path("folder").display().to_string(),
+    ];
+    for file in &files {
+        refused(&place, &["import", file]);
+        refused(&place, &["plan", file]);
+        refused(&place, &["demo", "--map", file]);
+        let rules = place.path("rules-of-mine");
+        for name in ["relations.dl", "service-robot.strips"] {
+            let _ = std::fs::remove_dir_all(&rules);
+            std::fs::create_dir(&rules).unwrap();
+            if Path::new(file).is_dir() {
+                std::fs::create_dir(rules.join(name)).unwrap();
+            } else {
+                std::fs::hard_link(file, rules.join(name)).unwrap();
+            }
+            refused(&place, &["--rules", "rules-of-mine", "do", "Принеси лекарство"]);
+        }
+        std::fs::remove_dir_all(&rules).unwrap();
+    }
+    for args in [
+        &["import", "missing"][..],
+        &["check", "missing"],
+        &["plan", "missing"],
+        &["--rules", "missing", "relations"],
+        &["--store", "missing", "relations"],
+        &["--store", "rubbish", "relations"],
+        &["--store", "folder/..", "relations"],
+    ] {
+        refused(&place, args);
+    }
+    assert!(!place.path("missing").exists());
+}
+
+#[test]
+fn scenarios_and_rules_are_refused_at_their_place() {
+    let place = Place::with_rb2();
+    let scenario = std::fs::read_to_string(walk()).unwrap();
+    let scenario = scenario
+        .replace(
+            "../service-robot.strips",
+            &project("rules/service-robot.strips").display().to_string(),
+        )
+        .replace("../../maps/rb2.toml", &rb2());
+    let unknown = place.write("unknown.strips", scenario.replace("Комната-Y", "Комната-Ъ"));
+    let goal = place
+        .write("goal.strips", scenario.replacen("(Точка-К, Комната-Y)", "(Точка-К, Комната-Ъ)", 1));
+    for file in [&unknown, &goal] {
+        for args in [&["plan", file][..], &["--store", "ortho-store", "plan", file]] {
+            let fault = refused_at_place(&place, args);
+            assert_eq!(fault["code"], "strips::unknown_object", "{fault}");
+            assert!(fault["message"].as_str().unwrap().contains("Комната-Ъ"), "{fault}");
+        }
+    }
+    let rules = std::fs::read_to_string(project("rules/service-robot.strips")).unwrap();
+    let undeclared = rules.replacen(
+        "(Эффект+: РОБОТ-НАХОДИТСЯ-У-ДВЕРИ_(дверь ?y)",
+        "(Эффект+: РОБОТ-НАХОДИТСЯ-У-ДВЕРИ_(дверь ?q)",
+        1,
+    );
+    assert_ne!(rules, undeclared);
+    place.write("mine/service-robot.strips", undeclared);
+    let fault = refused_at_place(&place, &["--rules", "mine", "do", "Принеси лекарство"]);
+    assert_eq!(fault["code"], "strips::undeclared_variable");
+    let relations = std::fs::read_to_string(project("rules/relations.dl")).unwrap();
+    place.write(
+        "other/relations.dl",
+        relations + "\n.decl ДАЛЬ(x: symbol)\nДАЛЬ(y) :- profile(_).\n",
+    );
+    let fault = refused_at_place(&place, &["--rules", "other", "relations"]);
+    assert_eq!(fault["code"], "facts::ungrounded");
+}
+
+#[test]
+fn a_store_in_use_is_left_alone() {
+    let place = Place::with_rb2();
+    let (held, _) = Store::open(place.path("ortho-store")).unwrap();
+    for args in [&["relations"][..], &["import", &rb2()], &["where", "--at", "225,395"]] {
+        let run = place.run(args).is(2);
+        assert!(
+            run.err.contains("открыто другой программой") && run.err.contains("help:"),
+            "{}",
+            run.err
+        );
+        assert_eq!(place.json(args, 2)["errors"][0]["code"], "store::locked");
+    }
+    drop(held);
+    place.run(&["relations"]).is(0);
+}
+
+#[test]
+fn wrong_arguments_are_wrong_input() {
+    let place = Place::with_rb2();
+    for args in [
+        &[][..],
+        &["fly"],
+        &["route", "--from", "Точка-А"],
+        &["plan"],
+        &["plan", "a.strips", "--time-limit", "-1"],
+        &["relations", "--lang", "fr"],
+        &["draw"],
+    ] {
+        place.run(args).is(2);
+    }
+    place.run(&["--help"]).is(0);
+    for args in [
+        &["relations", "--name", "НАХОДИТСЯ_СВЕРХУ"][..],
+        &["relations", "--name", ""],
+        &["relations", "--of", "Лекарствво"],
+        &["relations", "--of", ""],
+        &["do", ""],
+        &["where", "--map", "Дача", "--at", "1,1"],
+        &["route", "--from", "Точка-А", "--to", "Квартира РБ-2"],
+    ] {
+        refused(&place, args);
+    }
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_fault() {
+    let place = Place::with_rb2();
+    for args in [&["relations"][..], &["draw", "map"], &["do", "Принеси лекарство"], &["schema"]]
+    {
+        let mut child =
+            place.command(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        drop(child.stdout.take());
+        let output = child.wait_with_output().unwrap();
+        let err = String::from_utf8_lossy(&output.stderr);
+        assert!(!err.contains("panicked"), "{args:?}: {err}");
+        assert_eq!(output.status.code(), Some(0), "{args:?}: {err}");
+    }
+}
