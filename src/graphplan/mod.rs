@@ -148,7 +148,7 @@ fn with_stack(search: impl FnOnce() -> Result<Outcome, Limit> + Send) -> Outcome
 }
 
 /// What a conflict of the solver takes the time of, near enough.
-const CHOICES_A_CONFLICT: u64 = 1_000;
+const CHOICES_A_CONFLICT: u64 = 100;
 
 /// What each way of extraction may spend in its first turn at a level.
 #[derive(Debug, Clone, Copy)]
