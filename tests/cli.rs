@@ -245,6 +245,10 @@ fn ways_are_found_between_names_in_any_case() {
         assert_eq!(bad["code"], "engine::bad_pose", "{pose}");
     }
     assert_eq!(fault(&["route", "--from", "", "--to", "Точка-К"])["code"], "engine::unknown_name");
+    assert_eq!(
+        fault(&["route", "--from", "-500,-500", "--to", "Точка-К"])["code"],
+        "engine::nowhere"
+    );
 }
 
 #[test]
@@ -361,6 +365,19 @@ height = 10"#,
     );
     // The passage of the corridor, narrower than that of the room.
     broken("lengths.toml", "[0, 170], [0, 60]]", "[0, 160], [0, 60]]", "map::link_length");
+    // A table top sunk into the cabinet below it; a room on a room.
+    broken(
+        "sunk.toml",
+        r#""counter-top", at = [0, 0, 87]"#,
+        r#""counter-top", at = [0, 0, 80]"#,
+        "map::items_overlap",
+    );
+    broken(
+        "rooms.toml",
+        r#""corridor", at = [560, 0]"#,
+        r#""corridor", at = [500, 0]"#,
+        "map::areas_overlap",
+    );
 }
 
 #[test]
@@ -504,4 +521,51 @@ fn a_reader_that_leaves_early_is_no_fault() {
         assert!(!err.contains("panicked"), "{args:?}: {err}");
         assert_eq!(output.status.code(), Some(0), "{args:?}: {err}");
     }
+}
+
+#[test]
+fn corridors_are_told_by_entrances() {
+    let place = Place::with_rb2();
+    let paper = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/corridor-paper4.toml");
+    let way = ["corridor", paper, "--from", "201", "--last", "1,0", "--to", "210"];
+    let one = place.json(&way, 0);
+    let two = place.json(&[&way[..], &["--variant", "2"]].concat(), 0);
+    assert_eq!(one["steps"], two["steps"]);
+    let told: Vec<&str> =
+        one["steps"].as_array().unwrap().iter().map(|s| s["ru"].as_str().unwrap()).collect();
+    assert_eq!(
+        told[..4],
+        [
+            "разворот",
+            "движение до двери справа",
+            "движение до соединения коридоров",
+            "поворот направо"
+        ]
+    );
+    let english = place.run(&[&way[..], &["--lang", "en"]].concat()).is(0).out;
+    assert!(english.contains("U-turn") || english.contains("turn"), "{english}");
+    let unknown = place.json(&["corridor", paper, "--from", "201", "--to", "999"], 2);
+    assert!(unknown["errors"][0]["code"].as_str().unwrap().starts_with("corridor::"), "{unknown}");
+    place.run(&["corridor", "--map", "flat", "--from", "Комната-В", "--to", "Комната-Y"]).is(0);
+    let drawn = place.run(&["draw", "corridor", paper, "--from", "201", "--to", "210"]).is(0).out;
+    assert!(drawn.starts_with("<svg"));
+}
+
+#[test]
+fn a_datalog_program_runs_on_files() {
+    let place = Place::empty();
+    let program = place.write(
+        "reach.dl",
+        ".decl door(a: symbol, b: symbol)\n.input door\n.decl reach(a: symbol, b: symbol)\n.output reach\n\
+         reach(a, b) :- door(a, b).\nreach(a, c) :- reach(a, b), door(b, c).\n"
+            .to_owned(),
+    );
+    place.write("door.facts", "кухня\tзал\nзал\tспальня\n".to_owned());
+    place.run(&["datalog", &program, "-F", ".", "-D", "."]).is(0);
+    let reached = std::fs::read_to_string(place.path("reach.csv")).unwrap();
+    assert!(reached.contains("кухня\tспальня"), "{reached}");
+    let faulty = place.write("faulty.dl", ".decl p(a: symbol)\np(X) :- q(X).\n".to_owned());
+    let faults = place.json(&["datalog", &faulty], 2)["errors"].clone();
+    let at = |f: &Value| (f["line"].as_u64(), f["column"].as_u64());
+    assert!(faults.as_array().unwrap().iter().any(|f| at(f) == (Some(2), Some(9))), "{faults}");
 }
