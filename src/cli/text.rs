@@ -1,6 +1,6 @@
 //! Engine values as text for a person.
 
-use comfy_table::presets::UTF8_HORIZONTAL_ONLY;
+use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
 use crate::engine::{Relations, RouteAnswer, Solved, World, steps};
@@ -48,7 +48,7 @@ pub(super) fn counts(relations: &Relations, lang: Lang) -> String {
 
 fn table() -> Table {
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_content_arrangement(ContentArrangement::Disabled);
+    table.load_style(UTF8_BORDERS_ONLY).set_content_arrangement(ContentArrangement::Disabled);
     table
 }
 
