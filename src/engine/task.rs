@@ -8,7 +8,7 @@ use crate::robot::{
     Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station,
     Surprise, starting_pose,
 };
-use crate::semantics::{Profile, derive, predicate};
+use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
 use super::lexicon::form_index;
@@ -259,10 +259,16 @@ impl Engine {
     }
 
     fn report(&self, number: usize, directive: &Directive, belief: &Belief, leg: &Leg) -> Report {
-        let relations = derive(&belief.world, &self.rules.relations, Profile::Surveyed).ok();
-        let position = relations
-            .and_then(|r| describe(&belief.world, &r, belief.map, belief.pose, None))
-            .map(|w| w.position);
+        let say = |relations: &Relations| {
+            describe(&belief.world, relations, belief.map, belief.pose, None).map(|w| w.position)
+        };
+        // Most directives leave the world as the Map has it, and its relations are derived already.
+        let position = match self.relations() {
+            Ok(relations) if self.world.as_ref() == Some(&belief.world) => say(relations),
+            _ => derive(&belief.world, &self.rules.relations, Profile::Surveyed)
+                .ok()
+                .and_then(|r| say(&r)),
+        };
         let points = leg.route.as_ref().map(|r| r.points.clone()).unwrap_or_default();
         Report {
             number,
