@@ -1,0 +1,149 @@
+//! What a foreign file says of a building, in terms that every such file shares: a [`Survey`].
+//!
+//! A reader turns its format into a `Survey` and judges nothing beyond its own syntax; one assembler, the same for all
+//! formats, makes of it Areas, doors, Objects and links that pass the checks of [`crate::map`], mending and leaving out
+//! as the report tells. Lengths are cm, angles degrees counter-clockwise from +x, x to the right and y up; a format
+//! with another frame is turned by its reader.
+//!
+//! **Invariant.** Every number in a `Survey` is finite; indices into its lists are in range. Order follows the file, so
+//! that two readings of one file give the same ids.
+
+use crate::map::{DoorKind, DoorLeaf, DoorStatus, OpensTo, Permeability, Properties};
+use crate::units::{Cm, Deg, Point};
+
+/// A building as a foreign file describes it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Survey {
+    /// Of the building; the file's name when the file gives none.
+    pub name: String,
+    pub levels: Vec<Level>,
+    /// Kinds of things, shared by all levels.
+    pub kinds: Vec<Kind>,
+    pub lifts: Vec<Lift>,
+}
+
+/// One storey: it becomes a Map.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Level {
+    /// The file's own name or number for it.
+    pub source: String,
+    pub name: String,
+    /// Floor level above the building's zero.
+    pub elevation: Cm,
+    pub rooms: Vec<Room>,
+    pub openings: Vec<Opening>,
+    pub things: Vec<Thing>,
+    pub spots: Vec<Spot>,
+}
+
+/// A room: it becomes an Area.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Room {
+    /// The file's id; what other records refer to.
+    pub source: String,
+    /// As the file names it; may be empty or shared with others.
+    pub name: String,
+    /// The file's word for what it is, looked up in the synonym table: `Bedroom`, `corridor`.
+    pub kind: String,
+    /// On its level, without the closing point; either sense of rotation, any dirt.
+    pub outline: Vec<Point>,
+    /// Parts of the outline that are no floor: columns, courtyards.
+    pub holes: Vec<Vec<Point>>,
+    /// Floor to ceiling; None where the file does not tell.
+    pub height: Option<Cm>,
+    pub properties: Properties,
+}
+
+/// A door, passage or window in a wall.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Opening {
+    pub source: String,
+    pub name: String,
+    pub what: OpeningKind,
+    /// From jamb to jamb, in the wall or near it. The first is the right jamb seen from within `rooms.0`,
+    /// where the reader knows; leaves are counted from it.
+    pub jambs: [Point; 2],
+    /// Rooms of the level that the file says it joins (indices); None where it does not say: the assembler steps off both
+    /// sides and looks. `Some([a, None])` leads outside.
+    pub rooms: Option<[Option<usize>; 2]>,
+    pub height: Option<Cm>,
+    /// Lower edge above the floor: windows.
+    pub sill: Cm,
+    pub properties: Properties,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+pub enum OpeningKind {
+    /// Leaves from the right jamb to the left one, seen from the first room; empty: one leaf of the usual sort.
+    Door {
+        kind: DoorKind,
+        leaves: Vec<DoorLeaf>,
+        opens: Option<OpensTo>,
+        status: DoorStatus,
+        opening: f64,
+    },
+    Passage,
+    Window,
+}
+
+/// A kind of thing: it becomes an Object, its boxes Orthoframes.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Kind {
+    /// The file's id of the kind, unique among the kinds: `Dresser_315_1`.
+    pub source: String,
+    /// The file's word for what it is, looked up in the synonym table: `Dresser`, `OfficeChair`.
+    pub word: String,
+    pub parts: Vec<Part>,
+    /// Direction of its front in its own frame, where the format has one.
+    pub front: Option<Deg>,
+    pub properties: Properties,
+}
+
+/// A prism of a kind, in the kind's own frame, whose origin the reader chooses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Part {
+    /// What it is, where the file tells: `shelf`.
+    pub word: String,
+    pub outline: Vec<Point>,
+    pub bottom: Cm,
+    pub height: Cm,
+    /// Of all faces; `Permeable` for a body that holds things within its bounding box.
+    pub permeability: Permeability,
+}
+
+/// One thing of a kind, placed: it becomes a replica.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Thing {
+    pub source: String,
+    pub name: String,
+    /// Index into [`Survey::kinds`].
+    pub kind: usize,
+    /// Where the kind's origin stands on the level.
+    pub at: Point,
+    /// Of the kind's origin, above the level's floor.
+    pub z: Cm,
+    pub angle: Deg,
+    /// Index into [`Level::rooms`] where the file says in which room it is; else it is found by its place.
+    pub room: Option<usize>,
+    /// 0..=100; None: by the kind's traits.
+    pub move_prob: Option<u8>,
+    pub properties: Properties,
+}
+
+/// A named place to stand: a charger, a waypoint.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Spot {
+    pub source: String,
+    pub name: String,
+    pub at: Point,
+    pub heading: Option<Deg>,
+}
+
+/// A lift or a flight of stairs.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lift {
+    pub source: String,
+    pub name: String,
+    /// `(level, room)` for each level that it serves: the cabin's floor there is a room of that level.
+    pub stops: Vec<(usize, usize)>,
+}
