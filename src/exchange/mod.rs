@@ -2,6 +2,12 @@
 //!
 //! A reader makes a [`Survey`] of a foreign file; the assembler makes a checked [`crate::map::World`] of any `Survey`.
 
+mod error;
+mod input;
 mod survey;
 
-pub use survey::{Kind, Level, Lift, Opening, OpeningKind, Part, Room, Spot, Survey, Thing};
+pub use error::ReadError;
+pub use input::{LARGEST, decode, file_bytes, file_text};
+pub use survey::{
+    Kind, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
+};

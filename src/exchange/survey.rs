@@ -20,6 +20,17 @@ pub struct Survey {
     /// Kinds of things, shared by all levels.
     pub kinds: Vec<Kind>,
     pub lifts: Vec<Lift>,
+    /// What the reader left out or had to assume, for the report.
+    pub remarks: Vec<Remark>,
+}
+
+/// What a reader left out, mended or had to assume.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Remark {
+    /// The file's id of the record that it is about; empty when it is about the whole file.
+    pub source: String,
+    /// For the person who imports, in Russian.
+    pub text: String,
 }
 
 /// One storey: it becomes a Map.

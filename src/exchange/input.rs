@@ -1,0 +1,105 @@
+//! Bytes of a foreign file → text: limits and encodings.
+//!
+//! Exporters write UTF-8 with and without a mark, UTF-16 with one, and in Russia Windows-1251. A text that is none of
+//! the first is taken for the last; a byte that stands in no text of either is refused with its place.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use crate::units::Source;
+
+use super::error::ReadError;
+
+/// A file larger than this is refused before it is read.
+pub const LARGEST: u64 = 256 << 20;
+
+/// The bytes of a file, at most [`LARGEST`].
+///
+/// # Errors
+/// [`ReadError::Unreadable`], [`ReadError::TooLarge`].
+pub fn file_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
+    let file = File::open(path).map_err(ReadError::unreadable(path))?;
+    let mut bytes = Vec::new();
+    // A pipe or a growing file tells no length; one byte past the limit is enough to know.
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(ReadError::unreadable(path))?;
+    if bytes.len() as u64 > LARGEST {
+        let bytes = std::fs::metadata(path).map_or(bytes.len() as u64, |m| m.len());
+        return Err(ReadError::TooLarge { bytes, limit: LARGEST });
+    }
+    Ok(bytes)
+}
+
+/// The text of a file.
+///
+/// # Errors
+/// As [`file_bytes`]; [`ReadError::NotText`].
+pub fn file_text(path: &Path) -> Result<Source, ReadError> {
+    decode(&path.to_string_lossy(), file_bytes(path)?)
+}
+
+/// The text that some bytes stand for.
+///
+/// # Errors
+/// [`ReadError::NotText`].
+pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
+    if let Some((encoding, mark)) = encoding_rs::Encoding::for_bom(&bytes) {
+        let (text, broken) = encoding.decode_without_bom_handling(&bytes[mark..]);
+        if broken {
+            return Err(not_text(name, &bytes));
+        }
+        return Ok(Source::new(name, text));
+    }
+    let not_control = |b: &u8| *b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r' | 0x0C | 0x1A);
+    if let Some(at) = bytes.iter().position(|b| !not_control(b)) {
+        return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
+    }
+    match String::from_utf8(bytes) {
+        Ok(text) => Ok(Source::new(name, text)),
+        Err(e) => {
+            let at = e.utf8_error().valid_up_to();
+            let bytes = e.into_bytes();
+            let (text, broken) = encoding_rs::WINDOWS_1251.decode_without_bom_handling(&bytes);
+            if broken {
+                return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
+            }
+            Ok(Source::new(name, text))
+        }
+    }
+}
+
+fn not_text(name: &str, bytes: &[u8]) -> ReadError {
+    let at = std::str::from_utf8(bytes).err().map_or(0, |e| e.valid_up_to());
+    ReadError::NotText { name: name.to_owned(), at, byte: bytes.get(at).copied().unwrap_or(0) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text_of(bytes: &[u8]) -> String {
+        decode("файл", bytes.to_vec()).map_or_else(|e| e.to_string(), |s| s.text().to_owned())
+    }
+
+    #[test]
+    fn the_encodings_that_exporters_write_are_told_apart() {
+        let word = "Кухня";
+        let utf16 = |swap: bool| -> Vec<u8> {
+            std::iter::once(0xFEFF)
+                .chain(word.encode_utf16())
+                .flat_map(|u| if swap { u.to_be_bytes() } else { u.to_le_bytes() })
+                .collect()
+        };
+        assert_eq!(text_of(word.as_bytes()), word);
+        assert_eq!(text_of(&["\u{FEFF}".as_bytes(), word.as_bytes()].concat()), word);
+        assert_eq!(text_of(&utf16(false)), word);
+        assert_eq!(text_of(&utf16(true)), word);
+        assert_eq!(text_of(&[0xCA, 0xF3, 0xF5, 0xED, 0xFF]), word); // Windows-1251
+    }
+
+    #[test]
+    fn what_is_no_text_is_refused_with_its_place() {
+        assert_eq!(text_of(b"PK\x03\x04"), "«файл» – не текст: байт 2 равен 0x03");
+        assert_eq!(text_of(b""), "");
+    }
+}
