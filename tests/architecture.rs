@@ -162,7 +162,7 @@ fn each_package_has_its_own_folder() {
         ("serde_json", &["cli", "web", "exchange"]),
         ("encoding_rs", &["exchange"]),
         ("png", &["exchange"]),
-        ("i_overlay", &["geometry", "map", "corridor"]),
+        ("i_overlay", &["geometry", "map", "corridor", "exchange"]),
     ];
     let mut wrong = Vec::new();
     for (folder, path, text) in sources() {

@@ -14,6 +14,7 @@ mod maps;
 mod planning;
 mod relations;
 mod routes;
+mod scenes;
 mod store;
 mod store_faults;
 mod store_world;

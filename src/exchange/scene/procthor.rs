@@ -1,0 +1,436 @@
+//! ProcTHOR houses: rooms, walls, doors, windows and things with children, sizes in a database of assets.
+//!
+//! The house file (schema 1.0.0 of `procthor` for AI2-THOR) names an asset for each thing; its box stands in
+//! `asset-database.json`, a dictionary from the asset's word to a list of assets. Unity's frame is left-handed: x right,
+//! y up, z forward, rotation about y clockwise from above; here that is x right, y up the page, counter-clockwise.
+//! The place of a thing is the middle of its box. A hole in a wall is measured from the first point of the polygon of
+//! `wall0`, along its lower edge.
+
+use std::collections::{BTreeMap, HashMap};
+
+use serde_json::Value;
+
+use crate::exchange::{Level, Opening, OpeningKind, ReadError, Remark, Room, Spot, Survey};
+use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, Properties};
+use crate::units::{Cm, Deg, Point, Source};
+
+use super::colour;
+use super::json::{angles, list, parse, plan, remark, text, triple};
+use super::stock::{Facing, Piece, shelve, state};
+
+const FORMAT: &str = "ProcTHOR";
+/// Rotations about x and z smaller than this leave a thing upright, in degrees.
+const UPRIGHT: f64 = 0.5;
+/// Thickness of a leaf, cm; the file does not tell it.
+const LEAF: f64 = 4.0;
+
+/// Sizes and words of assets.
+#[derive(Debug, Clone, Default)]
+pub struct Assets {
+    known: HashMap<String, Asset>,
+}
+
+#[derive(Debug, Clone)]
+struct Asset {
+    word: String,
+    /// Half of the box along x, y, z, in cm.
+    half: [f64; 3],
+    opens: bool,
+    switches: bool,
+    material: Option<&'static str>,
+}
+
+impl Assets {
+    /// Reads an asset database. An asset without a box is left out.
+    ///
+    /// # Errors
+    /// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when there is no asset in it.
+    pub fn read(source: &Source) -> Result<Self, ReadError> {
+        let value = parse("AI2-THOR asset database", source)?;
+        let mut known = HashMap::new();
+        for (word, assets) in value.as_object().into_iter().flatten() {
+            for asset in assets.as_array().into_iter().flatten() {
+                let (Some(id), Some(size)) =
+                    (text(asset, "assetId"), triple(asset.get("boundingBox")))
+                else {
+                    continue;
+                };
+                let can = |what: &str| {
+                    list(asset, "secondaryProperties").iter().any(|p| p.as_str() == Some(what))
+                };
+                let materials = list(asset, "materials").iter().flat_map(|m| match m {
+                    Value::Array(names) => names.first().and_then(Value::as_str),
+                    other => other.as_str(),
+                });
+                let asset = Asset {
+                    word: text(asset, "objectType").unwrap_or(word).to_owned(),
+                    half: size.map(|s| s.abs() / 2.0),
+                    opens: can("CanOpen"),
+                    switches: can("CanToggleOnOff"),
+                    material: materials.into_iter().find_map(colour::material),
+                };
+                known.insert(id.to_owned(), asset);
+            }
+        }
+        if known.is_empty() {
+            let what = "в базе нет ни одного предмета с размерами".to_owned();
+            return Err(ReadError::NoBuilding { format: "AI2-THOR asset database", what });
+        }
+        Ok(Self { known })
+    }
+
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.known.len()
+    }
+
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.known.is_empty()
+    }
+}
+
+/// Reads a house. Without `assets` its things have no size and are left out.
+///
+/// # Errors
+/// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when it has no room.
+pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadError> {
+    let house = parse(FORMAT, source)?;
+    let mut reader = Reader { assets, remarks: Vec::new() };
+    let walls: BTreeMap<&str, Wall> = list(&house, "walls").iter().filter_map(Wall::of).collect();
+    let rooms = reader.rooms(&house, &walls);
+    if rooms.is_empty() {
+        let what = "нет ни одного помещения с полом (rooms[].floorPolygon)".to_owned();
+        return Err(ReadError::NoBuilding { format: FORMAT, what });
+    }
+    let mut openings = Vec::new();
+    for (field, is_window) in [("doors", false), ("windows", true)] {
+        for record in list(&house, field) {
+            openings.extend(reader.opening(record, is_window, &walls, &rooms));
+        }
+    }
+    let mut pieces = Vec::new();
+    for record in list(&house, "objects") {
+        reader.thing(record, &mut pieces);
+    }
+    if assets.is_empty() && !list(&house, "objects").is_empty() {
+        reader.remarks.clear();
+        let text = "предметы пропущены: нет базы с их размерами (asset-database.json)";
+        reader.remarks.push(remark("objects", text));
+    }
+    let (kinds, things) = shelve(pieces);
+    let level = Level {
+        source: "0".to_owned(),
+        name: String::new(),
+        elevation: Cm::ZERO,
+        rooms,
+        openings,
+        things,
+        spots: agent(&house).into_iter().collect(),
+    };
+    Ok(Survey {
+        name: String::new(),
+        levels: vec![level],
+        kinds,
+        lifts: Vec::new(),
+        remarks: reader.remarks,
+    })
+}
+
+/// Where the file puts the robot.
+fn agent(house: &Value) -> Option<Spot> {
+    let agent = house.get("metadata")?.get("agent")?;
+    let at = plan(triple(agent.get("position"))?);
+    let [_, turn, _] = angles(agent.get("rotation"));
+    Some(Spot {
+        source: "agent".to_owned(),
+        name: String::new(),
+        at,
+        heading: Some(Deg::of(90.0 - turn)),
+    })
+}
+
+/// A wall: its lower edge, how high it is and what it looks like.
+struct Wall {
+    from: Point,
+    to: Point,
+    height: f64,
+    room: String,
+    material: Properties,
+}
+
+impl Wall {
+    fn of(record: &Value) -> Option<(&str, Self)> {
+        let corners: Vec<[f64; 3]> =
+            list(record, "polygon").iter().filter_map(|p| triple(Some(p))).collect();
+        let &[first, second, ..] = corners.as_slice() else { return None };
+        let top = corners.iter().map(|c| c[1]).fold(0.0, f64::max);
+        let wall = Self {
+            from: plan(first),
+            to: plan(second),
+            height: top - first[1],
+            room: text(record, "roomId").unwrap_or_default().to_owned(),
+            material: surface(record.get("material"), ""),
+        };
+        Some((text(record, "id")?, wall))
+    }
+}
+
+/// ЦВЕТ and МАТЕРИАЛ of a floor or wall.
+fn surface(material: Option<&Value>, suffix: &str) -> Properties {
+    let mut found = Properties::new();
+    let Some(material) = material else { return found };
+    if let Some(word) = text(material, "name").and_then(colour::material) {
+        found.insert(format!("МАТЕРИАЛ{suffix}"), word.to_owned());
+    }
+    let channel = |c: &str| material.get("color")?.get(c)?.as_f64();
+    if let (Some(r), Some(g), Some(b)) = (channel("r"), channel("g"), channel("b")) {
+        found.insert(format!("ЦВЕТ{suffix}"), colour::of_rgb([r, g, b]).to_owned());
+    }
+    found
+}
+
+struct Reader<'a> {
+    assets: &'a Assets,
+    remarks: Vec<Remark>,
+}
+
+impl Reader<'_> {
+    fn rooms(&mut self, house: &Value, walls: &BTreeMap<&str, Wall>) -> Vec<Room> {
+        let mut heights: HashMap<&str, f64> = HashMap::new();
+        let mut looks: HashMap<&str, &Properties> = HashMap::new();
+        for wall in walls.values() {
+            let height = heights.entry(&wall.room).or_default();
+            *height = height.max(wall.height);
+            looks.insert(&wall.room, &wall.material);
+        }
+        let mut rooms = Vec::new();
+        for record in list(house, "rooms") {
+            let id = text(record, "id").unwrap_or_default();
+            let outline: Vec<Point> = list(record, "floorPolygon")
+                .iter()
+                .filter_map(|p| triple(Some(p)))
+                .map(plan)
+                .collect();
+            if outline.len() < 3 {
+                self.remarks.push(remark(id, "помещение пропущено: у пола меньше трёх углов"));
+                continue;
+            }
+            let mut properties = surface(record.get("floorMaterial"), " ПОЛА");
+            for (name, value) in looks.get(id).into_iter().flat_map(|p| p.iter()) {
+                properties.insert(format!("{name} СТЕН"), value.clone());
+            }
+            rooms.push(Room {
+                source: id.to_owned(),
+                name: String::new(),
+                kind: text(record, "roomType").unwrap_or_default().to_owned(),
+                outline,
+                holes: Vec::new(),
+                height: heights.get(id).filter(|h| **h > 0.0).map(|&h| Cm::of(h)),
+                properties,
+            });
+        }
+        rooms
+    }
+
+    fn opening(
+        &mut self,
+        record: &Value,
+        is_window: bool,
+        walls: &BTreeMap<&str, Wall>,
+        rooms: &[Room],
+    ) -> Option<Opening> {
+        let id = text(record, "id").unwrap_or_default();
+        let hole: Vec<[f64; 3]> =
+            list(record, "holePolygon").iter().filter_map(|p| triple(Some(p))).collect();
+        let wall = ["wall0", "wall1"].iter().find_map(|w| walls.get(text(record, w)?));
+        let (Some(wall), &[low, high, ..]) = (wall, hole.as_slice()) else {
+            self.remarks.push(remark(id, "проём пропущен: нет его стены или отверстия в ней"));
+            return None;
+        };
+        let along = wall.to - wall.from;
+        let length = along.norm();
+        if length < 1.0 {
+            self.remarks.push(remark(id, "проём пропущен: его стена короче сантиметра"));
+            return None;
+        }
+        let jamb = |x: f64| wall.from + along * (x / length);
+        let mut jambs = [jamb(low[0].min(high[0])), jamb(low[0].max(high[0]))];
+        let room = |field: &str| {
+            let id = text(record, field)?;
+            rooms.iter().position(|r| r.source == id)
+        };
+        let (one, other) = (room("room0"), room("room1"));
+        let sides = if one == other { [one, None] } else { [one, other] };
+        // Seen from within, the right jamb comes first: the room lies to the left of the way from it.
+        if let Some(first) = one.map(|r| &rooms[r].outline)
+            && lies_left(first, jambs) == Some(false)
+        {
+            jambs.swap(0, 1);
+        }
+        let asset = text(record, "assetId").unwrap_or_default();
+        let what = if is_window {
+            OpeningKind::Window
+        } else if asset.starts_with("Doorframe") {
+            OpeningKind::Passage
+        } else {
+            door(record, asset)
+        };
+        let mut properties = Properties::new();
+        if let Some(material) = colour::material(asset) {
+            properties.insert("МАТЕРИАЛ".to_owned(), material.to_owned());
+        }
+        Some(Opening {
+            source: id.to_owned(),
+            name: String::new(),
+            what,
+            jambs,
+            rooms: Some(sides),
+            height: Some(Cm::of((high[1] - low[1]).abs())),
+            sill: Cm::of(low[1].min(high[1])),
+            properties,
+        })
+    }
+
+    fn thing(&mut self, record: &Value, pieces: &mut Vec<Piece>) {
+        if let Some(piece) = self.piece(record) {
+            pieces.push(piece);
+        }
+        // Nesting is limited by the parser.
+        for child in list(record, "children") {
+            self.thing(child, pieces);
+        }
+    }
+
+    fn piece(&mut self, record: &Value) -> Option<Piece> {
+        let id = text(record, "id").unwrap_or_default();
+        let asset_id = text(record, "assetId").unwrap_or_default();
+        let Some(asset) = self.assets.known.get(asset_id) else {
+            let text = format!("предмет пропущен: размеров «{asset_id}» нет в базе");
+            self.remarks.push(remark(id, text));
+            return None;
+        };
+        let Some(at) = triple(record.get("position")) else {
+            self.remarks.push(remark(id, "предмет пропущен: нет его места"));
+            return None;
+        };
+        let turn = angles(record.get("rotation"));
+        let half = tilted(asset.half, turn);
+        let upright = is_upright(turn);
+        let mut properties = Properties::new();
+        let openness = record.get("openness").and_then(Value::as_f64);
+        let open = openness.map(|o| o > 0.0).or_else(|| asset.opens.then_some(false));
+        let on = record.get("isOn").and_then(Value::as_bool);
+        state(open, on.or_else(|| asset.switches.then_some(false)), &mut properties);
+        if let Some(dirty) = record.get("isDirty").and_then(Value::as_bool) {
+            let word = if dirty { "Грязное" } else { "Чистое" };
+            properties.insert("ЧИСТОТА".to_owned(), word.to_owned());
+        }
+        let mut kind_properties = Properties::new();
+        if let Some(material) = asset.material {
+            kind_properties.insert("МАТЕРИАЛ".to_owned(), material.to_owned());
+        }
+        let kind = if upright {
+            asset_id.to_owned()
+        } else {
+            format!("{asset_id}@{:.0}x{:.0}x{:.0}", half[0] * 2.0, half[2] * 2.0, half[1] * 2.0)
+        };
+        Some(Piece {
+            source: id.to_owned(),
+            kind,
+            word: asset.word.clone(),
+            at: plan(at),
+            bottom: at[1] - half[1],
+            angle: -turn[1],
+            half: [half[0], half[2]],
+            height: half[1] * 2.0,
+            facing: if upright { Facing::Own } else { Facing::Unknown },
+            move_prob: (record.get("kinematic").and_then(Value::as_bool) == Some(true))
+                .then_some(0),
+            kind_properties,
+            properties,
+        })
+    }
+}
+
+/// A hinged door with the leaves that its asset's name tells of.
+fn door(record: &Value, asset: &str) -> OpeningKind {
+    let openness = record.get("openness").and_then(Value::as_f64).unwrap_or(0.0).clamp(0.0, 1.0);
+    let can_open = record.get("openable").and_then(Value::as_bool) != Some(false);
+    let leaf = |hinge, share| DoorLeaf { hinge, share, thickness: Cm::of(LEAF), max_open: 90.0 };
+    let leaves = if asset.contains("Double") {
+        vec![leaf(HingeSide::Right, 0.5), leaf(HingeSide::Left, 0.5)]
+    } else {
+        vec![leaf(HingeSide::Right, 1.0)]
+    };
+    let status = match (openness > 0.0, can_open) {
+        (true, _) => DoorStatus::Open,
+        (false, true) => DoorStatus::Closed,
+        (false, false) => DoorStatus::Locked,
+    };
+    OpeningKind::Door {
+        kind: DoorKind::Hinged,
+        leaves,
+        opens: None,
+        status,
+        opening: openness * 100.0,
+    }
+}
+
+/// Whether the inside of an outline lies to the left of the way from one jamb to the other.
+fn lies_left(outline: &[Point], [from, to]: [Point; 2]) -> Option<bool> {
+    let along = (to - from).try_normalize(1e-6)?;
+    let left = nalgebra::Vector2::new(-along.y, along.x) * 2.0;
+    let middle = nalgebra::center(&from, &to);
+    match (contains(outline, middle + left), contains(outline, middle - left)) {
+        (true, false) => Some(true),
+        (false, true) => Some(false),
+        _ => None,
+    }
+}
+
+/// Ray to the right; points on the border fall to one side or the other.
+pub(super) fn contains(outline: &[Point], p: Point) -> bool {
+    let ends = outline.iter().zip(outline.iter().cycle().skip(1));
+    let crossings = ends.filter(|(a, b)| {
+        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)
+    });
+    crossings.count() % 2 == 1
+}
+
+fn is_upright([x, _, z]: [f64; 3]) -> bool {
+    let flat = |a: f64| a.rem_euclid(360.0).min(360.0 - a.rem_euclid(360.0)) < UPRIGHT;
+    flat(x) && flat(z)
+}
+
+/// Half extents of a box after its rotation about z and then x, along its own axes before it is turned about y.
+fn tilted(half: [f64; 3], turn: [f64; 3]) -> [f64; 3] {
+    if is_upright(turn) {
+        return half;
+    }
+    let ((sx, cx), (sz, cz)) = (turn[0].to_radians().sin_cos(), turn[2].to_radians().sin_cos());
+    let rows = [[cz, -sz, 0.0], [cx * sz, cx * cz, -sx], [sx * sz, sx * cz, cx]];
+    rows.map(|row| row.iter().zip(half).map(|(r, h)| (r * h).abs()).sum())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_bottle_that_lies_is_as_long_as_it_was_high() {
+        let half = tilted([4.0, 15.0, 4.0], [90.0, 30.0, 0.0]);
+        assert!((half[1] - 4.0).abs() < 1e-9 && (half[2] - 15.0).abs() < 1e-9);
+        let upright = tilted([4.0, 15.0, 4.0], [0.1, 30.0, 359.9]);
+        assert!((upright[1] - 15.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn the_right_jamb_is_on_the_right_of_who_looks_out() {
+        let room =
+            [(0.0, 0.0), (400.0, 0.0), (400.0, 300.0), (0.0, 300.0)].map(|(x, y)| Point::new(x, y));
+        let lower = [Point::new(100.0, 0.0), Point::new(200.0, 0.0)];
+        assert_eq!(lies_left(&room, lower), Some(true));
+        assert_eq!(lies_left(&room, [lower[1], lower[0]]), Some(false));
+    }
+}

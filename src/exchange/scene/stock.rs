@@ -1,0 +1,143 @@
+//! Boxes with words → kinds and things of a [`Survey`](crate::exchange::Survey).
+
+use std::collections::BTreeMap;
+
+use crate::exchange::{Kind, Thing};
+use crate::map::Properties;
+use crate::units::{Cm, Deg, Point};
+
+use super::shape::{self, Build, Crate};
+
+/// One thing as its file gives it. Lengths in cm.
+#[derive(Debug, Clone)]
+pub(super) struct Piece {
+    /// The file's id.
+    pub(super) source: String,
+    /// The file's id of its kind; pieces with the same one have boxes of the same size.
+    pub(super) kind: String,
+    pub(super) word: String,
+    /// Middle of its base.
+    pub(super) at: Point,
+    pub(super) bottom: f64,
+    /// Counter-clockwise, in degrees.
+    pub(super) angle: f64,
+    /// Half of width and depth.
+    pub(super) half: [f64; 2],
+    pub(super) height: f64,
+    pub(super) facing: Facing,
+    pub(super) move_prob: Option<u8>,
+    pub(super) kind_properties: Properties,
+    pub(super) properties: Properties,
+}
+
+/// What a file knows of the way a box is turned.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Facing {
+    /// The box lies along the thing's own axes, +y ahead.
+    Own,
+    /// The box lies along the axes of the building, the thing in it anyhow.
+    Unknown,
+}
+
+/// Things whose front people speak of, besides seats and cases; lower case without separators.
+const FACED: [&str; 13] = [
+    "television",
+    "tv",
+    "laptop",
+    "computer",
+    "cpuscreen",
+    "toilet",
+    "desk",
+    "toaster",
+    "coffeemachine",
+    "alarmclock",
+    "washingmachine",
+    "desklamp",
+    "sink",
+];
+
+fn has_front(build: Build, word: &str) -> bool {
+    let word: String =
+        word.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect();
+    let round = ["ottoman", "dogbed"].contains(&word.as_str());
+    (matches!(build, Build::Seat | Build::Case) && !round) || FACED.contains(&word.as_str())
+}
+
+/// Kinds in the order of their first thing; things in the order of the file.
+pub(super) fn shelve(pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
+    let mut boxes: Vec<Crate> = pieces
+        .iter()
+        .map(|p| Crate {
+            build: shape::build(&p.word),
+            at: p.at,
+            angle: p.angle,
+            half: p.half,
+            bottom: p.bottom,
+            top: p.bottom + p.height,
+        })
+        .collect();
+    let levels = shape::levels(&boxes);
+    let surrounds = shape::surrounds(&boxes);
+    for (i, piece) in pieces.iter().enumerate() {
+        let roomy = surrounds[i] || !levels[i].is_empty();
+        if piece.facing == Facing::Unknown && roomy && boxes[i].build != Build::Hung {
+            boxes[i].build = Build::Envelope;
+        }
+    }
+    let mut by_kind: BTreeMap<&str, (usize, Vec<f64>, Build)> = BTreeMap::new();
+    let mut first = Vec::new();
+    for (i, piece) in pieces.iter().enumerate() {
+        let next = by_kind.len();
+        let entry = by_kind.entry(&piece.kind).or_insert_with(|| {
+            first.push(i);
+            (next, Vec::new(), boxes[i].build)
+        });
+        entry.1.extend(&levels[i]);
+        if boxes[i].build == Build::Envelope {
+            entry.2 = Build::Envelope;
+        }
+    }
+    let kinds = first.iter().map(|&i| {
+        let piece = &pieces[i];
+        let (_, levels, build) = &by_kind[piece.kind.as_str()];
+        let faces = piece.facing == Facing::Own && has_front(*build, &piece.word);
+        Kind {
+            source: piece.kind.clone(),
+            word: piece.word.clone(),
+            parts: shape::parts(
+                *build,
+                piece.half,
+                piece.height,
+                &shape::common(levels.iter().copied()),
+            ),
+            front: faces.then(|| Deg::of(90.0)),
+            properties: piece.kind_properties.clone(),
+        }
+    });
+    let kinds = kinds.collect();
+    let numbers: Vec<usize> = pieces.iter().map(|p| by_kind[p.kind.as_str()].0).collect();
+    let things = pieces.into_iter().zip(numbers).map(|(piece, kind)| Thing {
+        source: piece.source,
+        name: String::new(),
+        kind,
+        at: piece.at,
+        z: Cm::of(piece.bottom),
+        angle: Deg::of(piece.angle),
+        room: None,
+        move_prob: piece.move_prob,
+        properties: piece.properties,
+    });
+    (kinds, things.collect())
+}
+
+/// СОСТОЯНИЕ from what a file says of being open and switched on; where it says both, the second is ПИТАНИЕ.
+pub(super) fn state(open: Option<bool>, on: Option<bool>, properties: &mut Properties) {
+    let open = open.map(|o| if o { "Открыто" } else { "Закрыто" });
+    let on = on.map(|o| if o { "Включено" } else { "Выключено" });
+    if let (Some(_), Some(on)) = (open, on) {
+        properties.insert("ПИТАНИЕ".to_owned(), on.to_owned());
+    }
+    if let Some(state) = open.or(on) {
+        properties.insert("СОСТОЯНИЕ".to_owned(), state.to_owned());
+    }
+}
