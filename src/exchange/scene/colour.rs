@@ -1,10 +1,10 @@
 //! Colours and materials in words: properties ЦВЕТ and МАТЕРИАЛ.
 
-/// Names of the colours that people tell apart (Berlin and Kay's eleven and голубой), as sRGB.
-const COLOURS: [(&str, [f64; 3]); 12] = [
-    ("Чёрный", [0.08, 0.08, 0.08]),
-    ("Серый", [0.5, 0.5, 0.5]),
-    ("Белый", [0.95, 0.95, 0.95]),
+/// A colour whose channels differ by less has no hue.
+const HUE: f64 = 0.12;
+
+/// Names of the colours that people tell apart, those with a hue (of Berlin and Kay's eleven, and голубой), as sRGB.
+const COLOURS: [(&str, [f64; 3]); 9] = [
     ("Красный", [0.8, 0.1, 0.1]),
     ("Оранжевый", [1.0, 0.55, 0.1]),
     ("Жёлтый", [0.95, 0.9, 0.15]),
@@ -58,7 +58,15 @@ const MATERIALS: [(&str, &str); 16] = [
 
 /// The name of the colour nearest to an sRGB one, each channel 0..=1.
 pub(super) fn of_rgb([r, g, b]: [f64; 3]) -> &'static str {
-    // Green weighs most and blue least, as in the eye.
+    let (dark, bright) = (r.min(g).min(b), r.max(g).max(b));
+    if bright - dark < HUE {
+        return match () {
+            () if bright < 0.25 => "Чёрный",
+            () if dark > 0.8 => "Белый",
+            () => "Серый",
+        };
+    }
+    // Green weighs most and red least: how well the eye tells shades apart.
     let far = |c: &[f64; 3]| {
         2.0 * (r - c[0]).powi(2) + 4.0 * (g - c[1]).powi(2) + 3.0 * (b - c[2]).powi(2)
     };
@@ -93,7 +101,9 @@ mod tests {
     #[test]
     fn colours_get_the_name_that_people_give_them() {
         assert_eq!(of_rgb([0.68, 0.68, 0.67]), "Серый");
-        assert_eq!(of_rgb([0.2, 0.0, 0.0]), "Чёрный");
+        assert_eq!(of_rgb([0.05, 0.05, 0.1]), "Чёрный");
+        assert_eq!(of_rgb([0.9, 0.92, 0.88]), "Белый");
+        assert_eq!(of_rgb([1.0, 0.0, 0.0]), "Красный");
         assert_eq!(of_rgb([0.0, 0.0, 0.6]), "Синий");
         assert_eq!(of_text("light blue"), Some("Голубой"));
         assert_eq!(of_text("#FF0000"), Some("Красный"));
