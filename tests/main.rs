@@ -4,6 +4,7 @@ mod architecture;
 mod cli;
 mod corridor;
 mod corridor_lattice;
+mod drawings;
 mod facts;
 mod facts_naive;
 mod floor_cases;

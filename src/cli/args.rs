@@ -8,6 +8,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::graphplan::Limits;
 use crate::robot::Wanted;
 
+use super::draw::DrawArgs;
+
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
 #[command(name = "ortho", version, propagate_version = true)]
@@ -89,7 +91,7 @@ pub(super) enum Command {
     /// Carry out a task given in words, in the simulator: ortho do "Принеси лекарство"
     Do {
         task: String,
-        /// Write the plan drawing here
+        /// Write the plan drawing here, as SVG or PNG by the name's ending
         #[arg(long, value_name = "FILE")]
         draw: Option<PathBuf>,
     },
@@ -127,14 +129,8 @@ pub(super) enum Command {
         #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
         at: String,
     },
-    /// Draw as SVG
-    Draw {
-        #[command(subcommand)]
-        what: Drawing,
-        /// File to write; standard output when absent
-        #[arg(short, long, global = true, value_name = "FILE")]
-        out: Option<PathBuf>,
-    },
+    /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
+    Draw(DrawArgs),
 }
 
 #[derive(Debug, Args)]
@@ -213,24 +209,4 @@ pub(super) enum RouteMethod {
     Shortest,
     /// Depth-first over Passframes, midpoints of their borders (paper 1 §8)
     Paper,
-}
-
-#[derive(Debug, Subcommand)]
-pub(super) enum Drawing {
-    /// Rooms, doors, furniture
-    Map {
-        /// The map; may be left out when there is only one
-        name: Option<String>,
-    },
-    /// The map with free floor, dead zones and Passframes
-    Floor { name: Option<String> },
-    /// The road graph of corridors, with the way
-    Corridor(CorridorArgs),
-    /// The map with a route
-    Route {
-        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
-        from: String,
-        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
-        to: String,
-    },
 }

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Drawing as Sheet, Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose,
-    plan_alone,
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, plan_alone,
 };
 use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 use crate::strips::Scenario;
 
-use super::args::{Common, Drawing, PlanArgs, RouteMethod};
+use super::args::{Common, PlanArgs, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
 
@@ -212,7 +211,7 @@ pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Resul
     let engine = open(common)?;
     let answer = super::demo::perform(common, &engine, task)?;
     if let Some(path) = draw {
-        super::demo::draw(&engine, &answer, path)?;
+        super::draw::put_driven(common, &engine, &answer, path)?;
     }
     Ok(match answer.ending {
         TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,
@@ -285,41 +284,4 @@ pub(super) fn datalog(
         .chain(report.written.iter().map(|path| path.display().to_string()))
         .collect();
     say(&lines.join("\n"))
-}
-
-pub(super) fn draw(common: &Common, what: &Drawing, out: Option<&Path>) -> Result<Answer, Failure> {
-    let plan = |name: &Option<String>, sheet: Sheet| -> Result<String, Failure> {
-        let engine = open(common)?;
-        Ok(engine.draw(engine.map_named(name.as_deref())?, &sheet)?)
-    };
-    let svg = match what {
-        Drawing::Map { name } => plan(name, Sheet::default())?,
-        Drawing::Floor { name } => plan(name, Sheet { floor: true, ..Sheet::default() })?,
-        Drawing::Corridor(args) => super::corridor::draw(common, args)?,
-        Drawing::Route { from, to } => {
-            let engine = open(common)?;
-            let answer = engine.route(from, to, Method::Shortest)?;
-            match answer.route {
-                Ok(route) => {
-                    let sheet = Sheet { legs: vec![(1, route.points)], ..Sheet::default() };
-                    engine.draw(answer.map, &sheet)?
-                }
-                Err(why) => {
-                    note(&why.to_string());
-                    return Ok(Answer::No);
-                }
-            }
-        }
-    };
-    put(&svg, out)
-}
-
-fn put(svg: &str, out: Option<&Path>) -> Result<Answer, Failure> {
-    match out {
-        Some(path) => {
-            std::fs::write(path, svg).map_err(|e| Failure::file(path, &e))?;
-            Ok(Answer::Yes)
-        }
-        None => say(svg),
-    }
 }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::engine::{Drawing, Engine, Progress, TaskAnswer, TaskEnding, World, change_now};
+use crate::engine::{Engine, Progress, TaskAnswer, TaskEnding, World, change_now};
 use crate::graphplan::Outcome;
 
 use super::args::{Common, Lang};
@@ -45,7 +45,7 @@ pub(super) fn run(
     }
     let answer = perform(common, &engine, task)?;
     let drawing = out.join("plan.svg");
-    draw(&engine, &answer, &drawing)?;
+    super::draw::put_driven(common, &engine, &answer, &drawing)?;
     if !common.json {
         say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawing.display()))?;
     }
@@ -69,17 +69,6 @@ pub(super) fn perform(common: &Common, engine: &Engine, task: &str) -> Result<Ta
     teller.bar.finish_and_clear();
     say(&ending(world, &answer, common.lang))?;
     Ok(answer)
-}
-
-/// The map with Passframes and the way driven.
-pub(super) fn draw(engine: &Engine, answer: &TaskAnswer, path: &Path) -> Result<(), Failure> {
-    let driven = answer.reports.iter().filter(|r| !r.points.is_empty());
-    let legs = driven.map(|r| (r.number, r.points.clone())).collect();
-    let svg = engine.draw(answer.map, &Drawing { floor: true, legs, robot: Some(answer.start) })?;
-    if let Some(dir) = path.parent() {
-        std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
-    }
-    std::fs::write(path, svg).map_err(|e| Failure::file(path, &e))
 }
 
 /// Tells a run as it happens: reports on standard output, a bar on the terminal.

@@ -7,6 +7,7 @@ mod args;
 mod commands;
 mod corridor;
 mod demo;
+mod draw;
 mod fault;
 mod json;
 mod text;
@@ -61,7 +62,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::datalog(common, program, facts, output)
         }
         Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
-        Command::Draw { what, out } => commands::draw(common, what, out.as_deref()),
+        Command::Draw(args) => draw::run(common, args),
     }
 }
 

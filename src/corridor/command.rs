@@ -1,5 +1,7 @@
 //! Commands for the robot, in the paper's words and in English.
 
+use crate::units::Language;
+
 use super::system::{JunctionKind, Side, Turn};
 
 /// One manoeuvre. The robot needs no coordinates for it, only what it sees.
@@ -91,12 +93,6 @@ impl Command {
         }
         out
     }
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Language {
-    Russian,
-    English,
 }
 
 impl Language {

@@ -1,9 +1,9 @@
 //! Directions from where the robot stands to the entrance of a room.
 
-use crate::units::nearest_name;
+use crate::units::{Language, nearest_name};
 
 use super::CorridorError;
-use super::command::{Command, Language};
+use super::command::Command;
 use super::double::DoubleGraph;
 use super::single::SingleGraph;
 use super::system::{ArcIx, CorridorSystem, VertexIx};

@@ -32,7 +32,7 @@ mod single;
 mod system;
 mod weight;
 
-pub use command::{Command, Language};
+pub use command::Command;
 pub use directions::{Directions, Position, Step, Variant, Way, directions};
 pub use double::{Bearing, DoubleArc, DoubleArcKind, DoubleGraph};
 pub use error::CorridorError;

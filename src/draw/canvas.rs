@@ -1,10 +1,14 @@
 //! A sheet with the Map's coordinates: cm, y up.
 
-use svg::node::element::{Circle, Group, Line, Path, Rectangle, Text, Title, path::Data};
+use svg::node::element::{
+    Circle, Group, Line, Path, Rectangle, Style as StyleSheet, Text, Title, path::Data,
+};
 use svg::{Document, Node};
 
 use crate::geometry::{Bounds, Polygon};
 use crate::units::Point;
+
+use super::font::{self, FAMILY};
 
 /// How a shape is filled and outlined. `None` is not painted.
 #[derive(Debug, Clone, Copy)]
@@ -13,8 +17,8 @@ pub(super) struct Style {
     pub stroke: Option<&'static str>,
     /// cm on the sheet.
     pub width: f64,
-    /// Lengths of dashes and gaps, as SVG writes them.
-    pub dash: Option<&'static str>,
+    /// Lengths of dash and gap, cm on the sheet.
+    pub dash: Option<(f64, f64)>,
     pub opacity: f64,
 }
 
@@ -33,8 +37,15 @@ impl Style {
         self
     }
 
-    pub(super) const fn dashed(mut self, dash: &'static str) -> Self {
-        self.dash = Some(dash);
+    pub(super) const fn dashed(mut self, dash: f64, gap: f64) -> Self {
+        self.dash = Some((dash, gap));
+        self
+    }
+
+    /// With lines and dashes so many times as large: for sheets of large buildings.
+    pub(super) fn thick(mut self, pen: f64) -> Self {
+        self.width *= pen;
+        self.dash = self.dash.map(|(dash, gap)| (dash * pen, gap * pen));
         self
     }
 
@@ -51,8 +62,8 @@ impl Style {
             node.assign("stroke-linejoin", "round");
             node.assign("stroke-linecap", "round");
         }
-        if let Some(dash) = self.dash {
-            node.assign("stroke-dasharray", dash);
+        if let Some((dash, gap)) = self.dash {
+            node.assign("stroke-dasharray", format!("{} {}", number(dash), number(gap)));
         }
         if self.opacity < 1.0 {
             node.assign("opacity", number(self.opacity));
@@ -77,11 +88,13 @@ pub(super) struct Lettering {
     pub anchor: Anchor,
     /// A light rim that parts the letters from the lines below them.
     pub halo: bool,
+    /// Degrees counter-clockwise from the sheet's x.
+    pub turn: f64,
 }
 
 impl Lettering {
     pub(super) const fn plain(size: f64, color: &'static str) -> Self {
-        Self { size, color, bold: false, anchor: Anchor::Middle, halo: true }
+        Self { size, color, bold: false, anchor: Anchor::Middle, halo: true, turn: 0.0 }
     }
 
     pub(super) const fn bold(size: f64, color: &'static str) -> Self {
@@ -92,17 +105,26 @@ impl Lettering {
 /// Collects shapes; [`Canvas::into_svg`] frames them.
 pub(super) struct Canvas {
     bounds: Bounds,
+    /// Of the picture, as it is shown unscaled.
+    pixels: f64,
     nodes: Group,
 }
 
 impl Canvas {
     /// A sheet that shows `bounds` of the Map.
     pub(super) fn new(bounds: Bounds) -> Self {
+        let width = bounds.max.x - bounds.min.x;
         Self {
             bounds,
-            nodes: Group::new()
-                .set("font-family", "DejaVu Sans, Liberation Sans, Arial, sans-serif"),
+            pixels: width.clamp(600.0, 1600.0),
+            nodes: Group::new().set("font-family", format!("{FAMILY}, Arial, sans-serif")),
         }
+    }
+
+    /// So many pixels wide, whatever the sheet's own size.
+    pub(super) fn wide(mut self, pixels: f64) -> Self {
+        self.pixels = pixels;
+        self
     }
 
     fn at(&self, p: Point) -> (f64, f64) {
@@ -138,6 +160,27 @@ impl Canvas {
         points.iter().enumerate().fold(data, |data, (i, &p)| {
             if i == 0 { data.move_to(self.at(p)) } else { data.line_to(self.at(p)) }
         })
+    }
+
+    /// A polygon of any colour, closed to its neighbours: a hair's breadth hides the seams of cut faces.
+    pub(super) fn shade(&mut self, corners: &[Point], color: &str) {
+        let path = Path::new()
+            .set("d", self.trace(Data::new(), corners).close())
+            .set("fill", color)
+            .set("stroke", color)
+            .set("stroke-width", "0.5");
+        self.nodes.append(path);
+    }
+
+    /// A line of any colour.
+    pub(super) fn stroke(&mut self, a: Point, b: Point, color: &str, width: f64) {
+        let ((x1, y1), (x2, y2)) = (self.at(a), self.at(b));
+        let line = Line::new().set("x1", x1).set("y1", y1).set("x2", x2).set("y2", y2);
+        self.nodes.append(
+            line.set("stroke", color)
+                .set("stroke-width", number(width))
+                .set("stroke-linecap", "round"),
+        );
     }
 
     pub(super) fn segment(&mut self, a: Point, b: Point, style: Style) {
@@ -189,6 +232,9 @@ impl Canvas {
         if lettering.bold {
             node = node.set("font-weight", "bold");
         }
+        if lettering.turn != 0.0 {
+            node = node.set("transform", format!("rotate({} {x} {y})", number(-lettering.turn)));
+        }
         self.nodes.append(node);
     }
 
@@ -200,17 +246,14 @@ impl Canvas {
         Style::fill("#ffffff").apply(&mut paper);
         Document::new()
             .set("viewBox", (0, 0, round(width), round(height)))
-            .set("width", number(width.clamp(600.0, 1600.0)))
+            .set("width", number(self.pixels))
+            .set("height", number(self.pixels * height / width))
             .add(Title::new(title))
+            .add(StyleSheet::new(font::style_sheet()))
             .add(paper)
             .add(self.nodes)
             .to_string()
     }
-}
-
-/// Width of a line of text, roughly: DejaVu Sans takes about 0.6 of the size a letter.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * size * 0.62
 }
 
 /// Two decimals: a tenth of a millimetre is finer than any pen.

@@ -1,13 +1,26 @@
-//! Drawings as SVG (SPEC M12): the plan of a Map with furniture, free floor, Passframes and routes; a road graph.
+//! Drawings as SVG and PNG (SPEC M12): the plan of a Map or Fragment with furniture, free floor, Passframes, their network
+//! and routes; an Object from three sides; the view from a pose; a road graph.
 //!
 //! A drawing is built from plain geometry, so that every layer can be drawn without the others. Coordinates
-//! are the Map's, in cm, y up; [`canvas`](self) turns them over, since SVG counts y downwards.
+//! are the Map's, in cm, y up; the sheet turns them over, since SVG counts y downwards.
 //!
 //! **Invariant.** The same input gives the same bytes.
 
 mod canvas;
 mod corridor;
+mod font;
+mod furniture;
+mod labels;
+mod legend;
+mod object;
 mod plan;
+#[cfg(feature = "pictures")]
+mod png;
+mod view;
 
 pub use corridor::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
-pub use plan::{DoorGlyph, FloorLayer, PlanDrawing, RouteLayer};
+pub use object::object_svg;
+pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
+#[cfg(feature = "pictures")]
+pub use png::{PngError, png};
+pub use view::{LeafBody, ViewDrawing};

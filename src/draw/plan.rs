@@ -1,10 +1,17 @@
-//! The plan of a Map (figs. 6, 9-12): rooms, doors as architects draw them, furniture, free floor, Passframes, route.
+//! The plan of a Map or of one Fragment (figs. 6, 9-12): rooms, windows, doors as architects draw them, furniture, free
+//! floor, Passframes and their network, a route with its directives.
 
-use crate::geometry::{Bounds, Owner, Polygon, Prism, Region, Scene};
-use crate::map::{Permeability, World};
-use crate::units::{Point, Pose, Vector};
+use crate::geometry::{
+    Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
+};
+use crate::map::{BaseVector, DoorStatus, Permeability, TypeEntry, World};
+use crate::units::{AreaId, Language, Point, Pose, Vector};
 
-use super::canvas::{Anchor, Canvas, Lettering, Style, text_width};
+use super::canvas::{Canvas, Lettering, Style};
+use super::font::text_width;
+use super::furniture;
+use super::labels::{Labels, around};
+use super::legend::{Entry, Legend, scale_bar};
 
 /// Free floor and its partition, as the drawing needs them.
 #[derive(Debug, Clone, Default)]
@@ -15,11 +22,63 @@ pub struct FloorLayer {
     pub dead_zones: Vec<Region>,
 }
 
+/// The Passframe network (fig. 12): vertices within Passframes, edges over the borders that the robot can cross.
+#[derive(Debug, Clone, Default)]
+pub struct NetworkLayer {
+    pub vertices: Vec<Point>,
+    /// From vertex to vertex through the middle of their border.
+    pub edges: Vec<[Point; 3]>,
+    /// From vertex to vertex through a doorway.
+    pub doors: Vec<[Point; 3]>,
+}
+
+impl NetworkLayer {
+    /// The network of a floor, or of one Area of it.
+    #[must_use]
+    pub fn of(floor: &FloorPlan, only: Option<AreaId>) -> Self {
+        use crate::geometry::Beyond;
+        let mut layer = Self::default();
+        let middle = |(a, b): (Point, Point)| nalgebra::center(&a, &b);
+        let mut by_doorway: std::collections::BTreeMap<usize, Vec<(Point, Point)>> =
+            Default::default();
+        for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
+            let centre: std::collections::BTreeMap<_, _> =
+                fragment.passframes.iter().map(|p| (p.id, p.polygon.centroid())).collect();
+            for frame in &fragment.passframes {
+                let from = centre[&frame.id];
+                layer.vertices.push(from);
+                for (to, crossing) in frame.neighbours().filter(|(to, _)| *to > frame.id) {
+                    if let Some(&to) = centre.get(&to) {
+                        layer.edges.push([from, middle(crossing), to]);
+                    }
+                }
+                for border in &frame.borders {
+                    if let (Beyond::Doorway { doorway, .. }, Some(crossing)) =
+                        (border.beyond, border.crossing)
+                    {
+                        by_doorway.entry(doorway).or_default().push((from, middle(crossing)));
+                    }
+                }
+            }
+        }
+        for ends in by_doorway.into_values() {
+            match ends[..] {
+                [(from, at), (to, _), ..] => layer.doors.push([from, at, to]),
+                [(from, at)] => layer.doors.push([from, at, at]),
+                [] => {}
+            }
+        }
+        layer
+    }
+}
+
 /// A drivable line, cut into the directives' legs.
 #[derive(Debug, Clone, Default)]
 pub struct RouteLayer {
     /// The number of the directive, and its way.
     pub legs: Vec<(usize, Vec<Point>)>,
+    /// The directives by number, listed beside the plan.
+    pub directives: Vec<(usize, String)>,
     pub start: Option<Pose>,
     /// Radius of the robot's disc, cm.
     pub robot_radius: f64,
@@ -30,6 +89,16 @@ pub struct RouteLayer {
 pub struct DoorGlyph {
     pub leaf: Polygon,
     pub swept: Option<Polygon>,
+    pub status: DoorStatus,
+}
+
+/// What is seen from a pose: the stretches of faces that are in view, within the angle of view.
+#[derive(Debug, Clone, Default)]
+pub struct ViewLayer {
+    pub eye: Option<Pose>,
+    /// The floor over which the eye sees, as a fan of triangles about the eye.
+    pub fan: Vec<Point>,
+    pub seen: Vec<(Point, Point)>,
 }
 
 /// What is to be drawn of a Map.
@@ -37,259 +106,364 @@ pub struct DoorGlyph {
 pub struct PlanDrawing<'a> {
     pub world: &'a World,
     pub scene: &'a Scene,
+    /// Only this Area with what stands in it: a Fragment.
+    pub only: Option<AreaId>,
     pub doors: Vec<DoorGlyph>,
     pub floor: FloorLayer,
+    pub network: NetworkLayer,
     pub route: RouteLayer,
+    pub view: ViewLayer,
     /// Points with a name: «Точка-А».
     pub places: Vec<(Point, String)>,
+    pub language: Language,
 }
 
+const ROOM: Style = Style::fill("#faf7f0");
 const WALL: Style = Style::line("#3b3a36", 7.0);
-const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed("6 5");
+const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed(6.0, 5.0);
 const LEAF: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.2);
-const SWING: Style = Style::line("#8c887d", 0.9).dashed("3 3");
+const LOCKED: Style = Style::fill("#b3261e").outlined("#3b3a36", 1.2);
+const SWING: Style = Style::line("#8c887d", 0.9).dashed(3.0, 3.0);
+const GLASS: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.0);
+const PANE: Style = Style::line("#5aa0c8", 1.2);
 const PASSFRAME: Style = Style::fill("#e4f1e3").outlined("#69a869", 0.9);
 const DEAD_ZONE: Style = Style::fill("#e8a39b").faint(0.75);
+const NETWORK: Style = Style::line("#7a4fa3", 1.3);
+const VERTEX: Style = Style::fill("#7a4fa3");
 const ROUTE: Style = Style::line("#1f5fbf", 4.0);
+const SIGHT: Style = Style::fill("#ffd766").faint(0.35);
+const SEEN: Style = Style::line("#e07b00", 3.4);
+const STAIRS: Style = Style::line("#b9b2a2", 1.2);
 const INK: &str = "#2b2a27";
+const PLACE: &str = "#b3261e";
 
 impl PlanDrawing<'_> {
+    fn areas(&self) -> impl Iterator<Item = &PlacedArea> + '_ {
+        self.scene.areas.values().filter(|a| self.only.is_none_or(|only| only == a.id))
+    }
+
+    fn things(&self) -> impl Iterator<Item = &PlacedReplica> + '_ {
+        self.scene.replicas.values().filter(|r| self.only.is_none_or(|only| only == r.area))
+    }
+
     /// The drawing as SVG text.
     #[must_use]
     pub fn to_svg(&self) -> String {
-        let rooms = self.scene.areas.values().flat_map(|a| &a.prisms);
-        let extent = rooms.clone().fold(Bounds::EMPTY, |b, prism| b.union(&prism.bounds));
-        let extent =
-            if extent.min.x <= extent.max.x { extent } else { Bounds::of([Point::origin()]) };
-        let mut sheet = extent.grown(40.0);
-        sheet.min.y -= 70.0; // scale bar and legend
-        let mut canvas = Canvas::new(sheet);
-        for prism in rooms {
-            canvas.polygon(&prism.polygon, Style::fill("#faf7f0"), None);
+        let rooms = self.areas().flat_map(|a| &a.prisms);
+        let mut extent = rooms.fold(Bounds::EMPTY, |b, prism| b.union(&prism.bounds));
+        if extent.min.x > extent.max.x {
+            extent = Bounds::of([Point::origin()]).grown(100.0);
         }
-        self.floor(&mut canvas);
-        self.furniture(&mut canvas);
-        self.walls(&mut canvas);
-        for door in &self.doors {
-            draw_door(&mut canvas, door);
+        let longest = (extent.max.x - extent.min.x).max(extent.max.y - extent.min.y);
+        // Letters and lines grow with the building, but slower, so that a hospital's rooms keep their names.
+        let pen = (longest / 1000.0).max(0.35).sqrt();
+        let legend = self.legend(extent, pen);
+        // A leaf that swings out of the room is shown whole.
+        let leaves = self
+            .doors
+            .iter()
+            .filter(|_| self.only.is_some())
+            .flat_map(|d| [Some(&d.leaf), d.swept.as_ref()]);
+        let whole = leaves.flatten().fold(extent, |b, leaf| b.union(&leaf.bounds()));
+        let mut sheet = whole.grown(34.0 * pen);
+        sheet.min.y = sheet.min.y.min(extent.min.y - 34.0 * pen);
+        sheet.min.y -= legend.height() + 22.0 * pen;
+        sheet.max.x = sheet.max.x.max(sheet.min.x + 640.0 * pen);
+        let width = sheet.max.x - sheet.min.x;
+        let mut canvas = Canvas::new(sheet).wide((width / pen).clamp(760.0, 4000.0));
+        for area in self.areas() {
+            self.floor_of(&mut canvas, area, pen);
         }
-        self.route(&mut canvas);
-        self.labels(&mut canvas);
-        legend(&mut canvas, extent, !self.floor.passframes.is_empty(), !self.route.legs.is_empty());
-        canvas.into_svg(&self.world.maps[&self.scene.map].name)
+        self.floor(&mut canvas, pen);
+        furniture::draw(&mut canvas, self.world, self.things(), pen);
+        for area in self.areas() {
+            self.walls(&mut canvas, area, pen);
+        }
+        for door in self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())) {
+            draw_door(&mut canvas, door, pen);
+        }
+        self.network(&mut canvas, pen);
+        self.view(&mut canvas, pen);
+        self.route(&mut canvas, pen);
+        self.labels(&mut canvas, pen);
+        scale_bar(
+            &mut canvas,
+            Point::new(extent.min.x, extent.min.y - 42.0 * pen),
+            pen,
+            self.language,
+        );
+        legend.draw(&mut canvas);
+        canvas.into_svg(&self.title())
     }
 
-    fn floor(&self, canvas: &mut Canvas) {
+    fn title(&self) -> String {
+        let map = &self.world.maps[&self.scene.map];
+        match self.only.map(|id| &self.world.areas[&id]) {
+            Some(area) => self.named(&area.name, &area.name_en).to_owned(),
+            None => self.named(&map.name, &map.name_en).to_owned(),
+        }
+    }
+
+    fn named<'n>(&self, russian: &'n str, english: &'n str) -> &'n str {
+        if self.language == Language::English && !english.is_empty() { english } else { russian }
+    }
+
+    /// Paper-coloured floor; a lift with the cross and stairs with the steps by which plans show them.
+    fn floor_of(&self, canvas: &mut Canvas, area: &PlacedArea, pen: f64) {
+        for prism in &area.prisms {
+            canvas.polygon(&prism.polygon, ROOM, None);
+        }
+        let kind = self.world.types.area.get(self.world.areas[&area.id].area_type);
+        let is = |words: &[&str]| kind.is_some_and(|kind| is_called(kind, words));
+        let Some(prism) = area.prisms.first().filter(|p| p.polygon.corners.len() >= 4) else {
+            return;
+        };
+        let style = STAIRS.thick(pen);
+        if is(&["lift", "elevator"]) && prism.polygon.corners.len() == 4 {
+            let c = &prism.polygon.corners;
+            canvas.segment(c[0], c[2], style);
+            canvas.segment(c[1], c[3], style);
+        } else if is(&["stairs", "staircase", "stairwell"]) && prism.polygon.corners.len() == 4 {
+            let c = &prism.polygon.corners;
+            let long = (c[1] - c[0]).norm() > (c[2] - c[1]).norm();
+            let (a, b, d, e) =
+                if long { (c[0], c[1], c[3], c[2]) } else { (c[1], c[2], c[0], c[3]) };
+            let steps = ((b - a).norm() / (28.0 * pen)).floor() as i32;
+            for i in 1..steps {
+                let t = f64::from(i) / f64::from(steps);
+                canvas.segment(a + (b - a) * t, d + (e - d) * t, style);
+            }
+        }
+    }
+
+    fn floor(&self, canvas: &mut Canvas, pen: f64) {
         for (cell, id) in &self.floor.passframes {
-            canvas.polygon(cell, PASSFRAME, Some(id));
+            canvas.polygon(cell, PASSFRAME.thick(pen), Some(id));
         }
         for zone in &self.floor.dead_zones {
             canvas.polygons(zone.contours().map(|c| c.corners.as_slice()), DEAD_ZONE, None);
         }
     }
 
-    /// Low things first, so that what stands on a table is seen.
-    fn furniture(&self, canvas: &mut Canvas) {
-        let mut prisms: Vec<&Prism> =
-            self.scene.replicas.values().flat_map(|r| &r.prisms).collect();
-        prisms.sort_by(|a, b| a.top.total_cmp(&b.top).then(b.bottom.total_cmp(&a.bottom)));
-        for prism in prisms {
-            let Owner::Replica(id) = prism.owner else { continue };
-            let replica = &self.world.replicas[&id];
-            let movable = replica.move_prob > 0;
-            canvas.polygon(&prism.polygon, furniture_style(prism, movable), Some(&replica.name));
-        }
-    }
-
-    fn walls(&self, canvas: &mut Canvas) {
-        for prism in self.scene.areas.values().flat_map(|a| &a.prisms) {
-            for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
+    fn walls(&self, canvas: &mut Canvas, area: &PlacedArea, pen: f64) {
+        for prism in &area.prisms {
+            let orthoframe = &self.world.orthoframes[&prism.orthoframe];
+            for (((a, b), side), vector) in
+                prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
+            {
                 match side.permeability {
-                    Permeability::Impermeable => canvas.segment(a, b, WALL),
+                    Permeability::Impermeable if is_window(self.world, vector) => {
+                        window(canvas, a, b, pen)
+                    }
+                    Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
                     Permeability::Permeable | Permeability::Conditional => {
-                        canvas.segment(a, b, PASSAGE)
+                        canvas.segment(a, b, PASSAGE.thick(pen));
                     }
                 }
             }
         }
     }
 
-    fn route(&self, canvas: &mut Canvas) {
+    fn network(&self, canvas: &mut Canvas, pen: f64) {
+        for edge in &self.network.edges {
+            canvas.polyline(edge, NETWORK.thick(pen));
+        }
+        for [from, at, to] in &self.network.doors {
+            canvas.polyline(&[*from, *at, *to], Style::line("#b3261e", 1.6).thick(pen));
+            let r = 4.5 * pen;
+            let corners =
+                [(r, 0.0), (0.0, r), (-r, 0.0), (0.0, -r)].map(|(x, y)| at + Vector::new(x, y));
+            canvas.polygon(&Polygon::new(corners.into()), Style::fill("#b3261e"), None);
+        }
+        for vertex in &self.network.vertices {
+            canvas.circle(*vertex, 3.2 * pen, VERTEX);
+        }
+    }
+
+    fn view(&self, canvas: &mut Canvas, pen: f64) {
+        let Some(eye) = self.view.eye else { return };
+        if self.view.fan.len() >= 2 {
+            let mut outline = vec![eye.at];
+            outline.extend(&self.view.fan);
+            canvas.polygon(&Polygon::new(outline), SIGHT, None);
+        }
+        for &(a, b) in &self.view.seen {
+            canvas.segment(a, b, SEEN.thick(pen));
+        }
+        robot(canvas, eye, self.world.robot.radius.get(), pen);
+    }
+
+    fn route(&self, canvas: &mut Canvas, pen: f64) {
         for (_, leg) in &self.route.legs {
-            canvas.polyline(leg, ROUTE);
+            canvas.polyline(leg, ROUTE.thick(pen));
         }
         if let Some(pose) = self.route.start {
-            let (sin, cos) = pose.heading.sin_cos();
-            let nose = pose.at + Vector::new(cos, sin) * self.route.robot_radius;
-            canvas.circle(
-                pose.at,
-                self.route.robot_radius,
-                Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85),
-            );
-            canvas.segment(pose.at, nose, Style::line("#1f5fbf", 2.5));
+            robot(canvas, pose, self.route.robot_radius, pen);
         }
     }
 
-    /// Numbers of the directives at the ends of their legs; those that end at one point share a badge.
-    fn badges(&self, canvas: &mut Canvas) -> Vec<Bounds> {
-        let mut badges: Vec<(Point, String)> = Vec::new();
+    /// Numbers of the directives at the ends of their legs; those that end near one point share a badge.
+    fn badges(&self, canvas: &mut Canvas, labels: &mut Labels, pen: f64) {
+        let mut badges: Vec<(Point, Vec<usize>)> = Vec::new();
         for (number, leg) in &self.route.legs {
             let Some(&end) = leg.last() else { continue };
-            match badges.iter_mut().find(|(at, _)| (at - end).norm() < 16.0) {
-                Some((_, text)) => text.push_str(&format!(" · {number}")),
-                None => badges.push((end, number.to_string())),
+            match badges.iter_mut().find(|(at, _)| (at - end).norm() < 20.0 * pen) {
+                Some((_, numbers)) => numbers.push(*number),
+                None => badges.push((end, vec![*number])),
             }
         }
-        let mut taken = Vec::new();
-        for (at, text) in badges {
-            let frame = around(at, (text_width(&text, 11.0) + 8.0).max(18.0), 18.0);
-            canvas.rectangle(frame, Style::fill("#1f5fbf").outlined("#ffffff", 1.6), 9.0);
-            canvas.text(at, &text, Lettering { halo: false, ..Lettering::bold(11.0, "#ffffff") });
-            taken.push(frame);
+        let size = 11.0 * pen;
+        for (at, numbers) in badges {
+            let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
+            let text = numbers.join(" · ");
+            let frame = around(
+                at,
+                (text_width(&text, size, true) + 10.0 * pen).max(18.0 * pen),
+                18.0 * pen,
+            );
+            let style = Style::fill("#1f5fbf").outlined("#ffffff", 1.6).thick(pen);
+            canvas.rectangle(frame, style, 9.0 * pen);
+            canvas.text(at, &text, Lettering { halo: false, ..Lettering::bold(size, "#ffffff") });
+            labels.take(frame);
         }
-        taken
     }
 
-    /// Names of places, rooms and furniture, the large before the small, none over another.
-    fn labels(&self, canvas: &mut Canvas) {
+    /// Names of places, rooms and furniture, the large before the small.
+    fn labels(&self, canvas: &mut Canvas, pen: f64) {
+        let mut labels = Labels::new(10.0 * pen);
+        for (_, leg) in &self.route.legs {
+            leg.windows(2).for_each(|w| labels.avoid_line(w[0], w[1]));
+        }
+        let sides =
+            self.areas().flat_map(|a| &a.prisms).flat_map(|p| p.polygon.edges().zip(&p.sides));
+        for ((a, b), _) in sides.filter(|(_, s)| s.permeability == Permeability::Impermeable) {
+            labels.avoid_line(a, b);
+        }
+        for door in &self.doors {
+            labels.take(door.leaf.bounds());
+        }
         for (p, _) in &self.places {
-            canvas.circle(*p, 3.2, Style::fill("#b3261e"));
+            canvas.circle(*p, 3.2 * pen, Style::fill(PLACE));
+            labels.take(around(*p, 7.0 * pen, 7.0 * pen));
         }
-        let mut taken = self.badges(canvas);
+        self.badges(canvas, &mut labels, pen);
         for (p, name) in &self.places {
-            place_label(
-                canvas,
-                &mut taken,
-                *p,
-                name,
-                Lettering::bold(13.0, "#b3261e"),
-                &AROUND_A_POINT,
-            );
+            labels.beside(canvas, *p, name, Lettering::bold(12.0 * pen, PLACE));
         }
-        for area in self.scene.areas.values() {
+        for placed in self.areas() {
             let area_of = |prism: &Prism| prism.polygon.signed_area();
-            let largest = area.prisms.iter().max_by(|a, b| area_of(a).total_cmp(&area_of(b)));
-            let Some(prism) = largest else { continue };
-            let name = &self.world.areas[&area.id].name;
-            place_label(
+            let Some(prism) = placed.prisms.iter().max_by(|a, b| area_of(a).total_cmp(&area_of(b)))
+            else {
+                continue;
+            };
+            let furniture: Vec<Bounds> =
+                self.scene.replicas_in(placed.id).map(|r| r.bounds).collect();
+            let area = &self.world.areas[&placed.id];
+            let name = self.named(&area.name, &area.name_en);
+            let size = self.square_metres(placed.prisms.iter().map(area_of).sum());
+            labels.in_room(
                 canvas,
-                &mut taken,
-                prism.polygon.centroid(),
+                &prism.polygon,
+                &furniture,
                 name,
-                Lettering::bold(21.0, INK),
-                &IN_A_ROOM,
+                &size,
+                Lettering::bold(20.0 * pen, INK),
             );
         }
-        let mut replicas: Vec<_> = self.scene.replicas.values().collect();
+        let mut things: Vec<_> = self.things().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
-        replicas.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
-        for replica in replicas {
-            let center = nalgebra::center(&replica.bounds.min, &replica.bounds.max);
-            let name = &self.world.replicas[&replica.id].name;
-            place_label(
-                canvas,
-                &mut taken,
-                center,
-                name,
-                Lettering::plain(9.0, "#5b5647"),
-                &ON_A_THING,
-            );
+        things.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
+        for thing in things {
+            let replica = &self.world.replicas[&thing.id];
+            let name = self.named(&replica.name, &replica.name_en);
+            labels.on_thing(canvas, thing.bounds, name, Lettering::plain(8.5 * pen, "#5b5647"));
         }
     }
-}
 
-/// Offsets to try for a label, in its widths and heights.
-const AROUND_A_POINT: [(f64, f64); 6] =
-    [(0.0, 1.7), (0.0, -1.7), (0.75, 0.9), (-0.75, 0.9), (0.75, -0.9), (-0.75, -0.9)];
-const IN_A_ROOM: [(f64, f64); 9] = [
-    (0.0, 0.0),
-    (0.0, 1.2),
-    (0.0, -1.2),
-    (0.0, 2.5),
-    (0.0, -2.5),
-    (0.6, 1.2),
-    (-0.6, 1.2),
-    (0.6, -1.2),
-    (-0.6, -1.2),
-];
-const ON_A_THING: [(f64, f64); 5] = [(0.0, 0.0), (0.0, 0.8), (0.0, -0.8), (0.0, 1.7), (0.0, -1.7)];
-
-/// Draws a label at the first offset where it covers no other; not at all when there is none.
-fn place_label(
-    canvas: &mut Canvas,
-    taken: &mut Vec<Bounds>,
-    at: Point,
-    text: &str,
-    lettering: Lettering,
-    offsets: &[(f64, f64)],
-) {
-    let (width, height) = (text_width(text, lettering.size), lettering.size * 1.15);
-    for (dx, dy) in offsets {
-        let p = at + Vector::new(dx * width, dy * height);
-        let frame = around(p, width, height);
-        if !taken.iter().any(|t| t.meets(&frame)) {
-            canvas.text(p, text, lettering);
-            taken.push(frame);
-            return;
-        }
+    /// «23,5 м²»
+    fn square_metres(&self, square_cm: f64) -> String {
+        let metres = format!("{:.1}", square_cm / 1e4);
+        self.language.pick(format!("{} м²", metres.replace('.', ",")), format!("{metres} m²"))
     }
-}
 
-fn around(p: Point, width: f64, height: f64) -> Bounds {
-    let half = Vector::new(width / 2.0, height / 2.0);
-    Bounds { min: p - half, max: p + half }
-}
-
-/// Wood for furniture, cooler for what can be moved about; flat boards thinner than solid blocks.
-fn furniture_style(prism: &Prism, movable: bool) -> Style {
-    let fill = match (movable, prism.top - prism.bottom > 5.0) {
-        (false, true) => "#e0cba6",
-        (false, false) => "#efe2c8",
-        (true, true) => "#cfd6c4",
-        (true, false) => "#dfe4d8",
-    };
-    Style::fill(fill).outlined("#8a7a5c", 0.9).faint(0.92)
-}
-
-fn draw_door(canvas: &mut Canvas, door: &DoorGlyph) {
-    if let Some(swept) = &door.swept {
-        canvas.polygon(swept, SWING, None);
-    }
-    canvas.polygon(&door.leaf, LEAF, None);
-}
-
-fn legend(canvas: &mut Canvas, extent: Bounds, floor: bool, route: bool) {
-    let y = extent.min.y - 45.0;
-    let x = extent.min.x;
-    for (i, color) in ["#2b2a27", "#ffffff"].into_iter().enumerate() {
-        let bar = Bounds {
-            min: Point::new(x + 100.0 * i as f64, y),
-            max: Point::new(x + 100.0 * (i + 1) as f64, y + 6.0),
+    fn legend(&self, extent: Bounds, pen: f64) -> Legend {
+        let mut entries = Vec::new();
+        let mut entry = |style: Style, russian: &str, english: &str| {
+            entries.push(Entry::Swatch(style, self.language.pick(russian, english).to_owned()));
         };
-        canvas.rectangle(bar, Style::fill(color).outlined(INK, 1.0), 0.0);
+        let movable = |r: &PlacedReplica| self.world.replicas[&r.id].move_prob > 0;
+        if self.things().any(|r| !movable(r)) {
+            entry(furniture::FIXED, "мебель", "furniture");
+        }
+        if self.things().any(movable) {
+            entry(furniture::MOVABLE, "подвижное", "movable");
+        }
+        if !self.floor.passframes.is_empty() {
+            entry(PASSFRAME, "Пассфреймы", "Passframes");
+        }
+        if !self.floor.dead_zones.is_empty() {
+            entry(DEAD_ZONE, "мёртвые зоны", "dead zones");
+        }
+        if !self.network.vertices.is_empty() {
+            entry(VERTEX, "сеть Пассфреймов", "Passframe network");
+        }
+        if !self.route.legs.is_empty() {
+            entry(Style::fill("#1f5fbf"), "маршрут", "route");
+        }
+        if self.view.eye.is_some() {
+            entry(SIGHT.outlined("#e07b00", 1.0), "видно", "in view");
+        }
+        if self.doors.iter().any(|d| d.status == DoorStatus::Locked) {
+            entry(LOCKED, "заперто", "locked");
+        }
+        for (number, directive) in &self.route.directives {
+            entries.push(Entry::Line(format!("{number}. {directive}")));
+        }
+        let at = Point::new(extent.min.x + 250.0 * pen, extent.min.y - 42.0 * pen);
+        let line_start = Point::new(extent.min.x, at.y);
+        Legend::new(entries, at, line_start, (extent.max.x - at.x).max(350.0 * pen), pen)
     }
-    let small = Lettering::plain(12.0, INK);
-    canvas.text(Point::new(x, y - 12.0), "0", small);
-    canvas.text(Point::new(x + 100.0, y - 12.0), "1 м", small);
-    canvas.text(Point::new(x + 200.0, y - 12.0), "2 м", small);
-    let mut x = x + 260.0;
-    let mut entry = |canvas: &mut Canvas, style: Style, text: &str| {
-        let swatch = Bounds { min: Point::new(x, y - 6.0), max: Point::new(x + 24.0, y + 8.0) };
-        canvas.rectangle(swatch, style, 2.0);
-        canvas.text(
-            Point::new(x + 32.0, y + 1.0),
-            text,
-            Lettering { anchor: Anchor::Start, ..small },
-        );
-        x += 50.0 + text_width(text, 12.0);
-    };
-    if floor {
-        entry(canvas, PASSFRAME, "Пассфреймы");
-        entry(canvas, DEAD_ZONE, "мёртвые зоны");
+}
+
+fn is_called(kind: &TypeEntry, words: &[&str]) -> bool {
+    let names = [&kind.name, &kind.name_en].into_iter().chain(&kind.synonyms);
+    names
+        .map(|n| n.to_lowercase())
+        .any(|name| words.iter().any(|w| name.split(' ').any(|part| part == *w)))
+}
+
+/// Whether a side is a window, by the words of its type.
+pub(super) fn is_window(world: &World, vector: &BaseVector) -> bool {
+    world.types.side.get(vector.side_type).is_some_and(|t| is_called(t, &["window", "окно"]))
+}
+
+/// A window is a pane in a gap of the wall.
+fn window(canvas: &mut Canvas, a: Point, b: Point, pen: f64) {
+    let along = b - a;
+    let Some(unit) = along.try_normalize(1e-9) else { return };
+    let half = Vector::new(unit.y, -unit.x) * (WALL.width * pen / 2.0);
+    canvas.segment(a, b, WALL.thick(pen));
+    canvas.polygon(
+        &Polygon::new(vec![a - half, b - half, b + half, a + half]),
+        GLASS.thick(pen),
+        None,
+    );
+    canvas.segment(a, b, PANE.thick(pen));
+}
+
+fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
+    if let Some(swept) = &door.swept {
+        canvas.polygon(swept, SWING.thick(pen), None);
     }
-    entry(canvas, Style::fill("#e0cba6").outlined("#8a7a5c", 0.9), "мебель");
-    entry(canvas, Style::fill("#cfd6c4").outlined("#8a7a5c", 0.9), "подвижное");
-    if route {
-        entry(canvas, Style::fill("#1f5fbf"), "маршрут");
-    }
+    let style = if door.status == DoorStatus::Locked { LOCKED } else { LEAF };
+    canvas.polygon(&door.leaf, style.thick(pen), None);
+}
+
+fn robot(canvas: &mut Canvas, pose: Pose, radius: f64, pen: f64) {
+    let (sin, cos) = pose.heading.sin_cos();
+    let radius = radius.max(6.0 * pen);
+    let style = Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85).thick(pen);
+    canvas.circle(pose.at, radius, style);
+    let nose = pose.at + Vector::new(cos, sin) * radius;
+    canvas.segment(pose.at, nose, Style::line("#1f5fbf", 2.5).thick(pen));
 }

@@ -1,21 +1,45 @@
 //! Drawings of a map with what is known of it.
 
-use crate::draw::{DoorGlyph, FloorLayer, PlanDrawing, RouteLayer};
-use crate::geometry::{FloorPlan, Polygon};
-use crate::map::{DoorKind, World};
-use crate::units::{MapId, Point, Pose, Vector};
+use crate::draw::{
+    DoorGlyph, FloorLayer, LeafBody, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing, ViewLayer,
+    object_svg,
+};
+use crate::geometry::{FloorPlan, Polygon, Sight};
+use crate::map::{DoorKind, Entity, Object, World};
+use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, nearest_name};
 
-use super::{Engine, Error};
+use super::{Engine, Error, RequestError};
 
 /// What to draw of a map besides rooms, doors and furniture.
 #[derive(Debug, Clone, Default)]
 pub struct Drawing {
+    /// Only this room with what stands in it.
+    pub only: Option<AreaId>,
     /// Passframes and dead zones.
     pub floor: bool,
+    /// The Passframe network.
+    pub network: bool,
     /// The legs of a way, each with its directive's number.
     pub legs: Vec<(usize, Vec<Point>)>,
+    /// The directives by number, listed below the plan.
+    pub directives: Vec<(usize, String)>,
     /// Where the robot stands.
     pub robot: Option<Pose>,
+    /// What is in view from a pose.
+    pub view: Option<Lens>,
+    pub language: Language,
+}
+
+/// An eye: where it is, how high, how wide and how far it sees.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Lens {
+    pub pose: Pose,
+    /// Above the Map's zero, cm.
+    pub height: f64,
+    /// Degrees.
+    pub field: f64,
+    /// cm
+    pub range: f64,
 }
 
 impl Engine {
@@ -26,23 +50,98 @@ impl Engine {
     pub fn draw(&self, map: MapId, drawing: &Drawing) -> Result<String, Error> {
         let world = self.world()?;
         let floor = self.floor(map)?;
+        let only = drawing.only;
         let drawing = PlanDrawing {
             world,
             scene: floor.scene(),
-            doors: door_glyphs(world, floor),
-            floor: if drawing.floor { floor_layer(floor) } else { FloorLayer::default() },
+            only,
+            doors: door_glyphs(world, floor, only),
+            floor: if drawing.floor { floor_layer(floor, only) } else { FloorLayer::default() },
+            network: if drawing.network {
+                NetworkLayer::of(floor, only)
+            } else {
+                NetworkLayer::default()
+            },
             route: RouteLayer {
                 legs: drawing.legs.clone(),
+                directives: drawing.directives.clone(),
                 start: drawing.robot,
                 robot_radius: world.robot.radius.get(),
             },
-            places: places(world, map),
+            view: drawing.view.map(|lens| view_layer(world, floor, lens)).unwrap_or_default(),
+            places: places(world, map, only, drawing.language),
+            language: drawing.language,
         };
         Ok(drawing.to_svg())
     }
+
+    /// The map, or the room of a map, of this name; without a name, the only map.
+    ///
+    /// # Errors
+    /// Nothing that can be drawn as a plan bears the name.
+    pub fn sheet_named(&self, name: Option<&str>) -> Result<(MapId, Option<AreaId>), Error> {
+        let world = self.world()?;
+        if let Some(name) = name
+            && let Ok(Entity::Area(area)) = self.find(name)
+            && let Some((map, _)) = world.placement(area)
+        {
+            return Ok((map, Some(area)));
+        }
+        Ok((self.map_named(name)?, None))
+    }
+
+    /// An Object, given by its own name or by that of a thing of its kind, as façade, profile and plan.
+    ///
+    /// # Errors
+    /// Nothing bears the name.
+    pub fn draw_object(&self, name: &str, language: Language) -> Result<String, Error> {
+        Ok(object_svg(self.world()?, self.object_named(name)?, language))
+    }
+
+    /// What the robot would see through a lens, in perspective.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn draw_view(&self, map: MapId, lens: Lens, language: Language) -> Result<String, Error> {
+        let world = self.world()?;
+        let floor = self.floor(map)?;
+        let drawing = ViewDrawing {
+            world,
+            scene: floor.scene(),
+            leaves: leaf_bodies(world, floor),
+            pose: lens.pose,
+            height: lens.height,
+            field: lens.field,
+            range: lens.range,
+            language,
+        };
+        Ok(drawing.to_svg())
+    }
+
+    fn object_named(&self, name: &str) -> Result<&Object, Error> {
+        let world = self.world()?;
+        let wanted = crate::units::name_key(name);
+        let bears = |object: &&Object| {
+            [&object.key, &object.name, &object.name_en]
+                .into_iter()
+                .any(|n| crate::units::name_key(n) == wanted)
+        };
+        if let Some(object) = world.objects.values().find(bears) {
+            return Ok(object);
+        }
+        match self.find(name) {
+            Ok(Entity::Replica(id)) => Ok(&world.objects[&world.replicas[&id].object]),
+            Ok(_) => {
+                let names = world.objects.values().map(|o| o.name.as_str());
+                let help = nearest_name(name, names).map(|near| format!("может быть, «{near}»?"));
+                Err(RequestError::UnknownName { name: name.to_owned(), help }.into())
+            }
+            Err(error) => Err(error),
+        }
+    }
 }
 
-fn door_glyphs(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
+fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
     let glyphs = |doorway: &crate::geometry::Doorway| {
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
@@ -50,32 +149,65 @@ fn door_glyphs(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
         let leaves = doorway.leaves(door, door.state);
         let swept = if door.kind == DoorKind::Hinged { doorway.swept(door) } else { Vec::new() };
         let mut swept = swept.into_iter();
-        leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next() }).collect()
+        let status = door.state.status;
+        leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next(), status }).collect()
     };
-    let between = floor.doorways().iter().flat_map(glyphs);
-    between.chain(outer_doors(world, floor)).collect()
+    let shown = |d: &&crate::geometry::Doorway| only.is_none_or(|a| d.areas.contains(&a));
+    let between = floor.doorways().iter().filter(shown).flat_map(glyphs);
+    between.chain(outer_doors(world, floor, only)).collect()
+}
+
+/// Door leaves as they stand on the floor of the first Area.
+fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
+    let bottom = |area: AreaId| {
+        let prisms = floor.scene().areas.get(&area).map_or(&[][..], |a| &a.prisms);
+        prisms.first().map_or(0.0, |p| p.bottom)
+    };
+    let bodies = |doorway: &crate::geometry::Doorway| {
+        let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
+            return Vec::new();
+        };
+        let bottom = bottom(doorway.areas[0]);
+        let top = bottom + if door.height.get() > 0.0 { door.height.get() } else { 200.0 };
+        let body = |base| LeafBody { base, bottom, top, status: door.state.status };
+        doorway.leaves(door, door.state).into_iter().map(body).collect()
+    };
+    let between = floor.doorways().iter().flat_map(bodies);
+    let outer = outer_doors(world, floor, None).into_iter().map(|glyph| LeafBody {
+        base: glyph.leaf,
+        bottom: 0.0,
+        top: 205.0,
+        status: glyph.status,
+    });
+    between.chain(outer).collect()
 }
 
 /// Doors that lead out of the map: a shut leaf in the wall.
-fn outer_doors(world: &World, floor: &FloorPlan) -> Vec<DoorGlyph> {
-    let joined: Vec<_> = floor.doorways().iter().filter_map(|d| d.door).collect();
+fn outer_doors(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
+    let joined: std::collections::HashSet<_> =
+        floor.doorways().iter().filter_map(|d| d.door).collect();
     let mut glyphs = Vec::new();
-    for (id, placed) in &floor.scene().areas {
+    let areas = floor.scene().areas.iter().filter(|(id, _)| only.is_none_or(|a| a == **id));
+    for (id, placed) in areas {
         for mount in world.areas[id].doors.iter().filter(|m| !joined.contains(&m.door)) {
+            let door = &world.doors[&mount.door];
+            if door.kind == DoorKind::Passage {
+                continue;
+            }
             let Some((right, left)) = world.threshold(*id, mount.door) else { continue };
             let (right, left) = (placed.frame.apply(right), placed.frame.apply(left));
-            let along = (left - right).normalize();
+            let Some(along) = (left - right).try_normalize(1e-9) else { continue };
             let half = Vector::new(along.y, -along.x) * 2.5;
             let leaf = Polygon::new(vec![right - half, right + half, left + half, left - half]);
-            glyphs.push(DoorGlyph { leaf, swept: None });
+            glyphs.push(DoorGlyph { leaf, swept: None, status: door.state.status });
         }
     }
     glyphs
 }
 
-fn floor_layer(floor: &FloorPlan) -> FloorLayer {
+fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {
     let mut layer = FloorLayer::default();
-    for fragment in floor.fragments() {
+    for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
         layer.passframes.extend(
             fragment
                 .passframes
@@ -87,13 +219,32 @@ fn floor_layer(floor: &FloorPlan) -> FloorLayer {
     layer
 }
 
-fn places(world: &World, map: MapId) -> Vec<(Point, String)> {
-    world
-        .places
-        .values()
+/// Beams to the edge of the fan: one a half degree.
+fn view_layer(world: &World, floor: &FloorPlan, lens: Lens) -> ViewLayer {
+    let sight: Sight = floor.sight(world, lens.height);
+    let beams = (lens.field * 2.0).ceil().max(2.0) as usize;
+    let end = |beam: crate::geometry::Beam| {
+        lens.pose.at + Vector::new(beam.direction.cos(), beam.direction.sin()) * beam.distance
+    };
+    let fan = sight.scan(lens.pose, lens.field, beams, lens.range).into_iter().map(end).collect();
+    let seen = sight.visible(lens.pose, lens.field, lens.range);
+    let seen = seen.into_iter().map(|v| (v.right, v.left)).collect();
+    ViewLayer { eye: Some(lens.pose), fan, seen }
+}
+
+fn places(
+    world: &World,
+    map: MapId,
+    only: Option<AreaId>,
+    language: Language,
+) -> Vec<(Point, String)> {
+    let shown = world.places.values().filter(|p| only.is_none_or(|a| a == p.area));
+    shown
         .filter_map(|place| {
             let (on, frame) = world.placement(place.area)?;
-            (on == map).then(|| (frame.apply(place.at), place.name.clone()))
+            let english = language == Language::English && !place.name_en.is_empty();
+            let name = if english { &place.name_en } else { &place.name };
+            (on == map).then(|| (frame.apply(place.at), name.clone()))
         })
         .collect()
 }

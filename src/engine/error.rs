@@ -39,6 +39,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Datalog(#[from] Box<FilesError>),
+    #[cfg(feature = "pictures")]
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Png(#[from] crate::draw::PngError),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Request(#[from] RequestError),
@@ -56,6 +60,14 @@ impl From<MissionError> for Error {
 /// A request that speaks of what is not there, or not clearly enough.
 #[derive(Debug, Error, Diagnostic)]
 pub enum RequestError {
+    /// A number that a drawing cannot take.
+    #[error("{what} = {value}, а нужно от {low} до {high}")]
+    #[diagnostic(code(draw::out_of_range), help("задайте --{what} от {low} до {high}"))]
+    OutOfRange { what: &'static str, value: f64, low: f64, high: f64 },
+    /// Built without pictures.
+    #[error("эта сборка не умеет писать PNG")]
+    #[diagnostic(code(draw::no_png), help("соберите с `--features pictures` или запишите SVG"))]
+    NoPng,
     /// The store holds no map yet.
     #[error("в хранилище «{store}» нет карты")]
     #[diagnostic(code(engine::no_map), help("импортируйте карту: ortho import maps/rb2.toml"))]
@@ -159,6 +171,8 @@ impl Error {
             | Self::CorridorFile(_)
             | Self::Datalog(_)
             | Self::Request(_) => true,
+            #[cfg(feature = "pictures")]
+            Self::Png(_) => true,
             Self::Store(error) => {
                 !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
             }

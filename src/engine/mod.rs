@@ -29,7 +29,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-pub use drawing::Drawing;
+pub use drawing::{Drawing, Lens};
 pub use error::{Error, RequestError};
 pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;

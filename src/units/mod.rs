@@ -12,12 +12,14 @@
 
 mod frame;
 mod id;
+mod language;
 mod name;
 mod quantity;
 mod source;
 
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
+pub use language::Language;
 pub use name::{name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::Source;

@@ -2,13 +2,7 @@
 
 use std::cmp::Ordering;
 
-/// The language of a sentence.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
-pub enum Language {
-    #[default]
-    Russian,
-    English,
-}
+pub use crate::units::Language;
 
 impl Language {
     /// The language that a text is written in. Names are no evidence: the small words decide, then the first letter.

@@ -1,0 +1,332 @@
+//! Where names stand on a drawing: legible, none over another, near what they name.
+//!
+//! Candidates are tried and the cheapest feasible one is taken: rooms first, then things from the large to the small.
+//!
+//! **Invariant.** No two names overlap; one that finds no place is left out.
+
+use std::collections::HashMap;
+
+use crate::geometry::{Bounds, Polygon};
+use crate::units::{Point, Vector};
+
+use super::canvas::{Canvas, Lettering, Style};
+use super::font::text_width;
+
+/// A name that found its place.
+struct Placed {
+    at: Point,
+    lettering: Lettering,
+    frame: Bounds,
+}
+
+/// Frames that are taken, found by the cell of a coarse grid.
+pub(super) struct Labels {
+    cell: f64,
+    taken: HashMap<(i64, i64), Vec<Bounds>>,
+    /// Lines that a name should not lie on, such as walls and the route, by the same grid.
+    lines: HashMap<(i64, i64), Vec<(Point, Point)>>,
+}
+
+impl Labels {
+    /// `letter` is the size of an ordinary letter on this drawing.
+    pub(super) fn new(letter: f64) -> Self {
+        Self { cell: letter * 12.0, taken: HashMap::new(), lines: HashMap::new() }
+    }
+
+    fn cells(&self, frame: &Bounds) -> impl Iterator<Item = (i64, i64)> + use<> {
+        let index = |v: f64| (v / self.cell).floor() as i64;
+        let (x, y) =
+            (index(frame.min.x)..=index(frame.max.x), index(frame.min.y)..=index(frame.max.y));
+        x.flat_map(move |x| y.clone().map(move |y| (x, y)))
+    }
+
+    pub(super) fn take(&mut self, frame: Bounds) {
+        for cell in self.cells(&frame) {
+            self.taken.entry(cell).or_default().push(frame);
+        }
+    }
+
+    pub(super) fn avoid_line(&mut self, a: Point, b: Point) {
+        for cell in self.cells(&Bounds::of([a, b])) {
+            let (x, y) = (cell.0 as f64 * self.cell, cell.1 as f64 * self.cell);
+            let square =
+                Bounds { min: Point::new(x, y), max: Point::new(x + self.cell, y + self.cell) };
+            if segment_meets(a, b, &square) {
+                self.lines.entry(cell).or_default().push((a, b));
+            }
+        }
+    }
+
+    fn is_free(&self, frame: &Bounds) -> bool {
+        self.cells(frame)
+            .all(|cell| self.taken.get(&cell).is_none_or(|t| !t.iter().any(|t| t.meets(frame))))
+    }
+
+    fn crosses_line(&self, frame: &Bounds) -> bool {
+        self.cells(frame).any(|cell| {
+            self.lines
+                .get(&cell)
+                .is_some_and(|lines| lines.iter().any(|&(a, b)| segment_meets(a, b, frame)))
+        })
+    }
+
+    /// The name of a place, beside its dot.
+    pub(super) fn beside(&mut self, canvas: &mut Canvas, dot: Point, text: &str, style: Lettering) {
+        let (width, height) = (text_width(text, style.size, style.bold), style.size * 1.15);
+        const AROUND: [(f64, f64); 6] =
+            [(0.0, 1.0), (0.0, -1.0), (0.56, 0.8), (-0.56, 0.8), (0.56, -0.8), (-0.56, -0.8)];
+        let away = |distance: f64| {
+            AROUND.map(|(dx, dy)| {
+                let by = Vector::new(dx * width, dy * height) * distance;
+                around(dot + by, width, height)
+            })
+        };
+        let frames: Vec<Bounds> = [1.0, 1.4, 2.0].into_iter().flat_map(away).collect();
+        let free = || frames.iter().filter(|f| self.is_free(f));
+        let best = free().find(|f| !self.crosses_line(f)).or_else(|| free().next()).copied();
+        if let Some(frame) = best {
+            let at = nalgebra::center(&frame.min, &frame.max);
+            self.put(canvas, text, &Placed { at, lettering: style, frame });
+        }
+    }
+
+    /// The name of a room within its outline, clear of furniture as far as may be; smaller, in two lines or upright
+    /// where it would not fit otherwise. A second line, such as the room's area, stands below it where there is space.
+    pub(super) fn in_room(
+        &mut self,
+        canvas: &mut Canvas,
+        room: &Polygon,
+        furniture: &[Bounds],
+        text: &str,
+        below: &str,
+        style: Lettering,
+    ) {
+        let bounds = room.bounds();
+        let diagonal = (bounds.max - bounds.min).norm();
+        let spots = spots(room, bounds);
+        let mut best: Option<(f64, Placed)> = None;
+        for share in [1.0, 0.82, 0.66, 0.52, 0.42] {
+            for turn in [0.0, 90.0] {
+                let lettering = Lettering { size: style.size * share, turn, ..style };
+                let size = lettering.size;
+                let long =
+                    text_width(text, size, style.bold).max(text_width(below, size * 0.6, false));
+                let tall = size * if below.is_empty() { 1.15 } else { 1.9 };
+                let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
+                if width > bounds.max.x - bounds.min.x || height > bounds.max.y - bounds.min.y {
+                    continue;
+                }
+                for &(spot, off_centre) in &spots {
+                    let frame = around(spot, width, height);
+                    let cost = 2.2 * (1.0 - share)
+                        + if turn > 0.0 { 0.5 } else { 0.0 }
+                        + 0.9 * off_centre / diagonal;
+                    if best.as_ref().is_some_and(|(least, _)| cost >= *least) {
+                        continue;
+                    }
+                    let covered: f64 = furniture.iter().map(|f| overlap(f, &frame)).sum();
+                    let cost = cost
+                        + 1.6 * (covered / (width * height)).min(1.0)
+                        + if self.crosses_line(&frame) { 1.2 } else { 0.0 };
+                    let better = best.as_ref().is_none_or(|(least, _)| cost < *least);
+                    if better && self.is_free(&frame) && holds(room, &frame) {
+                        best = Some((cost, Placed { at: spot, lettering, frame }));
+                    }
+                }
+            }
+        }
+        let Some((_, placed)) = best else { return };
+        if below.is_empty() {
+            return self.put(canvas, text, &placed);
+        }
+        let size = placed.lettering.size;
+        let down = if placed.lettering.turn > 0.0 { Vector::x() } else { -Vector::y() };
+        let name = Placed { at: placed.at - down * size * 0.38, ..placed };
+        let small = Lettering { size: size * 0.6, bold: false, ..name.lettering };
+        canvas.text(name.at + down * size * 0.95, below, small);
+        self.put(canvas, text, &name);
+    }
+
+    /// The name of a thing: on it where it fits, else near it with a thin line to it.
+    pub(super) fn on_thing(
+        &mut self,
+        canvas: &mut Canvas,
+        thing: Bounds,
+        text: &str,
+        style: Lettering,
+    ) {
+        let center = nalgebra::center(&thing.min, &thing.max);
+        for share in [1.0, 0.85, 0.72] {
+            for turn in [0.0, 90.0] {
+                let lettering = Lettering { size: style.size * share, turn, ..style };
+                let long = text_width(text, lettering.size, style.bold);
+                let tall = lettering.size * 1.1;
+                let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
+                let spare = (thing.max - thing.min) - Vector::new(width, height);
+                if spare.x < 0.0 || spare.y < 0.0 {
+                    continue;
+                }
+                for share in [0.0, 0.5, -0.5, 0.9, -0.9] {
+                    for along in [Vector::new(0.0, share), Vector::new(share, 0.0)] {
+                        let at = center + along.component_mul(&spare) / 2.0;
+                        let frame = around(at, width, height);
+                        if self.is_free(&frame) && !self.crosses_line(&frame) {
+                            return self.put(canvas, text, &Placed { at, lettering, frame });
+                        }
+                    }
+                }
+            }
+        }
+        let lettering = Lettering { size: style.size * 0.85, ..style };
+        let (width, height) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
+        let reach = (thing.max - thing.min) / 2.0 + Vector::new(width, height) / 2.0;
+        for distance in [0.12, 0.7, 1.5, 2.6] {
+            for (dx, dy) in [
+                (0.0, -1.0),
+                (0.0, 1.0),
+                (1.0, 0.0),
+                (-1.0, 0.0),
+                (0.7, -1.0),
+                (-0.7, -1.0),
+                (0.7, 1.0),
+                (-0.7, 1.0),
+            ] {
+                let away = Vector::new(dx, dy) * distance * height;
+                let at = center + Vector::new(dx, dy).component_mul(&reach) + away;
+                let frame = around(at, width, height);
+                if self.is_free(&frame) && !self.crosses_line(&frame) {
+                    if distance > 0.5 {
+                        let leader = Style::line(lettering.color, style.size * 0.05);
+                        canvas.segment(center, frame_point(&frame, center), leader);
+                    }
+                    return self.put(canvas, text, &Placed { at, lettering, frame });
+                }
+            }
+        }
+    }
+
+    /// A name at a point, or as near to it as there is space.
+    pub(super) fn near(&mut self, canvas: &mut Canvas, spot: Point, text: &str, style: Lettering) {
+        let (width, height) = (text_width(text, style.size, style.bold), style.size * 1.15);
+        const STEPS: [(f64, f64); 7] =
+            [(0.0, 0.0), (0.0, 1.0), (0.0, -1.0), (0.5, 0.0), (-0.5, 0.0), (0.0, 2.0), (0.0, -2.0)];
+        let frames =
+            STEPS.map(|(x, y)| around(spot + Vector::new(x * width, y * height), width, height));
+        if let Some(&frame) = frames.iter().find(|f| self.is_free(f) && !self.crosses_line(f)) {
+            let at = nalgebra::center(&frame.min, &frame.max);
+            self.put(canvas, text, &Placed { at, lettering: style, frame });
+        }
+    }
+
+    fn put(&mut self, canvas: &mut Canvas, text: &str, placed: &Placed) {
+        canvas.text(placed.at, text, placed.lettering);
+        self.take(placed.frame);
+    }
+}
+
+pub(super) fn around(p: Point, width: f64, height: f64) -> Bounds {
+    let half = Vector::new(width / 2.0, height / 2.0);
+    Bounds { min: p - half, max: p + half }
+}
+
+/// Points of a room where a name may stand, with their distances from its centre, the nearest first.
+fn spots(room: &Polygon, bounds: Bounds) -> Vec<(Point, f64)> {
+    const STEPS: i32 = 9;
+    let centre = room.centroid();
+    let extent = bounds.max - bounds.min;
+    let grid =
+        (1..STEPS).flat_map(|i| (1..STEPS).map(move |j| Vector::new(f64::from(i), f64::from(j))));
+    let mut spots: Vec<(Point, f64)> = grid
+        .map(|v| bounds.min + v.component_mul(&extent) / f64::from(STEPS))
+        .chain([centre])
+        .filter(|p| room.contains(*p, 0.0))
+        .map(|p| (p, (p - centre).norm()))
+        .collect();
+    spots.sort_by(|a, b| a.1.total_cmp(&b.1));
+    spots
+}
+
+/// Whether a frame lies within a room; looked at on its border, which is enough for rooms as they are built.
+fn holds(room: &Polygon, frame: &Bounds) -> bool {
+    let steps = [0.0, 0.25, 0.5, 0.75, 1.0];
+    let extent = frame.max - frame.min;
+    steps.into_iter().all(|t| {
+        [(t, 0.0), (t, 1.0), (0.0, t), (1.0, t)]
+            .into_iter()
+            .all(|(x, y)| room.contains(frame.min + Vector::new(x, y).component_mul(&extent), 0.0))
+    })
+}
+
+fn overlap(a: &Bounds, b: &Bounds) -> f64 {
+    let width = a.max.x.min(b.max.x) - a.min.x.max(b.min.x);
+    let height = a.max.y.min(b.max.y) - a.min.y.max(b.min.y);
+    width.max(0.0) * height.max(0.0)
+}
+
+/// The point of a frame that is nearest to `p`.
+fn frame_point(frame: &Bounds, p: Point) -> Point {
+    Point::new(p.x.clamp(frame.min.x, frame.max.x), p.y.clamp(frame.min.y, frame.max.y))
+}
+
+/// Clips the segment by the slabs of the frame.
+fn segment_meets(a: Point, b: Point, frame: &Bounds) -> bool {
+    let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
+    let d = b - a;
+    for axis in 0..2 {
+        let (low, high) = (frame.min[axis] - a[axis], frame.max[axis] - a[axis]);
+        if d[axis].abs() < 1e-12 {
+            if low > 0.0 || high < 0.0 {
+                return false;
+            }
+            continue;
+        }
+        let (t, u) = (low / d[axis], high / d[axis]);
+        enters = enters.max(t.min(u));
+        leaves = leaves.min(t.max(u));
+    }
+    enters <= leaves
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_segment_meets_a_frame_or_passes_it() {
+        let frame = around(Point::new(0.0, 0.0), 2.0, 2.0);
+        let meets = |x1, y1, x2, y2| segment_meets(Point::new(x1, y1), Point::new(x2, y2), &frame);
+        assert!(meets(-5.0, 0.0, 5.0, 0.0));
+        assert!(meets(0.0, 0.0, 0.1, 0.0));
+        assert!(!meets(-5.0, 2.0, 5.0, 2.0));
+        assert!(!meets(2.0, 0.0, 5.0, 0.0));
+        assert!(meets(0.5, -3.0, 0.5, 3.0));
+    }
+
+    #[test]
+    fn names_that_find_no_place_are_left_out_and_none_overlap() {
+        let room = Polygon::new(
+            [(0.0, 0.0), (200.0, 0.0), (200.0, 60.0), (0.0, 60.0)]
+                .map(|(x, y)| Point::new(x, y))
+                .into(),
+        );
+        let mut canvas = Canvas::new(room.bounds());
+        let mut labels = Labels::new(10.0);
+        for _ in 0..40 {
+            labels.in_room(
+                &mut canvas,
+                &room,
+                &[],
+                "Комната",
+                "",
+                Lettering::bold(20.0, "#000000"),
+            );
+        }
+        let mut frames: Vec<Bounds> = labels.taken.values().flatten().copied().collect();
+        frames.sort_by(|a, b| (a.min.x, a.min.y).partial_cmp(&(b.min.x, b.min.y)).expect("finite"));
+        frames.dedup();
+        assert!((2..40).contains(&frames.len()), "{}", frames.len());
+        for (i, a) in frames.iter().enumerate() {
+            assert!(frames[i + 1..].iter().all(|b| !a.meets(b)));
+        }
+    }
+}

@@ -1,0 +1,107 @@
+//! What stands under a plan: the scale bar, what colours mean, and the directives by number.
+
+use crate::geometry::Bounds;
+use crate::units::{Language, Point, Vector};
+
+use super::canvas::{Anchor, Canvas, Lettering, Style};
+use super::font::text_width;
+
+const INK: &str = "#2b2a27";
+const LETTER: f64 = 12.0;
+const ROW: f64 = 24.0;
+const SWATCH: f64 = 24.0;
+
+pub(super) enum Entry {
+    /// A colour and what it means.
+    Swatch(Style, String),
+    /// A line of its own.
+    Line(String),
+}
+
+/// Entries with their places.
+pub(super) struct Legend {
+    entries: Vec<(Point, Entry)>,
+    height: f64,
+    pen: f64,
+}
+
+impl Legend {
+    /// Swatches run from `at` in rows of `width`; lines stand below them, from `line_start` on.
+    pub(super) fn new(
+        entries: Vec<Entry>,
+        at: Point,
+        line_start: Point,
+        width: f64,
+        pen: f64,
+    ) -> Self {
+        let (mut x, mut y) = (0.0, 0.0);
+        let mut placed = Vec::new();
+        let mut rows = 1.0;
+        for entry in entries {
+            match &entry {
+                Entry::Swatch(_, text) => {
+                    let wide = (SWATCH + 26.0 + text_width(text, LETTER, false)) * pen;
+                    if x > 0.0 && x + wide > width {
+                        x = 0.0;
+                        y += ROW * pen;
+                        rows += 1.0;
+                    }
+                    placed.push((at + Vector::new(x, -y), entry));
+                    x += wide;
+                }
+                Entry::Line(_) => {
+                    rows += 1.0;
+                    y = (rows - 1.0) * ROW * pen + 8.0 * pen;
+                    placed.push((line_start + Vector::new(0.0, -y), entry));
+                }
+            }
+        }
+        Self { entries: placed, height: (rows * ROW + 22.0) * pen, pen }
+    }
+
+    /// Of everything below the plan, cm on the sheet.
+    pub(super) fn height(&self) -> f64 {
+        self.height
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas) {
+        let pen = self.pen;
+        let lettering =
+            Lettering { anchor: Anchor::Start, halo: false, ..Lettering::plain(LETTER * pen, INK) };
+        for (at, entry) in &self.entries {
+            match entry {
+                Entry::Swatch(style, text) => {
+                    let max = *at + Vector::new(SWATCH, 8.0) * pen;
+                    let swatch = Bounds { min: at - Vector::new(0.0, 6.0) * pen, max };
+                    canvas.rectangle(swatch, style.thick(pen), 2.0 * pen);
+                    canvas.text(at + Vector::new(SWATCH + 8.0, 1.0) * pen, text, lettering);
+                }
+                Entry::Line(text) => canvas.text(*at, text, lettering),
+            }
+        }
+    }
+}
+
+/// Two lengths of a round number of metres, some hundred pens each.
+pub(super) fn scale_bar(canvas: &mut Canvas, at: Point, pen: f64, language: Language) {
+    let wished = 100.0 * pen;
+    let metres = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
+    let length = metres
+        .into_iter()
+        .min_by(|a, b| (a * 100.0 - wished).abs().total_cmp(&(b * 100.0 - wished).abs()));
+    let length = length.expect("the list of lengths is not empty");
+    let small = Lettering { halo: false, ..Lettering::plain(LETTER * pen, INK) };
+    for (i, color) in [INK, "#ffffff"].into_iter().enumerate() {
+        let min = at + Vector::new(length * 100.0 * i as f64, 0.0);
+        let bar = Bounds { min, max: min + Vector::new(length * 100.0, 6.0 * pen) };
+        canvas.rectangle(bar, Style::fill(color).outlined(INK, 1.0).thick(pen), 0.0);
+    }
+    for i in 0..3 {
+        let reach = length * f64::from(i);
+        let unit = if i > 0 { language.pick(" м", " m") } else { "" };
+        let number = reach.to_string();
+        let number = language.pick(number.replace('.', ","), number);
+        let below = at + Vector::new(reach * 100.0, -12.0 * pen);
+        canvas.text(below, &format!("{number}{unit}"), small);
+    }
+}

@@ -1,0 +1,62 @@
+//! A drawing as a PNG picture.
+
+use std::sync::{Arc, LazyLock};
+
+use miette::Diagnostic;
+use resvg::tiny_skia::{Pixmap, Transform};
+use resvg::usvg::{Options, Tree, fontdb::Database};
+use thiserror::Error;
+
+use super::font;
+
+/// A drawing that cannot become a picture.
+#[derive(Debug, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum PngError {
+    /// The text is no SVG.
+    #[error("рисунок не читается как SVG: {message}")]
+    #[diagnostic(code(draw::svg), help("передайте SVG, который построила эта программа"))]
+    Svg { message: String },
+    /// More pixels than memory should hold.
+    #[error("картинка {width}×{height} точек не помещается в память")]
+    #[diagnostic(code(draw::size), help("уменьшите ширину: --width 2000"))]
+    Size { width: u32, height: u32 },
+}
+
+/// More than a wall poster needs.
+const MOST_PIXELS: u64 = 100_000_000;
+
+static FONTS: LazyLock<Arc<Database>> = LazyLock::new(|| {
+    let mut fonts = Database::new();
+    fonts.load_font_data(font::REGULAR.to_vec());
+    fonts.load_font_data(font::BOLD.to_vec());
+    Arc::new(fonts)
+});
+
+pub(super) fn parse(svg: &str) -> Result<Tree, PngError> {
+    let options = Options {
+        fontdb: Arc::clone(&FONTS),
+        font_family: font::FAMILY.to_owned(),
+        ..Options::default()
+    };
+    Tree::from_str(svg, &options).map_err(|e| PngError::Svg { message: e.to_string() })
+}
+
+/// Paints an SVG, `width` pixels wide; as wide as the drawing says when that is not given.
+///
+/// # Errors
+/// The text is no SVG, or the picture would be larger than memory should hold.
+pub fn png(svg: &str, width: Option<u32>) -> Result<Vec<u8>, PngError> {
+    let tree = parse(svg)?;
+    let size = tree.size();
+    let width = width.unwrap_or(size.width().ceil() as u32).max(1);
+    let scale = width as f32 / size.width();
+    let height = (size.height() * scale).ceil().max(1.0) as u32;
+    let too_large = || PngError::Size { width, height };
+    if u64::from(width) * u64::from(height) > MOST_PIXELS {
+        return Err(too_large());
+    }
+    let mut pixels = Pixmap::new(width, height).ok_or_else(too_large)?;
+    resvg::render(&tree, Transform::from_scale(scale, scale), &mut pixels.as_mut());
+    pixels.encode_png().map_err(|e| PngError::Svg { message: e.to_string() })
+}
