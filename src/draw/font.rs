@@ -63,7 +63,7 @@ mod tests {
             r#"<svg xmlns="http://www.w3.org/2000/svg" width="9000" height="100"><text x="0" y="50"
             font-family="{FAMILY}" font-size="10" font-weight="{weight}">{text}</text></svg>"#
         );
-        let tree = super::super::png::parse(&svg).expect("a good SVG");
+        let tree = super::super::picture::parse(&svg).expect("a good SVG");
         let [resvg::usvg::Node::Text(text)] = tree.root().children() else {
             panic!("one text");
         };

@@ -13,14 +13,14 @@ mod furniture;
 mod labels;
 mod legend;
 mod object;
-mod plan;
 #[cfg(feature = "pictures")]
-mod png;
+mod picture;
+mod plan;
 mod view;
 
 pub use corridor::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
 pub use object::object_svg;
-pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
 #[cfg(feature = "pictures")]
-pub use png::{PngError, png};
+pub use picture::{PngError, png};
+pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
 pub use view::{LeafBody, ViewDrawing};
