@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
+use crate::engine::ImportFormat;
 use crate::graphplan::Limits;
 use crate::robot::Wanted;
 
@@ -71,8 +72,8 @@ pub(super) enum Command {
         #[arg(long, default_value = "demo", value_name = "DIR")]
         out: PathBuf,
     },
-    /// Check a map file and import it into the store
-    Import { file: PathBuf },
+    /// Import a building into the store: a map file, or a foreign format (docs/import.md)
+    Import(ImportArgs),
     /// Check a map file; all faults at once, with line and column
     Check { file: PathBuf },
     /// JSON Schema of the map file, for editors
@@ -201,6 +202,27 @@ impl PlanArgs {
             self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
         Limits { deadline, ..Limits::default() }
     }
+}
+
+#[derive(Debug, Clone, Args)]
+pub(super) struct ImportArgs {
+    pub file: PathBuf,
+    /// Refuse the file when anything in it has to be mended or left out
+    #[arg(long)]
+    pub strict: bool,
+    /// The file's format; recognised by its name and content when absent
+    #[arg(long, value_name = "FORMAT", value_parser = import_format)]
+    pub format: Option<ImportFormat>,
+    /// Sizes of models, for formats that keep them in a second file; looked for beside the file when absent
+    #[arg(long, value_name = "FILE")]
+    pub assets: Option<PathBuf>,
+    /// Synonym table laid over the built-in one; `import-synonyms.toml` of the rules directory when absent
+    #[arg(long, value_name = "FILE")]
+    pub synonyms: Option<PathBuf>,
+}
+
+fn import_format(key: &str) -> Result<ImportFormat, String> {
+    ImportFormat::named(key).ok_or_else(|| format!("one of: {}", ImportFormat::keys().join(", ")))
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]

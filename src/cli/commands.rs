@@ -4,9 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, plan_alone,
-};
+use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone};
 use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 use crate::strips::Scenario;
@@ -18,7 +16,7 @@ use super::{Answer, json, say, text};
 const DEFAULT_STORE: &str = "ortho-store";
 
 /// The store in force: the one named, or `./ortho-store`.
-fn store_dir(common: &Common) -> PathBuf {
+pub(super) fn store_dir(common: &Common) -> PathBuf {
     common.store.clone().unwrap_or_else(|| PathBuf::from(DEFAULT_STORE))
 }
 
@@ -38,7 +36,7 @@ pub(super) fn note(text: &str) {
     eprintln!("{text}");
 }
 
-fn note_repairs(engine: &Engine) {
+pub(super) fn note_repairs(engine: &Engine) {
     let opened = &engine.opened;
     if opened.torn_bytes > 0 {
         note(&format!(
@@ -56,42 +54,10 @@ fn note_repairs(engine: &Engine) {
     }
 }
 
-fn warn(warnings: &MapErrors) {
+pub(super) fn warn(warnings: &MapErrors) {
     if !warnings.faults.is_empty() {
         note(drawn(warnings).trim_end());
     }
-}
-
-pub(super) fn import(common: &Common, file: &Path) -> Result<Answer, Failure> {
-    // The file is read before the store is opened or made, so that a faulty map leaves no trace.
-    check_map(file)?;
-    let mut engine = Engine::open(&store_dir(common), rules_dir(common).as_deref())?;
-    note_repairs(&engine);
-    let reason = format!("импорт {}", file.display());
-    let imported = engine.import(file, &change_now(&common.user, &reason))?;
-    warn(&imported.warnings);
-    let world = engine.world()?;
-    let counts = imported.report.counts;
-    if common.json {
-        return say(&json!({
-            "outcome": "imported",
-            "revision": imported.report.revision,
-            "created": counts.created,
-            "changed": counts.changed,
-            "deleted": counts.deleted,
-            "warnings": imported.warnings.faults.len(),
-            "world": size(world),
-        })
-        .to_string());
-    }
-    let what = match counts.total() {
-        0 => "ничего не изменилось".to_owned(),
-        _ => format!(
-            "записей создано {}, изменено {}, удалено {}",
-            counts.created, counts.changed, counts.deleted
-        ),
-    };
-    say(&format!("{}\nРевизия {}: {what}.", described(world), imported.report.revision))
 }
 
 pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
@@ -106,7 +72,7 @@ pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
     say(&format!("Карта исправна. {}", described(&world)))
 }
 
-fn size(world: &World) -> serde_json::Value {
+pub(super) fn size(world: &World) -> serde_json::Value {
     json!({
         "maps": world.maps.len(),
         "areas": world.areas.len(),

@@ -9,6 +9,7 @@ mod corridor;
 mod demo;
 mod draw;
 mod fault;
+mod import;
 mod json;
 mod text;
 
@@ -46,7 +47,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Demo { dir, map, task, out } => {
             demo::run(common, dir.as_deref(), map.as_deref(), task, out)
         }
-        Command::Import { file } => commands::import(common, file),
+        Command::Import(args) => import::run(common, args),
         Command::Check { file } => commands::check(common, file),
         Command::Schema => say(&crate::map::json_schema()),
         Command::Relations { name, of } => {

@@ -4,6 +4,7 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::corridor::{CorridorError, CorridorFileError};
+use crate::exchange::ImportError;
 use crate::facts::FilesError;
 use crate::language::command::Misheard;
 use crate::map::MapErrors;
@@ -18,6 +19,9 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Map(#[from] MapErrors),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Import(#[from] Box<ImportError>),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Rules(#[from] RuleFaults),
@@ -46,6 +50,15 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Request(#[from] RequestError),
+}
+
+impl From<ImportError> for Error {
+    fn from(error: ImportError) -> Self {
+        match error {
+            ImportError::Map(faults) => Self::Map(faults),
+            error => Self::Import(Box::new(error)),
+        }
+    }
 }
 
 impl From<MissionError> for Error {
@@ -164,6 +177,7 @@ impl Error {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Map(_)
+            | Self::Import(_)
             | Self::Rules(_)
             | Self::Relations(_)
             | Self::Misheard(_)

@@ -37,6 +37,10 @@ pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 
+pub use crate::exchange::{
+    Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
+    Report as ReadingReport, read as read_building,
+};
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::map::World;
@@ -67,7 +71,10 @@ pub struct Engine {
 /// What an import did.
 #[derive(Debug, Clone)]
 pub struct Imported {
+    /// What changed in the store.
     pub report: ImportReport,
+    /// What was read of the file, mended and left out.
+    pub reading: ReadingReport,
     /// Warnings of the map file.
     pub warnings: MapErrors,
 }
@@ -124,13 +131,21 @@ impl Engine {
         })
     }
 
-    /// Checks a map file and makes it the store's map, in one transaction that is on the disk when this returns.
+    /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction
+    /// that is on the disk when this returns.
     ///
     /// # Errors
     /// All faults of the file; the store is then as it was.
     pub fn import(&mut self, file: &Path, change: &Change) -> Result<Imported, Error> {
-        let reading = read_file(file);
-        let Some(world) = reading.world else { return Err(reading.faults.into()) };
+        self.keep(crate::exchange::read(file, &ImportOptions::default())?, change)
+    }
+
+    /// Makes a building that was read the store's map, as [`Engine::import`] does.
+    ///
+    /// # Errors
+    /// The store cannot take it; it is then as it was.
+    pub fn keep(&mut self, read: ImportedFile, change: &Change) -> Result<Imported, Error> {
+        let ImportedFile { world, report: reading, warnings } = read;
         let report = match &mut self.store {
             Some(store) => {
                 let report = store.import(&world, change)?;
@@ -144,7 +159,7 @@ impl Engine {
         };
         self.relations = OnceCell::new();
         self.floors = OnceCell::new();
-        Ok(Imported { report, warnings: reading.faults })
+        Ok(Imported { report, reading, warnings })
     }
 
     /// The map.

@@ -1,15 +1,26 @@
 //! Importers and exporters of foreign formats.
 //!
-//! A reader makes a [`Survey`] of a foreign file; the assembler makes a checked [`crate::map::World`] of any `Survey`.
+//! A reader makes a [`Survey`] of a foreign file; the assembler makes a checked [`crate::map::World`] of any `Survey`;
+//! [`read`] recognises the format and does both. What had to be mended or left out stands in the [`Report`].
 
+mod assemble;
 mod error;
+mod fault;
 mod input;
+mod read;
+mod report;
 mod scene;
 mod survey;
+mod synonyms;
 
+pub use assemble::assemble;
 pub use error::ReadError;
+pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
+pub use read::{Format, Imported, Options, read};
+pub use report::{Count, Deed, Note, Report, What, Why};
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 pub use survey::{
     Kind, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
 };
+pub use synonyms::{Found, Meaning, Synonyms, Vocabulary};

@@ -71,11 +71,12 @@ pub struct Opening {
     pub source: String,
     pub name: String,
     pub what: OpeningKind,
-    /// From jamb to jamb, in the wall or near it. The first is the right jamb seen from within `rooms.0`,
-    /// where the reader knows; leaves are counted from it.
+    /// From jamb to jamb, in the wall or near it. The *first side* of the opening is the one from which the first is the
+    /// right jamb: the side to the left of the way from the first to the second. Leaves are counted from the first jamb,
+    /// and `opens` says whether they swing into the first side, whichever rooms lie there.
     pub jambs: [Point; 2],
-    /// Rooms of the level that the file says it joins (indices); None where it does not say: the assembler steps off both
-    /// sides and looks. `Some([a, None])` leads outside.
+    /// Rooms of the level that the file says it joins (indices), in any order; None where it does not say: the assembler
+    /// steps off both sides and looks. `Some([a, None])` leads outside.
     pub rooms: Option<[Option<usize>; 2]>,
     pub height: Option<Cm>,
     /// Lower edge above the floor: windows.
@@ -85,7 +86,8 @@ pub struct Opening {
 
 #[derive(Debug, Clone, PartialEq)]
 pub enum OpeningKind {
-    /// Leaves from the right jamb to the left one, seen from the first room; empty: one leaf of the usual sort.
+    /// Leaves from the first jamb to the second (`HingeSide::Right`: hinged towards the first); empty: one leaf of the
+    /// usual sort. `opens`: into the first side or out of it.
     Door {
         kind: DoorKind,
         leaves: Vec<DoorLeaf>,

@@ -525,7 +525,7 @@ pub struct MapErrors {
 }
 
 impl MapErrors {
-    pub(super) fn of(error: MapError) -> Self {
+    pub(crate) fn of(error: MapError) -> Self {
         Self { source: None, faults: vec![Fault::new(error, Vec::new())] }
     }
 

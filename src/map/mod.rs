@@ -42,6 +42,7 @@ mod types;
 mod world;
 
 pub use check::check;
+pub(crate) use check::plane;
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{Format, Reading, json_schema, read, read_file};

@@ -8,7 +8,7 @@ mod group;
 mod maps;
 mod names;
 mod placed;
-mod plane;
+pub(crate) mod plane;
 
 use std::collections::BTreeSet;
 

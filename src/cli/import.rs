@@ -1,0 +1,57 @@
+//! `ortho import`: a building of any known format into the store, with the report of what became of it.
+
+use serde_json::json;
+
+use crate::engine::{Engine, ImportOptions, change_now, read_building};
+
+use super::args::{Common, ImportArgs};
+use super::commands::{described, note, note_repairs, rules_dir, size, store_dir, warn};
+use super::fault::Failure;
+use super::{Answer, say};
+
+/// The user's own synonyms, in the rules directory.
+const SYNONYMS: &str = "import-synonyms.toml";
+
+pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure> {
+    let rules = rules_dir(common);
+    let beside_rules = rules.as_ref().map(|dir| dir.join(SYNONYMS)).filter(|p| p.is_file());
+    let options = ImportOptions {
+        format: args.format,
+        strict: args.strict,
+        assets: args.assets.clone(),
+        synonyms: args.synonyms.clone().or(beside_rules),
+    };
+    // The file is read before the store is opened or made, so that a faulty one leaves no trace.
+    let read = read_building(&args.file, &options)?;
+    let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
+    note_repairs(&engine);
+    let reason = format!("импорт {}", args.file.display());
+    let imported = engine.keep(read, &change_now(&common.user, &reason))?;
+    warn(&imported.warnings);
+    let world = engine.world()?;
+    let counts = imported.report.counts;
+    if common.json {
+        return say(&json!({
+            "outcome": "imported",
+            "revision": imported.report.revision,
+            "created": counts.created,
+            "changed": counts.changed,
+            "deleted": counts.deleted,
+            "warnings": imported.warnings.faults.len(),
+            "world": size(world),
+            "report": imported.reading.to_json(),
+        })
+        .to_string());
+    }
+    if !imported.reading.notes.is_empty() {
+        note(&imported.reading.to_string());
+    }
+    let what = match counts.total() {
+        0 => "ничего не изменилось".to_owned(),
+        _ => format!(
+            "записей создано {}, изменено {}, удалено {}",
+            counts.created, counts.changed, counts.deleted
+        ),
+    };
+    say(&format!("{}\nРевизия {}: {what}.", described(world), imported.report.revision))
+}

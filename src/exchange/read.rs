@@ -1,0 +1,239 @@
+//! The one door for foreign files: which format it is, its reader, the assembler, the report.
+
+use std::path::{Path, PathBuf};
+
+use crate::map::{self, MapErrors, World};
+use crate::units::Source;
+
+use super::report::{What, Why};
+use super::scene::{self, Assets, SceneFormat};
+use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input};
+
+/// A format that is read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Format {
+    /// orthoframe's own map file.
+    Map,
+    ProcThor,
+    Thor,
+    VirtualHome,
+    PyRoboSim,
+}
+
+/// How a format is known and read.
+struct Reader {
+    format: Format,
+    /// As the command line names it.
+    key: &'static str,
+    title: &'static str,
+    /// By name and content; the first reader that says yes reads.
+    recognises: fn(&Input<'_>) -> bool,
+    read: fn(&Input<'_>) -> Result<Survey, ReadError>,
+}
+
+/// In the order in which they are asked.
+const READERS: &[Reader] = &[
+    Reader {
+        format: Format::ProcThor,
+        key: "procthor",
+        title: "ProcTHOR",
+        recognises: |input| is_scene(input, SceneFormat::ProcThor),
+        read: |input| scene::read_procthor(input.source()?, &asset_sizes(input)?),
+    },
+    Reader {
+        format: Format::Thor,
+        key: "thor",
+        title: "AI2-THOR",
+        recognises: |input| is_scene(input, SceneFormat::Thor),
+        read: |input| scene::read_thor(input.source()?),
+    },
+    Reader {
+        format: Format::VirtualHome,
+        key: "virtualhome",
+        title: "VirtualHome",
+        recognises: |input| is_scene(input, SceneFormat::VirtualHome),
+        read: |input| scene::read_virtualhome(input.source()?),
+    },
+    Reader {
+        format: Format::PyRoboSim,
+        key: "pyrobosim",
+        title: "pyrobosim",
+        recognises: |input| is_scene(input, SceneFormat::PyRoboSim),
+        read: |input| scene::read_pyrobosim(input.source()?, &mut |name| input.beside(name)),
+    },
+];
+
+fn is_scene(input: &Input<'_>, format: SceneFormat) -> bool {
+    input.text.as_ref().and_then(SceneFormat::of) == Some(format)
+}
+
+/// The file in which ProcTHOR keeps the sizes of its models.
+const ASSETS: &str = "asset-database.json";
+
+/// The sizes of models: of the file named, or of the one beside or above the house; none when there is none.
+fn asset_sizes(input: &Input<'_>) -> Result<Assets, ReadError> {
+    let found = || {
+        let up = input.path.ancestors().skip(1).take(3).map(|dir| dir.join(ASSETS));
+        up.into_iter().find(|path| path.is_file())
+    };
+    match input.assets.map(Path::to_path_buf).or_else(found) {
+        Some(path) => Assets::read(&input::file_text(&path)?),
+        None => Ok(Assets::default()),
+    }
+}
+
+/// A foreign file, opened.
+pub(super) struct Input<'a> {
+    pub(super) path: &'a Path,
+    /// None when the path is a directory.
+    pub(super) text: Option<Source>,
+    /// A second file that some formats need: sizes of models.
+    pub(super) assets: Option<&'a Path>,
+}
+
+impl Input<'_> {
+    /// The file's name in small letters.
+    fn file_name(&self) -> String {
+        self.path.file_name().map(|n| n.to_string_lossy().to_lowercase()).unwrap_or_default()
+    }
+
+    /// The text; empty for a directory.
+    pub(super) fn text(&self) -> &str {
+        self.text.as_ref().map_or("", Source::text)
+    }
+
+    /// The text, where the format needs one.
+    pub(super) fn source(&self) -> Result<&Source, ReadError> {
+        self.text.as_ref().ok_or_else(|| ReadError::Unreadable {
+            path: self.path.display().to_string(),
+            reason: "это папка, а не файл".to_owned(),
+        })
+    }
+
+    /// A file of this name in the folder of the file; whatever folder the name itself speaks of.
+    fn beside(&self, name: &str) -> Option<Source> {
+        let path = self.path.parent()?.join(Path::new(name).file_name()?);
+        input::file_text(&path).ok()
+    }
+
+    fn ends_with(&self, endings: &[&str]) -> bool {
+        let name = self.file_name();
+        endings.iter().any(|ending| name.ends_with(ending))
+    }
+}
+
+/// How a file is to be read.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    /// None: by its name and content.
+    pub format: Option<Format>,
+    /// Refuse when anything had to be mended or left out.
+    pub strict: bool,
+    /// Sizes of models; looked for beside the file when None.
+    pub assets: Option<PathBuf>,
+    /// A synonym table laid over the built-in one.
+    pub synonyms: Option<PathBuf>,
+}
+
+/// What came of a file.
+#[derive(Debug, Clone)]
+pub struct Imported {
+    pub world: World,
+    pub report: Report,
+    /// Of a map file.
+    pub warnings: MapErrors,
+}
+
+impl Format {
+    /// The format of this name: `rmf`.
+    #[must_use]
+    pub fn named(key: &str) -> Option<Self> {
+        if key == "map" {
+            return Some(Self::Map);
+        }
+        READERS.iter().find(|r| r.key == key).map(|r| r.format)
+    }
+
+    /// The names of all formats, for the command line.
+    #[must_use]
+    pub fn keys() -> Vec<&'static str> {
+        std::iter::once("map").chain(READERS.iter().map(|r| r.key)).collect()
+    }
+
+    fn recognised(input: &Input<'_>) -> Option<Self> {
+        // A file of our own says so in its first key, or is TOML, which no foreign format is.
+        let is_map = input.ends_with(&[".toml"])
+            || input.text().lines().take(50).any(|line| {
+                let line = line.trim_start().trim_start_matches('"');
+                line.strip_prefix("format")
+                    .is_some_and(|rest| rest.trim_start_matches(['"', ' ']).starts_with(['=', ':']))
+            });
+        let foreign = READERS.iter().find(|r| (r.recognises)(input)).map(|r| r.format);
+        foreign.or(is_map.then_some(Self::Map))
+    }
+}
+
+/// Reads a building of any known format.
+///
+/// # Errors
+/// The file cannot be read, its format is not known, no room is left of it; in strict reading also whenever something
+/// had to be mended or left out.
+pub fn read(path: &Path, options: &Options) -> Result<Imported, ImportError> {
+    let text = if path.is_dir() { None } else { Some(input::file_text(path)?) };
+    let input = Input { path, text, assets: options.assets.as_deref() };
+    let format = options.format.or_else(|| Format::recognised(&input)).ok_or_else(|| {
+        let known: Vec<&str> = READERS.iter().map(|r| r.title).collect();
+        ImportError::UnknownFormat { path: path.display().to_string(), known: known.join(", ") }
+    })?;
+    let imported = match READERS.iter().find(|r| r.format == format) {
+        None => own(path, &input)?,
+        Some(reader) => foreign(reader, &input, options)?,
+    };
+    if options.strict && !imported.report.is_clean() {
+        return Err(ImportError::Strict { report: Box::new(imported.report) });
+    }
+    Ok(imported)
+}
+
+/// A map file of our own.
+fn own(path: &Path, input: &Input<'_>) -> Result<Imported, ImportError> {
+    let reading = match &input.text {
+        Some(text) => map::read(text, map::Format::of(path)),
+        None => map::read_file(path),
+    };
+    match reading.world {
+        Some(world) => {
+            let mut report = Report::new("orthoframe", &path.display().to_string());
+            for (what, count) in [
+                (What::Level, world.maps.len()),
+                (What::Room, world.areas.len()),
+                (What::Door, world.doors.len()),
+                (What::Kind, world.objects.len()),
+                (What::Thing, world.replicas.len()),
+                (What::Place, world.places.len()),
+            ] {
+                report.found(what, count);
+                report.taken(what, count);
+            }
+            Ok(Imported { world, report, warnings: reading.faults })
+        }
+        None => Err(reading.faults.into()),
+    }
+}
+
+fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Imported, ImportError> {
+    let synonyms = match &options.synonyms {
+        Some(path) => Synonyms::load(path)?,
+        None => Synonyms::built_in(),
+    };
+    let survey = (reader.read)(input)?;
+    let name = input.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into());
+    let mut report = Report::new(reader.title, &name);
+    for remark in &survey.remarks {
+        let why = Why::Other { text: remark.text.clone() };
+        report.mended(What::Record, &remark.source, why);
+    }
+    let world = assemble(&survey, &synonyms, &mut report)?;
+    Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })
+}

@@ -1,0 +1,391 @@
+//! What came of an import: how much was read, what was mended, what was left out, and why.
+//!
+//! **Invariant.** Every record of the file that does not arrive as it stands has a note with the file's own id.
+
+use std::collections::BTreeMap;
+use std::fmt;
+
+use miette::Diagnostic;
+use serde::Serialize;
+use thiserror::Error;
+
+/// What became of a record.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Deed {
+    /// It arrived, but not as the file has it.
+    Mended,
+    /// It did not arrive.
+    Skipped,
+    /// It arrived; something of it is worth a word. Never refused by a strict import.
+    Noted,
+}
+
+/// What sort of record a note speaks of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum What {
+    Building,
+    Level,
+    Room,
+    Door,
+    Passage,
+    Window,
+    Lift,
+    Kind,
+    Thing,
+    Place,
+    Wall,
+    /// A relation or edge of the source: `ON`, `INSIDE`.
+    Relation,
+    /// Anything else that the file holds.
+    Record,
+}
+
+impl What {
+    /// The plural genitive: «помещений 4».
+    #[must_use]
+    pub fn counted(self) -> &'static str {
+        match self {
+            Self::Building => "зданий",
+            Self::Level => "этажей",
+            Self::Room => "помещений",
+            Self::Door => "дверей",
+            Self::Passage => "проходов",
+            Self::Window => "окон",
+            Self::Lift => "лифтов и лестниц",
+            Self::Kind => "видов вещей",
+            Self::Thing => "вещей",
+            Self::Place => "точек",
+            Self::Wall => "стен",
+            Self::Relation => "связей",
+            Self::Record => "записей",
+        }
+    }
+
+    fn one(self) -> &'static str {
+        match self {
+            Self::Building => "здание",
+            Self::Level => "этаж",
+            Self::Room => "помещение",
+            Self::Door => "дверь",
+            Self::Passage => "проход",
+            Self::Window => "окно",
+            Self::Lift => "лифт",
+            Self::Kind => "вид вещей",
+            Self::Thing => "вещь",
+            Self::Place => "точка",
+            Self::Wall => "стена",
+            Self::Relation => "связь",
+            Self::Record => "запись",
+        }
+    }
+}
+
+/// Why a record was mended or left out. Numbers are rounded for people; lengths in cm, areas in m².
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Error, Diagnostic)]
+#[non_exhaustive]
+pub enum Why {
+    /// Fewer than three different corners, or less floor than a robot's foot.
+    #[error("контур вырожден: площадь меньше {least} см²")]
+    #[diagnostic(code(import::no_outline))]
+    NoOutline { least: u32 },
+    /// Rings that cross themselves: the largest simple part is kept.
+    #[error("контур пересекал сам себя; оставлена наибольшая часть")]
+    #[diagnostic(code(import::outline_crosses))]
+    OutlineCrosses,
+    /// Two rooms claim one piece of floor.
+    #[error("накладывалось на «{other}»; общий пол остался за ним")]
+    #[diagnostic(code(import::rooms_overlap))]
+    RoomsOverlap { other: String },
+    /// One room drawn twice.
+    #[error("повторяет «{other}»")]
+    #[diagnostic(code(import::room_twice))]
+    RoomTwice { other: String },
+    /// Subtraction cut a room apart.
+    #[error("разрезано наложением; оставлена наибольшая часть")]
+    #[diagnostic(code(import::room_cut))]
+    RoomCut,
+    /// A hole outside of its room, or without area.
+    #[error("вырез в контуре непригоден")]
+    #[diagnostic(code(import::bad_hole))]
+    BadHole,
+    /// One id or name for several records.
+    #[error("имя «{name}» уже занято; дано имя «{given}»")]
+    #[diagnostic(code(import::duplicate_name))]
+    DuplicateName { name: String, given: String },
+    /// One id for several records.
+    #[error("обозначение «{id}» дано не один раз")]
+    #[diagnostic(code(import::duplicate_id))]
+    DuplicateId { id: String },
+    /// A reference that leads nowhere.
+    #[error("ссылается на «{to}», чего в файле нет")]
+    #[diagnostic(code(import::dangling))]
+    Dangling { to: String },
+    /// An opening with no room beside it.
+    #[error("рядом нет ни одного помещения")]
+    #[diagnostic(code(import::no_room))]
+    NoRoom,
+    /// An opening amid one room's floor.
+    #[error("стоит внутри одного помещения, вдали от стен")]
+    #[diagnostic(code(import::within_room))]
+    WithinRoom,
+    /// An opening that lies along three rooms or more.
+    #[error("касается не двух помещений; взяты «{one}» и «{other}»")]
+    #[diagnostic(code(import::several_rooms))]
+    SeveralRooms { one: String, other: String },
+    /// The rooms that a door names lie elsewhere.
+    #[error("не примыкает к «{room}», которое называет; помещения найдены по месту")]
+    #[diagnostic(code(import::other_room))]
+    OtherRoom { room: String },
+    /// Narrower than nothing can pass.
+    #[error("ширина меньше {least} см")]
+    #[diagnostic(code(import::too_narrow))]
+    TooNarrow { least: u32 },
+    /// The wall is shorter than the opening.
+    #[error("ширина уменьшена с {from} до {to} см: стена короче или проём занят")]
+    #[diagnostic(code(import::narrowed))]
+    Narrowed { from: u32, to: u32 },
+    /// No free stretch of wall.
+    #[error("не помещается в стену: она занята другим проёмом, слишком коротка или далека")]
+    #[diagnostic(code(import::no_wall))]
+    NoWall,
+    /// A value out of its range.
+    #[error("{what}: негодное значение {value}")]
+    #[diagnostic(code(import::bad_value))]
+    BadValue { what: &'static str, value: String },
+    /// A field that should be there.
+    #[error("нет поля «{field}»")]
+    #[diagnostic(code(import::missing_field))]
+    MissingField { field: &'static str },
+    /// A thing in no room.
+    #[error("стоит вне всех помещений")]
+    #[diagnostic(code(import::outside))]
+    Outside,
+    /// A thing elsewhere than said.
+    #[error("стоит не в «{room}», которое названо; помещение найдено по месту")]
+    #[diagnostic(code(import::thing_elsewhere))]
+    ThingElsewhere { room: String },
+    /// A kind whose parts lie in one another.
+    #[error("части вида накладывались; лишнее отрезано")]
+    #[diagnostic(code(import::parts_overlap))]
+    PartsOverlap,
+    /// The file does not tell how large it is.
+    #[error("размеры вида «{kind}» неизвестны: поставлена плоская метка")]
+    #[diagnostic(code(import::unknown_size))]
+    UnknownSize { kind: String },
+    /// A word that the synonym table lacks.
+    #[error("слово «{word}» не значится в таблице синонимов: тип не дан")]
+    #[diagnostic(code(import::unknown_word))]
+    UnknownWord { word: String },
+    /// A lift that stops on one floor only.
+    #[error("соединяет меньше двух этажей")]
+    #[diagnostic(code(import::lift_stops))]
+    LiftStops,
+    /// Rooms that no door joins with the others.
+    #[error("дверями с остальными не соединено; положение задано связью глухих стен")]
+    #[diagnostic(code(import::island))]
+    Island,
+    /// A level without a room.
+    #[error("на этаже нет ни одного помещения")]
+    #[diagnostic(code(import::empty_level))]
+    EmptyLevel,
+    /// A record of a sort that the Map has no place for.
+    #[error("записи вида «{kind}» не переносятся")]
+    #[diagnostic(code(import::not_carried))]
+    NotCarried { kind: String },
+    /// What a reader has to tell beyond these.
+    #[error("{text}")]
+    #[diagnostic(code(import::other))]
+    Other { text: String },
+}
+
+impl Why {
+    /// The stable code of the text: `import::dangling`.
+    #[must_use]
+    pub fn code(&self) -> String {
+        Diagnostic::code(self).map_or_else(String::new, |code| code.to_string())
+    }
+}
+
+/// One thing that happened to one record of the file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Note {
+    pub deed: Deed,
+    pub what: What,
+    /// The record's id in the file.
+    pub source: String,
+    pub why: Why,
+}
+
+/// Records of one sort: how many the file has, how many of them arrived.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize)]
+pub struct Count {
+    pub found: usize,
+    pub taken: usize,
+}
+
+/// What came of an import.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Report {
+    /// Of the file: `Open-RMF`.
+    pub format: String,
+    /// The file's name.
+    pub file: String,
+    pub counts: BTreeMap<What, Count>,
+    /// In the order in which they arose, which follows the file.
+    pub notes: Vec<Note>,
+}
+
+/// Ids shown of one group of notes.
+const SHOWN: usize = 5;
+
+impl Report {
+    #[must_use]
+    pub fn new(format: &str, file: &str) -> Self {
+        Self { format: format.to_owned(), file: file.to_owned(), ..Self::default() }
+    }
+
+    pub fn note(&mut self, deed: Deed, what: What, source: &str, why: Why) {
+        self.notes.push(Note { deed, what, source: source.to_owned(), why });
+    }
+
+    pub fn mended(&mut self, what: What, source: &str, why: Why) {
+        self.note(Deed::Mended, what, source, why);
+    }
+
+    pub fn skipped(&mut self, what: What, source: &str, why: Why) {
+        self.note(Deed::Skipped, what, source, why);
+    }
+
+    pub fn noted(&mut self, what: What, source: &str, why: Why) {
+        self.note(Deed::Noted, what, source, why);
+    }
+
+    /// Counts records that the file has.
+    pub fn found(&mut self, what: What, count: usize) {
+        self.counts.entry(what).or_default().found += count;
+    }
+
+    /// Counts records that arrived.
+    pub fn taken(&mut self, what: What, count: usize) {
+        self.counts.entry(what).or_default().taken += count;
+    }
+
+    #[must_use]
+    pub fn count(&self, deed: Deed) -> usize {
+        self.notes.iter().filter(|note| note.deed == deed).count()
+    }
+
+    /// Whether everything arrived as the file has it.
+    #[must_use]
+    pub fn is_clean(&self) -> bool {
+        self.notes.iter().all(|note| note.deed == Deed::Noted)
+    }
+
+    /// The report as data: counts by sort, notes with stable codes.
+    #[must_use]
+    pub fn to_json(&self) -> serde_json::Value {
+        let counts: Vec<_> = self
+            .counts
+            .iter()
+            .map(|(what, count)| {
+                serde_json::json!({ "what": what, "found": count.found, "taken": count.taken })
+            })
+            .collect();
+        let notes: Vec<_> = self
+            .notes
+            .iter()
+            .map(|n| {
+                serde_json::json!({
+                    "deed": n.deed,
+                    "what": n.what,
+                    "source": n.source,
+                    "code": n.why.code(),
+                    "why": n.why.to_string(),
+                })
+            })
+            .collect();
+        serde_json::json!({
+            "format": self.format,
+            "file": self.file,
+            "read": counts,
+            "mended": self.count(Deed::Mended),
+            "skipped": self.count(Deed::Skipped),
+            "notes": notes,
+        })
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Импорт «{}», формат {}.", self.file, self.format)?;
+        let counts: Vec<String> = self
+            .counts
+            .iter()
+            .map(|(what, c)| {
+                if c.found == c.taken {
+                    format!("{} {}", what.counted(), c.taken)
+                } else {
+                    format!("{} {} из {}", what.counted(), c.taken, c.found)
+                }
+            })
+            .collect();
+        if !counts.is_empty() {
+            write!(f, "\nПрочитано: {}.", counts.join(", "))?;
+        }
+        for (deed, title) in
+            [(Deed::Mended, "Исправлено"), (Deed::Skipped, "Пропущено"), (Deed::Noted, "Замечено")]
+        {
+            let mut groups: BTreeMap<(String, What), Vec<&Note>> = BTreeMap::new();
+            for note in self.notes.iter().filter(|n| n.deed == deed) {
+                groups.entry((note.why.code(), note.what)).or_default().push(note);
+            }
+            if groups.is_empty() {
+                continue;
+            }
+            write!(f, "\n{title}: {}.", self.count(deed))?;
+            for ((code, what), notes) in groups {
+                if let [only] = notes[..] {
+                    write!(f, "\n  {} «{}»: {}", what.one(), only.source, only.why)?;
+                    continue;
+                }
+                write!(f, "\n  {}: {} ({code})", what.counted(), notes.len())?;
+                for note in notes.iter().take(SHOWN) {
+                    write!(f, "\n    «{}»: {}", note.source, note.why)?;
+                }
+                if notes.len() > SHOWN {
+                    write!(f, "\n    и ещё {}", notes.len() - SHOWN)?;
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn like_notes_stand_together_and_the_file_s_ids_are_named() {
+        let mut report = Report::new("Open-RMF", "office.building.yaml");
+        report.found(What::Door, 3);
+        report.taken(What::Door, 1);
+        report.skipped(What::Door, "17", Why::NoRoom);
+        report.skipped(What::Door, "18", Why::NoRoom);
+        report.mended(What::Room, "pantry", Why::OutlineCrosses);
+        expect_test::expect![[r#"
+            Импорт «office.building.yaml», формат Open-RMF.
+            Прочитано: дверей 1 из 3.
+            Исправлено: 1.
+              помещение «pantry»: контур пересекал сам себя; оставлена наибольшая часть
+            Пропущено: 2.
+              дверей: 2 (import::no_room)
+                «17»: рядом нет ни одного помещения
+                «18»: рядом нет ни одного помещения"#]]
+        .assert_eq(&report.to_string());
+        assert_eq!(report.to_json()["notes"][0]["code"], "import::no_room");
+        assert!(!report.is_clean());
+    }
+}
