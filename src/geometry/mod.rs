@@ -19,11 +19,14 @@
 //! ```
 
 mod blocked;
+mod buckets;
 pub mod contact;
+mod dead_zone;
 mod doors;
 mod floor;
 mod grid;
 mod mesh;
+mod obstacle;
 mod offset;
 mod passframe;
 mod plan;
@@ -32,12 +35,15 @@ mod remedy;
 mod route;
 mod scene;
 mod search;
+mod storey;
 mod view;
 
 pub use blocked::{Barrier, NoRoute};
+pub use dead_zone::DeadZone;
 pub use doors::{Doorway, doorways, object_leaves};
-pub use floor::{Blocker, DeadZone, FragmentFloor, Obstacle, SLACK};
+pub use floor::{FragmentFloor, SLACK};
 pub use grid::Region;
+pub use obstacle::{Blocker, Obstacle};
 pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
 pub use plan::{DoorStates, FloorPlan};
 pub use polygon::{Bounds, Polygon, nearest_on_segment};
