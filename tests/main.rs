@@ -10,6 +10,7 @@ mod facts_naive;
 mod floor_cases;
 mod floor_properties;
 mod floors;
+mod formats;
 mod generated_worlds;
 mod maps;
 mod planning;

@@ -6,10 +6,14 @@
 mod assemble;
 mod error;
 mod fault;
+pub mod geojson;
+pub mod ifc;
 mod input;
 mod read;
 mod report;
 mod scene;
+mod outline;
+mod shafts;
 mod survey;
 mod synonyms;
 
