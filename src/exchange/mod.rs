@@ -13,6 +13,7 @@ mod read;
 mod report;
 mod scene;
 mod outline;
+pub mod ros;
 mod shafts;
 mod survey;
 mod synonyms;

@@ -413,6 +413,6 @@ mod tests {
         let found = instances(&Source::new("x.ifc", text), &["IFCDOOR"], &mut remarks).unwrap();
         assert_eq!(found.all("IFCDOOR").map(|(id, _)| id).collect::<Vec<_>>(), [3]);
         assert_eq!(remarks.len(), 1);
-        assert!(remarks[0].text.contains("строка 3, столбец 12"), "{remarks:?}");
+        assert!(remarks[0].text.contains("строка 4, столбец 12"), "{remarks:?}");
     }
 }
