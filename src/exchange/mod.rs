@@ -14,6 +14,7 @@ mod report;
 mod scene;
 mod outline;
 pub mod ros;
+mod scene;
 mod shafts;
 mod survey;
 mod synonyms;

@@ -54,7 +54,7 @@ const MOST_PROPERTIES: usize = 32;
 pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let mut remarks = Vec::new();
     let (around, features) = feature::features(source, &mut remarks)?;
-    survey(source.name(), &around, features, remarks)
+    survey(source.name(), &around, &features, remarks)
 }
 
 /// Whether a text says that it is GeoJSON. Looks at its beginning only.
@@ -124,13 +124,13 @@ pub fn read_folder(dir: &Path) -> Result<Survey, ReadError> {
         }));
     }
     let name = dir.file_name().unwrap_or_default().to_string_lossy().into_owned();
-    survey(&name, &around, all, remarks)
+    survey(&name, &around, &all, remarks)
 }
 
 fn survey(
     name: &str,
     around: &Surroundings,
-    features: Vec<Feature>,
+    features: &[Feature],
     remarks: Vec<Remark>,
 ) -> Result<Survey, ReadError> {
     let classes: Vec<Class> = features.iter().map(class).collect();
@@ -148,10 +148,10 @@ fn survey(
         Ground::of(around, is_imdf, positions(), rooms().filter_map(size).collect());
     let mut reader = Reader {
         ground,
-        tongue: Tongue::of(&features),
-        levels: Levels::of(&features, &classes),
+        tongue: Tongue::of(features),
+        levels: Levels::of(features, &classes),
         survey: Survey {
-            name: building_name(name, around, &features, &classes),
+            name: building_name(name, around, features, &classes),
             remarks,
             ..Survey::default()
         },
@@ -170,8 +170,8 @@ fn survey(
             reader.room(feature, word);
         }
     }
-    reader.occupants(&features, &classes);
-    reader.doors(&features, &classes)?;
+    reader.occupants(features, &classes);
+    reader.doors(features, &classes)?;
     for (feature, class) in features.iter().zip(&classes) {
         match class {
             Class::Thing(word) => reader.thing(feature, word),
@@ -181,7 +181,7 @@ fn survey(
             _ => {}
         }
     }
-    reader.lifts(&features, &classes);
+    reader.lifts(features, &classes);
     reader.finish()
 }
 

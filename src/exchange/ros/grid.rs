@@ -168,7 +168,7 @@ mod tests {
             .collect();
         let grid = Grid { width, height, cells: vec![Cell::Free; width * height] };
         let fast = grid.distances(&free);
-        for cell in 0..free.len() {
+        for (cell, fast) in fast.iter().enumerate() {
             let (x, y) = grid.xy(cell);
             let mut slow = [x + 1, y + 1, width as i64 - x, height as i64 - y].map(|d| d * d)[0..4]
                 .iter()
@@ -179,7 +179,7 @@ mod tests {
                 let (a, b) = grid.xy(other);
                 slow = slow.min((a - x).pow(2) + (b - y).pow(2));
             }
-            assert!((f64::from(fast[cell]) - (slow as f64).sqrt()).abs() < 1e-3, "{x} {y}");
+            assert!((f64::from(*fast) - (slow as f64).sqrt()).abs() < 1e-3, "{x} {y}");
         }
     }
 }

@@ -258,7 +258,7 @@ fn line(grid: &Grid, from: (i64, i64), to: (i64, i64), free: &[bool]) -> Vec<usi
             return cells;
         }
         // One step at a time: the cells share sides.
-        if 2 * error > -dy && (2 * error >= dx || dx > 0 && x != to.0) && x != to.0 {
+        if x != to.0 && 2 * error > -dy {
             error -= dy;
             x += sx;
         } else if y != to.1 {
