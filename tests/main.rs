@@ -5,6 +5,7 @@ mod cli;
 mod corridor;
 mod corridor_lattice;
 mod drawings;
+mod exports;
 mod facts;
 mod facts_naive;
 mod floor_cases;

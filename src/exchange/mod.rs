@@ -6,6 +6,7 @@
 mod assemble;
 mod error;
 mod fault;
+mod export;
 pub mod geojson;
 pub mod ifc;
 mod input;
@@ -22,6 +23,9 @@ mod synonyms;
 pub use assemble::assemble;
 pub use error::ReadError;
 pub use fault::ImportError;
+pub use export::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_route_graph};
+#[cfg(feature = "sqlite")]
+pub use export::{SqliteError, read_sqlite, write_sqlite};
 pub use input::{LARGEST, decode, file_bytes, file_text};
 pub use read::{Format, Imported, Options, read};
 pub use report::{Count, Deed, Note, Report, What, Why};

@@ -8,9 +8,9 @@ use serde_json::{Map as Members, Value, json};
 
 use crate::geometry::{FloorPlan, Scene};
 use crate::map::{self, Door, DoorKind, DoorStatus, HingeSide, TypeList, World};
-use crate::units::{AreaId, Cm, DoorId, Frame, MapId, Point, TypeId};
+use crate::units::{AreaId, Cm, DoorId, Frame, Point, TypeId};
 
-use super::{metre, metres, ring, way};
+use super::{metre, metres, ring};
 
 /// All floors of a world as one FeatureCollection.
 ///
@@ -55,9 +55,8 @@ fn label(name: &str, name_en: &str) -> Value {
 
 /// The word of a type by which a reader knows it again: English where there is one.
 fn word(list: &TypeList, id: Option<TypeId>) -> Value {
-    list.get(id).map_or(Value::Null, |t| {
-        json!(if t.name_en.is_empty() { &t.name } else { &t.name_en })
-    })
+    list.get(id)
+        .map_or(Value::Null, |t| json!(if t.name_en.is_empty() { &t.name } else { &t.name_en }))
 }
 
 /// One Map, placed in the Domain.
@@ -80,12 +79,17 @@ impl<'a> Floor<'a> {
 
     fn write(&self, features: &mut Vec<Value>) {
         let map = self.map;
-        features.push(feature(&self.level, "level", Value::Null, json!({
-            "name": label(&map.name, &map.name_en),
-            "ordinal": self.ordinal(),
-            "elevation": metre(self.frame.z.get()),
-            "category": "unspecified",
-        })));
+        features.push(feature(
+            &self.level,
+            "level",
+            Value::Null,
+            json!({
+                "name": label(&map.name, &map.name_en),
+                "ordinal": self.ordinal(),
+                "elevation": metre(self.frame.z.get()),
+                "category": "unspecified",
+            }),
+        ));
         let scene = self.plan.scene();
         for area in scene.areas.keys() {
             features.push(self.unit(scene, *area));
@@ -115,9 +119,8 @@ impl<'a> Floor<'a> {
     }
 
     fn rings<'p>(&self, polygons: impl Iterator<Item = &'p crate::geometry::Polygon>) -> Value {
-        let polygons: Vec<Vec<Vec<[f64; 2]>>> = polygons
-            .map(|p| vec![ring(p.corners.iter().map(|c| self.frame.apply(*c)))])
-            .collect();
+        let polygons: Vec<Vec<Vec<[f64; 2]>>> =
+            polygons.map(|p| vec![ring(p.corners.iter().map(|c| self.frame.apply(*c)))]).collect();
         match &polygons[..] {
             [only] => json!({ "type": "Polygon", "coordinates": only }),
             _ => json!({ "type": "MultiPolygon", "coordinates": polygons }),
@@ -151,7 +154,11 @@ impl<'a> Floor<'a> {
             for mount in self.world.areas[id].doors.iter().filter(|m| !joined(m.door)) {
                 let Some((right, left)) = self.world.threshold(*id, mount.door) else { continue };
                 let line = (placed.frame.apply(right), placed.frame.apply(left));
-                features.push(self.opening(&format!("door-{}", mount.door.0), Some(mount.door), line));
+                features.push(self.opening(
+                    &format!("door-{}", mount.door.0),
+                    Some(mount.door),
+                    line,
+                ));
             }
         }
     }
@@ -202,7 +209,11 @@ impl<'a> Floor<'a> {
                 "move_prob": replica.move_prob,
             });
             extend(&mut properties, &replica.properties);
-            let id = if several { format!("replica-{}/{}", id.0, no + 1) } else { format!("replica-{}", id.0) };
+            let id = if several {
+                format!("replica-{}/{}", id.0, no + 1)
+            } else {
+                format!("replica-{}", id.0)
+            };
             let geometry = self.rings(std::iter::once(&prism.polygon));
             feature(&id, "fixture", geometry, properties)
         };
@@ -239,15 +250,4 @@ fn extend(properties: &mut Value, more: &map::Properties) {
     for (key, value) in more {
         members.entry(key.clone()).or_insert_with(|| json!(value));
     }
-}
-
-/// For the route graph, which lies in the frame of one Map.
-pub(super) fn heading(from: Point, to: Point) -> f64 {
-    let way = way(from, to);
-    way.y.atan2(way.x).to_degrees()
-}
-
-#[allow(dead_code, reason = "the map's id names its level")]
-fn level_id(map: MapId) -> String {
-    format!("map-{}", map.0)
 }

@@ -14,7 +14,7 @@ pub use notation::to_map_file;
 #[cfg(feature = "sqlite")]
 pub use sqlite::{SqliteError, read_sqlite, write_sqlite};
 
-use crate::units::{Point, Vector};
+use crate::units::Point;
 
 /// cm → metres, to the hundredth of a millimetre.
 fn metres(p: Point) -> [f64; 2] {
@@ -30,9 +30,4 @@ fn ring(points: impl Iterator<Item = Point>) -> Vec<[f64; 2]> {
     let mut ring: Vec<[f64; 2]> = points.map(metres).collect();
     ring.extend(ring.first().copied());
     ring
-}
-
-/// The unit vector from one point to another; along +x when they are one.
-fn way(from: Point, to: Point) -> Vector {
-    (to - from).try_normalize(1e-9).unwrap_or_else(Vector::x)
 }
