@@ -34,13 +34,10 @@ pub fn to_geojson<'a>(world: &World, floors: impl Iterator<Item = &'a FloorPlan>
 }
 
 fn feature(id: &str, kind: &str, geometry: Value, properties: Value) -> Value {
-    json!({
-        "type": "Feature",
-        "id": id,
-        "feature_type": kind,
-        "geometry": geometry,
-        "properties": properties,
-    })
+    let mut feature = json!({ "type": "Feature", "id": id, "feature_type": kind });
+    feature["geometry"] = geometry;
+    feature["properties"] = properties;
+    feature
 }
 
 fn label(name: &str, name_en: &str) -> Value {
