@@ -161,6 +161,7 @@ fn each_package_has_its_own_folder() {
         ("clap", &["cli", "main"]),
         ("serde_json", &["cli", "web", "exchange"]),
         ("encoding_rs", &["exchange"]),
+        ("rusqlite", &["exchange"]),
         ("png", &["exchange"]),
         ("i_overlay", &["geometry", "map", "corridor", "exchange"]),
         ("resvg", &["draw"]),

@@ -74,6 +74,10 @@ pub(super) enum Command {
     },
     /// Import a building into the store: a map file, or a foreign format (docs/import.md)
     Import(ImportArgs),
+    /// Check a map file and import it into the store
+    Import { file: PathBuf },
+    /// Write the map in other programs' formats (docs/export.md)
+    Export(ExportArgs),
     /// Check a map file; all faults at once, with line and column
     Check { file: PathBuf },
     /// JSON Schema of the map file, for editors
@@ -167,6 +171,44 @@ fn parse_arc(text: &str) -> Result<(u32, u32), String> {
     match numbers[..] {
         [from, to] => Ok((from, to)),
         _ => Err("two vertex numbers are wanted, such as 1,0".to_owned()),
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ExportArgs {
+    /// The whole map as a map file: TOML, YAML or JSON by its ending
+    #[arg(required_unless_present_any = EXPORTS)]
+    pub file: Option<PathBuf>,
+    /// All floors as GeoJSON in metres: rooms, openings, furniture, places
+    #[arg(long, value_name = "FILE")]
+    pub geojson: Option<PathBuf>,
+    /// Floors for ROS map_server: a PGM picture and a YAML file each
+    #[arg(long, value_name = "DIR")]
+    pub ros: Option<PathBuf>,
+    /// A floor's route graph for Nav2's route server, GeoJSON
+    #[arg(long, value_name = "FILE")]
+    pub nav2: Option<PathBuf>,
+    /// The tables of the store in a new SQLite file
+    #[cfg(feature = "sqlite")]
+    #[arg(long, value_name = "FILE")]
+    pub sqlite: Option<PathBuf>,
+    /// Only this map; needed for --nav2 when there are several
+    #[arg(long, value_name = "NAME")]
+    pub floor: Option<String>,
+    /// Size of a cell of --ros, cm
+    #[arg(long, value_name = "CM", default_value_t = 5.0, value_parser = parse_cell)]
+    pub cell: f64,
+}
+
+#[cfg(feature = "sqlite")]
+const EXPORTS: [&str; 4] = ["geojson", "ros", "nav2", "sqlite"];
+#[cfg(not(feature = "sqlite"))]
+const EXPORTS: [&str; 3] = ["geojson", "ros", "nav2"];
+
+fn parse_cell(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(cell) if (0.5..=100.0).contains(&cell) => Ok(cell),
+        _ => Err("a size from 0.5 to 100 cm is wanted".to_owned()),
     }
 }
 

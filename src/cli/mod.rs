@@ -8,6 +8,7 @@ mod commands;
 mod corridor;
 mod demo;
 mod draw;
+mod export;
 mod fault;
 mod import;
 mod json;
@@ -48,6 +49,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             demo::run(common, dir.as_deref(), map.as_deref(), task, out)
         }
         Command::Import(args) => import::run(common, args),
+        Command::Import { file } => commands::import(common, file),
+        Command::Export(args) => export::run(common, args),
         Command::Check { file } => commands::check(common, file),
         Command::Schema => say(&crate::map::json_schema()),
         Command::Relations { name, of } => {

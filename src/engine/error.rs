@@ -47,6 +47,10 @@ pub enum Error {
     #[error(transparent)]
     #[diagnostic(transparent)]
     Png(#[from] crate::draw::PngError),
+    #[cfg(feature = "sqlite")]
+    #[error(transparent)]
+    #[diagnostic(transparent)]
+    Sqlite(#[from] crate::exchange::SqliteError),
     #[error(transparent)]
     #[diagnostic(transparent)]
     Request(#[from] RequestError),
@@ -165,6 +169,11 @@ pub enum RequestError {
     )]
     NoRules { dir: String },
 
+    /// A floor too large for a picture.
+    #[error("этаж «{map}» не помещается в картинку из {limit} клеток")]
+    #[diagnostic(code(engine::grid_too_large), help("возьмите клетку крупнее: --cell 10"))]
+    GridTooLarge { map: String, limit: usize },
+
     /// A file that cannot be read or written.
     #[error("файл «{path}»: {reason}")]
     #[diagnostic(code(engine::file), help("проверьте путь и права доступа"))]
@@ -187,6 +196,8 @@ impl Error {
             | Self::Request(_) => true,
             #[cfg(feature = "pictures")]
             Self::Png(_) => true,
+            #[cfg(feature = "sqlite")]
+            Self::Sqlite(_) => true,
             Self::Store(error) => {
                 !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
             }

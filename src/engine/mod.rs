@@ -17,6 +17,7 @@
 
 mod drawing;
 mod error;
+mod export;
 mod lexicon;
 mod plan;
 mod position;
@@ -41,6 +42,7 @@ pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
     Report as ReadingReport, read as read_building,
 };
+pub use crate::exchange::GridFiles;
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::map::World;

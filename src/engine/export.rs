@@ -1,0 +1,96 @@
+//! The map in other programs' formats.
+
+use crate::exchange::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_route_graph};
+use crate::map::Format;
+use crate::units::MapId;
+
+use super::{Engine, Error, RequestError};
+
+impl Engine {
+    /// The whole map as a map file, which [`Engine::import`] reads.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn export_map(&self, format: Format) -> Result<String, Error> {
+        Ok(to_map_file(self.world()?, format))
+    }
+
+    /// All floors as GeoJSON in metres: rooms, openings, furniture, places.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn export_geojson(&self) -> Result<String, Error> {
+        Ok(to_geojson(self.world()?, self.floors()?.values()))
+    }
+
+    /// A floor as ROS map_server has it; `cell` is the size of a cell in cm.
+    ///
+    /// # Errors
+    /// There is no map, or its picture would be too large.
+    pub fn export_grid(&self, map: MapId, cell: f64) -> Result<GridFiles, Error> {
+        let world = self.world()?;
+        to_grid(world, self.floor(map)?, cell).ok_or_else(|| {
+            let map = world.maps[&map].name.clone();
+            RequestError::GridTooLarge { map, limit: MOST_CELLS }.into()
+        })
+    }
+
+    /// A floor as a route graph for Nav2's route server.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn export_route_graph(&self, map: MapId) -> Result<String, Error> {
+        Ok(to_route_graph(self.world()?, self.floor(map)?))
+    }
+}
+
+#[cfg(feature = "sqlite")]
+mod sqlite {
+    use std::path::Path;
+
+    use crate::engine::{Change, Engine, Error, RequestError};
+    use crate::exchange::{read_sqlite, write_sqlite};
+    use crate::map::{MapErrors, check};
+    use crate::store::{ImportReport, Sheet};
+
+    impl Engine {
+        /// The store's map as tables of paper 2 in a new SQLite file.
+        ///
+        /// # Errors
+        /// There is no map, there is such a file already, or SQLite fails.
+        pub fn export_sqlite(&self, path: &Path) -> Result<(), Error> {
+            let world = self.world()?;
+            let Some(store) = &self.store else {
+                return Err(RequestError::NoMap { store: String::new() }.into());
+            };
+            Ok(write_sqlite(path, &store.reader(), world)?)
+        }
+
+        /// Makes the map of an SQLite file the store's map, in one transaction; ids are the file's.
+        ///
+        /// # Errors
+        /// The file is none, its rows make no world, or the world does not pass the checks of a map file; the store
+        /// is then as it was.
+        pub fn import_sqlite(
+            &mut self,
+            path: &Path,
+            change: &Change,
+        ) -> Result<ImportReport, Error> {
+            let no_map = || RequestError::NoMap { store: path.display().to_string() };
+            let world = read_sqlite(path)?.world()?.ok_or_else(no_map)?;
+            let faults = MapErrors { source: None, faults: check(&world) };
+            if faults.has_errors() {
+                return Err(faults.into());
+            }
+            let report = match &mut self.store {
+                // Sizes and lengths are computed anew: who edits a corner in SQL need not.
+                Some(store) => store.import_sheet(&Sheet::of(&world)?, change)?,
+                None => ImportReport::default(),
+            };
+            self.world = Some(world);
+            self.relations = std::cell::OnceCell::new();
+            self.floors = std::cell::OnceCell::new();
+            Ok(report)
+        }
+    }
+}

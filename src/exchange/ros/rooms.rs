@@ -1,0 +1,600 @@
+//! Free floor → rooms, doorways between them, islands in them.
+//!
+//! 1. What stands free in a room, smaller than a wall, is set aside as a thing.
+//! 2. The distance from the walls is flooded from its heights downwards. Where two basins meet, the meeting place is
+//!    a doorway when it is no wider than a door and clearly narrower than both basins; else the lower basin was only
+//!    a corner of the other.
+//! 3. A cut is laid across each doorway, from jamb to jamb; what is connected then is a room.
+//!
+//! **Invariant**: equal grids give equal rooms in equal order: by their lowest, leftmost cell.
+
+use std::collections::BTreeMap;
+
+use crate::exchange::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
+use crate::map::{Permeability, Properties};
+use crate::units::{Cm, Deg, Point, Vector};
+
+use super::Sheet;
+use super::grid::{Cell, Grid, corner};
+use super::trace;
+
+/// cm. A gap wider than this is no doorway.
+const WIDEST_DOOR: f64 = 210.0;
+/// cm. A gap narrower than this lets nobody through: cable ducts, gaps between scans.
+const NARROWEST_DOOR: f64 = 35.0;
+/// A doorway is narrower than the rooms beside it by this share of the smaller's half width.
+const NARROWER: f64 = 0.82;
+/// cm². A smaller piece of floor is no room but a part of its neighbour.
+const SMALLEST_ROOM: f64 = 12_000.0;
+/// cm². A smaller piece of floor that nothing joins is noise.
+const SMALLEST_PIECE: f64 = 10_000.0;
+/// cm². Larger islands are walls, shafts and courtyards.
+const LARGEST_THING: f64 = 60_000.0;
+/// cm². Smaller islands are noise of the sensor.
+const SMALLEST_THING: f64 = 150.0;
+/// cm. Niches shallower than this are levelled.
+const SHALLOW: f64 = 30.0;
+/// A thing of a grid is known by its print only.
+const THING_HEIGHT: f64 = 75.0;
+const MOST_THINGS: usize = 5_000;
+const MOST_DOORS: usize = 20_000;
+
+/// A place where the floor is cut.
+#[derive(Debug, Clone)]
+struct Cut {
+    /// In cells, middles of the walls' cells on either side.
+    jambs: [(f64, f64); 2],
+    cells: Vec<usize>,
+}
+
+/// Fills a level with rooms, openings and things; the kinds of the things are returned.
+pub(super) fn furnish(
+    grid: &Grid,
+    sheet: &Sheet,
+    level: &mut Level,
+    remarks: &mut Vec<Remark>,
+) -> Vec<Kind> {
+    let cell_area = sheet.resolution * sheet.resolution;
+    let mut free: Vec<bool> = grid.cells.iter().map(|c| *c == Cell::Free).collect();
+    let islands = islands(grid, &mut free, cell_area);
+    let noise = drop_pieces(grid, &mut free, (SMALLEST_PIECE / cell_area) as usize);
+    if noise > 0 {
+        let text = format!("обрывков свободного пола меньше 1 м² пропущено: {noise}");
+        remarks.push(Remark { source: String::new(), text });
+    }
+    let distances = grid.distances(&free);
+    let cuts = doorways(grid, sheet, &free, &distances);
+    drop(distances);
+    let (label, sizes, cuts) = cut(grid, &free, cuts, (SMALLEST_ROOM / cell_area) as usize);
+    rooms(grid, sheet, &label, &sizes, level);
+    openings(grid, sheet, &label, &cuts, level);
+    let (kinds, left) = things(grid, sheet, &label, &islands, level);
+    if left > 0 {
+        let text = format!("островков больше {MOST_THINGS}, пропущено: {left}");
+        remarks.push(Remark { source: String::new(), text });
+    }
+    kinds
+}
+
+/// Groups of cells that are not free and touch neither the border nor a wall; they become free. With their cells.
+fn islands(grid: &Grid, free: &mut [bool], cell_area: f64) -> Vec<Vec<usize>> {
+    let (label, sizes) = grid.components(|c| !free[c]);
+    let most = (LARGEST_THING / cell_area) as usize;
+    let mut is_island: Vec<bool> = sizes.iter().map(|s| *s <= most).collect();
+    let (w, h) = (grid.width, grid.height);
+    let border = (0..w).flat_map(|x| [x, (h - 1) * w + x]);
+    for cell in border.chain((0..h).flat_map(|y| [y * w, y * w + w - 1])) {
+        if label[cell] != u32::MAX {
+            is_island[label[cell] as usize] = false;
+        }
+    }
+    let mut found = BTreeMap::<u32, Vec<usize>>::new();
+    for cell in 0..free.len() {
+        if label[cell] != u32::MAX && is_island[label[cell] as usize] {
+            free[cell] = true;
+            found.entry(label[cell]).or_default().push(cell);
+        }
+    }
+    let least = (SMALLEST_THING / cell_area).ceil() as usize;
+    found.into_values().filter(|cells| cells.len() >= least.max(2)).collect()
+}
+
+/// Pieces of floor smaller than this are no floor. How many there were.
+fn drop_pieces(grid: &Grid, free: &mut [bool], least: usize) -> usize {
+    let (label, sizes) = grid.components(|c| free[c]);
+    for cell in 0..free.len() {
+        if label[cell] != u32::MAX && sizes[label[cell] as usize] < least {
+            free[cell] = false;
+        }
+    }
+    sizes.iter().filter(|s| **s < least).count()
+}
+
+/// Basins of the watershed so far.
+struct Basins {
+    parent: Vec<u32>,
+    peak: Vec<f32>,
+}
+
+impl Basins {
+    fn root(&mut self, mut basin: u32) -> u32 {
+        while self.parent[basin as usize] != basin {
+            let above = self.parent[self.parent[basin as usize] as usize];
+            self.parent[basin as usize] = above;
+            basin = above;
+        }
+        basin
+    }
+}
+
+/// The narrow places between basins, the widest cell of each.
+fn doorways(grid: &Grid, sheet: &Sheet, free: &[bool], distances: &[f32]) -> Vec<Cut> {
+    let widest = (WIDEST_DOOR / sheet.resolution / 2.0) as f32;
+    // Highest first; equal heights in the order of the grid.
+    let mut order: Vec<u32> = (0..free.len() as u32).filter(|c| free[*c as usize]).collect();
+    order.sort_unstable_by(|a, b| {
+        distances[*b as usize].total_cmp(&distances[*a as usize]).then(a.cmp(b))
+    });
+    let mut basin = vec![u32::MAX; free.len()];
+    let mut basins = Basins { parent: Vec::new(), peak: Vec::new() };
+    // Where two basins met first: their saddle.
+    let mut saddles: Vec<(u32, u32, usize)> = Vec::new();
+    let mut border = vec![u32::MAX; free.len()];
+    for cell in order {
+        let cell = cell as usize;
+        let here = distances[cell];
+        let mut own = u32::MAX;
+        let (x, y) = grid.xy(cell);
+        for (dx, dy) in [(1, 0), (0, 1), (-1, 0), (0, -1), (1, 1), (-1, 1), (1, -1), (-1, -1)] {
+            let Some(next) = grid.at(x + dx, y + dy).filter(|n| basin[*n] != u32::MAX) else {
+                continue;
+            };
+            let other = basins.root(basin[next]);
+            if own == u32::MAX || own == other {
+                own = other;
+                continue;
+            }
+            let (high, low) = if basins.peak[own as usize] >= basins.peak[other as usize] {
+                (own, other)
+            } else {
+                (other, own)
+            };
+            let lower = basins.peak[low as usize];
+            let is_door = here <= widest
+                && f64::from(here) < NARROWER * f64::from(lower)
+                && lower - here >= 1.5;
+            if is_door {
+                let known = border_beside(grid, &border, cell);
+                if known.is_none() && saddles.len() < MOST_DOORS {
+                    saddles.push((own, other, cell));
+                }
+                border[cell] = known.unwrap_or(saddles.len() as u32);
+                own = high;
+            } else {
+                basins.parent[low as usize] = high;
+                own = high;
+            }
+        }
+        if own == u32::MAX {
+            own = basins.parent.len() as u32;
+            basins.parent.push(own);
+            basins.peak.push(here);
+        }
+        basin[cell] = own;
+    }
+    // Basins that became one after they had met need no door between them.
+    let mut cuts = Vec::new();
+    for (a, b, cell) in saddles {
+        if basins.root(a) != basins.root(b) {
+            cuts.extend(across(grid, sheet, free, distances, cell));
+        }
+    }
+    cuts
+}
+
+/// The doorway whose border runs by a cell, if any: the same two basins, flooded further down.
+fn border_beside(grid: &Grid, border: &[u32], cell: usize) -> Option<u32> {
+    let (x, y) = grid.xy(cell);
+    let around = (-2..=2).flat_map(|dy| (-2..=2).map(move |dx| (dx, dy)));
+    around
+        .filter_map(|(dx, dy)| grid.at(x + dx, y + dy))
+        .map(|c| border[c])
+        .find(|b| *b != u32::MAX)
+}
+
+/// The cut through a saddle: to the nearest wall, and to the wall on the other side.
+fn across(
+    grid: &Grid,
+    sheet: &Sheet,
+    free: &[bool],
+    distances: &[f32],
+    saddle: usize,
+) -> Option<Cut> {
+    let (x, y) = grid.xy(saddle);
+    let reach = f64::from(distances[saddle]).ceil() as i64 + 1;
+    let is_wall = |a: i64, b: i64| grid.at(a, b).is_none_or(|c| !free[c]);
+    let square = |a: i64, b: i64| (a - x).pow(2) + (b - y).pow(2);
+    let near = (y - reach..=y + reach)
+        .flat_map(|b| (x - reach..=x + reach).map(move |a| (a, b)))
+        .filter(|(a, b)| is_wall(*a, *b))
+        .min_by_key(|(a, b)| (square(*a, *b), *b, *a))?;
+    let towards = Vector::new((near.0 - x) as f64, (near.1 - y) as f64).try_normalize(1e-9)?;
+    // The narrowest way across: the wall on the other side, looked for within 30° of straight on.
+    let most = WIDEST_DOOR / sheet.resolution * 1.2;
+    let far = (-6..=6).filter_map(|turn| {
+        let turn = nalgebra::Rotation2::new(f64::from(turn) * 5.0_f64.to_radians());
+        let way = turn * -towards;
+        let mut at = 0.5;
+        while at <= most {
+            let p =
+                ((x as f64 + way.x * at).round() as i64, (y as f64 + way.y * at).round() as i64);
+            if is_wall(p.0, p.1) {
+                return Some(p);
+            }
+            at += 0.5;
+        }
+        None
+    });
+    let far = far.min_by_key(|(a, b)| ((a - near.0).pow(2) + (b - near.1).pow(2), *b, *a))?;
+    let ends = [(near.0 as f64, near.1 as f64), (far.0 as f64, far.1 as f64)];
+    let width =
+        (Vector::new(ends[1].0 - ends[0].0, ends[1].1 - ends[0].1).norm() - 1.0) * sheet.resolution;
+    if !(NARROWEST_DOOR..=WIDEST_DOOR).contains(&width) {
+        return None;
+    }
+    Some(Cut { jambs: ends, cells: line(grid, near, far, free) })
+}
+
+/// The free cells of a line that leaves no gap between diagonal neighbours.
+fn line(grid: &Grid, from: (i64, i64), to: (i64, i64), free: &[bool]) -> Vec<usize> {
+    let (dx, dy) = ((to.0 - from.0).abs(), (to.1 - from.1).abs());
+    let (sx, sy) = ((to.0 - from.0).signum(), (to.1 - from.1).signum());
+    let (mut x, mut y) = from;
+    let mut error = dx - dy;
+    let mut cells = Vec::new();
+    loop {
+        cells.extend(grid.at(x, y).filter(|c| free[*c]));
+        if (x, y) == to {
+            return cells;
+        }
+        // One step at a time: the cells share sides.
+        if x != to.0 && 2 * error > -dy {
+            error -= dy;
+            x += sx;
+        } else if y != to.1 {
+            error += dx;
+            y += sy;
+        } else {
+            x += sx;
+        }
+    }
+}
+
+/// Cuts the floor and takes back the cuts that leave a piece too small for a room.
+fn cut(
+    grid: &Grid,
+    free: &[bool],
+    mut cuts: Vec<Cut>,
+    least: usize,
+) -> (Vec<u32>, Vec<usize>, Vec<Cut>) {
+    // Each round takes back at least one cut of every piece that is too small.
+    for _ in 0..8 {
+        let (label, sizes) = pieces(grid, free, &cuts);
+        let mut back = std::collections::BTreeSet::new();
+        for (piece, _) in sizes.iter().enumerate().filter(|(_, s)| **s < least) {
+            let beside = cuts.iter().enumerate().filter(|(_, cut)| {
+                cut.cells.iter().flat_map(|c| grid.beside(*c)).any(|n| label[n] == piece as u32)
+            });
+            back.extend(beside.max_by_key(|(_, cut)| cut.cells.len()).map(|(no, _)| no));
+        }
+        if back.is_empty() {
+            return (label, sizes, cuts);
+        }
+        let mut no = 0..;
+        cuts.retain(|_| !back.contains(&no.next().unwrap_or(0)));
+    }
+    let (label, sizes) = pieces(grid, free, &cuts);
+    (label, sizes, cuts)
+}
+
+/// Pieces of the floor between the cuts. A cut that separates nothing is no border.
+fn pieces(grid: &Grid, free: &[bool], cuts: &[Cut]) -> (Vec<u32>, Vec<usize>) {
+    let mut is_cut = vec![false; free.len()];
+    for cell in cuts.iter().flat_map(|c| &c.cells) {
+        is_cut[*cell] = true;
+    }
+    let (mut label, mut sizes) = grid.components(|c| free[c] && !is_cut[c]);
+    // The cells of a cut go to a room beside it, so that the rooms meet in the doorway.
+    let mut open: Vec<usize> = cuts.iter().flat_map(|c| c.cells.iter().copied()).collect();
+    open.sort_unstable();
+    for cell in open {
+        let (x, y) = grid.xy(cell);
+        let beside = [(-1, 0), (0, -1), (1, 0), (0, 1)];
+        let beside = beside.iter().filter_map(|(dx, dy)| grid.at(x + dx, y + dy));
+        let lowest =
+            beside.filter(|n| !is_cut[*n]).map(|n| label[n]).filter(|l| *l != u32::MAX).min();
+        if let Some(room) = lowest {
+            label[cell] = room;
+            sizes[room as usize] += 1;
+        }
+    }
+    (label, sizes)
+}
+
+fn rooms(grid: &Grid, sheet: &Sheet, label: &[u32], sizes: &[usize], level: &mut Level) {
+    let mut cells = vec![Vec::new(); sizes.len()];
+    for (cell, room) in label.iter().enumerate().filter(|(_, l)| **l != u32::MAX) {
+        // Only cells at a lower border can begin a ring.
+        if cell < grid.width || label[cell - grid.width] != *room {
+            cells[*room as usize].push(cell);
+        }
+    }
+    for (no, starts) in cells.iter().enumerate() {
+        let rings = trace::rings(grid, label, no as u32, starts);
+        let plan = |ring: &Vec<(i64, i64)>| {
+            let walls = trace::walls(ring, SHALLOW / sheet.resolution);
+            outline::ring(walls.iter().map(|p| corner(sheet, p.x, p.y)))
+        };
+        let outer = rings.first().and_then(plan).unwrap_or_default();
+        let large = |h: &Vec<Point>| outline::area(h).abs() > LARGEST_THING;
+        let holes = rings.iter().skip(1).filter_map(plan).filter(large).collect();
+        level.rooms.push(Room {
+            source: format!("room-{}", no + 1),
+            name: String::new(),
+            kind: if is_corridor(&outer) { "corridor" } else { "room" }.to_owned(),
+            outline: outer,
+            holes,
+            height: None,
+            properties: Properties::new(),
+        });
+    }
+}
+
+/// Long and narrow: four times as long as wide on the mean, and no wider than three metres.
+fn is_corridor(ring: &[Point]) -> bool {
+    let around: f64 = outline::edges(ring).map(|(a, b)| (b - a).norm()).sum();
+    let area = outline::area(ring).abs();
+    // A rectangle's width w and length l: w + l = around / 2, w·l = area.
+    let half = around / 4.0;
+    let root = (half * half - area).max(0.0).sqrt();
+    let (width, length) = (half - root, half + root);
+    width <= 300.0 && length >= 4.0 * width
+}
+
+/// An opening for every cut that has two rooms beside it.
+fn openings(grid: &Grid, sheet: &Sheet, label: &[u32], cuts: &[Cut], level: &mut Level) {
+    for cut in cuts {
+        let [a, b] = cut.jambs;
+        let along = Vector::new(b.0 - a.0, b.1 - a.1);
+        let Some(along) = along.try_normalize(1e-9) else { continue };
+        let middle = (a.0.midpoint(b.0), a.1.midpoint(b.1));
+        let room = |way: f64| {
+            let steps = (3..40).map(|n| f64::from(n) * 0.5);
+            steps.map(|s| (middle.0 - along.y * way * s, middle.1 + along.x * way * s)).find_map(
+                |p| {
+                    let cell = grid.at(p.0.round() as i64, p.1.round() as i64)?;
+                    Some(label[cell]).filter(|l| *l != u32::MAX)
+                },
+            )
+        };
+        let (Some(left), Some(right)) = (room(1.0), room(-1.0)) else { continue };
+        if left == right {
+            continue;
+        }
+        // The jambs are the faces of the walls, half a cell before the middles of their cells.
+        let face = |p: (f64, f64), way: f64| {
+            corner(sheet, p.0 + 0.5 + along.x * way * 0.5, p.1 + 0.5 + along.y * way * 0.5)
+        };
+        level.openings.push(Opening {
+            source: format!("gap-{}", level.openings.len() + 1),
+            name: String::new(),
+            what: OpeningKind::Passage,
+            // From the room on the right of the way from a to b, b is the right jamb.
+            jambs: [face(b, -1.0), face(a, 1.0)],
+            rooms: Some([Some(right as usize), Some(left as usize)]),
+            height: None,
+            sill: Cm::ZERO,
+            properties: Properties::new(),
+        });
+    }
+}
+
+fn things(
+    grid: &Grid,
+    sheet: &Sheet,
+    label: &[u32],
+    islands: &[Vec<usize>],
+    level: &mut Level,
+) -> (Vec<Kind>, usize) {
+    let mut kinds = Vec::new();
+    for island in islands.iter().take(MOST_THINGS) {
+        let Some(room) = Some(label[island[0]]).filter(|l| *l != u32::MAX) else { continue };
+        let corners = island.iter().flat_map(|cell| {
+            let (x, y) = grid.xy(*cell);
+            [(0, 0), (1, 0), (0, 1), (1, 1)]
+                .map(|(dx, dy)| corner(sheet, (x + dx) as f64, (y + dy) as f64))
+        });
+        let hull = outline::hull(&corners.collect::<Vec<_>>());
+        let Some(ring) = outline::ring(hull) else { continue };
+        let (at, _) = outline::bounds(&ring);
+        let no = kinds.len() + 1;
+        kinds.push(Kind {
+            source: format!("island {no}"),
+            word: "obstacle".to_owned(),
+            parts: vec![Part {
+                word: String::new(),
+                outline: ring.iter().map(|p| Point::from(p - at)).collect(),
+                bottom: Cm::ZERO,
+                height: Cm::of(THING_HEIGHT),
+                permeability: Permeability::Impermeable,
+            }],
+            ..Kind::default()
+        });
+        level.things.push(Thing {
+            source: format!("island-{no}"),
+            name: String::new(),
+            kind: no - 1,
+            at,
+            z: Cm::ZERO,
+            angle: Deg::ZERO,
+            room: Some(room as usize),
+            move_prob: None,
+            properties: Properties::new(),
+        });
+    }
+    (kinds, islands.len().saturating_sub(MOST_THINGS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Frame;
+
+    /// A grid of 5 cm cells, all wall, into which rectangles in metres are cut and drawn.
+    struct Plan {
+        grid: Grid,
+        sheet: Sheet,
+        seed: u32,
+    }
+
+    impl Plan {
+        fn new(width: f64, height: f64) -> Self {
+            let (width, height) = ((width * 20.0) as usize, (height * 20.0) as usize);
+            let sheet = Sheet {
+                image: String::new(),
+                resolution: 5.0,
+                origin: Frame::IDENTITY,
+                negate: false,
+                occupied_thresh: 0.65,
+                free_thresh: 0.2,
+                is_raw: false,
+            };
+            let cells = vec![Cell::Occupied; width * height];
+            Self { grid: Grid { width, height, cells }, sheet, seed: 1 }
+        }
+
+        fn fill(&mut self, [x0, y0, x1, y1]: [f64; 4], with: Cell) {
+            let cells = |m: f64| (m * 20.0).round() as i64;
+            for y in cells(y0)..cells(y1) {
+                for x in cells(x0)..cells(x1) {
+                    if let Some(cell) = self.grid.at(x, y) {
+                        self.grid.cells[cell] = with;
+                    }
+                }
+            }
+        }
+
+        /// Teeth along the walls and specks on the floor, as a laser leaves them.
+        fn roughen(&mut self) {
+            let before = self.grid.cells.clone();
+            for cell in 0..before.len() {
+                self.seed = self.seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+                let dice = (self.seed >> 16) % 1000;
+                let wall = |c: usize| before[c] == Cell::Occupied;
+                let beside = self.grid.beside(cell).filter(|c| wall(*c)).count();
+                if before[cell] == Cell::Free && (dice < 2 || (beside > 0 && dice < 60)) {
+                    self.grid.cells[cell] = Cell::Occupied;
+                } else if wall(cell) && (1..4).contains(&beside) && dice > 960 {
+                    self.grid.cells[cell] = Cell::Unknown;
+                }
+            }
+        }
+
+        fn read(&self) -> (Level, Vec<Kind>) {
+            let mut level = Level::default();
+            let kinds = furnish(&self.grid, &self.sheet, &mut level, &mut Vec::new());
+            (level, kinds)
+        }
+    }
+
+    /// A corridor with three rooms on either side, walls of 20 cm, doors of 90 cm.
+    fn office() -> Plan {
+        let mut plan = Plan::new(14.0, 11.4);
+        plan.fill([0.5, 4.7, 13.5, 6.7], Cell::Free);
+        for n in 0..3 {
+            let x = 0.5 + 4.4 * f64::from(n);
+            for (y0, y1, d0, d1) in [(0.5, 4.5, 4.5, 4.7), (6.9, 10.9, 6.7, 6.9)] {
+                plan.fill([x, y0, x + 4.2, y1], Cell::Free);
+                plan.fill([x + 1.5, d0, x + 2.4, d1], Cell::Free);
+            }
+        }
+        plan
+    }
+
+    fn check(level: &Level, rooms: usize, doors: usize) {
+        let sizes: Vec<String> = level
+            .rooms
+            .iter()
+            .map(|r| {
+                format!(
+                    "{} {:.1} m2 {} corners",
+                    r.kind,
+                    outline::area(&r.outline).abs() / 1e4,
+                    r.outline.len()
+                )
+            })
+            .collect();
+        assert_eq!((level.rooms.len(), level.openings.len()), (rooms, doors), "{sizes:#?}");
+    }
+
+    #[test]
+    fn an_office_comes_apart_at_its_doors() {
+        let (level, _) = office().read();
+        check(&level, 7, 6);
+        for opening in &level.openings {
+            let width = (opening.jambs[1] - opening.jambs[0]).norm();
+            assert!((width - 90.0).abs() <= 6.0, "{width}");
+        }
+        let corridors: Vec<_> = level.rooms.iter().filter(|r| r.kind == "corridor").collect();
+        assert_eq!(corridors.len(), 1);
+        for room in &level.rooms {
+            assert_eq!(room.outline.len(), 4, "{room:?}");
+            let area = outline::area(&room.outline).abs() / 1e4;
+            let expected = if room.kind == "corridor" { 26.0 } else { 16.8 };
+            assert!((area - expected).abs() < 1.2, "{area}");
+        }
+    }
+
+    #[test]
+    fn a_rough_scan_of_it_comes_apart_at_the_same_doors() {
+        for seed in 1..6 {
+            let mut plan = office();
+            plan.seed = seed * 7919;
+            plan.roughen();
+            // A table on four legs and a cupboard that stands free.
+            for (x, y) in [(2.0, 2.0), (2.0, 3.0), (3.0, 2.0), (3.0, 3.0)] {
+                plan.fill([x, y, x + 0.1, y + 0.1], Cell::Occupied);
+            }
+            plan.fill([6.0, 8.0, 7.0, 8.5], Cell::Occupied);
+            let (level, _) = plan.read();
+            check(&level, 7, 6);
+            assert!(level.things.iter().any(|t| (t.at - Point::new(600.0, 800.0)).norm() < 15.0));
+            let joined = |o: &Opening| {
+                o.rooms
+                    .is_some_and(|r| r.iter().flatten().any(|r| level.rooms[*r].kind == "corridor"))
+            };
+            assert!(level.openings.iter().all(joined), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn a_turned_origin_turns_the_plan() {
+        let mut plan = office();
+        let (straight, _) = plan.read();
+        plan.sheet.origin = Frame::new(-250.0, 90.0, 0.0, Deg::of(30.0));
+        let (turned, _) = plan.read();
+        for (a, b) in straight.openings.iter().zip(&turned.openings) {
+            assert!((plan.sheet.origin.apply(a.jambs[0]) - b.jambs[0]).norm() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn one_hall_stays_one_room() {
+        let mut plan = Plan::new(12.0, 9.0);
+        plan.fill([1.0, 1.0, 11.0, 8.0], Cell::Free);
+        plan.fill([5.0, 1.0, 5.3, 2.5], Cell::Occupied);
+        plan.roughen();
+        let (level, _) = plan.read();
+        check(&level, 1, 0);
+    }
+}
