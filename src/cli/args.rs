@@ -100,6 +100,8 @@ pub(super) enum Command {
         #[arg(long, value_name = "FILE")]
         draw: Option<PathBuf>,
     },
+    /// Answer a question in words: ortho ask "Где лекарство?"
+    Ask(AskArgs),
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
         #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
@@ -136,6 +138,15 @@ pub(super) enum Command {
     },
     /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
     Draw(DrawArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct AskArgs {
+    /// The question, in Russian or English
+    pub question: String,
+    /// Show the query as a Datalog rule, and the proof of what the answer rests on
+    #[arg(long)]
+    pub explain: bool,
 }
 
 #[derive(Debug, Args)]

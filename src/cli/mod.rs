@@ -4,6 +4,7 @@
 //! no, 2 the input is wrong, 3 internal.
 
 mod args;
+mod ask;
 mod commands;
 mod corridor;
 mod demo;
@@ -26,6 +27,8 @@ use fault::Failure;
 enum Answer {
     Yes,
     No,
+    /// What was asked was not understood, is ambiguous, or unknown to the map.
+    Wrong,
 }
 
 /// Runs the program.
@@ -37,6 +40,7 @@ pub fn run() -> ExitCode {
     match outcome {
         Ok(Ok(Answer::Yes)) => ExitCode::SUCCESS,
         Ok(Ok(Answer::No)) => ExitCode::from(1),
+        Ok(Ok(Answer::Wrong)) => ExitCode::from(2),
         Ok(Err(failure)) => failure.show(arguments.common.json),
         Err(_) => ExitCode::from(3),
     }
@@ -58,6 +62,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Plan(plan) => commands::plan(common, plan),
         Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
+        Command::Ask(ask) => ask::run(common, ask),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

@@ -23,6 +23,7 @@ mod plan;
 mod position;
 mod route;
 mod rules;
+mod talk;
 mod task;
 mod words;
 
@@ -45,12 +46,15 @@ pub use crate::exchange::{
 pub use crate::exchange::GridFiles;
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
+pub use crate::language::question::{Answer, Memory, Unanswered};
 pub use crate::map::World;
 pub use crate::robot::Solved;
 pub use crate::semantics::Relations;
 pub use crate::store::{Change, Timestamp};
 
 use crate::geometry::{DoorStates, FloorPlan};
+use crate::language::FormIndex;
+use crate::language::question::Mind;
 use crate::map::{Entity, MapErrors, read_file};
 use crate::semantics::{Profile, derive};
 use crate::store::{ImportReport, OpenReport, Store, StoreError};
@@ -66,6 +70,10 @@ pub struct Engine {
     world: Option<World>,
     relations: OnceCell<Relations>,
     floors: OnceCell<BTreeMap<MapId, FloorPlan>>,
+    /// The nouns of the map, for questions.
+    mind: OnceCell<Mind>,
+    /// The names of the map in all their forms, for commands.
+    forms: OnceCell<FormIndex<Entity>>,
     /// What opening the store found and mended.
     pub opened: OpenReport,
 }
@@ -103,6 +111,8 @@ impl Engine {
             world,
             relations: OnceCell::new(),
             floors: OnceCell::new(),
+            mind: OnceCell::new(),
+            forms: OnceCell::new(),
             opened,
         })
     }
@@ -129,6 +139,8 @@ impl Engine {
             world: Some(world),
             relations: OnceCell::new(),
             floors: OnceCell::new(),
+            mind: OnceCell::new(),
+            forms: OnceCell::new(),
             opened: OpenReport::default(),
         })
     }
@@ -161,6 +173,8 @@ impl Engine {
         };
         self.relations = OnceCell::new();
         self.floors = OnceCell::new();
+        self.mind = OnceCell::new();
+        self.forms = OnceCell::new();
         Ok(Imported { report, reading, warnings })
     }
 
@@ -234,6 +248,12 @@ impl Engine {
         }))
     }
 
+    /// Every name in every form, indexed when first asked for.
+    fn forms(&self) -> Result<&FormIndex<Entity>, Error> {
+        let world = self.world()?;
+        Ok(self.forms.get_or_init(|| form_index(world)))
+    }
+
     pub(crate) fn floor(&self, map: MapId) -> Result<&FloorPlan, Error> {
         Ok(self.floors()?.get(&map).expect("every map of the world has a floor"))
     }
@@ -277,7 +297,7 @@ impl Engine {
         let mut found = world.find(name);
         let mut near = Vec::new();
         if found.is_empty() {
-            let index = form_index(world);
+            let index = self.forms()?;
             found = index.find(name).into_iter().map(|hit| *hit.id).collect();
             near = index.near(name, NEAR_MISSES).into_iter().map(str::to_owned).collect();
         }

@@ -11,7 +11,6 @@ use crate::robot::{
 use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
-use super::lexicon::form_index;
 use super::position::describe;
 use super::{Engine, Error, RequestError};
 
@@ -157,9 +156,7 @@ impl Engine {
     /// # Errors
     /// What was not understood, which candidates there are, or what the map lacks.
     pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
-        let world = self.world()?;
-        let index = form_index(world);
-        Ok(Listener::new(&index).hear(sentence)?)
+        Ok(Listener::new(self.forms()?).hear(sentence)?)
     }
 
     /// What is to hold when a command is done. `here` is the place where it was given.

@@ -10,6 +10,8 @@
 //! ```
 
 pub mod command;
+pub(crate) mod names;
+pub mod question;
 pub mod report;
 pub mod words;
 

@@ -43,6 +43,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod ask;
 mod body;
 mod feed;
 mod grid;
@@ -55,6 +56,7 @@ pub mod predicate;
 mod relations;
 mod view;
 
+pub use ask::Extent;
 pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
     Single, Within,

@@ -25,7 +25,7 @@ use std::ops::Range;
 use unicode_normalization::UnicodeNormalization;
 
 use super::english;
-use super::grammar::{Case, Number};
+use super::grammar::{Case, Number, WordHints};
 use super::letters::cyrillic_twin;
 use super::list::Language;
 use super::phrase::NounPhrase;
@@ -91,28 +91,63 @@ pub struct Hit<'i, T> {
 }
 
 /// The index of forms over ids of the caller's: any form, however it was typed, gives its names back.
+///
+/// Names that differ in their tag alone («Стул-1» … «Стул-900») share a stem, which is declined once: 40 000 names of a
+/// hospital are some dozens of stems.
 #[derive(Debug, Clone)]
 pub struct FormIndex<T> {
-    names: Vec<(Box<str>, T)>,
+    names: Vec<Name<T>>,
     /// The first name of each id.
     titles: HashMap<T, u32>,
+    stems: Vec<Stem>,
+    /// Stems by how they are written, so that the next name finds its own.
+    known: HashMap<(bool, Box<str>), u32>,
+    /// Forms of stems.
     forms: HashMap<Box<str>, Vec<Posting>>,
     longest_key: usize,
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
+struct Name<T> {
+    text: Box<str>,
+    /// What follows the stem, blank or hyphen included; empty for most names.
+    tag: Box<str>,
+    id: T,
+}
+
+/// What names of one kind share, and the names by the keys of their tags.
+#[derive(Debug, Clone, Default)]
+struct Stem {
+    members: HashMap<Box<str>, Vec<u32>>,
+    all: Vec<u32>,
+}
+
+#[derive(Debug, Clone)]
 struct Posting {
+    stem: u32,
+    readings: Readings,
+    form: Box<str>,
+    /// A form of a part of the stem only.
+    part: bool,
+}
+
+/// How a text matched a posting.
+struct Match {
     name: u32,
     readings: Readings,
-    exact: u32,
-    spaced: u32,
-    /// A form of a part of the name only.
-    part: bool,
+    spelling: Spelling,
 }
 
 impl<T> Default for FormIndex<T> {
     fn default() -> Self {
-        Self { names: Vec::new(), titles: HashMap::new(), forms: HashMap::new(), longest_key: 0 }
+        Self {
+            names: Vec::new(),
+            titles: HashMap::new(),
+            stems: Vec::new(),
+            known: HashMap::new(),
+            forms: HashMap::new(),
+            longest_key: 0,
+        }
     }
 }
 
@@ -120,14 +155,82 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
     /// Adds all forms of a Russian name, and of its parts that people call it by: «стол» for «Письменный стол».
     /// An id may have several names; the first is its title.
     pub fn insert(&mut self, phrase: &NounPhrase, id: T) {
-        let name = self.add_name(phrase.name(), id);
-        self.add_forms(phrase, name, false);
-        for short in phrase.shorter() {
-            self.add_forms(&short, name, true);
+        let stem = self.new_stem();
+        self.decline(phrase, stem);
+        self.add_name(phrase.name(), "", stem, id);
+    }
+
+    /// Adds a Russian name as [`Self::insert`] does, declining only what no name before it had.
+    pub fn insert_name(&mut self, name: &str, hints: &WordHints, id: T) {
+        let name: String = name.nfc().collect();
+        let (text, tag) = if hints.forms.is_empty() { split_tag(&name) } else { (&*name, "") };
+        if tag.is_empty() && !hints.forms.is_empty() {
+            return self.insert(&NounPhrase::parse(&name, hints), id);
+        }
+        let stem = match self.known.get(&(true, text.into())) {
+            Some(stem) => *stem,
+            None => {
+                let stem = self.new_stem();
+                self.known.insert((true, text.into()), stem);
+                self.decline(&NounPhrase::parse(text, hints), stem);
+                stem
+            }
+        };
+        self.add_name(&name, tag, stem, id);
+    }
+
+    /// Adds an English name: as it is, its plural, its possessive, and the word that names its kind.
+    pub fn insert_english(&mut self, english_name: &str, id: T) {
+        let (text, tag) = split_tag(english_name);
+        let stem = match self.known.get(&(false, text.into())) {
+            Some(stem) => *stem,
+            None => {
+                let stem = self.new_stem();
+                self.known.insert((false, text.into()), stem);
+                self.add_english(text, stem, false);
+                if let Some(short) = english::kind(text) {
+                    self.add_english(short, stem, true);
+                }
+                stem
+            }
+        };
+        self.add_name(english_name, tag, stem, id);
+    }
+
+    /// Adds the name of a kind to all things of that kind.
+    pub fn insert_kind(&mut self, phrase: &NounPhrase, ids: &[T]) {
+        let stem = self.new_stem();
+        self.decline(phrase, stem);
+        for id in ids {
+            self.add_name(phrase.name(), "", stem, id.clone());
         }
     }
 
-    fn add_forms(&mut self, phrase: &NounPhrase, name: u32, part: bool) {
+    /// Adds the English name of a kind to all things of that kind.
+    pub fn insert_english_kind(&mut self, name: &str, ids: &[T]) {
+        let stem = self.new_stem();
+        self.add_english(name, stem, false);
+        if let Some(short) = english::kind(name) {
+            self.add_english(short, stem, true);
+        }
+        for id in ids {
+            self.add_name(name, "", stem, id.clone());
+        }
+    }
+
+    fn new_stem(&mut self) -> u32 {
+        self.stems.push(Stem::default());
+        u32::try_from(self.stems.len() - 1).expect("fewer than four thousand million names")
+    }
+
+    fn decline(&mut self, phrase: &NounPhrase, stem: u32) {
+        self.add_forms(phrase, stem, false);
+        for short in phrase.shorter() {
+            self.add_forms(&short, stem, true);
+        }
+    }
+
+    fn add_forms(&mut self, phrase: &NounPhrase, stem: u32, part: bool) {
         let mut forms: Vec<(String, Readings)> = Vec::new();
         let own = (phrase.number(), Case::Nominative, phrase.name().to_owned());
         for (number, case, form) in phrase.all_forms().into_iter().chain([own]) {
@@ -138,77 +241,128 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             }
         }
         for (form, readings) in forms {
-            self.add_form(&form, name, readings, part);
+            self.add_form(&form, stem, readings, part);
         }
     }
 
-    /// Adds an English name: as it is, its plural, its possessive, and the word that names its kind.
-    pub fn insert_english(&mut self, english_name: &str, id: T) {
-        let name = self.add_name(english_name, id);
-        self.add_english(english_name, name, false);
-        if let Some(short) = english::kind(english_name) {
-            self.add_english(short, name, true);
-        }
-    }
-
-    fn add_english(&mut self, english_name: &str, name: u32, part: bool) {
+    fn add_english(&mut self, english_name: &str, stem: u32, part: bool) {
         let of = |number: Number| {
             Case::ALL.iter().fold(Readings::default(), |mut all, case| {
                 all.add(Readings::one(number, *case));
                 all
             })
         };
-        self.add_form(english_name, name, of(Number::Singular), part);
-        self.add_form(&english::plural(english_name), name, of(Number::Plural), part);
+        self.add_form(english_name, stem, of(Number::Singular), part);
+        self.add_form(&english::plural(english_name), stem, of(Number::Plural), part);
         let genitive = Readings::one(Number::Singular, Case::Genitive);
-        self.add_form(&english::possessive(english_name), name, genitive, part);
+        self.add_form(&english::possessive(english_name), stem, genitive, part);
     }
 
-    fn add_name(&mut self, name: &str, id: T) -> u32 {
+    fn add_name(&mut self, text: &str, tag: &str, stem: u32, id: T) {
         let number = u32::try_from(self.names.len())
             .expect("a map has fewer than four thousand million names");
         self.titles.entry(id.clone()).or_insert(number);
-        self.names.push((name.into(), id));
-        number
+        self.names.push(Name { text: text.into(), tag: tag.into(), id });
+        let stem = &mut self.stems[stem as usize];
+        let key = Spelled::of(tag).key;
+        self.longest_key = self.longest_key.max(Spelled::of(text).key.len() + 8);
+        stem.members.entry(key.into()).or_default().push(number);
+        stem.all.push(number);
     }
 
-    fn add_form(&mut self, form: &str, name: u32, readings: Readings, part: bool) {
-        let Spelled { key, exact, spaced } = Spelled::of(form);
+    fn add_form(&mut self, form: &str, stem: u32, readings: Readings, part: bool) {
+        let key = Spelled::of(form).key;
         if key.is_empty() {
             return;
         }
         self.longest_key = self.longest_key.max(key.len());
         let postings = self.forms.entry(key.into()).or_default();
-        // The forms of one name come one after the other, so that its postings are the last ones.
-        let mut own = postings.iter_mut().rev().take_while(|posting| posting.name == name);
-        match own.find(|posting| posting.exact == exact && posting.part == part) {
+        // The forms of one stem come one after the other, so that its postings are the last ones.
+        let mut own = postings.iter_mut().rev().take_while(|posting| posting.stem == stem);
+        match own.find(|posting| *posting.form == *form && posting.part == part) {
             Some(posting) => posting.readings.add(readings),
-            None => postings.push(Posting { name, readings, exact, spaced, part }),
+            None => postings.push(Posting { stem, readings, form: form.into(), part }),
         }
+    }
+
+    /// Every way to cut a key into the form of a stem and a tag.
+    fn cuts(key: &str) -> impl Iterator<Item = (&str, &str)> {
+        let blanks = key.match_indices(' ').map(|(at, _)| (&key[..at], &key[at + 1..]));
+        std::iter::once((key, "")).chain(blanks)
+    }
+
+    /// Whether some name is called so, in whole or in part.
+    fn is_known(&self, key: &str) -> bool {
+        Self::cuts(key).any(|(form, tag)| {
+            self.forms.get(form).is_some_and(|postings| {
+                tag.is_empty()
+                    || postings
+                        .iter()
+                        .any(|p| self.stems[p.stem as usize].members.contains_key(tag))
+            })
+        })
+    }
+
+    /// The names that a text matches as a whole; with `loose`, also those of which it is a part.
+    fn matches(&self, text: &str, spelled: &Spelled) -> Vec<Match> {
+        let mut found = Vec::new();
+        for (form, tag) in Self::cuts(&spelled.key) {
+            for posting in self.forms.get(form).into_iter().flatten() {
+                let Some(members) = self.stems[posting.stem as usize].members.get(tag) else {
+                    continue;
+                };
+                // All of one tag key are spelled by the same letters, nearly always by the very same tag.
+                let mut judged: Option<(&str, Spelling)> = None;
+                for &name in members {
+                    let own = &*self.names[name as usize].tag;
+                    let spelling = match judged {
+                        Some((tag, spelling)) if tag == own => spelling,
+                        _ => spelled.likeness_to(text, &posting.form, own, posting.part),
+                    };
+                    judged = Some((own, spelling));
+                    found.push(Match { name, readings: posting.readings, spelling });
+                }
+            }
+        }
+        found
+    }
+
+    /// Names of which a text is the stem without its tag, or a part of it: «комнату» for «Комната-В».
+    fn parts(&self, key: &str) -> Vec<Match> {
+        let postings = self.forms.get(key).into_iter().flatten();
+        postings
+            .flat_map(|posting| {
+                let all = self.stems[posting.stem as usize].all.iter();
+                all.map(|&name| Match {
+                    name,
+                    readings: posting.readings,
+                    spelling: Spelling::Part,
+                })
+            })
+            .collect()
     }
 
     /// The names that the text is a form of; of several spellings, the most faithful only. An id occurs once.
     #[must_use]
     pub fn find(&self, text: &str) -> Vec<Hit<'_, T>> {
-        let Spelled { key, exact, spaced } = Spelled::of(text);
-        let Some(postings) = self.forms.get(key.as_str()) else { return Vec::new() };
-        let spelling = |posting: &Posting| match () {
-            () if posting.part => Spelling::Part,
-            () if posting.exact == exact => Spelling::Exact,
-            () if posting.spaced == spaced => Spelling::Spaced,
-            () => Spelling::LookAlike,
-        };
-        let Some(best) = postings.iter().map(spelling).min() else { return Vec::new() };
+        let spelled = Spelled::of(text);
+        let mut found = self.matches(text, &spelled);
+        if found.iter().all(|m| m.spelling == Spelling::Part) {
+            found.extend(self.parts(&spelled.key));
+        }
+        let Some(best) = found.iter().map(|m| m.spelling).min() else { return Vec::new() };
         let mut hits: Vec<Hit<'_, T>> = Vec::new();
         let mut place: HashMap<&T, usize> = HashMap::new();
-        for posting in postings.iter().filter(|posting| spelling(posting) == best) {
-            let (name, id) = &self.names[posting.name as usize];
+        found.retain(|m| m.spelling == best);
+        found.sort_by_key(|m| m.name);
+        for Match { name, readings, spelling } in found {
+            let Name { text, id, .. } = &self.names[name as usize];
             let at = *place.entry(id).or_insert(hits.len());
             match hits.get_mut(at) {
-                Some(hit) => hit.readings.add(posting.readings),
+                Some(hit) => hit.readings.add(readings),
                 None => {
-                    let title = &self.names[self.titles[id] as usize].0;
-                    hits.push(Hit { id, name, title, readings: posting.readings, spelling: best });
+                    let title = &self.names[self.titles[id] as usize].text;
+                    hits.push(Hit { id, name: text, title, readings, spelling });
                 }
             }
         }
@@ -230,7 +384,7 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
             if key.len() > self.longest_key {
                 break;
             }
-            if self.forms.contains_key(key.as_str()) {
+            if self.is_known(&key) {
                 best = taken + 1;
             }
         }
@@ -261,11 +415,40 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         if wanted.length == 0 || wanted.length > 4 * self.longest_key.max(8) || limit == 0 {
             return Vec::new();
         }
+        // With very many names only those are compared whose stem is like the beginning of the text.
+        let many = self.names.len() > MANY_NAMES;
+        let mut joined = String::new();
         for (key, postings) in &self.forms {
-            let needed = if best.len() == limit { best[limit - 1].0 } else { 0.6 };
-            let Some(likeness) = wanted.likeness(key, needed) else { continue };
+            let stem_is_like = || {
+                let head: String = wanted.key.chars().take(key.chars().count() + 1).collect();
+                Letters::of(head).likeness(key, 0.7).is_some()
+            };
+            if many && !stem_is_like() {
+                continue;
+            }
             for posting in postings {
-                self.keep(&mut best, limit, likeness, posting.name);
+                let stem = &self.stems[posting.stem as usize];
+                if posting.part {
+                    let needed = if best.len() == limit { best[limit - 1].0 } else { 0.6 };
+                    let Some(likeness) = wanted.likeness(key, needed) else { continue };
+                    for &name in stem.all.iter().take(limit) {
+                        self.keep(&mut best, limit, likeness, name);
+                    }
+                    continue;
+                }
+                for (tag, members) in &stem.members {
+                    let needed = if best.len() == limit { best[limit - 1].0 } else { 0.6 };
+                    joined.clear();
+                    joined.push_str(key);
+                    if !tag.is_empty() {
+                        joined.push(' ');
+                        joined.push_str(tag);
+                    }
+                    let Some(likeness) = wanted.likeness(&joined, needed) else { continue };
+                    for &name in members {
+                        self.keep(&mut best, limit, likeness, name);
+                    }
+                }
             }
         }
         best.into_iter().map(|(_, name)| self.shown(name)).collect()
@@ -273,15 +456,15 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
 
     /// The title of a name's id, in the language of that name.
     fn shown(&self, name: u32) -> &str {
-        let (own, id) = &self.names[name as usize];
-        let title = &self.names[self.titles[id] as usize].0;
+        let Name { text: own, id, .. } = &self.names[name as usize];
+        let title = &self.names[self.titles[id] as usize].text;
         if Language::of(own) == Language::of(title) { title } else { own }
     }
 
     /// Keeps the best names, each id once, in order; equal ones by the order of insertion.
     fn keep(&self, best: &mut Vec<(f64, u32)>, limit: usize, likeness: f64, name: u32) {
-        let id = &self.names[name as usize].1;
-        match best.iter().position(|(_, other)| self.names[*other as usize].1 == *id) {
+        let id = &self.names[name as usize].id;
+        match best.iter().position(|(_, other)| self.names[*other as usize].id == *id) {
             Some(at) if best[at].0 >= likeness => return,
             Some(at) => drop(best.remove(at)),
             None => {}
@@ -291,11 +474,43 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         best.truncate(limit);
     }
 
-    /// How many names and how many different forms it holds.
+    /// The title of every id, in the order in which they were first inserted: for completion of what is typed.
+    pub fn titles(&self) -> impl Iterator<Item = &str> {
+        let is_title = |(n, name): &(usize, &Name<T>)| self.titles[&name.id] as usize == *n;
+        self.names.iter().enumerate().filter(is_title).map(|(_, name)| &*name.text)
+    }
+
+    /// How many names and how many different forms of their stems it holds.
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         (self.names.len(), self.forms.len())
     }
+}
+
+/// From so many names on, near misses are sought among those of a like stem only.
+const MANY_NAMES: usize = 5_000;
+
+/// «Стул-17» is «Стул» and «-17», «Палата-3-б» is «Палата» and «-3-б»: the tag holds digits, capitals and single
+/// letters, which no case changes. A name without a word of small letters before its tag has none.
+fn split_tag(name: &str) -> (&str, &str) {
+    let runs = super::letters::runs(name);
+    let is_tag = |run: &super::letters::Run<'_>| {
+        let letters = run.text.chars().count();
+        let digits = run.text.starts_with(|c: char| c.is_ascii_digit());
+        let capitals = letters <= 3 && run.text.chars().all(|c| c.is_uppercase() || c.is_numeric());
+        !run.is_word || digits || capitals
+    };
+    let cut = runs.iter().rposition(|run| !is_tag(run)).map_or(0, |last| last + 1);
+    // A tag after a hyphen or blank only: «2-й» is a word, «к305» is spelled as one.
+    let is_joint = runs.get(cut).is_some_and(|run| run.is_hyphen() || run.text == " ");
+    let whole = runs[..cut].last().is_none_or(|run| run.text.chars().count() < 3);
+    if cut == 0 || cut + 1 >= runs.len() || !is_joint || whole {
+        return (name, "");
+    }
+    let at = runs[cut].at;
+    // An odd word before the tag may decline only together with it, as «5-й этаж» does.
+    let odd = runs[..cut].iter().any(|run| run.text.chars().any(|c| c.is_ascii_digit()));
+    if odd { (name, "") } else { name.split_at(at) }
 }
 
 /// A text under its three equalities, found in one pass.
@@ -312,6 +527,23 @@ struct Spelled {
 }
 
 impl Spelled {
+    /// How faithfully a text is spelled that has the key of a form with a tag.
+    fn likeness_to(&self, text: &str, form: &str, tag: &str, part: bool) -> Spelling {
+        if part {
+            return Spelling::Part;
+        }
+        // Mostly the name is written as the map has it.
+        if text.strip_prefix(form) == Some(tag) {
+            return Spelling::Exact;
+        }
+        let own = Self::of(&format!("{form}{tag}"));
+        match () {
+            () if self.exact == own.exact => Spelling::Exact,
+            () if self.spaced == own.spaced => Spelling::Spaced,
+            () => Spelling::LookAlike,
+        }
+    }
+
     fn of(text: &str) -> Self {
         // A text without combining marks and compatibility letters is in NFC already.
         if text.chars().all(|c| (c as u32) < 0x300 || ('\u{400}'..='\u{4ff}').contains(&c)) {
@@ -438,13 +670,12 @@ impl Letters {
 
 #[cfg(test)]
 mod tests {
-    use super::super::grammar::WordHints;
     use super::*;
 
     fn index(names: &[&'static str]) -> FormIndex<&'static str> {
         let mut index = FormIndex::default();
         for name in names {
-            index.insert(&NounPhrase::parse(name, &WordHints::default()), *name);
+            index.insert_name(name, &WordHints::default(), *name);
         }
         index
     }

@@ -395,6 +395,16 @@ fn resolve(word: &str, known: Known) -> Noun {
     dictionary::noun(word, known).or_else(listed).unwrap_or_else(|| Noun::by_rules(word, known))
 }
 
+/// Whether the last of some words may name a thing, as far as the dictionary knows it.
+pub(crate) fn may_be_noun(said: &str) -> bool {
+    let Some(word) = said.split(|c: char| !c.is_alphabetic()).rfind(|w| !w.is_empty()) else {
+        return false;
+    };
+    let lower = to_cyrillic(word).to_lowercase();
+    let readings = dictionary::readings(&lower);
+    readings.noun || !readings.known
+}
+
 /// Whether the word can be the nominative of a noun, as far as anything here knows it.
 fn is_nominative(word: &str) -> bool {
     let readings = dictionary::readings(word);

@@ -1,0 +1,206 @@
+//! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
+
+use crate::geometry::Method;
+use crate::language::Language;
+use crate::language::question::{
+    Answer, Asker, Fact, Memory, Mind, Past, Senses, Sighting, Thing, Unanswered, Way,
+};
+use crate::map::{Entity, World};
+use crate::robot::starting_pose;
+use crate::semantics::{Profile, derive};
+use crate::store::Seen;
+use crate::units::{MapId, Pose, ReplicaId};
+
+use super::position::describe;
+use super::{Engine, Error};
+
+/// How far the robot is taken to see, cm.
+const SIGHT: f64 = 400.0;
+
+impl Engine {
+    /// Answers a question in Russian or English and remembers what it was about.
+    ///
+    /// The inner result is the answer, or why there is none: not understood, ambiguous, unknown to the map.
+    ///
+    /// # Errors
+    /// There is no map, or its relations cannot be derived.
+    pub fn ask(
+        &self,
+        question: &str,
+        memory: &mut Memory,
+    ) -> Result<Result<Answer, Unanswered>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.ask(question, memory))
+    }
+
+    /// The query of an answer as a Datalog rule.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.rule(&answer.query, answer.language))
+    }
+
+    /// The proof of a fact of an answer, or what it lacks, a premise a line.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn proof_of(&self, fact: &Fact, language: Language) -> Result<Vec<String>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.proof(fact, language))
+    }
+
+    fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
+        Ok(Asker {
+            world: self.world()?,
+            relations: self.relations()?,
+            mind: self.mind()?,
+            senses,
+        })
+    }
+
+    /// The nouns of the map, read when first asked for.
+    pub(super) fn mind(&self) -> Result<&Mind, Error> {
+        let world = self.world()?;
+        Ok(self.mind.get_or_init(|| Mind::of(world)))
+    }
+
+    /// Names that a person may type.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn names(&self) -> Result<Vec<String>, Error> {
+        Ok(self.mind()?.lexicon.names().map(str::to_owned).collect())
+    }
+
+    /// Where the robot is known to stand: as the store noted it last, else where the map lets it begin.
+    pub(super) fn robot_pose(&self) -> Option<(MapId, Pose)> {
+        let stored = self.store.as_ref().and_then(|s| s.reader().robot_pose().ok().flatten());
+        match stored {
+            Some((map, pose, _)) => Some((map, pose)),
+            None => starting_pose(self.world.as_ref()?),
+        }
+    }
+}
+
+struct RobotSenses<'e> {
+    engine: &'e Engine,
+}
+
+impl RobotSenses<'_> {
+    fn world(&self) -> Option<&World> {
+        self.engine.world.as_ref()
+    }
+
+    /// The name by which the engine finds a thing, or its point.
+    fn locatable(&self, thing: Option<Thing>) -> Option<String> {
+        match thing {
+            Some(Thing::Entity(entity)) => Some(self.world()?.name(entity).to_owned()),
+            Some(Thing::Robot) | None => {
+                let (_, pose) = self.engine.robot_pose()?;
+                Some(format!("{},{}", pose.at.x, pose.at.y))
+            }
+            Some(Thing::Opening(n)) => {
+                let opening = self.engine.relations().ok()?.openings().get(n as usize)?;
+                let (a, b) = opening.ends;
+                let middle = nalgebra::center(&a, &b);
+                Some(format!("{},{}", middle.x, middle.y))
+            }
+            Some(Thing::Window(_)) => None,
+        }
+    }
+}
+
+impl Senses for RobotSenses<'_> {
+    fn robot(&self) -> Option<(MapId, Pose)> {
+        self.engine.robot_pose()
+    }
+
+    fn position(&self, language: Language) -> Option<String> {
+        let (map, pose) = self.engine.robot_pose()?;
+        let found = describe(self.world()?, self.engine.relations().ok()?, map, pose, None)?;
+        Some(found.position.say(language))
+    }
+
+    fn way(&self, from: Option<Thing>, to: Thing, language: Language) -> Result<Way, String> {
+        let unknown = || match language {
+            Language::Russian => "место неизвестно".to_owned(),
+            Language::English => "the place is unknown".to_owned(),
+        };
+        let from = self.locatable(from).ok_or_else(unknown)?;
+        let to = self.locatable(Some(to)).ok_or_else(unknown)?;
+        let answer = self.engine.route(&from, &to, Method::Shortest).map_err(|e| e.to_string())?;
+        let sentences = self.engine.route_in_words(&answer, language);
+        match answer.route {
+            Ok(route) => Ok(Way { length: route.length, sentences: sentences.unwrap_or_default() }),
+            Err(why) => Err(why.to_string()),
+        }
+    }
+
+    fn visible(&self) -> Vec<ReplicaId> {
+        let Some((map, pose)) = self.engine.robot_pose() else { return Vec::new() };
+        let Ok(relations) = self.engine.relations() else { return Vec::new() };
+        let Some(area) = relations.measurements().area_at(map, pose.at) else { return Vec::new() };
+        let (sin, cos) = pose.heading.sin_cos();
+        let mut seen: Vec<(f64, ReplicaId)> = Vec::new();
+        for &id in self.world().into_iter().flat_map(|w| w.replicas.keys()) {
+            let here = relations.area_of(id) == Some(area);
+            let Some((_, at)) = relations.centre(id).filter(|_| here) else { continue };
+            let way = at - pose.at;
+            let ahead = way.x * cos + way.y * sin;
+            let distance = way.norm();
+            // Half of what lies before it, as a wide camera sees; what stands in a cupboard is hidden.
+            let hidden = relations.support_of(id).is_some_and(|s| is_inside(relations, id, s));
+            if distance <= SIGHT && ahead >= distance * 0.5 && !hidden {
+                seen.push((distance, id));
+            }
+        }
+        seen.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        seen.into_iter().map(|(_, id)| id).collect()
+    }
+
+    fn sightings(&self, thing: ReplicaId) -> Vec<Sighting> {
+        let Some(store) = &self.engine.store else { return Vec::new() };
+        let all = store.reader().observations(thing).unwrap_or_default();
+        let sighting = |o: crate::store::Observation| Sighting {
+            at: o.at.to_string(),
+            place: o.seen.map(|Seen { area, .. }| area),
+        };
+        all.into_iter().map(sighting).collect()
+    }
+
+    fn past(&self, thing: ReplicaId) -> Vec<Past> {
+        let Some(store) = &self.engine.store else { return Vec::new() };
+        let versions = store.reader().replica_history(thing).unwrap_or_default();
+        let mut past: Vec<Past> = Vec::new();
+        let now = self.world().and_then(|w| w.replicas.get(&thing));
+        for pair in versions.windows(2) {
+            let [before, after] = pair else { continue };
+            let Ok(Some(world)) = store.world_as_of(before.stamp.revision) else { continue };
+            let Some(old) = world.replicas.get(&thing) else { continue };
+            if now.is_some_and(|n| n.area == old.area && n.frame == old.frame) {
+                continue;
+            }
+            let Ok(relations) = derive(&world, &self.engine.rules.relations, Profile::Surveyed)
+            else {
+                continue;
+            };
+            past.push(Past {
+                until: after.stamp.at.to_string(),
+                area: relations.area_of(thing),
+                support: relations.support_of(thing),
+            });
+        }
+        past
+    }
+}
+
+fn is_inside(relations: &crate::semantics::Relations, id: ReplicaId, holder: ReplicaId) -> bool {
+    use crate::semantics::Subject;
+    let symbol = |id| {
+        let subject = Subject::Entity(Entity::Replica(id));
+        crate::facts::Value::Symbol(relations.symbols().symbol(subject).clone())
+    };
+    relations.derived().contains("INSIDE", &[symbol(id), symbol(holder)]).unwrap_or(false)
+}

@@ -1,0 +1,358 @@
+//! A query as a rule of the relations' Datalog, so that a person learns to write it.
+
+use crate::language::words::Language;
+use crate::map::{DoorStatus, Entity};
+
+use super::knowledge::{Knowledge, bases};
+use super::lexicon::Extension;
+use super::query::{Claim, Filter, Noun, Query, Rel, Restriction, Thing};
+use super::values::Property;
+
+/// Atoms on their way into one rule.
+struct Rule<'k, 'a> {
+    knowledge: &'k Knowledge<'a>,
+    atoms: Vec<String>,
+    variables: usize,
+}
+
+const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
+
+impl Knowledge<'_> {
+    /// `ответ(X) :- …`, or a remark where a question is one of geometry or history, which no rule answers.
+    pub(super) fn rule(&self, query: &Query) -> String {
+        let mut rule = Rule { knowledge: self, atoms: Vec::new(), variables: 0 };
+        let head = match self.language {
+            Language::Russian => "ответ",
+            Language::English => "answer",
+        };
+        let (arguments, remark) = rule.read(query);
+        let remark = if remark.is_empty() { String::new() } else { format!("   // {remark}") };
+        match rule.atoms.is_empty() {
+            true if arguments.is_empty() => format!("// {}", query.kind()),
+            true => format!("{head}({arguments}).{remark}"),
+            false => format!("{head}({arguments}) :- {}.{remark}", rule.atoms.join(", ")),
+        }
+    }
+}
+
+impl Rule<'_, '_> {
+    fn variable(&mut self) -> String {
+        let n = self.variables;
+        self.variables += 1;
+        NAMES.get(n).map_or_else(|| format!("X{n}"), |name| (*name).to_owned())
+    }
+
+    fn relation(&self, english: &str) -> String {
+        match self.knowledge.language {
+            Language::Russian => self.knowledge.relations.display_name(english),
+            Language::English => english.to_owned(),
+        }
+    }
+
+    fn quoted(&self, thing: Thing) -> String {
+        format!("\"{}\"", self.knowledge.symbol(thing).replace('"', "\\\""))
+    }
+
+    /// The arguments of the head, and what is done with what the rule finds.
+    fn read(&mut self, query: &Query) -> (String, String) {
+        let pick = |r: &'static str, e: &'static str| self.knowledge.pick(r, e).to_owned();
+        match query {
+            Query::Find(noun) => {
+                let remark = noun.best.as_ref().map(|b| format!("{:?}", b.extreme)).unwrap_or_default();
+                (self.noun(noun), remark)
+            }
+            Query::Count(noun) => {
+                let remark = pick("сколько таких X", "how many such X");
+                (self.noun(noun), remark)
+            }
+            Query::Exists { what, .. } => {
+                let remark = pick("есть ли такой X", "is there such an X");
+                let terms: Vec<String> = what.iter().map(|n| self.noun(n)).collect();
+                (terms.join(", "), remark)
+            }
+            Query::Where(noun) | Query::RoomOf(noun) => {
+                let thing = self.noun(noun);
+                let place = self.variable();
+                let inside = self.relation("INSIDE");
+                if matches!(query, Query::Where(_)) {
+                    let on = self.relation("ON_TOP_OF");
+                    self.atoms.push(format!("({inside}({thing}, {place}) ; {on}({thing}, {place}))"));
+                } else {
+                    self.atoms.push(format!("{inside}({thing}, {place})"));
+                    self.atoms.push(format!("area({place}, _)"));
+                }
+                (place, String::new())
+            }
+            Query::Holds { subject, claims, .. } | Query::Choice { subject, claims } => {
+                let thing = self.noun(subject);
+                for claim in claims {
+                    match claim {
+                        Claim::Related(restriction) => self.restriction(&thing, restriction),
+                        Claim::Value(filter) => self.filter(&thing, filter),
+                        Claim::Kind(noun) => self.kinds(&thing, noun),
+                    }
+                }
+                (thing, pick("верно ли", "is it so"))
+            }
+            Query::Anchor { rel, of, .. } => {
+                let thing = self.noun(of);
+                let other = self.variable();
+                self.related(*rel, &thing, &other, false);
+                (other, String::new())
+            }
+            Query::Property { property, of } => {
+                let thing = self.noun(of);
+                let value = self.variable();
+                let is_door = self.is_door(of);
+                if is_door && *property == Property::State {
+                    let state = self.relation("DOOR_IS");
+                    self.atoms.push(format!("{state}({thing}, {value})"));
+                } else {
+                    let has = self.relation("HAS");
+                    let name = property.noun(Language::Russian).to_uppercase();
+                    self.atoms.push(format!("{has}({thing}, \"{name}\", {value})"));
+                }
+                (value, String::new())
+            }
+            Query::Parts(noun) => {
+                let thing = self.noun(noun);
+                let (kind, part) = (self.variable(), self.variable());
+                let (instance, parts) = (self.relation("INSTANCE_OF"), self.relation("PART_OF"));
+                self.atoms.push(format!("{instance}({thing}, {kind})"));
+                self.atoms.push(format!("{parts}({part}, {kind})"));
+                (part, String::new())
+            }
+            Query::Leads(noun) => {
+                let thing = self.noun(noun);
+                let (from, to) = (self.variable(), self.variable());
+                let joins = self.relation("JOINS");
+                self.atoms.push(format!("{joins}({thing}, {from}, {to})"));
+                (format!("{from}, {to}"), String::new())
+            }
+            Query::Place { use_for, within, .. } => {
+                let thing = self.variable();
+                let wanted = match use_for {
+                    super::query::Use::Sit => "seat",
+                    super::query::Use::Lie => "bed",
+                    super::query::Use::Put => "support",
+                };
+                let has = self.relation("HAS_TRAIT");
+                self.atoms.push(format!("{has}({thing}, \"{wanted}\")"));
+                for restriction in within {
+                    self.restriction(&thing, restriction);
+                }
+                (thing, String::new())
+            }
+            Query::Size { of, .. } | Query::Free(of) | Query::Describe(of) => {
+                (self.noun(of), pick("остальное измерено", "the rest is measured"))
+            }
+            Query::Distance { from, to } | Query::Way { from, to } | Query::CanReach { from, to } => {
+                let from = from.as_ref().map(|n| self.noun(n));
+                let to = self.noun(to);
+                let terms: Vec<String> = from.into_iter().chain([to]).collect();
+                (terms.join(", "), pick("путь и расстояние измеряются", "way and distance are measured"))
+            }
+            Query::Closer { what, near, than, .. } => {
+                let terms = [what, near, than].map(|n| self.noun(n));
+                (terms.join(", "), pick("расстояния сравниваются", "distances are compared"))
+            }
+            Query::WhichMore { of, .. } | Query::Same { of, .. } => {
+                let terms = [&of[0], &of[1]].map(|n| self.noun(n));
+                (terms.join(", "), pick("сравнение", "compared"))
+            }
+            Query::Larger { what, than, .. } => {
+                let terms = [what, than].map(|n| self.noun(n));
+                (terms.join(", "), pick("сравнение", "compared"))
+            }
+            Query::LastSeen(noun) | Query::Before(noun) => {
+                (self.noun(noun), pick("по истории хранилища", "from the store's history"))
+            }
+            Query::Why { .. } | Query::WhereAreYou | Query::WhatDoYouSee | Query::WhatDoYouHold => {
+                (String::new(), String::new())
+            }
+        }
+    }
+
+    fn is_door(&self, noun: &Noun) -> bool {
+        let found = self.knowledge.find(noun, true).unwrap_or_default();
+        found.first().is_some_and(|t| self.knowledge.gate(*t).is_some())
+    }
+
+    /// A term for a description: a constant for a name, else a variable with its atoms.
+    fn noun(&mut self, noun: &Noun) -> String {
+        let named = match (&noun.head.things, &noun.head.named[..]) {
+            (Some(things), _) => match things[..] {
+                [only] => Some(only),
+                _ => None,
+            },
+            (None, [only]) => Some(Thing::Entity(*only)),
+            _ => None,
+        };
+        if let (Some(only), true) = (named, noun.filters.is_empty() && noun.restrictions.is_empty()) {
+            return self.quoted(only);
+        }
+        let term = self.variable();
+        match named {
+            Some(only) => {
+                let name = self.quoted(only);
+                self.atoms.push(format!("{term} = {name}"));
+            }
+            None => self.kinds(&term, noun),
+        }
+        for filter in &noun.filters {
+            self.filter(&term, filter);
+        }
+        for restriction in &noun.restrictions {
+            self.restriction(&term, restriction);
+        }
+        term
+    }
+
+    fn kinds(&mut self, term: &str, noun: &Noun) {
+        if noun.head.anything {
+            self.atoms.push(format!("replica({term}, _, _, _, _)"));
+            return;
+        }
+        let mut choices: Vec<String> = Vec::new();
+        let mut add = |atom: String| {
+            if !choices.contains(&atom) {
+                choices.push(atom);
+            }
+        };
+        for entity in &noun.head.named {
+            add(format!("{term} = {}", self.quoted(Thing::Entity(*entity))));
+        }
+        let things = noun.head.things.iter().flatten().copied();
+        for thing in things {
+            add(format!("{term} = {}", self.quoted(thing)));
+        }
+        let world = self.knowledge.world;
+        for kind in noun.head.kinds.iter().filter(|_| noun.head.named.is_empty()) {
+            let instance = self.relation("INSTANCE_OF");
+            let has_trait = self.relation("HAS_TRAIT");
+            let object = |id: crate::units::ObjectId| {
+                let symbols = self.knowledge.relations.symbols();
+                let symbol = symbols.symbol(crate::semantics::Subject::Object(id));
+                format!("{instance}({term}, \"{symbol}\")")
+            };
+            match &self.knowledge.lexicon().kind(*kind).extension {
+                Extension::ObjectType(id) => {
+                    let of_type = world.objects.values().filter(|o| o.object_type == Some(*id));
+                    of_type.map(|o| object(o.id)).for_each(&mut add);
+                }
+                Extension::Object(id) => add(object(*id)),
+                Extension::Trait(wanted) => add(format!("{has_trait}({term}, \"{wanted}\")")),
+                Extension::Things => add(format!("replica({term}, _, _, _, _)")),
+                Extension::Furniture => {
+                    add(format!("replica({term}, _, _, _, _), !{has_trait}({term}, \"portable\")"));
+                }
+                Extension::Rooms => add(format!("area({term}, _)")),
+                Extension::AreaType(id) => {
+                    let of_type = world.areas.values().filter(|a| a.area_type == Some(*id));
+                    let name = |a: &crate::map::Area| self.quoted(Thing::Entity(Entity::Area(a.id)));
+                    of_type.map(|a| format!("{term} = {}", name(a))).for_each(&mut add);
+                }
+                Extension::DoorType(id) => {
+                    let of_type = world.doors.values().filter(|d| d.door_type == Some(*id));
+                    let name = |d: &crate::map::Door| self.quoted(Thing::Entity(Entity::Door(d.id)));
+                    of_type.map(|d| format!("{term} = {}", name(d))).for_each(&mut add);
+                }
+                Extension::Doors => add(format!("opening({term}, \"door\", _, _)")),
+                Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
+                Extension::Windows | Extension::Places | Extension::Storeys | Extension::Building
+                | Extension::Floor | Extension::Walls | Extension::Robot => {}
+            }
+        }
+        match &choices[..] {
+            [] => {}
+            [only] => self.atoms.push(only.clone()),
+            several => self.atoms.push(format!("({})", several.join(" ; "))),
+        }
+    }
+
+    fn filter(&mut self, term: &str, filter: &Filter) {
+        let values = &self.knowledge.lexicon().values;
+        let not = if filter.negated { "!" } else { "" };
+        let state = [
+            (DoorStatus::Open, "open"),
+            (DoorStatus::Closed, "closed"),
+            (DoorStatus::Locked, "locked"),
+        ];
+        let states: Vec<&str> = state
+            .iter()
+            .filter(|(s, _)| values.of_door(*s).is_some_and(|v| values.is(v, filter.value)))
+            .map(|(_, word)| *word)
+            .collect();
+        let mut atoms: Vec<String> = Vec::new();
+        if !states.is_empty() {
+            let door = self.relation("DOOR_IS");
+            atoms.extend(states.iter().map(|word| format!("{not}{door}({term}, \"{word}\")")));
+        } else {
+            let has = self.relation("HAS");
+            for word in self.knowledge.spellings(filter.value) {
+                atoms.push(format!("{not}{has}({term}, _, \"{word}\")"));
+            }
+        }
+        match (&atoms[..], filter.negated) {
+            ([], _) => {}
+            ([only], _) => self.atoms.push(only.clone()),
+            (all, true) => self.atoms.extend(all.iter().cloned()),
+            (all, false) => self.atoms.push(format!("({})", all.join(" ; "))),
+        }
+    }
+
+    fn restriction(&mut self, term: &str, restriction: &Restriction) {
+        let Some(anchor) = restriction.anchors.first() else { return };
+        if self.knowledge.is_floor(anchor) {
+            self.atoms.push(format!("stands_on_floor({term}, _)"));
+            return;
+        }
+        let other = self.noun(anchor);
+        self.related(restriction.rel, term, &other, restriction.negated);
+    }
+
+    fn related(&mut self, rel: Rel, term: &str, other: &str, negated: bool) {
+        let not = if negated { "!" } else { "" };
+        if matches!(rel, Rel::From | Rel::To | Rel::Through) {
+            let joins = self.relation("JOINS");
+            self.atoms.push(format!("{not}{joins}({term}, {other}, _)"));
+            return;
+        }
+        let atom = |basis: &super::knowledge::Basis| {
+            let name = self.relation(basis.relation);
+            let (a, b) = if basis.swapped { (other, term) } else { (term, other) };
+            let shelves = match basis.of_support {
+                true => format!(", {}({other}, \"support\")", self.relation("HAS_TRAIT")),
+                false => String::new(),
+            };
+            format!("{not}{name}({a}, {b}){shelves}")
+        };
+        let atoms: Vec<String> = bases(rel).iter().map(atom).collect();
+        match (&atoms[..], negated) {
+            ([], _) => {}
+            ([only], _) => self.atoms.push(only.clone()),
+            (all, true) => self.atoms.extend(all.iter().cloned()),
+            (all, false) => self.atoms.push(format!("({})", all.join(" ; "))),
+        }
+    }
+}
+
+impl Knowledge<'_> {
+    /// How the map spells a value.
+    fn spellings(&self, value: super::values::ValueId) -> Vec<String> {
+        let replicas = self.world.replicas.values().map(|r| &r.properties);
+        let objects = self.world.objects.values().map(|o| &o.properties);
+        let doors = self.world.doors.values().map(|d| &d.properties);
+        let areas = self.world.areas.values().map(|a| &a.properties);
+        let all = replicas.chain(objects).chain(doors).chain(areas);
+        let values = &self.lexicon().values;
+        let mut found: Vec<String> = all
+            .flat_map(|p| p.values())
+            .filter(|v| values.meaning(v).is_some_and(|own| values.is(own, value)))
+            .cloned()
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+}

@@ -1,0 +1,514 @@
+//! The grammar of questions: words to tokens, tokens to items.
+//!
+//! ```text
+//! sentence = item*
+//! item     = link noun (("and" | ",") noun)*  |  noun  |  link  |  value  |  property  |  mark  |  unknown
+//! noun     = (article | number | value | superlative | "не" value)* head (owner)?  |  pronoun
+//! head     = a name or kind of the map, in any form; or "one", where an English adjective needs one
+//! owner    = a noun in the genitive («окно комнаты»), or before the head ("the kitchen table")
+//! ```
+//! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
+
+use std::iter::{Copied, Enumerate};
+use std::ops::Range;
+use std::slice::Iter;
+
+use nom::branch::alt;
+use nom::combinator::{map, opt};
+use nom::error::{Error, ErrorKind};
+use nom::multi::{many0, many1};
+use nom::sequence::pair;
+use nom::{IResult, Input, Needed, Parser};
+
+use super::lexicon::{KindId, Lexicon, Meaning};
+use super::query::{Best, Extreme, Filter, Head, Noun, Rel, Restriction};
+use super::values::{Property, ValueId};
+use super::vocabulary::{self, Mark, Pronoun};
+use crate::language::words::{Case, Language, Number, Readings, word_ranges};
+use crate::map::Entity;
+use crate::units::name_key;
+
+/// A word or phrase with what it is. `words` counts words of the sentence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Token {
+    pub(super) from: u32,
+    pub(super) to: u32,
+    kind: Tok,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Tok {
+    Mark(Mark),
+    Noun(u32),
+    Value(ValueId),
+    Property(u32),
+    Number(u64),
+    Unknown,
+}
+
+/// What a noun of the sentence may mean, before its number and place in the question decide.
+#[derive(Debug, Clone, Default)]
+struct Found {
+    named: Vec<Entity>,
+    kinds: Vec<KindId>,
+    readings: Vec<Readings>,
+    is_area: bool,
+}
+
+/// A sentence cut into tokens.
+pub(super) struct Sentence<'t> {
+    pub(super) text: &'t str,
+    pub(super) language: Language,
+    pub(super) words: Vec<Range<usize>>,
+    pub(super) keys: Vec<String>,
+    tokens: Vec<Token>,
+    nouns: Vec<Found>,
+    properties: Vec<Property>,
+}
+
+/// One part of a question.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) enum Item {
+    Mark(Mark),
+    Noun(Phrase),
+    /// A preposition and what follows it.
+    Place { rel: Rel, nouns: Vec<Phrase>, either: bool },
+    /// A preposition with nothing after it.
+    Link(Rel),
+    Value(ValueId),
+    Property(Property),
+    Number(u64),
+    /// Words that nothing knows.
+    Unknown(Range<usize>),
+}
+
+/// A noun of the sentence with the words that it takes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Phrase {
+    pub(super) noun: Noun,
+    pub(super) words: Range<usize>,
+    pub(super) pronoun: Option<Pronoun>,
+    /// The robot, or the person who asks.
+    pub(super) person: Option<Mark>,
+    /// May it be the subject of a Russian sentence.
+    pub(super) nominative: bool,
+}
+
+/// Tokens that are still to be read; the input of the parsers.
+#[derive(Debug, Clone, Copy)]
+struct Tokens<'a>(&'a [Token]);
+
+impl<'a> Tokens<'a> {
+    fn split_first(self) -> Option<(&'a Token, Self)> {
+        self.0.split_first().map(|(first, rest)| (first, Self(rest)))
+    }
+}
+
+impl<'a> Input for Tokens<'a> {
+    type Item = Token;
+    type Iter = Copied<Iter<'a, Token>>;
+    type IterIndices = Enumerate<Self::Iter>;
+
+    fn input_len(&self) -> usize {
+        self.0.len()
+    }
+
+    fn take(&self, index: usize) -> Self {
+        Self(&self.0[..index])
+    }
+
+    fn take_from(&self, index: usize) -> Self {
+        Self(&self.0[index..])
+    }
+
+    fn take_split(&self, index: usize) -> (Self, Self) {
+        (self.take_from(index), self.take(index))
+    }
+
+    fn position<P: Fn(Self::Item) -> bool>(&self, predicate: P) -> Option<usize> {
+        self.0.iter().position(|token| predicate(*token))
+    }
+
+    fn iter_elements(&self) -> Self::Iter {
+        self.0.iter().copied()
+    }
+
+    fn iter_indices(&self) -> Self::IterIndices {
+        self.iter_elements().enumerate()
+    }
+
+    fn slice_index(&self, count: usize) -> Result<usize, Needed> {
+        if count <= self.0.len() { Ok(count) } else { Err(Needed::new(count - self.0.len())) }
+    }
+}
+
+type Parsed<'a, O> = IResult<Tokens<'a>, O>;
+
+impl<'t> Sentence<'t> {
+    pub(super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
+        let words = word_ranges(text);
+        let keys: Vec<String> =
+            words.iter().map(|range| name_key(&text[range.clone()])).collect();
+        let mut sentence = Self {
+            text,
+            language: Language::of(text),
+            words,
+            keys,
+            tokens: Vec::new(),
+            nouns: Vec::new(),
+            properties: Vec::new(),
+        };
+        let mut at = 0;
+        while at < sentence.keys.len() {
+            at = sentence.token(at, lexicon);
+        }
+        sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
+        sentence
+    }
+
+    /// The text from one word to another.
+    pub(super) fn said(&self, words: &Range<usize>) -> &'t str {
+        match (self.words.get(words.start), words.end.checked_sub(1).and_then(|l| self.words.get(l)))
+        {
+            (Some(first), Some(last)) => &self.text[first.start..last.end],
+            _ => "",
+        }
+    }
+
+    /// Reads the token at a word and gives the word after it.
+    fn token(&mut self, at: usize, lexicon: &Lexicon) -> usize {
+        if let Some(value) = self.switched(at, lexicon) {
+            let (from, to) = (at as u32, at as u32 + 1);
+            self.tokens.push(Token { from, to, kind: Tok::Value(value) });
+            return at + 1;
+        }
+        let keys = &self.keys[at..];
+        let mark = vocabulary::longest(keys);
+        let value = lexicon.values.longest(keys);
+        let named = lexicon.nouns.length_at(self.text, &self.words, at);
+        let property = lexicon.values.property(&keys[0]).cloned();
+        let marked = mark.map_or(0, |(n, _)| n);
+        let valued = value.map_or(0, |(n, _)| n);
+        let longest = marked.max(valued).max(named).max(usize::from(property.is_some()));
+        let push = |sentence: &mut Self, taken: usize, kind: Tok| {
+            let (from, to) = (at as u32, (at + taken) as u32);
+            sentence.tokens.push(Token { from, to, kind });
+            at + taken
+        };
+        if longest == 0 {
+            let number = number_of(&keys[0]);
+            return push(self, 1, number.map_or(Tok::Unknown, Tok::Number));
+        }
+        let before = self.tokens.last().map(|t| t.kind);
+        // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
+        let article = matches!(before, Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany)));
+        let noun_wins = named == longest
+            && match mark {
+                Some((n, Mark::PutDown | Mark::Free | Mark::See | Mark::Describe | Mark::List)) if n == longest => article,
+                Some((n, Mark::Filler)) if n == longest => true,
+                Some((n, _)) => n < longest,
+                None => true,
+            }
+            && (valued < longest || !self.begins_noun(at + longest, lexicon));
+        if noun_wins && !(property.is_some() && named == 1 && self.asks_property()) {
+            let found = self.noun(at, named, lexicon);
+            self.nouns.push(found);
+            let number = self.nouns.len() as u32 - 1;
+            return push(self, named, Tok::Noun(number));
+        }
+        match (mark, value, property) {
+            (Some((n, mark)), _, _) if n == longest && !(mark == Mark::Filler && valued == longest) => {
+                push(self, n, Tok::Mark(mark))
+            }
+            (_, Some((n, value)), _) if n == longest => push(self, n, Tok::Value(value)),
+            (_, _, Some(property)) => {
+                self.properties.push(property);
+                let number = self.properties.len() as u32 - 1;
+                push(self, 1, Tok::Property(number))
+            }
+            _ => push(self, 1, Tok::Unknown),
+        }
+    }
+
+    /// "Is the lamp on?", "on or off": a state, where nothing follows to be on.
+    fn switched(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
+        let word = match self.keys[at].as_str() {
+            "on" => "switched on",
+            "off" => "switched off",
+            _ => return None,
+        };
+        let next = self.keys.get(at + 1).map(String::as_str);
+        let ends = matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
+        let asks = self.keys[..at].iter().any(|k| ["what", "which"].contains(&k.as_str()));
+        (ends && !(asks && self.keys[at] == "on")).then(|| lexicon.values.meaning(word)).flatten()
+    }
+
+    fn begins_noun(&self, at: usize, lexicon: &Lexicon) -> bool {
+        at < self.keys.len() && lexicon.nouns.length_at(self.text, &self.words, at) > 0
+    }
+
+    fn asks_property(&self) -> bool {
+        let asks = |t: &Token| matches!(t.kind, Tok::Mark(Mark::What | Mark::Which));
+        self.tokens.last().is_some_and(asks)
+    }
+
+    fn noun(&self, at: usize, taken: usize, lexicon: &Lexicon) -> Found {
+        let hits = lexicon.nouns.find(self.said(&(at..at + taken)));
+        let mut found = Found::default();
+        let is_kind = hits.iter().any(|h| matches!(h.id, Meaning::Kind(_)));
+        // «стол» may be a part of many names; then the kind is meant.
+        for hit in &hits {
+            match hit.id {
+                Meaning::Entity(entity) => {
+                    found.is_area |= matches!(entity, Entity::Area(_) | Entity::Map(_));
+                    if !found.named.contains(entity) {
+                        found.named.push(*entity);
+                    }
+                }
+                Meaning::Kind(kind) => {
+                    for kind in lexicon.with_narrower(*kind, self.language) {
+                        found.is_area |= lexicon.is_area(kind);
+                        if !found.kinds.contains(&kind) {
+                            found.kinds.push(kind);
+                        }
+                    }
+                }
+            }
+            found.readings.push(hit.readings);
+        }
+        if is_kind && hits.iter().all(|h| h.spelling == crate::language::Spelling::Part) {
+            found.named.clear();
+        }
+        found
+    }
+
+    /// All items of the sentence.
+    pub(super) fn items(&self) -> Vec<Item> {
+        let item = |input| self.item(input);
+        many0(item).parse(Tokens(&self.tokens)).map_or_else(|_| Vec::new(), |(_, items)| items)
+    }
+
+    fn item<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
+        alt((
+            |i| self.place(i),
+            map(|i| self.phrase(i), Item::Noun),
+            |i| self.single(i),
+            |i| self.unknown(i),
+        ))
+        .parse(input)
+    }
+
+    fn mark<'a>(&self, input: Tokens<'a>, wanted: impl Fn(Mark) -> bool) -> Parsed<'a, Mark> {
+        match input.split_first() {
+            Some((Token { kind: Tok::Mark(mark), .. }, rest)) if wanted(*mark) => Ok((rest, *mark)),
+            _ => fail(input),
+        }
+    }
+
+    /// A preposition with one noun or several.
+    fn place<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
+        let (rest, mark) = self.mark(input, |m| matches!(m, Mark::Link(_)))?;
+        let Mark::Link(rel) = mark else { return fail(input) };
+        let Ok((rest, first)) = self.phrase(rest) else { return Ok((rest, Item::Link(rel))) };
+        let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
+        // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
+        let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
+        let more = pair(pair(joint, again), |i| self.phrase(i));
+        let (rest, more) = many0(more).parse(rest)?;
+        let either = more.iter().any(|((joint, _), _)| *joint == Mark::Or);
+        let nouns = std::iter::once(first).chain(more.into_iter().map(|(_, noun)| noun)).collect();
+        Ok((rest, Item::Place { rel, nouns, either }))
+    }
+
+    /// A noun with what belongs to it.
+    fn phrase<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        alt((|i| self.person(i), |i| self.described(i))).parse(input)
+    }
+
+    fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let is_person =
+            |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
+        let (rest, mark) = self.mark(input, is_person)?;
+        let words = input.0[0].from as usize..input.0[0].to as usize;
+        let noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
+        let pronoun = match mark {
+            Mark::Pronoun(pronoun) => Some(pronoun),
+            _ => None,
+        };
+        let person = pronoun.is_none().then_some(mark);
+        Ok((rest, Phrase { noun, words, pronoun, person, nominative: true }))
+    }
+
+    fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let (rest, parts) = many0(|i| self.modifier(i)).parse(input)?;
+        let (rest, head, owner) = self.head(rest)?;
+        let taken = input.0.len() - rest.0.len();
+        let words = input.0[0].from as usize..input.0[taken - 1].to as usize;
+        let mut noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
+        let mut nominative = true;
+        match head {
+            Some(found) => {
+                noun.head = Head {
+                    named: found.named.clone(),
+                    kinds: found.kinds.clone(),
+                    ..Head::default()
+                };
+                noun.plural = !found.readings.is_empty()
+                    && found.readings.iter().all(|r| !r.is_singular());
+                nominative = found.readings.iter().any(|r| {
+                    r.has(Number::Singular, Case::Nominative)
+                        || r.has(Number::Plural, Case::Nominative)
+                });
+                if noun.plural && !noun.head.kinds.is_empty() {
+                    noun.head.named.clear();
+                }
+            }
+            None => noun.head.anything = true,
+        }
+        for part in parts {
+            match part {
+                Modifier::The => {}
+                Modifier::A => noun.indefinite = true,
+                Modifier::All => noun.all = true,
+                Modifier::Other => noun.other = true,
+                Modifier::Number(count) => noun.count = Some(count),
+                Modifier::Value(value, negated) => noun.filters.push(Filter { value, negated }),
+                Modifier::Best(extreme) => noun.best = Some(Best { extreme, anchor: None }),
+            }
+        }
+        if let Some((rel, owner)) = owner {
+            noun.restrictions.push(Restriction { rel, anchors: vec![owner], negated: false });
+        }
+        Ok((rest, Phrase { noun, words, pronoun: None, person: None, nominative }))
+    }
+
+    fn modifier<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Modifier> {
+        let Some((first, rest)) = input.split_first() else { return fail(input) };
+        let modifier = match first.kind {
+            Tok::Mark(Mark::The) => Modifier::The,
+            Tok::Mark(Mark::A) => Modifier::A,
+            Tok::Mark(Mark::All) => Modifier::All,
+            Tok::Mark(Mark::Other) => Modifier::Other,
+            Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
+            Tok::Number(count) => Modifier::Number(count),
+            Tok::Value(value) => Modifier::Value(value, false),
+            Tok::Mark(Mark::Not) => {
+                // «не чёрные стулья»
+                return match rest.0 {
+                    [Token { kind: Tok::Value(value), .. }, after @ ..]
+                        if matches!(after.first().map(|t| t.kind), Some(Tok::Noun(_) | Tok::Mark(Mark::One))) =>
+                    {
+                        Ok((Tokens(after), Modifier::Value(*value, true)))
+                    }
+                    _ => fail(input),
+                };
+            }
+            _ => return fail(input),
+        };
+        Ok((rest, modifier))
+    }
+
+    /// The head, and its owner with the relation to it.
+    fn head<'a>(
+        &self,
+        input: Tokens<'a>,
+    ) -> Result<(Tokens<'a>, Option<&Found>, Option<(Rel, Noun)>), nom::Err<Error<Tokens<'a>>>> {
+        let (rest, found) = match input.split_first() {
+            Some((Token { kind: Tok::Noun(n), .. }, rest)) => (rest, &self.nouns[*n as usize]),
+            Some((Token { kind: Tok::Mark(Mark::One), .. }, rest)) => return Ok((rest, None, None)),
+            _ => return Err(nom::Err::Error(Error::new(input, ErrorKind::Tag))),
+        };
+        let Some((Token { kind: Tok::Noun(n), from, to }, after)) = rest.split_first() else {
+            return Ok((rest, Some(found), None));
+        };
+        let next = &self.nouns[*n as usize];
+        let (end, start) = (input.0[0].to as usize, *from as usize);
+        let gap = &self.text[self.words[end - 1].end..self.words[start].start];
+        if gap.contains([',', ':', ';', '.', '–', '—', '?']) {
+            return Ok((rest, Some(found), None));
+        }
+        let noun_of = |found: &Found, words: Range<usize>| Noun {
+            head: Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() },
+            text: self.said(&words).to_owned(),
+            ..Noun::default()
+        };
+        match self.language {
+            Language::Russian if next.readings.iter().any(|r| r.has_case(Case::Genitive)) => {
+                let owner = noun_of(next, *from as usize..*to as usize);
+                Ok((after, Some(found), Some((Rel::Of, owner))))
+            }
+            // "the kitchen table"
+            Language::English if found.is_area && !next.is_area => {
+                let words = input.0[0].from as usize..input.0[0].to as usize;
+                Ok((after, Some(next), Some((Rel::In, noun_of(found, words)))))
+            }
+            _ => Ok((rest, Some(found), None)),
+        }
+    }
+
+    fn single<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
+        let Some((first, rest)) = input.split_first() else { return fail(input) };
+        let item = match first.kind {
+            Tok::Mark(mark) => Item::Mark(mark),
+            Tok::Value(value) => Item::Value(value),
+            Tok::Property(n) => Item::Property(self.properties[n as usize].clone()),
+            Tok::Number(number) => Item::Number(number),
+            Tok::Noun(_) | Tok::Unknown => return fail(input),
+        };
+        Ok((rest, item))
+    }
+
+    fn unknown<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
+        let one = |i: Tokens<'a>| match i.split_first() {
+            Some((token, rest)) if token.kind == Tok::Unknown => Ok((rest, *token)),
+            _ => fail(i),
+        };
+        let (rest, words) = many1(one).parse(input)?;
+        let (first, last) = (words[0], words[words.len() - 1]);
+        Ok((rest, Item::Unknown(first.from as usize..last.to as usize)))
+    }
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Modifier {
+    The,
+    A,
+    All,
+    Other,
+    Number(u64),
+    Value(ValueId, bool),
+    Best(Extreme),
+}
+
+fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {
+    Err(nom::Err::Error(Error::new(input, ErrorKind::Tag)))
+}
+
+/// Digits and the small number words of both languages.
+fn number_of(key: &str) -> Option<u64> {
+    const WORDS: [(&str, u64); 22] = [
+        ("два", 2),
+        ("две", 2),
+        ("двух", 2),
+        ("двумя", 2),
+        ("три", 3),
+        ("трех", 3),
+        ("тремя", 3),
+        ("четыре", 4),
+        ("четырех", 4),
+        ("пять", 5),
+        ("пяти", 5),
+        ("шесть", 6),
+        ("семь", 7),
+        ("восемь", 8),
+        ("девять", 9),
+        ("десять", 10),
+        ("two", 2),
+        ("three", 3),
+        ("four", 4),
+        ("five", 5),
+        ("six", 6),
+        ("ten", 10),
+    ];
+    WORDS.iter().find(|(word, _)| *word == key).map(|(_, n)| *n).or_else(|| key.parse().ok())
+}

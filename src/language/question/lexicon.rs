@@ -1,0 +1,348 @@
+//! The nouns of a map: names of things, kinds of things, and the words for things in general.
+//!
+//! Built once a map. Names and kinds stand in one [`FormIndex`]; a kind with an adjective before it («Письменный стол»)
+//! is one of its head's kinds too, so that a desk is among «столы».
+
+use std::collections::{BTreeSet, HashMap};
+
+use crate::language::names::{english_name, hints, hints_of_type};
+use crate::language::words::{FormIndex, Language, NounPhrase, Number, WordHints, english};
+use crate::map::{Entity, Permeability, TypeEntry, World};
+use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
+
+use super::values::Values;
+
+/// A kind by its place in the lexicon.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct KindId(pub u16);
+
+/// What belongs to a kind.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Extension {
+    ObjectType(TypeId),
+    Object(ObjectId),
+    AreaType(TypeId),
+    DoorType(TypeId),
+    /// Replicas whose type has this trait.
+    Trait(&'static str),
+    Things,
+    /// Things that are not portable.
+    Furniture,
+    Rooms,
+    Doors,
+    Passages,
+    Windows,
+    Places,
+    Storeys,
+    Building,
+    Floor,
+    Walls,
+    Robot,
+}
+
+/// A kind with its words.
+#[derive(Debug, Clone)]
+pub struct Kind {
+    pub extension: Extension,
+    pub phrase: NounPhrase,
+    pub english: String,
+}
+
+/// What a noun may mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Meaning {
+    Entity(Entity),
+    Kind(KindId),
+}
+
+/// A window in the wall of an Area.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Window {
+    pub area: AreaId,
+    pub name: String,
+    /// Its side's ends in the Map's frame.
+    pub ends: (Point, Point),
+}
+
+/// General nouns: extension, Russian singular forms, English ones.
+const CONCEPTS: &[(Extension, &str, &str)] = &[
+    (Extension::Things, "вещь|предмет|объект|штука", "thing|object|item|stuff"),
+    (Extension::Furniture, "мебель|предмет мебели", "furniture|piece of furniture"),
+    (Extension::Rooms, "комната|помещение", "room|area"),
+    (Extension::Doors, "дверь", "door"),
+    (Extension::Passages, "проход|проём", "passage|opening|doorway"),
+    (Extension::Windows, "окно", "window"),
+    (Extension::Places, "точка|место", "place|point|spot"),
+    (Extension::Storeys, "этаж|карта", "storey|level|map"),
+    (Extension::Building, "дом|здание|квартира", "house|building|flat|apartment|home"),
+    (Extension::Floor, "пол", "floor|ground"),
+    (Extension::Walls, "стена", "wall"),
+    (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
+    (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
+    (Extension::Trait("light"), "светильник|свет|освещение", "light|lighting"),
+    (Extension::Trait("device"), "прибор|устройство|техника", "device|appliance|gadget"),
+    (Extension::Trait("support"), "поверхность", "surface"),
+    (Extension::Trait("portable"), "ноша", "portable thing|small object|small thing"),
+];
+
+/// All nouns of a map.
+#[derive(Debug, Clone)]
+pub struct Lexicon {
+    pub(super) nouns: FormIndex<Meaning>,
+    kinds: Vec<Kind>,
+    /// Kinds that a head word covers beside its own: «стол» – «Письменный стол».
+    narrower: HashMap<(bool, String), Vec<KindId>>,
+    pub values: Values,
+    pub windows: Vec<Window>,
+}
+
+impl Lexicon {
+    /// The nouns of a world.
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        let mut lexicon = Self {
+            nouns: FormIndex::default(),
+            kinds: Vec::new(),
+            narrower: HashMap::new(),
+            values: Values::of(world),
+            windows: windows(world),
+        };
+        for entity in world.names().map(|(entity, _)| entity).collect::<BTreeSet<_>>() {
+            let name = world.name(entity);
+            let meaning = Meaning::Entity(entity);
+            if name.is_empty() {
+                continue;
+            }
+            if Language::of(name) == Language::English {
+                lexicon.nouns.insert_english(name, meaning);
+            } else {
+                lexicon.nouns.insert_name(name, &hints(world, entity), meaning);
+            }
+            let english = english_name(world, entity);
+            if english.is_empty() {
+                if let Some(english) = english::name_of(name) {
+                    lexicon.nouns.insert_english(&english, meaning);
+                }
+            } else {
+                lexicon.nouns.insert_english(english, meaning);
+            }
+        }
+        let used = used_types(world);
+        for (list, make) in [
+            (&world.types.object, Extension::ObjectType as fn(TypeId) -> Extension),
+            (&world.types.area, Extension::AreaType),
+            (&world.types.door, Extension::DoorType),
+        ] {
+            for entry in list.entries.values().filter(|e| used.contains(&make(e.id).into_key())) {
+                lexicon.add_type(make(entry.id), entry);
+            }
+        }
+        let of_type: HashMap<&str, ()> =
+            world.types.object.entries.values().map(|e| (e.name.as_str(), ())).collect();
+        for object in world.objects.values() {
+            if !of_type.contains_key(object.name.as_str()) && !object.name.is_empty() {
+                let phrase = NounPhrase::parse(&object.name, &WordHints::default());
+                lexicon.add(Extension::Object(object.id), phrase, &object.name_en, false);
+            }
+        }
+        lexicon.add_concepts();
+        lexicon
+    }
+
+    fn add_type(&mut self, extension: Extension, entry: &TypeEntry) {
+        let phrase = NounPhrase::parse(&entry.name, &hints_of_type(entry));
+        self.add(extension.clone(), phrase, &entry.name_en, true);
+        for synonym in &entry.synonyms {
+            match Language::of(synonym) {
+                Language::Russian => {
+                    let phrase = NounPhrase::parse(synonym, &WordHints::default());
+                    self.add(extension.clone(), phrase, "", false);
+                }
+                Language::English => {
+                    let own = NounPhrase::parse(&entry.name, &hints_of_type(entry));
+                    let id = self.push(extension.clone(), own, synonym);
+                    self.nouns.insert_english(synonym, Meaning::Kind(id));
+                }
+            }
+        }
+    }
+
+    fn push(&mut self, extension: Extension, phrase: NounPhrase, english: &str) -> KindId {
+        let id = KindId(u16::try_from(self.kinds.len()).unwrap_or(u16::MAX));
+        let english = match english {
+            "" => english::name_of(phrase.name()).unwrap_or_else(|| phrase.name().to_owned()),
+            _ => english.to_owned(),
+        };
+        self.kinds.push(Kind { extension, phrase, english: english.to_lowercase() });
+        id
+    }
+
+    /// Adds a kind; `own` for the name of a type, whose head then covers it.
+    fn add(&mut self, extension: Extension, phrase: NounPhrase, english_name: &str, own: bool) {
+        if self.kinds.len() >= usize::from(u16::MAX) {
+            return;
+        }
+        let id = self.push(extension, phrase.clone(), english_name);
+        if Language::of(phrase.name()) == Language::English {
+            self.nouns.insert_english(phrase.name(), Meaning::Kind(id));
+        } else {
+            self.nouns.insert(&phrase, Meaning::Kind(id));
+        }
+        let english_name = match english_name {
+            "" => self.kinds[usize::from(id.0)].english.clone(),
+            name => name.to_owned(),
+        };
+        let is_english = Language::of(&english_name) == Language::English;
+        if is_english {
+            self.nouns.insert_english(&english_name, Meaning::Kind(id));
+        }
+        if own {
+            if let Some(head) = phrase.head()
+                && name_key(head) != name_key(phrase.name())
+            {
+                self.narrower.entry((true, name_key(head))).or_default().push(id);
+            }
+            if is_english && let Some(head) = english::kind(&english_name) {
+                self.narrower.entry((false, name_key(head))).or_default().push(id);
+            }
+        }
+    }
+
+    fn add_concepts(&mut self) {
+        for (extension, russian, english) in CONCEPTS {
+            let mut words = english.split('|');
+            let first = words.next().unwrap_or_default();
+            for word in russian.split('|') {
+                let phrase = NounPhrase::parse(word, &WordHints::default());
+                let id = self.push(extension.clone(), phrase.clone(), first);
+                self.nouns.insert(&phrase, Meaning::Kind(id));
+            }
+            let own = NounPhrase::parse(
+                russian.split('|').next().unwrap_or_default(),
+                &WordHints::default(),
+            );
+            for word in english.split('|') {
+                let id = self.push(extension.clone(), own.clone(), word);
+                self.nouns.insert_english(word, Meaning::Kind(id));
+            }
+        }
+    }
+
+    /// # Panics
+    /// When the id is not of this lexicon.
+    #[must_use]
+    pub fn kind(&self, id: KindId) -> &Kind {
+        &self.kinds[usize::from(id.0)]
+    }
+
+    /// The kind itself and those that its word covers too.
+    pub(super) fn with_narrower(&self, id: KindId, language: Language) -> Vec<KindId> {
+        let kind = self.kind(id);
+        let key = match language {
+            Language::Russian => (true, name_key(kind.phrase.name())),
+            Language::English => (false, name_key(&kind.english)),
+        };
+        let mut kinds = vec![id];
+        kinds.extend(self.narrower.get(&key).into_iter().flatten());
+        kinds
+    }
+
+    /// Whether things of this kind are rooms, storeys or buildings.
+    pub(super) fn is_area(&self, id: KindId) -> bool {
+        matches!(
+            self.kind(id).extension,
+            Extension::AreaType(_) | Extension::Rooms | Extension::Storeys | Extension::Building
+        )
+    }
+
+    /// The first kind of this extension, for words about it.
+    #[must_use]
+    pub fn kind_of(&self, extension: &Extension) -> Option<KindId> {
+        let at = self.kinds.iter().position(|k| k.extension == *extension)?;
+        u16::try_from(at).ok().map(KindId)
+    }
+
+    /// Names that may be typed, for completion.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.nouns.titles()
+    }
+
+    /// How many names and forms are known.
+    #[must_use]
+    pub fn size(&self) -> (usize, usize) {
+        self.nouns.size()
+    }
+
+    /// The noun in the form that a number of things asks for, or its plural.
+    #[must_use]
+    pub fn plural(&self, id: KindId, language: Language) -> String {
+        let kind = self.kind(id);
+        match language {
+            Language::Russian => {
+                lower_first(&kind.phrase.form(crate::language::Case::Nominative, Number::Plural))
+            }
+            Language::English => english::plural(&kind.english),
+        }
+    }
+}
+
+/// «Стул» within a sentence is «стул»; «МФУ» stays.
+#[must_use]
+pub(super) fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    let Some(first) = letters.next() else { return String::new() };
+    let rest = letters.as_str();
+    if rest.chars().next().is_none_or(char::is_uppercase) {
+        return text.to_owned();
+    }
+    first.to_lowercase().chain(rest.chars()).collect()
+}
+
+/// A type as a key that both lists share.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct TypeKey(u8, TypeId);
+
+impl Extension {
+    fn into_key(self) -> TypeKey {
+        match self {
+            Self::ObjectType(id) => TypeKey(0, id),
+            Self::AreaType(id) => TypeKey(1, id),
+            Self::DoorType(id) => TypeKey(2, id),
+            _ => TypeKey(3, TypeId(0)),
+        }
+    }
+}
+
+/// Types that something on the map has: what only the type list knows is missing from the map.
+fn used_types(world: &World) -> BTreeSet<TypeKey> {
+    let objects: BTreeSet<ObjectId> = world.replicas.values().map(|r| r.object).collect();
+    let object_types =
+        objects.iter().filter_map(|o| world.objects.get(o)?.object_type).map(|t| TypeKey(0, t));
+    let areas = world.areas.values().filter_map(|a| a.area_type).map(|t| TypeKey(1, t));
+    let doors = world.doors.values().filter_map(|d| d.door_type).map(|t| TypeKey(2, t));
+    object_types.chain(areas).chain(doors).collect()
+}
+
+/// Sides that the map calls windows.
+fn windows(world: &World) -> Vec<Window> {
+    let is_window = |id: Option<TypeId>| {
+        world.types.side.get(id).is_some_and(|t| {
+            [&t.name, &t.name_en].iter().any(|n| ["окно", "window"].contains(&&*name_key(n)))
+        })
+    };
+    let mut found = Vec::new();
+    for area in world.areas.values() {
+        let Some((_, frame)) = world.placement(area.id) else { continue };
+        for item in &area.items {
+            let place = frame.compose(&item.frame);
+            for side in &world.orthoframe_of(item).base {
+                if is_window(side.side_type) && side.permeability != Permeability::Permeable {
+                    let name = side.names.first().cloned().unwrap_or_default();
+                    let ends = (place.apply(side.start), place.apply(side.end));
+                    found.push(Window { area: area.id, name, ends });
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,543 @@
+//! Questions: from a sentence in Russian or English to a query, from the query to an answer, and to a sentence again.
+//!
+//! After SPEC T1 and T2. The path is tokens → items ([`grammar`]) → [`Query`] ([`assemble`]) → what is found on the map
+//! ([`knowledge`]) → [`Answer`]: data first, with the facts that it rests on, and a sentence in the question's language.
+//! The query can be shown as a rule of the Datalog that the relations are written in ([`Answer::rule`]).
+//!
+//! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
+//! three different [`Doubt`]s. No text makes it panic.
+
+mod answer;
+mod assemble;
+mod datalog;
+mod grammar;
+mod knowledge;
+mod lexicon;
+mod query;
+mod speech;
+mod values;
+mod vocabulary;
+mod why;
+
+pub use knowledge::{Frame, Mind};
+pub use lexicon::{Extension, Lexicon, Window};
+pub use query::{
+    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
+    Use,
+};
+pub use values::{Property, ValueEntry, ValueId, Values};
+
+use crate::language::words::{Gender, Language, Number, alternatives, enumerate};
+use crate::map::World;
+use crate::semantics::Relations;
+use crate::units::{AreaId, MapId, Pose, ReplicaId};
+
+use grammar::Sentence;
+use knowledge::Knowledge;
+use vocabulary::Pronoun;
+
+/// What the map alone cannot know: where the robot is, ways over the floor, what was seen when.
+pub trait Senses {
+    /// Where the robot stands.
+    fn robot(&self) -> Option<(MapId, Pose)>;
+    /// The report of its position.
+    fn position(&self, language: Language) -> Option<String>;
+    /// A way for the robot; from where it stands when no start is given.
+    ///
+    /// # Errors
+    /// Why there is none, in the language of the question.
+    fn way(&self, from: Option<Thing>, to: Thing, language: Language) -> Result<Way, String>;
+    /// What the robot sees, the nearest first.
+    fn visible(&self) -> Vec<ReplicaId>;
+    /// What was observed of a thing, the oldest first.
+    fn sightings(&self, thing: ReplicaId) -> Vec<Sighting>;
+    /// Where the map had a thing before, the oldest first; the present place is not among them.
+    fn past(&self, thing: ReplicaId) -> Vec<Past>;
+}
+
+/// A way over the floor.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Way {
+    /// cm
+    pub length: f64,
+    pub sentences: Vec<String>,
+}
+
+/// One look at a thing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Sighting {
+    /// When, as people write it.
+    pub at: String,
+    /// None when it was not where it was expected.
+    pub place: Option<AreaId>,
+}
+
+/// A former place of a thing.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Past {
+    /// When it left, as people write it.
+    pub until: String,
+    pub area: Option<AreaId>,
+    pub support: Option<ReplicaId>,
+}
+
+/// What was said so far in a dialogue.
+#[derive(Debug, Clone, Default)]
+pub struct Memory {
+    /// What was spoken of, the latest first.
+    pub(super) spoken: Vec<Thing>,
+    /// The things of the last answer.
+    last: Vec<Thing>,
+    facts: Vec<Fact>,
+    /// A question that waits for the person to say which thing was meant.
+    pending: Option<Pending>,
+}
+
+#[derive(Debug, Clone)]
+struct Pending {
+    query: Query,
+    language: Language,
+    reference: String,
+    candidates: Vec<Thing>,
+}
+
+impl Memory {
+    /// The single thing spoken of last, for «её» in a command.
+    #[must_use]
+    pub fn last_thing(&self) -> Option<Thing> {
+        self.spoken.first().copied()
+    }
+
+    /// Remembers what an answer was about.
+    pub fn learn(&mut self, answer: &Answer) {
+        self.pending = None;
+        if !matches!(answer.query, Query::Why { .. }) {
+            self.facts.clone_from(&answer.facts);
+        }
+        if answer.topic.is_empty() {
+            return;
+        }
+        self.last.clone_from(&answer.things);
+        for thing in answer.topic.iter().rev() {
+            self.spoken.retain(|t| t != thing);
+            self.spoken.insert(0, *thing);
+        }
+        self.spoken.truncate(50);
+    }
+
+    /// Notes a thing that a command named.
+    pub fn mention(&mut self, thing: Thing) {
+        self.last = vec![thing];
+        self.spoken.retain(|t| *t != thing);
+        self.spoken.insert(0, thing);
+    }
+}
+
+/// A fact that an answer rests on, or that would have to hold.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Fact {
+    /// Its name in the rule text, the English one.
+    pub relation: String,
+    pub args: Vec<String>,
+    pub holds: bool,
+}
+
+impl Fact {
+    fn holding(relation: &str, args: Vec<String>) -> Self {
+        Self { relation: relation.to_owned(), args, holds: true }
+    }
+}
+
+/// What an answer comes to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Said {
+    Yes,
+    No,
+    Found,
+    /// Looked for and not there.
+    Nothing,
+    /// The map does not tell.
+    Unknown,
+}
+
+impl Said {
+    /// A stable word for programs.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Yes => "yes",
+            Self::No => "no",
+            Self::Found => "found",
+            Self::Nothing => "nothing",
+            Self::Unknown => "not_on_the_map",
+        }
+    }
+}
+
+/// An answer: data first, and its words.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    pub query: Query,
+    pub language: Language,
+    pub said: Said,
+    pub text: String,
+    /// What the question asked for.
+    pub things: Vec<Thing>,
+    /// The same by their names in the facts.
+    pub symbols: Vec<String>,
+    pub facts: Vec<Fact>,
+    /// A count, or a measure in cm or cm².
+    pub number: Option<f64>,
+    topic: Vec<Thing>,
+}
+
+/// Why a question has no answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Doubt {
+    /// Nothing but blanks, marks or pictures.
+    Empty,
+    TooLong {
+        length: usize,
+    },
+    /// Words that no question has.
+    NotUnderstood {
+        words: String,
+    },
+    /// Understood what about, but not what is asked.
+    Incomplete {
+        about: String,
+    },
+    /// A description that several things fit where one is meant.
+    Ambiguous {
+        reference: String,
+        candidates: Vec<Thing>,
+    },
+    /// Nothing on the map is called so.
+    Unknown {
+        reference: String,
+        near: Vec<String>,
+    },
+    /// Nothing on the map fits the description, though the map has its words.
+    NoneSuch {
+        noun: Box<Noun>,
+    },
+    /// A pronoun that means nothing yet.
+    NoReferent {
+        word: String,
+    },
+}
+
+impl Doubt {
+    fn not_understood(words: &str) -> Self {
+        let words: String = words.chars().take(80).collect();
+        Self::NotUnderstood { words }
+    }
+
+    /// A stable word for the outcome: the three of SPEC T2, and what was not said.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } => "not_understood",
+            Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
+            Self::Ambiguous { .. } => "ambiguous",
+            Self::Unknown { .. } | Self::NoneSuch { .. } => "unknown",
+        }
+    }
+}
+
+/// A doubt with its words.
+#[derive(Debug, Clone)]
+pub struct Unanswered {
+    pub doubt: Doubt,
+    pub language: Language,
+    pub text: String,
+    /// Names of the candidates, or of what is like the name that is not on the map.
+    pub names: Vec<String>,
+}
+
+/// Answers questions about one state of a map.
+#[derive(Clone, Copy)]
+pub struct Asker<'a> {
+    pub world: &'a World,
+    pub relations: &'a Relations,
+    pub mind: &'a Mind,
+    pub senses: &'a dyn Senses,
+}
+
+impl Asker<'_> {
+    /// Characters of the longest question that is read.
+    pub const LONGEST: usize = 2_000;
+
+    /// Answers a question and remembers what it was about.
+    ///
+    /// # Errors
+    /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
+    pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
+        let language = Language::of(text);
+        let outcome = self.answer(text, language, memory);
+        match outcome {
+            Ok(answer) => {
+                memory.learn(&answer);
+                Ok(answer)
+            }
+            Err((doubt, query)) => {
+                memory.pending = match (&doubt, query) {
+                    (Doubt::Ambiguous { reference, candidates }, Some(query)) => Some(Pending {
+                        query,
+                        language,
+                        reference: reference.clone(),
+                        candidates: candidates.clone(),
+                    }),
+                    _ => None,
+                };
+                Err(self.knowledge(language, memory).unanswered(doubt))
+            }
+        }
+    }
+
+    /// The query that a text asks, without answering it.
+    ///
+    /// # Errors
+    /// What was not understood.
+    pub fn read(&self, text: &str, memory: &Memory) -> Result<Query, Doubt> {
+        let length = text.chars().take(1_000_000).count();
+        if length > Self::LONGEST {
+            return Err(Doubt::TooLong { length });
+        }
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
+        let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
+        assemble::query(&sentence, &self.mind.lexicon, &referent)
+    }
+
+    /// The query as a rule of the relations' Datalog.
+    #[must_use]
+    pub fn rule(&self, query: &Query, language: Language) -> String {
+        self.knowledge(language, &Memory::default()).rule(query)
+    }
+
+    /// How a fact is proved, down to what was measured, or what it lacks; one premise a line.
+    #[must_use]
+    pub fn proof(&self, fact: &Fact, language: Language) -> Vec<String> {
+        self.knowledge(language, &Memory::default()).proof_lines(fact)
+    }
+
+    fn knowledge<'k>(&'k self, language: Language, memory: &'k Memory) -> Knowledge<'k> {
+        Knowledge {
+            world: self.world,
+            relations: self.relations,
+            mind: self.mind,
+            senses: self.senses,
+            memory,
+            language,
+        }
+    }
+
+    fn answer(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &Memory,
+    ) -> Result<Answer, (Doubt, Option<Query>)> {
+        if let Some(query) = self.clarified(text, memory) {
+            let language = memory.pending.as_ref().map_or(language, |p| p.language);
+            let knowledge = self.knowledge(language, memory);
+            return knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)));
+        }
+        let query = self.read(text, memory).map_err(|doubt| (doubt, None))?;
+        let knowledge = self.knowledge(language, memory);
+        knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)))
+    }
+
+    /// «Красная» after «Какая чашка – белая или красная?»: the question that waited, with the thing that is meant.
+    fn clarified(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let pending = memory.pending.as_ref()?;
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
+        let knowledge = self.knowledge(pending.language, memory);
+        let mut noun = noun;
+        let bare = noun.head.named.is_empty() && noun.head.kinds.is_empty();
+        if bare {
+            noun.head.things = Some(pending.candidates.clone());
+        }
+        noun.plural = true;
+        let found = knowledge.find(&noun, true).ok()?;
+        let meant: Vec<Thing> =
+            found.into_iter().filter(|t| pending.candidates.contains(t)).collect();
+        let [only] = meant[..] else { return None };
+        let mut query = pending.query.clone();
+        query.each_noun(&mut |noun| {
+            if noun.text == pending.reference {
+                noun.head = Head { things: Some(vec![only]), ..Head::default() };
+                noun.filters.clear();
+                noun.restrictions.clear();
+                noun.best = None;
+            }
+        });
+        Some(query)
+    }
+}
+
+impl Knowledge<'_> {
+    /// What a pronoun means: the last thing spoken of that agrees with it.
+    fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
+        let last = &self.memory.last;
+        match pronoun {
+            Pronoun::They if !last.is_empty() => last.clone(),
+            Pronoun::They | Pronoun::Any => self.memory.spoken.first().copied().into_iter().collect(),
+            Pronoun::He | Pronoun::She | Pronoun::It => {
+                let wanted = match pronoun {
+                    Pronoun::He => Gender::Masculine,
+                    Pronoun::She => Gender::Feminine,
+                    _ => Gender::Neuter,
+                };
+                let agrees = |t: &&Thing| {
+                    let (gender, number) = self.gender(**t);
+                    gender == wanted && number == Number::Singular
+                };
+                self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
+            }
+        }
+    }
+
+    fn unanswered(&self, doubt: Doubt) -> Unanswered {
+        let (text, names) = self.doubt_words(&doubt);
+        Unanswered { doubt, language: self.language, text: speech::sentence(&text), names }
+    }
+
+    fn doubt_words(&self, doubt: &Doubt) -> (String, Vec<String>) {
+        let russian = self.is_russian();
+        let text = match doubt {
+            Doubt::Empty => self
+                .pick(
+                    "вопрос пуст. Спросите, например: «Где лекарство?»",
+                    "the question is empty. Ask, for example: \"Where is the medicine?\"",
+                )
+                .to_owned(),
+            Doubt::TooLong { length } => match russian {
+                true => format!("вопрос слишком длинный: {length} знаков. Спросите короче"),
+                false => format!("the question is too long: {length} characters. Ask a shorter one"),
+            },
+            Doubt::NotUnderstood { words } => match russian {
+                true => format!("я не понимаю: «{}»", tidy(words)),
+                false => format!("I do not understand \"{}\"", tidy(words)),
+            },
+            Doubt::Incomplete { about } => match russian {
+                true => format!("что вы хотите узнать про «{}»?", tidy(about)),
+                false => format!("what would you like to know about \"{}\"?", tidy(about)),
+            },
+            Doubt::NoReferent { word } => match russian {
+                true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
+                false => format!("I do not know what \"{}\" means here", tidy(word)),
+            },
+            Doubt::Unknown { reference, near } => {
+                let offered: Vec<String> = near
+                    .iter()
+                    .map(|n| if russian { format!("«{n}»") } else { format!("\"{n}\"") })
+                    .collect();
+                let reference = tidy(reference);
+                let offer = match (offered.is_empty(), russian) {
+                    (true, _) => String::new(),
+                    (false, true) => {
+                        format!(" Может быть, {}?", alternatives(&offered, self.language))
+                    }
+                    (false, false) => {
+                        format!(" Do you mean {}?", alternatives(&offered, self.language))
+                    }
+                };
+                let text = match russian {
+                    true => format!("на карте нет ничего, что называлось бы «{reference}».{offer}"),
+                    false => format!("the map has nothing called \"{reference}\".{offer}"),
+                };
+                return (text, near.clone());
+            }
+            Doubt::NoneSuch { noun } => {
+                let place = self.restrictions(noun);
+                let none = self.none_of(noun);
+                let general = noun.head.anything;
+                match (russian, place.is_empty(), general) {
+                    (true, true, _) => format!("на карте нет {none}"),
+                    (true, false, true) => format!("{place} ничего нет"),
+                    (true, false, false) => format!("{place} нет {none}"),
+                    (false, true, _) => format!("there is no such thing on the map: {none}"),
+                    (false, false, _) => format!("there are no {none} {place}"),
+                }
+            }
+            Doubt::Ambiguous { reference, candidates } => {
+                return self.which_one(reference, candidates);
+            }
+        };
+        (text, Vec::new())
+    }
+
+    /// The candidates, each with what tells it from the others.
+    fn which_one(&self, reference: &str, candidates: &[Thing]) -> (String, Vec<String>) {
+        const SHOWN: usize = 8;
+        let names: Vec<String> = candidates.iter().map(|t| self.name(*t)).collect();
+        let shown: Vec<String> = candidates
+            .iter()
+            .take(SHOWN)
+            .map(|t| match self.telling(*t, candidates) {
+                Some(mark) => format!("{} ({mark})", self.name(*t)),
+                None => self.name(*t),
+            })
+            .collect();
+        let more = candidates.len().saturating_sub(SHOWN);
+        let list = match (more, self.is_russian()) {
+            (0, _) => alternatives(&shown, self.language),
+            (_, true) => format!("{} или ещё что-то из {more}", shown.join(", ")),
+            (_, false) => format!("{} or one of {more} more", shown.join(", ")),
+        };
+        let reference = tidy(reference);
+        let text = match self.is_russian() {
+            true => format!("«{reference}» – это {list}?"),
+            false => format!("by \"{reference}\", do you mean {list}?"),
+        };
+        (text, names)
+    }
+
+    /// A property, or a place, by which a thing differs from the other candidates.
+    fn telling(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
+        let property = |t: Thing, wanted: &Property| {
+            let all = self.values(t);
+            all.into_iter().find(|(p, _, _)| p == wanted).and_then(|(_, v, _)| v)
+        };
+        for wanted in [Property::Colour, Property::Material, Property::State] {
+            let own = property(thing, &wanted);
+            let alike = candidates.iter().filter(|t| property(**t, &wanted) == own).count();
+            if let (Some(value), 1) = (own, alike) {
+                return Some(self.value_of(&wanted, value, thing));
+            }
+        }
+        let mut marks: Vec<String> = Vec::new();
+        if let Some(value) = property(thing, &Property::Colour)
+            && candidates.iter().any(|t| property(*t, &Property::Colour) != Some(value))
+        {
+            marks.push(self.value_of(&Property::Colour, value, thing));
+        }
+        let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
+        if let Some(own) = support(thing)
+            && candidates.iter().any(|t| support(*t) != Some(own))
+        {
+            let own = Thing::Entity(crate::map::Entity::Replica(own));
+            let inside = self.tuple(Rel::In, thing, own).is_some();
+            marks.push(self.place(if inside { Rel::In } else { Rel::On }, &[own]));
+        } else if let Some(own) = self.area_of(thing)
+            && candidates.iter().any(|t| self.area_of(*t) != Some(own))
+            && thing.area().is_none()
+        {
+            marks.extend(self.in_room(thing));
+        }
+        (!marks.is_empty()).then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
+    }
+}
+
+/// What a person typed, fit to be repeated: no control characters, not too long.
+fn tidy(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(80).collect()
+}
+
+/// Whether a word may name a thing, as far as the dictionary knows it.
+fn may_be_noun(said: &str) -> bool {
+    crate::language::words::may_be_noun(said)
+}

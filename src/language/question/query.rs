@@ -1,0 +1,326 @@
+//! What a question asks, as data: descriptions of things joined by relations, and what is wanted of them on top.
+//!
+//! A [`Noun`] is a conjunctive query in the shape of a tree: a kind or names, values of properties, and relations to
+//! other such trees. [`Query`] puts on top what is asked: the place, the number, whether there is one, a measure.
+
+use crate::map::Entity;
+use crate::units::{AreaId, ReplicaId};
+
+use super::lexicon::KindId;
+use super::values::{Property, ValueId};
+
+/// How things lie to each other, as prepositions have it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Rel {
+    In,
+    On,
+    Under,
+    Above,
+    NextTo,
+    Near,
+    LeftOf,
+    RightOf,
+    Behind,
+    InFrontOf,
+    Between,
+    Leaning,
+    Outside,
+    /// Out of a room, from a place.
+    From,
+    To,
+    Through,
+    At,
+    /// «стул комнаты», "the door of the room"
+    Of,
+    /// The inverse of In: "rooms that have a chair".
+    Has,
+    /// The inverse of On: «стол, на котором лежит книга».
+    Bears,
+}
+
+/// What a superlative compares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Extreme {
+    Nearest,
+    Farthest,
+    Biggest,
+    Smallest,
+    Tallest,
+    Lowest,
+    Widest,
+    Narrowest,
+    Longest,
+    LeftMost,
+    RightMost,
+    Most,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Closeness {
+    Nearer,
+    Farther,
+}
+
+/// What a question for a size is after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Dimension {
+    All,
+    Height,
+    Width,
+    Length,
+    Area,
+}
+
+/// Anything that can be an answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Thing {
+    Entity(Entity),
+    /// A passage or door without a name of its own: its place among the openings of the relations.
+    Opening(u32),
+    /// A window: its place among the windows of the lexicon.
+    Window(u32),
+    Robot,
+}
+
+impl Thing {
+    #[must_use]
+    pub fn replica(self) -> Option<ReplicaId> {
+        match self {
+            Self::Entity(Entity::Replica(id)) => Some(id),
+            _ => None,
+        }
+    }
+
+    #[must_use]
+    pub fn area(self) -> Option<AreaId> {
+        match self {
+            Self::Entity(Entity::Area(id)) => Some(id),
+            _ => None,
+        }
+    }
+}
+
+/// What the head of a description means.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Head {
+    /// What bears this name.
+    pub named: Vec<Entity>,
+    /// What is of one of these kinds.
+    pub kinds: Vec<KindId>,
+    /// What was spoken of.
+    pub things: Option<Vec<Thing>>,
+    /// Anything at all.
+    pub anything: bool,
+}
+
+/// A value that the thing must, or must not, have.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Filter {
+    pub value: ValueId,
+    pub negated: bool,
+}
+
+/// A relation to other things.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Restriction {
+    pub rel: Rel,
+    /// Two for [`Rel::Between`]; else one.
+    pub anchors: Vec<Noun>,
+    pub negated: bool,
+}
+
+/// A description of things: «чёрное кресло в комнате у окна».
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Noun {
+    pub head: Head,
+    /// The words of the head, as they were said.
+    pub text: String,
+    pub plural: bool,
+    /// «какой-нибудь», "a"
+    pub indefinite: bool,
+    /// «все», "all"
+    pub all: bool,
+    /// «другие», "other": not those spoken of.
+    pub other: bool,
+    pub count: Option<u64>,
+    pub filters: Vec<Filter>,
+    pub restrictions: Vec<Restriction>,
+    pub best: Option<Best>,
+}
+
+/// «ближайший к столу», "the three biggest"
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Best {
+    pub extreme: Extreme,
+    /// Of nearness: to what; none means to the robot.
+    pub anchor: Option<Box<Noun>>,
+}
+
+/// What is said of a subject.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Claim {
+    Related(Restriction),
+    Value(Filter),
+    Kind(Noun),
+}
+
+/// What a question asks.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Query {
+    /// Where is it.
+    Where(Noun),
+    /// In which room, on which floor.
+    RoomOf(Noun),
+    /// Which are there.
+    Find(Noun),
+    Count(Noun),
+    /// Whether there is one; of several, whether there are all, or any. `negated` for «… нет?»
+    Exists { what: Vec<Noun>, either: bool, negated: bool },
+    /// Whether all claims hold of the subject.
+    Holds { subject: Noun, claims: Vec<Claim>, negated: bool },
+    /// Which of several claims hold: "open or closed", «на столе или на полке».
+    Choice { subject: Noun, claims: Vec<Claim> },
+    /// What the subject stands on, lies in …: the other end of a relation.
+    Anchor { rel: Rel, of: Noun, what: Option<Noun> },
+    Property { property: Property, of: Noun },
+    Size { dimension: Dimension, of: Noun },
+    Parts(Noun),
+    /// Which rooms a door joins.
+    Leads(Noun),
+    Way { from: Option<Noun>, to: Noun },
+    CanReach { from: Option<Noun>, to: Noun },
+    Distance { from: Option<Noun>, to: Noun },
+    /// Is `what` closer to `near` than to `than`.
+    Closer { what: Noun, near: Noun, than: Noun, closeness: Closeness },
+    /// Which of two is closer to the third, or bigger.
+    WhichMore { of: [Noun; 2], extreme: Extreme, to: Option<Noun> },
+    /// Is the first bigger than the second, or closer to the third than it.
+    Larger { what: Noun, than: Noun, extreme: Extreme, to: Option<Noun> },
+    /// Have both the same value.
+    Same { property: Property, of: [Noun; 2] },
+    /// How much of it is free.
+    Free(Noun),
+    /// Where one can sit, lie, put something.
+    Place { use_for: Use, what: Option<Noun>, within: Vec<Restriction> },
+    LastSeen(Noun),
+    Before(Noun),
+    WhereAreYou,
+    WhatDoYouSee,
+    WhatDoYouHold,
+    Describe(Noun),
+    /// Of the last answer, or of a claim.
+    Why { negated: bool, about: Option<Box<Query>> },
+}
+
+/// What a place is to be good for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Use {
+    Sit,
+    Lie,
+    Put,
+}
+
+impl Noun {
+    /// Does something to this noun and to all that it names.
+    fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
+        act(self);
+        for restriction in &mut self.restrictions {
+            restriction.anchors.iter_mut().for_each(|anchor| anchor.each(act));
+        }
+        if let Some(anchor) = self.best.as_mut().and_then(|b| b.anchor.as_mut()) {
+            anchor.each(act);
+        }
+    }
+}
+
+impl Claim {
+    fn each(&mut self, act: &mut dyn FnMut(&mut Noun)) {
+        match self {
+            Self::Related(restriction) => restriction.anchors.iter_mut().for_each(|a| a.each(act)),
+            Self::Kind(noun) => noun.each(act),
+            Self::Value(_) => {}
+        }
+    }
+}
+
+impl Query {
+    /// Does something to every noun of the query.
+    pub(super) fn each_noun(&mut self, act: &mut dyn FnMut(&mut Noun)) {
+        match self {
+            Self::Where(noun) | Self::RoomOf(noun) | Self::Find(noun) | Self::Count(noun)
+            | Self::Parts(noun) | Self::Leads(noun) | Self::Free(noun) | Self::LastSeen(noun)
+            | Self::Before(noun) | Self::Describe(noun) => noun.each(act),
+            Self::Exists { what, .. } => what.iter_mut().for_each(|n| n.each(act)),
+            Self::Holds { subject, claims, .. } | Self::Choice { subject, claims } => {
+                subject.each(act);
+                claims.iter_mut().for_each(|c| c.each(act));
+            }
+            Self::Anchor { of, what, .. } => {
+                of.each(act);
+                what.iter_mut().for_each(|n| n.each(act));
+            }
+            Self::Property { of, .. } | Self::Size { of, .. } => of.each(act),
+            Self::Way { from, to } | Self::CanReach { from, to } | Self::Distance { from, to } => {
+                from.iter_mut().for_each(|n| n.each(act));
+                to.each(act);
+            }
+            Self::Closer { what, near, than, .. } => {
+                [what, near, than].into_iter().for_each(|n| n.each(act));
+            }
+            Self::WhichMore { of, to, .. } => {
+                of.iter_mut().chain(to.iter_mut()).for_each(|n| n.each(act));
+            }
+            Self::Larger { what, than, to, .. } => {
+                what.each(act);
+                than.each(act);
+                to.iter_mut().for_each(|n| n.each(act));
+            }
+            Self::Same { of, .. } => of.iter_mut().for_each(|n| n.each(act)),
+            Self::Place { what, within, .. } => {
+                what.iter_mut().for_each(|n| n.each(act));
+                within.iter_mut().flat_map(|r| &mut r.anchors).for_each(|n| n.each(act));
+            }
+            Self::Why { about, .. } => {
+                if let Some(query) = about {
+                    query.each_noun(act);
+                }
+            }
+            Self::WhereAreYou | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
+        }
+    }
+
+    /// A stable word for the kind of question, for programs.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Where(_) => "where",
+            Self::RoomOf(_) => "room_of",
+            Self::Find(_) => "find",
+            Self::Count(_) => "count",
+            Self::Exists { .. } => "exists",
+            Self::Holds { .. } => "holds",
+            Self::Choice { .. } => "choice",
+            Self::Anchor { .. } => "anchor",
+            Self::Property { .. } => "property",
+            Self::Size { .. } => "size",
+            Self::Parts(_) => "parts",
+            Self::Leads(_) => "leads",
+            Self::Way { .. } => "way",
+            Self::CanReach { .. } => "can_reach",
+            Self::Distance { .. } => "distance",
+            Self::Closer { .. } => "closer",
+            Self::WhichMore { .. } => "which_more",
+            Self::Larger { .. } => "larger",
+            Self::Same { .. } => "same",
+            Self::Free(_) => "free",
+            Self::Place { .. } => "place",
+            Self::LastSeen(_) => "last_seen",
+            Self::Before(_) => "before",
+            Self::WhereAreYou => "where_are_you",
+            Self::WhatDoYouSee => "what_do_you_see",
+            Self::WhatDoYouHold => "what_do_you_hold",
+            Self::Describe(_) => "describe",
+            Self::Why { .. } => "why",
+        }
+    }
+}

@@ -1,0 +1,383 @@
+//! Names, places, numbers and lists inside an answer, in both languages.
+
+use crate::language::names::named;
+use crate::language::report::Named;
+use crate::language::words::russian::{self, Preposition};
+use crate::language::words::{
+    Case, Gender, Language, NounPhrase, Number, WordHints, english, enumerate,
+};
+use crate::map::Entity;
+
+use super::knowledge::{Frame, Knowledge};
+use super::lexicon::{Extension, lower_first};
+use super::query::{Noun, Rel, Thing};
+use super::values::{Property, ValueId};
+
+/// More than this is not listed one by one.
+const LISTED: usize = 12;
+
+impl Knowledge<'_> {
+    pub(super) fn is_russian(&self) -> bool {
+        self.language == Language::Russian
+    }
+
+    /// One of two texts, by the language of the question.
+    pub(super) fn pick<'a>(&self, russian: &'a str, english: &'a str) -> &'a str {
+        if self.is_russian() { russian } else { english }
+    }
+
+    pub(super) fn named(&self, thing: Thing) -> Named {
+        match thing {
+            Thing::Entity(entity) => named(self.world, entity),
+            Thing::Opening(n) => Named::plain(&self.relations.openings()[n as usize].name),
+            Thing::Window(n) => {
+                let window = &self.lexicon().windows[n as usize];
+                let area = self.named(Thing::Entity(Entity::Area(window.area)));
+                if window.name.is_empty() {
+                    let russian = format!("окно {}", area.phrase().case(Case::Genitive));
+                    let english = format!("the window of {}", area.english());
+                    return Named::new(&russian, &WordHints::default(), Some(&english));
+                }
+                Named::plain(&window.name)
+            }
+            Thing::Robot => Named::new("робот", &WordHints::default(), Some("robot")),
+        }
+    }
+
+    /// The name in a case; in English, with its article.
+    pub(super) fn form(&self, thing: Thing, case: Case) -> String {
+        match (thing, self.is_russian()) {
+            (Thing::Robot, true) => match case {
+                Case::Nominative => "я",
+                Case::Dative => "мне",
+                Case::Instrumental => "мной",
+                _ => "меня",
+            }
+            .to_owned(),
+            (Thing::Robot, false) => "me".to_owned(),
+            (_, true) => self.named(thing).phrase().case(case),
+            (_, false) => self.named(thing).english(),
+        }
+    }
+
+    /// The name as the subject of a sentence.
+    pub(super) fn name(&self, thing: Thing) -> String {
+        self.form(thing, Case::Nominative)
+    }
+
+    pub(super) fn names(&self, things: &[Thing], case: Case) -> String {
+        let shown: Vec<String> = things.iter().take(LISTED).map(|t| self.form(*t, case)).collect();
+        let more = things.len().saturating_sub(LISTED);
+        if more == 0 {
+            return enumerate(&shown, self.language);
+        }
+        match self.language {
+            Language::Russian => format!("{} и ещё {more}", shown.join(", ")),
+            Language::English => format!("{} and {more} more", shown.join(", ")),
+        }
+    }
+
+    /// «Стул-1, Стул-2 и Стул-3»
+    pub(super) fn list(&self, things: &[Thing]) -> String {
+        self.names(things, Case::Nominative)
+    }
+
+    pub(super) fn gender(&self, thing: Thing) -> (Gender, Number) {
+        let named = self.named(thing);
+        (named.phrase().gender(), named.phrase().number())
+    }
+
+    /// «находится», "is"
+    pub(super) fn is(&self, things: &[Thing]) -> &'static str {
+        let many = things.len() > 1
+            || things.iter().any(|t| self.is_russian() && self.gender(*t).1 == Number::Plural);
+        match (self.is_russian(), many) {
+            (true, false) => "находится",
+            (true, true) => "находятся",
+            (false, false) => "is",
+            (false, true) => "are",
+        }
+    }
+
+    /// A preposition with names: «на Столе-1», "between Bed 1 and Wardrobe 2".
+    pub(super) fn place(&self, rel: Rel, anchors: &[Thing]) -> String {
+        let Some(&anchor) = anchors.first() else { return String::new() };
+        let is_area = matches!(anchor, Thing::Entity(Entity::Area(_) | Entity::Map(_)));
+        if !self.is_russian() {
+            let name = self.names(anchors, Case::Nominative);
+            let before = match rel {
+                Rel::In | Rel::Of if is_area => "in",
+                Rel::In => "in",
+                Rel::On if is_area => "in",
+                Rel::On => "on",
+                Rel::Under => "under",
+                Rel::Above => "above",
+                Rel::NextTo => "next to",
+                Rel::Near => "near",
+                Rel::LeftOf => "to the left of",
+                Rel::RightOf => "to the right of",
+                Rel::Behind => "behind",
+                Rel::InFrontOf => "in front of",
+                Rel::Between => "between",
+                Rel::Leaning => "leaning against",
+                Rel::Outside => "outside",
+                Rel::From => "out of",
+                Rel::To => "to",
+                Rel::Through => "through",
+                Rel::At => "at",
+                Rel::Of => "of",
+                Rel::Has | Rel::Bears => "with",
+            };
+            return format!("{before} {name}");
+        }
+        let in_case = |case: Case| self.names(anchors, case);
+        let with = |before: Preposition, case: Case| {
+            let form = in_case(case);
+            format!("{} {form}", russian::preposition(before, &form))
+        };
+        match rel {
+            Rel::In | Rel::On | Rel::Of if is_area && anchors.len() == 1 => {
+                russian::where_at(self.named(anchor).phrase())
+            }
+            Rel::In | Rel::Of => with(Preposition::V, Case::Locative),
+            Rel::On => with(Preposition::Na, Case::Locative),
+            Rel::Under => with(Preposition::Pod, Case::Instrumental),
+            Rel::Above => with(Preposition::Nad, Case::Instrumental),
+            Rel::NextTo => format!("рядом {}", with(Preposition::S, Case::Instrumental)),
+            Rel::Near => format!("недалеко {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::LeftOf => format!("слева {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::RightOf => format!("справа {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::Behind => with(Preposition::Za, Case::Instrumental),
+            Rel::InFrontOf => with(Preposition::Pered, Case::Instrumental),
+            Rel::Between => format!("между {}", in_case(Case::Instrumental)),
+            Rel::Leaning => format!("вплотную {}", with(Preposition::K, Case::Dative)),
+            Rel::Outside => format!("вне {}", in_case(Case::Genitive)),
+            Rel::From => match (is_area, anchors.len()) {
+                (true, 1) => russian::whence(self.named(anchor).phrase()),
+                _ => with(Preposition::Ot, Case::Genitive),
+            },
+            Rel::To => match (is_area, anchors.len()) {
+                (true, 1) => russian::whither(self.named(anchor).phrase()),
+                _ => with(Preposition::K, Case::Dative),
+            },
+            Rel::Through => with(Preposition::Cherez, Case::Accusative),
+            Rel::At => with(Preposition::U, Case::Genitive),
+            Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
+        }
+    }
+
+    /// «в Комнате-В», "in Room V"
+    pub(super) fn in_room(&self, thing: Thing) -> Option<String> {
+        let area = self.area_of(thing)?;
+        Some(self.place(Rel::In, &[Thing::Entity(Entity::Area(area))]))
+    }
+
+    /// The words for what a description means, as a phrase that declines: «чёрный стул».
+    pub(super) fn kind_phrase(&self, noun: &Noun) -> (NounPhrase, String) {
+        let kind = noun.head.kinds.first().map(|k| self.lexicon().kind(*k));
+        let (base, english_base) = match kind {
+            Some(kind) => (kind.phrase.clone(), kind.english.clone()),
+            None => {
+                let things = Extension::Things;
+                let id = self.lexicon().kind_of(&things);
+                let kind = id.map(|id| self.lexicon().kind(id));
+                let phrase = kind.map(|k| k.phrase.clone());
+                (phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default())), "thing".to_owned())
+            }
+        };
+        let (mut russian_name, mut english_name) = (lower_first(base.name()), english_base);
+        for filter in noun.filters.iter().rev() {
+            let entry = self.lexicon().values.entry(filter.value);
+            let adjective =
+                russian::agreeing(&entry.russian, Case::Nominative, base.number(), base.gender());
+            let not = if filter.negated { self.pick("не ", "non-") } else { "" };
+            russian_name = format!("{not}{adjective} {russian_name}");
+            english_name = format!("{not}{} {english_name}", entry.english);
+        }
+        let phrase = match noun.filters.is_empty() {
+            true => base,
+            false => {
+                let hints = WordHints { gender: Some(base.gender()), ..WordHints::default() };
+                NounPhrase::parse(&russian_name, &hints)
+            }
+        };
+        (phrase, english_name)
+    }
+
+    /// «2 чёрных стула», "2 black chairs"
+    pub(super) fn counted(&self, noun: &Noun, number: usize) -> String {
+        let (phrase, english_name) = self.kind_phrase(noun);
+        match self.language {
+            Language::Russian => {
+                let text = russian::count(number as u64, &phrase);
+                let (digits, words) = text.split_once(' ').unwrap_or((&text, ""));
+                format!("{digits} {}", lower_first(words))
+            }
+            Language::English => english::count(number as u64, &english_name),
+        }
+    }
+
+    /// «чёрных стульев», "black chairs": of which there are none.
+    pub(super) fn none_of(&self, noun: &Noun) -> String {
+        if noun.head.named.is_empty() && noun.head.things.is_some() {
+            return self.names(&self.base(&noun.head), Case::Genitive);
+        }
+        if let (false, [only]) = (noun.head.named.is_empty(), &noun.head.named[..]) {
+            return self.form(Thing::Entity(*only), Case::Genitive);
+        }
+        if noun.head.anything {
+            return self.pick("ничего", "nothing").to_owned();
+        }
+        let (phrase, english_name) = self.kind_phrase(noun);
+        match self.language {
+            Language::Russian => lower_first(&phrase.form(Case::Genitive, Number::Plural)),
+            Language::English => english::plural(&english_name),
+        }
+    }
+
+    /// Where a description says its things are: «в Комнате-В на столах».
+    pub(super) fn restrictions(&self, noun: &Noun) -> String {
+        let mut parts: Vec<String> = Vec::new();
+        for restriction in &noun.restrictions {
+            let mut anchors: Vec<Thing> = Vec::new();
+            let mut text = String::new();
+            for anchor in &restriction.anchors {
+                if self.is_floor(anchor) {
+                    text = self.pick("на полу", "on the floor").to_owned();
+                    let inner = self.restrictions(anchor);
+                    if !inner.is_empty() {
+                        text = format!("{text} {inner}");
+                    }
+                    continue;
+                }
+                match self.find(anchor, true) {
+                    Ok(found) if found.len() == 1 || anchor.head.things.is_some() => anchors.extend(found),
+                    _ => text = self.general_place(restriction.rel, anchor),
+                }
+            }
+            if text.is_empty() {
+                text = self.place(restriction.rel, &anchors);
+            }
+            if restriction.negated {
+                text = format!("{} {text}", self.pick("не", "not"));
+            }
+            parts.push(text);
+        }
+        parts.join(" ")
+    }
+
+    /// A place told by its kind: «на столах», "on the tables".
+    fn general_place(&self, rel: Rel, anchor: &Noun) -> String {
+        let (phrase, english_name) = self.kind_phrase(anchor);
+        let plural = |case: Case| lower_first(&phrase.form(case, Number::Plural));
+        if !self.is_russian() {
+            let name = format!("the {}", english::plural(&english_name));
+            let named = self.place(rel, &[Thing::Robot]);
+            return named.replace("me", &name);
+        }
+        let with = |before: Preposition, case: Case| {
+            let form = plural(case);
+            format!("{} {form}", russian::preposition(before, &form))
+        };
+        match rel {
+            Rel::On => with(Preposition::Na, Case::Prepositional),
+            Rel::Under => with(Preposition::Pod, Case::Instrumental),
+            Rel::Above => with(Preposition::Nad, Case::Instrumental),
+            Rel::NextTo => format!("рядом {}", with(Preposition::S, Case::Instrumental)),
+            Rel::Behind => with(Preposition::Za, Case::Instrumental),
+            Rel::InFrontOf => with(Preposition::Pered, Case::Instrumental),
+            Rel::LeftOf => format!("слева {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::RightOf => format!("справа {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::Near => format!("недалеко {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
+            _ => with(Preposition::V, Case::Prepositional),
+        }
+    }
+
+    /// «чёрный», "black": a value said of a thing.
+    pub(super) fn value(&self, value: ValueId, thing: Thing) -> String {
+        let values = &self.lexicon().values;
+        let entry = values.entry(value);
+        if !self.is_russian() {
+            return match entry.english.as_str() {
+                "" => entry.russian.clone(),
+                english => english.to_owned(),
+            };
+        }
+        let (gender, number) = self.gender(thing);
+        values.predicate(value, gender, number)
+    }
+
+    /// A material as a noun in the genitive: «из дерева»; other values as adjectives.
+    pub(super) fn value_of(&self, property: &Property, value: ValueId, thing: Thing) -> String {
+        let entry = self.lexicon().values.entry(value);
+        if *property == Property::Material && self.is_russian() && !entry.noun.is_empty() {
+            let phrase = NounPhrase::parse(&entry.noun, &WordHints::default());
+            return format!("из {}", phrase.case(Case::Genitive));
+        }
+        self.value(value, thing)
+    }
+
+    /// The frame of reference of left and right, in words; empty where it does not matter.
+    pub(super) fn frame_words(&self, rel: Rel, anchor: Thing) -> String {
+        if !matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf) {
+            return String::new();
+        }
+        if anchor == Thing::Robot {
+            return String::new();
+        }
+        match (self.frame(anchor), self.is_russian()) {
+            (Frame::Own, true) => {
+                let form = self.form(anchor, Case::Genitive);
+                format!(" (считая от лицевой стороны {form})")
+            }
+            (Frame::Own, false) => {
+                format!(" (as seen from the front side of {})", self.form(anchor, Case::Nominative))
+            }
+            (Frame::Viewer, true) => " (если смотреть с моего места)".to_owned(),
+            (Frame::Viewer, false) => " (as seen from where I stand)".to_owned(),
+        }
+    }
+}
+
+/// «40 см», «1,5 м», "1.5 m"
+pub(super) fn length(cm: f64, language: Language) -> String {
+    let metres = cm >= 100.0;
+    let (value, unit) = match (metres, language) {
+        (true, Language::Russian) => (cm / 100.0, "м"),
+        (true, Language::English) => (cm / 100.0, "m"),
+        (false, Language::Russian) => (cm, "см"),
+        (false, Language::English) => (cm, "cm"),
+    };
+    let text = if metres { trimmed(value, 2) } else { trimmed(value, 0) };
+    let text = if language == Language::Russian { text.replace('.', ",") } else { text };
+    format!("{text} {unit}")
+}
+
+/// «12,3 м²»
+pub(super) fn area(cm2: f64, language: Language) -> String {
+    let text = trimmed(cm2 / 10_000.0, 2);
+    match language {
+        Language::Russian => format!("{} м²", text.replace('.', ",")),
+        Language::English => format!("{text} m²"),
+    }
+}
+
+fn trimmed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    } else {
+        text
+    }
+}
+
+/// A text with a capital at its beginning and a stop at its end.
+pub(super) fn sentence(text: &str) -> String {
+    let text = text.trim();
+    let mut letters = text.chars();
+    let Some(first) = letters.next() else { return String::new() };
+    let rest = letters.as_str();
+    let stop = if text.ends_with(['.', '?', '!', '…']) { "" } else { "." };
+    format!("{}{rest}{stop}", first.to_uppercase())
+}

@@ -1,0 +1,337 @@
+//! Values of properties as people say them: «чёрный», "wooden", «включена» – one value under all its words.
+
+use std::collections::HashMap;
+
+use crate::language::words::{Case, Gender, Language, NounPhrase, Number, WordHints, russian};
+use crate::map::{DoorStatus, World};
+use crate::units::name_key;
+
+/// What a property says of a thing.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Property {
+    Colour,
+    Material,
+    State,
+    Surface,
+    Shape,
+    Orientation,
+    /// Any other, under the key of its name on the map.
+    Other(String),
+}
+
+impl Property {
+    /// By the name that a map gives it, in either language.
+    #[must_use]
+    pub fn of(name: &str) -> Self {
+        let key = name_key(name);
+        let known = NAMES.iter().find(|(_, names)| names.split('|').any(|n| name_key(n) == key));
+        known.map_or(Self::Other(key), |(property, _)| property.clone())
+    }
+
+    /// «цвет», "colour"
+    #[must_use]
+    pub fn noun(&self, language: Language) -> String {
+        let names = NAMES.iter().find(|(p, _)| p == self).map(|(_, names)| *names);
+        let Some(names) = names else {
+            let Self::Other(name) = self else { return String::new() };
+            return name.clone();
+        };
+        let wanted = |name: &&str| Language::of(name) == language;
+        names.split('|').find(wanted).unwrap_or_default().to_owned()
+    }
+}
+
+const NAMES: &[(Property, &str)] = &[
+    (Property::Colour, "цвет|colour|color|цвета|цветом|цвете|colors|colours|окраска|расцветка"),
+    (Property::Material, "материал|material|материала|материалом|материалы|materials"),
+    (
+        Property::State,
+        "состояние|state|status|состоянии|состояния|condition|статус|положение",
+    ),
+    (Property::Surface, "поверхность|surface|texture|фактура"),
+    (Property::Shape, "форма|shape|формы|форме"),
+    (Property::Orientation, "ориентация|orientation|ориентации"),
+];
+
+/// Values with the property they belong to: the Russian adjective (masculine), other Russian forms, English words.
+const VALUES: &[(Property, &str, &str, &str)] = &[
+    (Property::Colour, "чёрный", "чёрно", "black"),
+    (Property::Colour, "белый", "бело", "white"),
+    (Property::Colour, "красный", "", "red"),
+    (Property::Colour, "зелёный", "", "green"),
+    (Property::Colour, "синий", "", "blue"),
+    (Property::Colour, "голубой", "", "light blue"),
+    (Property::Colour, "жёлтый", "", "yellow"),
+    (Property::Colour, "серый", "", "grey|gray"),
+    (Property::Colour, "коричневый", "", "brown"),
+    (Property::Colour, "оранжевый", "", "orange"),
+    (Property::Colour, "розовый", "", "pink"),
+    (Property::Colour, "фиолетовый", "", "purple|violet"),
+    (Property::Colour, "бежевый", "", "beige"),
+    (Property::Colour, "золотой", "золотистый", "golden|gold"),
+    (Property::Colour, "серебряный", "серебристый|серебристая|серебристое", "silver"),
+    (Property::Colour, "прозрачный", "", "transparent|clear"),
+    (Property::Colour, "бордовый", "", "maroon"),
+    (Property::Material, "деревянный", "дерево|дерева|из дерева", "wooden|wood|made of wood"),
+    (Property::Material, "стеклянный", "стекло|стекла|из стекла", "glass|made of glass"),
+    (Property::Material, "металлический", "металл|металла|из металла", "metal|metallic|made of metal"),
+    (Property::Material, "стальной", "сталь|стали|из стали", "steel|made of steel"),
+    (Property::Material, "кожаный", "кожа|кожи|из кожи", "leather|made of leather"),
+    (Property::Material, "пластиковый", "пластик|пластика|из пластика|пластмассовый|пластмассовая|пластмасса", "plastic|made of plastic"),
+    (Property::Material, "тканевый", "ткань|ткани|из ткани", "fabric|cloth|textile"),
+    (Property::Material, "каменный", "камень|камня|из камня", "stone"),
+    (Property::Material, "керамический", "керамика|керамики|из керамики|фарфор", "ceramic|ceramics|porcelain"),
+    (Property::Material, "бумажный", "бумага|бумаги|из бумаги", "paper"),
+    (Property::Material, "резиновый", "резина|резины", "rubber"),
+    (Property::Material, "картонный", "картон|картона|из картона", "cardboard"),
+    (
+        Property::State,
+        "включённый",
+        "включён|включена|включено|включены|горит|горят|работает|работают|светит",
+        "switched on|turned on|lit|powered on",
+    ),
+    (
+        Property::State,
+        "выключенный",
+        "выключен|выключена|выключено|выключены|отключён|отключена|отключено|погашен|погашена",
+        "switched off|turned off|powered off",
+    ),
+    (
+        Property::State,
+        "открытый",
+        "открыт|открыта|открыто|открыты|распахнут|распахнута|распахнуты|отворена|приоткрыта|приоткрыт",
+        "open|opened|ajar",
+    ),
+    (Property::State, "закрытый", "закрыт|закрыта|закрыто|закрыты|затворена|прикрыта", "closed|shut"),
+    (
+        Property::State,
+        "запертый",
+        "заперт|заперта|заперто|заперты|закрыта на ключ|закрыт на ключ|закрыты на ключ|закрыта на замок",
+        "locked",
+    ),
+    (Property::State, "отпертый", "отперт|отперта|отперты|не заперта|не заперт|не заперты", "unlocked"),
+    (Property::State, "грязный", "грязен|грязна|грязно|грязны", "dirty|unclean|soiled"),
+    (Property::State, "чистый", "чист|чиста|чисто|чисты", "clean"),
+    (Property::State, "сломанный", "сломан|сломана|сломано|сломаны", "broken"),
+    (Property::State, "полный", "полон|полна|полно|полны", "full"),
+    (Property::State, "пустой", "пуст|пуста|пусто|пусты", "empty"),
+    (Property::State, "занятый", "занят|занята|занято|заняты", "occupied|taken|busy"),
+    (Property::Surface, "мягкий", "мягок|мягка|мягко|мягки", "soft"),
+    (Property::Surface, "твёрдый", "твёрд|тверда|твёрдо", "hard|rigid"),
+    (Property::Surface, "хрупкий", "хрупок|хрупка|хрупко", "fragile|breakable"),
+    (Property::Surface, "гладкий", "", "smooth"),
+    (Property::Surface, "матовый", "", "matte|matt"),
+    (Property::Surface, "глянцевый", "", "glossy|shiny"),
+    (Property::Shape, "круглый", "круг", "round|circular"),
+    (Property::Shape, "квадратный", "квадрат", "square"),
+    (Property::Shape, "прямоугольный", "прямоугольник", "rectangular|rectangle"),
+    (Property::Orientation, "горизонтальный", "горизонтально", "horizontal"),
+    (Property::Orientation, "вертикальный", "вертикально", "vertical"),
+];
+
+/// A value under all its words.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct ValueEntry {
+    pub property: Property,
+    /// The Russian adjective in the masculine, or the value as the map writes it.
+    pub russian: String,
+    /// What the value is called by itself: «дерево», «кожа»; empty where that is the adjective.
+    pub noun: String,
+    pub english: String,
+}
+
+/// A value by its place in [`Values`].
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct ValueId(pub u16);
+
+/// All values that the map or the language knows, and the words for them.
+#[derive(Debug, Clone, Default)]
+pub struct Values {
+    entries: Vec<ValueEntry>,
+    words: HashMap<String, ValueId>,
+    /// Property names of the map and of the language, by key.
+    properties: HashMap<String, Property>,
+    longest: usize,
+}
+
+impl Values {
+    /// The language's values and those of the map.
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        let mut values = Self::default();
+        for (property, names) in NAMES {
+            for name in names.split('|') {
+                values.properties.insert(name_key(name), property.clone());
+            }
+        }
+        for (property, adjective, others, english) in VALUES {
+            let noun = match property {
+                Property::Material => others.split('|').next().unwrap_or_default(),
+                _ => "",
+            };
+            let entry = ValueEntry {
+                property: property.clone(),
+                russian: (*adjective).to_owned(),
+                noun: noun.to_owned(),
+                english: english.split('|').next().unwrap_or_default().to_owned(),
+            };
+            let id = values.add(entry);
+            for form in adjective_forms(adjective) {
+                values.name(&form, id);
+            }
+            for word in others.split('|').chain(english.split('|')).filter(|w| !w.is_empty()) {
+                values.name(word, id);
+            }
+        }
+        for properties in all_properties(world) {
+            for (name, value) in properties {
+                values.learn(name, value);
+            }
+        }
+        values
+    }
+
+    fn add(&mut self, entry: ValueEntry) -> ValueId {
+        self.entries.push(entry);
+        ValueId(u16::try_from(self.entries.len() - 1).unwrap_or(u16::MAX))
+    }
+
+    fn name(&mut self, word: &str, id: ValueId) {
+        let key = name_key(word);
+        self.longest = self.longest.max(key.split(' ').count());
+        self.words.entry(key).or_insert(id);
+    }
+
+    /// A value of the map that the language does not list keeps the map's own word for it.
+    fn learn(&mut self, name: &str, value: &str) {
+        let property = Property::of(name);
+        self.properties.entry(name_key(name)).or_insert_with(|| property.clone());
+        let known = self.words.contains_key(&name_key(value));
+        if known || self.entries.len() >= usize::from(u16::MAX) || value.trim().is_empty() {
+            return;
+        }
+        let lower = value.to_lowercase();
+        let english = if Language::of(value) == Language::English { lower.clone() } else { String::new() };
+        let entry = ValueEntry { property, russian: lower.clone(), noun: lower.clone(), english };
+        let id = self.add(entry);
+        let forms = adjective_forms(&lower);
+        if forms.is_empty() && Language::of(value) == Language::Russian {
+            let phrase = NounPhrase::parse(&lower, &WordHints::default());
+            for (_, _, form) in phrase.all_forms() {
+                self.name(&form, id);
+            }
+        }
+        for form in forms {
+            self.name(&form, id);
+        }
+        self.name(value, id);
+    }
+
+    /// The value that a map's text stands for.
+    #[must_use]
+    pub fn meaning(&self, text: &str) -> Option<ValueId> {
+        self.words.get(&name_key(text)).copied()
+    }
+
+    /// The longest value at the beginning of these words, with the number of words it takes.
+    pub(super) fn longest(&self, words: &[String]) -> Option<(usize, ValueId)> {
+        let most = self.longest.min(words.len());
+        (1..=most).rev().find_map(|n| self.words.get(&words[..n].join(" ")).map(|id| (n, *id)))
+    }
+
+    /// The property of this name.
+    pub(super) fn property(&self, word: &str) -> Option<&Property> {
+        self.properties.get(word)
+    }
+
+    /// # Panics
+    /// When the id is not of these values.
+    #[must_use]
+    pub fn entry(&self, id: ValueId) -> &ValueEntry {
+        &self.entries[usize::from(id.0)]
+    }
+
+    /// The value of a door's state.
+    #[must_use]
+    pub fn of_door(&self, status: DoorStatus) -> Option<ValueId> {
+        self.meaning(match status {
+            DoorStatus::Open => "открыта",
+            DoorStatus::Closed => "закрыта",
+            DoorStatus::Locked => "заперта",
+        })
+    }
+
+    /// Whether a thing of value `own` counts as `asked`: what is locked is closed, what is not locked may be open.
+    #[must_use]
+    pub fn is(&self, own: ValueId, asked: ValueId) -> bool {
+        let adjective = |id: ValueId| self.entry(id).russian.as_str();
+        own == asked
+            || match (adjective(own), adjective(asked)) {
+                ("запертый", "закрытый") => true,
+                ("открытый" | "закрытый", "отпертый") => true,
+                ("стальной", "металлический") => true,
+                _ => false,
+            }
+    }
+
+    /// «чёрный», «чёрная», «чёрные»: the predicate about a noun of this gender and number.
+    #[must_use]
+    pub fn predicate(&self, id: ValueId, gender: Gender, number: Number) -> String {
+        let entry = self.entry(id);
+        let short = SHORT.iter().find(|(adjective, _)| *adjective == entry.russian);
+        match short {
+            Some((_, stem)) => {
+                let ending = match (number, gender) {
+                    (Number::Plural, _) => "ы",
+                    (_, Gender::Feminine) => "а",
+                    (_, Gender::Neuter) => "о",
+                    (_, Gender::Masculine) => "",
+                };
+                format!("{stem}{ending}")
+            }
+            None => russian::agreeing(&entry.russian, Case::Nominative, number, gender),
+        }
+    }
+}
+
+/// Participles that stand in their short form as predicates: «дверь открыта».
+const SHORT: &[(&str, &str)] = &[
+    ("включённый", "включен"),
+    ("выключенный", "выключен"),
+    ("открытый", "открыт"),
+    ("закрытый", "закрыт"),
+    ("запертый", "заперт"),
+    ("отпертый", "отперт"),
+    ("сломанный", "сломан"),
+    ("занятый", "занят"),
+];
+
+fn all_properties(world: &World) -> impl Iterator<Item = &crate::map::Properties> {
+    let objects = world.objects.values().map(|o| &o.properties);
+    let replicas = world.replicas.values().map(|r| &r.properties);
+    let areas = world.areas.values().map(|a| &a.properties);
+    let doors = world.doors.values().map(|d| &d.properties);
+    objects.chain(replicas).chain(areas).chain(doors).filter(|p| !p.is_empty())
+}
+
+/// All forms of an adjective given in any nominative; none when it is no adjective.
+fn adjective_forms(adjective: &str) -> Vec<String> {
+    let lower = adjective.to_lowercase();
+    let masculine =
+        russian::agreeing(&lower, Case::Nominative, Number::Singular, Gender::Masculine);
+    let feminine =
+        russian::agreeing(&lower, Case::Nominative, Number::Singular, Gender::Feminine);
+    if masculine == feminine {
+        return Vec::new();
+    }
+    let mut forms = Vec::new();
+    for case in Case::SIX {
+        for gender in [Gender::Masculine, Gender::Feminine, Gender::Neuter] {
+            forms.push(russian::agreeing(&lower, case, Number::Singular, gender));
+        }
+        forms.push(russian::agreeing(&lower, case, Number::Plural, Gender::Masculine));
+    }
+    forms.sort_unstable();
+    forms.dedup();
+    forms
+}

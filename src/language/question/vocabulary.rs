@@ -1,0 +1,436 @@
+//! The words of questions in both languages, and what each does in a sentence.
+
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+use super::query::{Closeness, Dimension, Extreme, Rel};
+use crate::units::name_key;
+
+/// What a word or phrase does in a question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    Where,
+    /// «что», "what"
+    What,
+    /// «какой», "which"; in Russian also «каких», «каком».
+    Which,
+    HowMany,
+    HowFar,
+    /// «как проехать», "how do I get"
+    HowGet,
+    How,
+    /// «попасть», "get"
+    Move,
+    /// «куда»
+    Whither,
+    /// "anything"
+    Anything,
+    As,
+    /// «чем к», "than to"
+    ThanTo,
+    /// "nearest to"
+    BestTo(Extreme),
+    When,
+    Why,
+    WhyNot,
+    Who,
+    /// «каких размеров», "how tall"
+    HowBig(Dimension),
+    /// «есть», "is there"
+    Exists,
+    /// "is", "are", «находится», «стоит»
+    Be,
+    /// "have", «имеет»
+    Have,
+    /// «ведёт», "lead"
+    Lead,
+    /// «состоит из», "parts of"
+    Parts,
+    /// «сделан из», "made of"
+    MadeOf,
+    /// «расскажи про», "describe"
+    Describe,
+    /// «перечисли», "list"
+    List,
+    /// «посчитай», "count"
+    Count,
+    /// «видишь», "see"
+    See,
+    /// «видел в последний раз», "last seen"
+    LastSeen,
+    /// «раньше», "before"
+    Before,
+    /// «свободно», «свободное место», "free space"
+    Free,
+    /// «сесть», "sit"
+    Sit,
+    /// «лечь», "lie down"
+    LieDown,
+    /// «положить», "put": where can one
+    PutDown,
+    /// "can I", «можно»
+    Can,
+    /// «держишь», "holding"
+    Hold,
+    You,
+    Me,
+    Not,
+    And,
+    Or,
+    Than,
+    All,
+    /// «кроме», "except", «ещё», "other"
+    Other,
+    Link(Rel),
+    Nearer(Closeness),
+    Best(Extreme),
+    /// «больше», "bigger": of two
+    More(Extreme),
+    /// «такого же цвета», "the same colour"
+    Same,
+    Pronoun(Pronoun),
+    /// «там», "there"
+    There,
+    /// The noun that an English adjective stands for: "the red one".
+    One,
+    A,
+    The,
+    Filler,
+}
+
+/// Whom a pronoun may mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pronoun {
+    He,
+    She,
+    It,
+    They,
+    /// English "it": of any gender.
+    Any,
+}
+
+const WORDS: &[(Mark, &str)] = &[
+    (
+        Mark::Where,
+        "где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
+        where can i find|where do i find|where could i find|where to find|where can we find|where would i find|\
+        do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
+        what s the location of|the location of|location of|местоположение|местонахождение|укажи местоположение|в каком углу",
+    ),
+    (
+        Mark::What,
+        "что|чего|чему|чём|что такое|что за|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
+    ),
+    (Mark::Anything, "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто|everything"),
+    (Mark::Whither, "куда|куда же|where to"),
+    (Mark::How, "как|how|каким образом"),
+    (Mark::Move, "попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there"),
+    (Mark::As, "as|что и|как и|с чем"),
+    (
+        Mark::Which,
+        "какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
+        которую|которых|каков|какова|каково|каковы|which|what kind of|what type of|what sort of|which of|which of the",
+    ),
+    (
+        Mark::HowMany,
+        "сколько|скольких|скольким|сколько всего|сколько штук|какое количество|каково количество|количество|число|каково число|как много|how many|how much|number of|the number of|\
+        what is the number of|what number of|amount of|the amount of|total number of|the total number of|quantity of|скажи сколько|сколько же",
+    ),
+    (Mark::Count, "посчитай|сосчитай|подсчитай|count|count up|count all|count the number of"),
+    (
+        Mark::HowFar,
+        "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
+        how far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres|how many meters|how many centimetres",
+    ),
+    (
+        Mark::HowGet,
+        "как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
+        как мне дойти|как пройти мне|как можно пройти|как можно попасть|как можно добраться|как ты проедешь|как ты доедешь|как ты попадёшь|как выйти|как выехать|как мне выйти|как вернуться|как перейти|как подъехать|как подойти|как зайти|как прийти|как тебе проехать|\
+        какой дорогой|каким путём|каким маршрутом|путь|дорога|дорогу|маршрут|проложи маршрут|построй маршрут|покажи дорогу|покажи путь|опиши путь|опиши дорогу|опиши маршрут|кратчайший путь|какой путь|какой маршрут|\
+        how do i get|how can i get|how to get|how do you get|how can you get|how would i get|how would you get|how do i go|how can i go|how to go|how do i reach|how can i reach|how to reach|how do you reach|how do i find my way|\
+        how does one get|how do we get|how can we get|how could i get|how should i get|how do you go|how do i come|how to come|how do i walk|how do i drive|\
+        the way|way|what is the way|which way|the route|route|what is the route|what is the shortest way|what is the shortest route|shortest way|shortest route|shortest path|the shortest way|the shortest route|the shortest path|what is the shortest path|path|\
+        directions|give me directions|show me the way|tell me the way|describe the way|describe the route|what is the best way|the best way|the quickest way",
+    ),
+    (Mark::When, "когда|как давно|в котором часу|when|how long ago|since when|at what time|at which time"),
+    (
+        Mark::Why,
+        "почему|отчего|с чего ты взял|с чего ты это взял|откуда ты знаешь|откуда это известно|откуда ты это знаешь|откуда известно|почему ты так думаешь|почему ты так решил|почему так|почему это так|почему да|докажи|объясни|обоснуй|поясни|\
+        why|why so|why is that|why is that so|how do you know|how do you know that|how come|explain|explain why|explain that|prove it|why do you think so|why do you say so|why do you say that|why is it so|why yes",
+    ),
+    (
+        Mark::WhyNot,
+        "почему нет|почему же нет|отчего нет|почему не|почему это не так|why not|why isn t it|why is it not|why aren t they|why no|why is that not so",
+    ),
+    (Mark::Who, "кто|кого|кому|who|whom|whose|чей|чья|чьё|чьи"),
+    (
+        Mark::HowBig(Dimension::All),
+        "какого размера|каков размер|какой размер|какие размеры|каковы размеры|размер|размеры|габариты|каких размеров|насколько большой|насколько большая|насколько большое|насколько велик|насколько велика|\
+        how big|how large|what size|what is the size|what is the size of|the size of|what are the dimensions|what are the dimensions of|dimensions|dimensions of|the dimensions of|size|size of|how small",
+    ),
+    (
+        Mark::HowBig(Dimension::Height),
+        "какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
+    ),
+    (
+        Mark::HowBig(Dimension::Width),
+        "какой ширины|какова ширина|какая ширина|ширина|насколько широкий|насколько широкая|how wide|what width|what is the width|what is the width of|the width of|width of|width",
+    ),
+    (
+        Mark::HowBig(Dimension::Length),
+        "какой длины|какова длина|какая длина|длина|насколько длинный|насколько длинная|глубина|какой глубины|какова глубина|how long|how deep|what length|what is the length|what is the length of|the length of|length of|the depth of|depth",
+    ),
+    (
+        Mark::HowBig(Dimension::Area),
+        "какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area",
+    ),
+    (
+        Mark::Exists,
+        "есть|есть ли|имеется|имеются|имеется ли|имеются ли|существует|существуют|существует ли|найдётся|найдётся ли|нет ли|не найдётся ли|бывает|is there|is there a|are there|are there any|is there any|\
+        is there anything|is there something|there is|there are|there s|exist|exists|do we have|do you have|have we got|have you got|is there some|isn t there|aren t there|does there exist|do there exist|\
+        can you see|do you see|do you see any|can you see any|can i find|can i find any|can we find|would i find|will i find",
+    ),
+    (
+        Mark::Be,
+        "is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висит|висят|висел|висела|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
+        поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
+        stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
+        я оставил|я оставила|я положил|я положила|я поставил|оставил|оставила|мы оставили|делся|девался|девалась",
+    ),
+    (
+        Mark::Have,
+        "have|has|contain|contains|containing|hold|holds|holding|имеет|имеют|содержит|содержат|includes|include|got|has got|have got|does have",
+    ),
+    (
+        Mark::Lead,
+        "ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+    ),
+    (
+        Mark::Parts,
+        "из чего состоит|из чего состоят|из каких частей|из каких частей состоит|состоит|состоят|из каких частей сделан|части|части у|какие части|какие части у|какие части есть у|детали|составные части|составные части у|\
+        parts|parts of|the parts of|components of|the components of|consist of|consists of|made up of|composed of|component parts of|what parts does|which parts does|what are the parts of|pieces of|part of",
+    ),
+    (
+        Mark::MadeOf,
+        "из чего сделан|из чего сделана|из чего сделано|из чего сделаны|из чего|сделан|сделана|сделано|сделаны|изготовлен|изготовлена|изготовлено|изготовлены|из чего изготовлен|из чего изготовлена|\
+        made of|made from|made out of|made out|made|built of|built from|made off",
+    ),
+    (
+        Mark::Describe,
+        "расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|what about|information about|а что с|что насчёт|give me information about|what is known about",
+    ),
+    (
+        Mark::List,
+        "перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
+    ),
+    (Mark::See, "видишь|видно|видите|see|seeing|look at|looking at|visible"),
+    (
+        Mark::LastSeen,
+        "видел в последний раз|видели в последний раз|ты видел в последний раз|в последний раз видел|в последний раз видели|последний раз видел|последний раз видели|последний раз|в последний раз|видел|видела|видели|видел ли|замечен|замечена|замечали|наблюдали|\
+        last seen|seen last|last see|last observed|seen|saw|did you see|did you last see|have you seen|last|most recently seen|observed",
+    ),
+    (
+        Mark::Before,
+        "раньше|до этого|прежде|ранее|до того|перед этим|прежнее место|в прошлый раз|вчера|до перестановки|before|previously|earlier|used to be|formerly|before that|before now|yesterday|in the past",
+    ),
+    (
+        Mark::Free,
+        "свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|room on|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there free space|is there any free space",
+    ),
+    (
+        Mark::Sit,
+        "сесть|посидеть|присесть|сидеть|sit|sit down|take a seat|have a seat|relax|be seated|take a rest",
+    ),
+    (Mark::LieDown, "лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep"),
+    (
+        Mark::PutDown,
+        "положить|поставить|разместить|куда положить|куда поставить|куда можно положить|куда можно поставить|куда мне положить|куда мне поставить|put|place|set down|put down|lay down|leave",
+    ),
+    (
+        Mark::Can,
+        "можно|можно ли|можешь|могу|могу ли|могу ли я|сможешь|можешь ли|можно мне|могли бы|мог бы|получится|смогу|can i|can one|could i|can we|may i|is it possible to|should i|can you|can|could|could one|might i|able|possible",
+    ),
+    (
+        Mark::Hold,
+        "держишь|у тебя в руках|ты держишь|в твоих руках|несёшь|are you holding|do you hold|you are holding|carrying|in your hand|in your hands|in your gripper",
+    ),
+    (
+        Mark::You,
+        "ты|тебя|тебе|тобой|тобою|вы|вас|вам|робот|робота|роботу|роботом|роботе|рб|рб 2|you|yourself|robot|the robot|rb 2",
+    ),
+    (Mark::Me, "я|мне|меня|мной|i|me|myself|us|we|нам|нас|мы"),
+    (Mark::Not, "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|without|без|isnt|arent|doesnt|dont"),
+    (Mark::And, "и|а также|и еще|and|as well as|and also|together with|plus"),
+    (Mark::Or, "или|либо|or|or else"),
+    (Mark::ThanTo, "чем к|чем от|чем до|нежели к|чем ко|than to|than from|than it is to|than it is from|than the distance to"),
+    (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
+    (
+        Mark::All,
+        "все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole|any",
+    ),
+    (Mark::Other, "кроме|другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|except|besides|apart from|other than|the other|remaining|the rest of"),
+    (
+        Mark::Link(Rel::In),
+        "в|во|внутри|внутрь|in|inside|inside of|within|into|in the middle of|in side",
+    ),
+    (Mark::Link(Rel::On), "на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of"),
+    (Mark::Link(Rel::Under), "под|подо|снизу|снизу под|ниже|внизу под|under|below|beneath|underneath|under neath|bellow|at the bottom of|directly below|directly under|right under"),
+    (Mark::Link(Rel::Above), "над|надо|сверху над|выше|above|over|directly above|right above"),
+    (
+        Mark::Link(Rel::NextTo),
+        "рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
+    ),
+    (
+        Mark::Link(Rel::Near),
+        "близко к|близко от|вблизи|вблизи от|недалеко от|неподалёку от|поблизости от|вблизи с|вокруг|near|close to|near to|around|close by|in the vicinity of|not far from|surrounding",
+    ),
+    (
+        Mark::Link(Rel::LeftOf),
+        "слева от|слева|левее|по левую сторону от|с левой стороны от|по левую руку от|left of|to the left of|on the left of|on the left side of|to the left side of|at the left of|left to|on the left hand side of|on the left from|to the left from|left from",
+    ),
+    (
+        Mark::Link(Rel::RightOf),
+        "справа от|справа|правее|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
+    ),
+    (Mark::Link(Rel::Behind), "за|позади|сзади|сзади от|позади от|behind|in back of|at the back of|in the back of|to the rear of"),
+    (
+        Mark::Link(Rel::InFrontOf),
+        "перед|передо|впереди|спереди от|спереди|напротив|in front of|before the|ahead of|opposite|opposite to|across from|in the front of|facing",
+    ),
+    (Mark::Link(Rel::Between), "между|посередине между|меж|between|in between|in the middle between|directly between|directly in between"),
+    (Mark::Link(Rel::Leaning), "прислонён к|прислонена к|прислонено к|прислонены к|прислонён|прислонена|прислонено|прислонены|опирается о|leaning against|leans against|leaning on|leans on|leaned against|lean against|propped against|leaning"),
+    (Mark::Link(Rel::Has), "with|having"),
+    (Mark::Link(Rel::Outside), "вне|снаружи|за пределами|outside|outside of|out side"),
+    (Mark::Link(Rel::From), "из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at"),
+    (Mark::Link(Rel::To), "к|ко|до|to|towards|toward|into the|up to|for the|till|as far as"),
+    (Mark::Link(Rel::Through), "через|сквозь|through|via"),
+    (Mark::Link(Rel::At), "at|при"),
+    (Mark::Link(Rel::Of), "of|belonging to"),
+    (
+        Mark::Nearer(Closeness::Nearer),
+        "ближе|поближе|closer|nearer|less far",
+    ),
+    (Mark::Nearer(Closeness::Farther), "дальше|подальше|farther|further|more distant|farther away|further away"),
+    (
+        Mark::Best(Extreme::Nearest),
+        "ближайший|ближайшая|ближайшее|ближайшие|ближайшего|ближайшую|ближайшей|ближайшем|ближайшему|ближайших|самый близкий|самая близкая|самое близкое|самые близкие|самую близкую|ближе всего|ближе всех|наиболее близкий|nearest|closest",
+    ),
+    (
+        Mark::Best(Extreme::Farthest),
+        "самый дальний|самая дальняя|самое дальнее|самые дальние|самую дальнюю|дальше всего|дальше всех|наиболее удалённый|самый далёкий|самая далёкая|самое далёкое|самый удалённый|самая удалённая|самое удалённое|farthest|furthest|most distant|farthest away|furthest away",
+    ),
+    (Mark::BestTo(Extreme::Nearest), "nearest to|closest to|the nearest to|the closest to"),
+    (Mark::BestTo(Extreme::Farthest), "farthest from|furthest from|farthest away from|furthest away from|the farthest from|the furthest from|most distant from"),
+    (
+        Mark::Best(Extreme::Biggest),
+        "самый большой|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|больше всего|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
+    ),
+    (
+        Mark::Best(Extreme::Smallest),
+        "самый маленький|самая маленькая|самое маленькое|самые маленькие|самую маленькую|самого маленького|самой маленькой|самых маленьких|меньше всех|меньше всего|наименьший|наименьшая|самый малый|самая малая|самый мелкий|самая мелкая|самое мелкое|smallest|littlest|tiniest|least",
+    ),
+    (
+        Mark::Best(Extreme::Tallest),
+        "самый высокий|самая высокая|самое высокое|самые высокие|самую высокую|самого высокого|самой высокой|выше всех|выше всего|tallest|highest",
+    ),
+    (
+        Mark::Best(Extreme::Lowest),
+        "самый низкий|самая низкая|самое низкое|самые низкие|самую низкую|ниже всех|shortest|lowest",
+    ),
+    (
+        Mark::Best(Extreme::Widest),
+        "самый широкий|самая широкая|самое широкое|самую широкую|самые широкие|шире всех|widest|broadest",
+    ),
+    (
+        Mark::Best(Extreme::Narrowest),
+        "самый узкий|самая узкая|самое узкое|самую узкую|самые узкие|уже всех|narrowest|thinnest|самый тонкий|самая тонкая|самое тонкое",
+    ),
+    (Mark::Best(Extreme::Longest), "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|longest"),
+    (Mark::Best(Extreme::LeftMost), "самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost"),
+    (Mark::Best(Extreme::RightMost), "самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost"),
+    (Mark::Best(Extreme::Most), "больше всего всего|the most|most"),
+    (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
+    (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
+    (Mark::More(Extreme::Tallest), "выше чем|taller|higher"),
+    (Mark::More(Extreme::Lowest), "ниже чем|shorter|lower"),
+    (Mark::More(Extreme::Widest), "шире|wider|broader"),
+    (Mark::More(Extreme::Narrowest), "уже чем|narrower|thinner"),
+    (Mark::More(Extreme::Longest), "длиннее|longer"),
+    (
+        Mark::Same,
+        "такого же|такой же|такая же|такое же|такие же|того же|тот же|та же|одного|одинакового|одинаковые|одинаковый|same|the same",
+    ),
+    (Mark::Pronoun(Pronoun::He), "он|его|ему|него|нему|ним|нём|him"),
+    (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
+    (Mark::Pronoun(Pronoun::It), "оно"),
+    (Mark::Pronoun(Pronoun::They), "они|их|им|них|ними|they|them|those"),
+    (Mark::Pronoun(Pronoun::Any), "it|its"),
+    (Mark::There, "там|оттуда|туда|в ней|в нём|there|in there|in it"),
+    (Mark::One, "one|ones"),
+    (Mark::A, "a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно"),
+    (
+        Mark::The,
+        "the|this|that|these|этот|эта|это|эти|этой|этом|этого|эту|этих|этими|этому|тот|та|те|той|том|тех|тому|my|your|our|his|мой|моя|моё|мои|мою|моего|моей|моих|твой|твоя|твоё|твои|наш|наша|наше|наши|свой|свою",
+    ),
+    (
+        Mark::Filler,
+        "пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
+        ли|же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
+        по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
+        please|tell me|tell us|show me|show us|say|could you|could you please|would you|would you please|will you|can you tell me|could you tell me|would you tell me|can you say|do you know|do you know if|do you know whether|i want to know|i would like to know|i d like to know|i wonder|i am wondering|wondering|i need to know|let me know|\
+        hey|hello|hi|ok|okay|well|so|now|right now|at the moment|currently located|actually|exactly|precisely|really|just|also|too|if|whether|that is|which is|which are|that are|do|does|did|do i|do you|d|am|will|would|shall|should|must|thanks|thank you|kindly|here|in total|altogether|total|in all|all together|overall|it is true that|is it true that|is it true|true|is it the case that|\
+        currently|ever|it is|most|кажется|кстати|уже|тогда|give me|want|find out|check|check if|check whether|проверь|узнай|i m looking for|i am looking for|looking for|im looking for|scene|in this scene|in the scene|in this picture|relative to|with respect to|related to|present|available|directly|directly to|right|immediately|object that is|things that are",
+    ),
+];
+
+type Phrases = Vec<(Vec<String>, Mark)>;
+
+fn table() -> &'static HashMap<String, Phrases> {
+    static TABLE: OnceLock<HashMap<String, Phrases>> = OnceLock::new();
+    TABLE.get_or_init(|| {
+        let mut table: HashMap<String, Phrases> = HashMap::new();
+        for (mark, phrase) in phrases() {
+            let words: Vec<String> = phrase.split_whitespace().map(name_key).collect();
+            table.entry(words[0].clone()).or_default().push((words, mark));
+        }
+        for phrases in table.values_mut() {
+            phrases.sort_by_key(|(words, _)| std::cmp::Reverse(words.len()));
+        }
+        table
+    })
+}
+
+fn phrases() -> impl Iterator<Item = (Mark, &'static str)> {
+    WORDS.iter().flat_map(|(mark, list)| {
+        list.split('|').map(|phrase| (*mark, phrase.trim())).filter(|(_, phrase)| !phrase.is_empty())
+    })
+}
+
+/// The mark of the longest phrase at the beginning of these words (in [`name_key`] form), with the number of words it
+/// takes. Where a phrase is listed twice, the first list wins.
+pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
+    let first = words.first()?;
+    let phrases = table().get(first)?;
+    let fits = |phrase: &[String]| words.get(..phrase.len()) == Some(phrase);
+    phrases.iter().find(|(phrase, _)| fits(phrase)).map(|(phrase, mark)| (phrase.len(), *mark))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_longest_phrase_wins() {
+        let check = |text: &str, expected: Option<(usize, Mark)>| {
+            let words: Vec<String> = text.split_whitespace().map(name_key).collect();
+            assert_eq!(longest(&words), expected, "{text}");
+        };
+        check("на каком расстоянии", Some((3, Mark::HowFar)));
+        check("to the left of the table", Some((4, Mark::Link(Rel::LeftOf))));
+        check("почему нет", Some((2, Mark::WhyNot)));
+        check("ёлка", None);
+    }
+}

@@ -1,0 +1,253 @@
+//! «Почему?»: the proof of a fact in words, down to what was measured; «Почему нет?»: what it lacks.
+
+use crate::facts::{Because, Premise, Proof, Value, WhyNot};
+use crate::language::words::{Language, enumerate};
+
+use super::answer::Draft;
+use super::knowledge::Knowledge;
+use super::query::Query;
+use super::speech::length;
+use super::{Doubt, Fact, Said};
+
+/// Measurements said in one sentence, at most.
+const SAID: usize = 4;
+
+impl Knowledge<'_> {
+    pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
+        let facts = match about {
+            Some(query) => self.answer(query)?.facts,
+            None => self.memory.facts.clone(),
+        };
+        let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
+            let text = self
+                .pick(
+                    "объяснять нечего: за последним ответом не стоит ни одного отношения карты",
+                    "there is nothing to explain: the last answer rests on no relation of the map",
+                )
+                .to_owned();
+            return Ok(Draft::plain(Said::Nothing, text));
+        };
+        let lines = self.reasons(fact);
+        let what = self.fact_words(&fact.relation, &fact.args);
+        let because = match lines.is_empty() {
+            true => self.pick("так указано на карте", "the map says so").to_owned(),
+            false => enumerate(&lines, self.language),
+        };
+        let text = match (fact.holds, self.is_russian()) {
+            (true, true) => format!("{what}, потому что {because}"),
+            (true, false) => format!("{what}, because {because}"),
+            (false, true) => format!("неверно, что {what}: {because}"),
+            (false, false) => format!("it is not so that {what}: {because}"),
+        };
+        let mut draft = Draft::plain(Said::Found, text);
+        draft.rest_on(fact.clone());
+        Ok(draft)
+    }
+
+    /// The measurements that a fact comes from, or what it lacks.
+    fn reasons(&self, fact: &Fact) -> Vec<String> {
+        let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
+        if fact.holds {
+            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else { return Vec::new() };
+            let mut lines = self.measured(&proof);
+            lines.truncate(SAID);
+            return lines;
+        }
+        match self.relations.why_not(&fact.relation, &args) {
+            Ok(WhyNot::Nearest(failed)) => {
+                let mut lines: Vec<String> =
+                    failed.failed().map(|premise| self.premise(premise)).collect();
+                lines.dedup();
+                lines.truncate(SAID);
+                lines
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    /// All steps of a proof, or all premises of the rule that came closest.
+    pub(super) fn proof_lines(&self, fact: &Fact) -> Vec<String> {
+        let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
+        if fact.holds {
+            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else { return Vec::new() };
+            return proof.steps.iter().map(|s| tuple(&s.fact.name, &s.fact.values)).collect();
+        }
+        match self.relations.why_not(&fact.relation, &args) {
+            Ok(WhyNot::Nearest(failed)) => {
+                let sign = |holds: Option<bool>| match holds {
+                    Some(true) => "+",
+                    Some(false) => "-",
+                    None => "?",
+                };
+                failed.premises.iter().map(|(p, h)| format!("{} {}", sign(*h), self.premise(p))).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn measured(&self, proof: &Proof) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for step in &proof.steps {
+            if step.because != Because::Told {
+                continue;
+            }
+            if let Some(line) = self.measurement(&step.fact.name, &step.fact.values)
+                && !lines.contains(&line)
+            {
+                lines.push(line);
+            }
+        }
+        lines
+    }
+
+    /// A measured fact in words; none for what says nothing to a person.
+    fn measurement(&self, name: &str, values: &[Value]) -> Option<String> {
+        let word = |n: usize| match values.get(n) {
+            Some(Value::Symbol(text)) => self.symbol_words(text),
+            Some(Value::Number(number)) => number.to_string(),
+            None => String::new(),
+        };
+        let number = |n: usize| match values.get(n) {
+            Some(Value::Number(number)) => *number as f64 / 100.0,
+            _ => 0.0,
+        };
+        let cm = |n: usize| match number(n).abs() < 100.0 {
+            true => {
+                let text = format!("{:.1}", number(n));
+                let text = text.trim_end_matches('0').trim_end_matches('.').to_owned();
+                match self.is_russian() {
+                    true => format!("{} см", text.replace('.', ",")),
+                    false => format!("{text} cm"),
+                }
+            }
+            false => length(number(n), self.language),
+        };
+        let percent = |n: usize| number(n) * 10.0;
+        let (a, b) = (word(0), word(1));
+        let russian = self.is_russian();
+        Some(match (name, russian) {
+            ("over", true) => format!("низ «{a}» отстоит от верха «{b}» на {}, и над ним {:.0} % опоры", cm(4), percent(5)),
+            ("over", false) => format!("the foot of {a} is {} from the top of {b} and {:.0} % of it is over that", cm(4), percent(5)),
+            ("below", true) => format!("«{a}» ниже «{b}» на {} и перекрыто им на {:.0} %", cm(4), percent(5)),
+            ("below", false) => format!("{a} is {} below {b} and {:.0} % of it is covered", cm(4), percent(5)),
+            ("within", true) => format!("«{a}» выступает за пределы «{b}» не больше чем на {} и лежит внутри на {:.0} %", cm(4), percent(8)),
+            ("within", false) => format!("{a} sticks out of {b} by {} at most, and {:.0} % of it is inside", cm(4), percent(8)),
+            ("distance" | "beside", true) => format!("расстояние между «{a}» и «{b}» – {}", cm(2)),
+            ("distance" | "beside", false) => format!("{a} and {b} are {} apart", cm(2)),
+            ("sector", true) => format!("«{a}» видно под углом {:.0}° от лицевой стороны «{b}», расстояние {}", number(2), cm(3)),
+            ("sector", false) => format!("{a} is at {:.0}° from the front of {b}, {} away", number(2), cm(3)),
+            ("standing_in", true) => format!("«{a}» стоит в границах «{b}», на высоте {} от пола", cm(2)),
+            ("standing_in", false) => format!("{a} stands within the bounds of {b}, {} above its floor", cm(2)),
+            ("off_area", true) => format!("«{a}» в стене, в {} от «{b}»", cm(2)),
+            ("off_area", false) => format!("{a} is in the wall, {} from {b}", cm(2)),
+            ("links", true) => format!("карта связывает «{}» и «{}» через «{a}»", word(1), word(2)),
+            ("links", false) => format!("the map links {} and {} through {a}", word(1), word(2)),
+            ("step", true) => format!("шаг через «{a}» ведёт в «{}»", word(2)),
+            ("step", false) => format!("a step through {a} leads to {}", word(2)),
+            ("door_state", true) => format!("на карте дверь «{a}» {}", door_word(&b, Language::Russian)),
+            ("door_state", false) => format!("the map says that {a} is {b}"),
+            ("property", true) => format!("на карте у «{a}» указано: {b} – {}", word(2)),
+            ("property", false) => format!("the map gives {b} of {a}: {}", word(2)),
+            ("kind_trait", true) => format!("«{a}» по типу – {b}"),
+            ("kind_trait", false) => format!("{a} is a {b} by its type"),
+            _ => return None,
+        })
+    }
+
+    fn symbol_words(&self, symbol: &str) -> String {
+        match self.thing(symbol) {
+            Some(thing) => self.name(thing),
+            None => symbol.to_owned(),
+        }
+    }
+
+    fn premise(&self, premise: &Premise) -> String {
+        let show = |values: &[Option<Value>]| {
+            let text = |v: &Option<Value>| v.as_ref().map_or("_".to_owned(), value);
+            values.iter().map(text).collect::<Vec<_>>().join(", ")
+        };
+        match premise {
+            Premise::Fact(n) => format!("#{n}"),
+            Premise::Pattern { name, values } => {
+                let what = match values.iter().cloned().collect::<Option<Vec<Value>>>() {
+                    Some(values) => self.measurement(name, &values).unwrap_or_else(|| tuple(name, &values)),
+                    None => format!("{name}({})", show(values)),
+                };
+                match self.is_russian() {
+                    true => format!("не выполнено условие {what}"),
+                    false => format!("the condition {what} does not hold"),
+                }
+            }
+            Premise::Absent { name, values } => match self.is_russian() {
+                true => format!("мешает {name}({})", show(values)),
+                false => format!("{name}({}) stands in the way", show(values)),
+            },
+            Premise::Compared { text, left, right, .. } => match self.is_russian() {
+                true => format!("условие «{text}» не выполнено: {} и {}", value(left), value(right)),
+                false => format!("the condition \"{text}\" fails: {} and {}", value(left), value(right)),
+            },
+            Premise::Counted { text, value: found } => {
+                let found = found.as_ref().map(value).unwrap_or_default();
+                format!("{text} = {found}")
+            }
+            Premise::Unknown { text } => text.clone(),
+        }
+    }
+
+    /// A fact as a clause: «Чашка-1 находится на Столе-1».
+    fn fact_words(&self, relation: &str, args: &[String]) -> String {
+        use super::query::Rel;
+        let thing = |n: usize| args.get(n).and_then(|symbol| self.thing(symbol));
+        let rel = match relation {
+            "ON_TOP_OF" => Some(Rel::On),
+            "INSIDE" => Some(Rel::In),
+            "UNDER" => Some(Rel::Under),
+            "ABOVE" => Some(Rel::Above),
+            "NEXT_TO" => Some(Rel::NextTo),
+            "CLOSE_TO" => Some(Rel::Near),
+            "LEFT_OF" => Some(Rel::LeftOf),
+            "RIGHT_OF" => Some(Rel::RightOf),
+            "BEHIND" => Some(Rel::Behind),
+            "IN_FRONT_OF" => Some(Rel::InFrontOf),
+            "LEANING_AGAINST" => Some(Rel::Leaning),
+            _ => None,
+        };
+        if let (Some(rel), Some(a), Some(b)) = (rel, thing(0), thing(1)) {
+            return format!("{} {} {}", self.name(a), self.is(&[a]), self.place(rel, &[b]));
+        }
+        let words: Vec<String> = args.iter().map(|a| self.symbol_words(a)).collect();
+        match (relation, self.is_russian(), &words[..]) {
+            ("JOINS", true, [o, a, b]) => format!("{o} соединяет «{a}» и «{b}»"),
+            ("JOINS", false, [o, a, b]) => format!("{o} joins {a} and {b}"),
+            ("DOOR_IS", true, [o, state]) => format!("{o} {}", door_word(state, Language::Russian)),
+            ("DOOR_IS", false, [o, state]) => format!("{o} is {state}"),
+            ("HAS", _, [x, name, text]) => format!("{x}: {name} – {text}"),
+            ("HAS_TRAIT", true, [x, kind]) => format!("{x} – {kind}"),
+            ("HAS_TRAIT", false, [x, kind]) => format!("{x} is a {kind}"),
+            ("PART_OF", true, [part, whole]) => format!("{part} – часть «{whole}»"),
+            ("PART_OF", false, [part, whole]) => format!("{part} is part of {whole}"),
+            _ => format!("{relation}({})", words.join(", ")),
+        }
+    }
+}
+
+fn door_word(state: &str, language: Language) -> String {
+    match (state, language) {
+        ("open", Language::Russian) => "открыта",
+        ("closed", Language::Russian) => "закрыта",
+        ("locked", Language::Russian) => "заперта",
+        (other, _) => other,
+    }
+    .to_owned()
+}
+
+fn value(value: &Value) -> String {
+    match value {
+        Value::Number(number) => number.to_string(),
+        Value::Symbol(text) => format!("\"{text}\""),
+    }
+}
+
+fn tuple(name: &str, values: &[Value]) -> String {
+    format!("{name}({})", values.iter().map(value).collect::<Vec<_>>().join(", "))
+}

@@ -1,0 +1,186 @@
+//! Measures that are taken when somebody asks: between any two things, of one, and what lies between two.
+//!
+//! The relations hold what is near; a question may be about what is far. Lengths are cm, areas cm².
+
+use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
+use crate::geometry::Polygon;
+use crate::units::{AreaId, MapId, Point, ReplicaId, Vector};
+
+use super::measure::surface_distance;
+use super::relations::Relations;
+
+/// The sizes of a thing along its own axes, cm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Extent {
+    pub width: f64,
+    pub depth: f64,
+    pub height: f64,
+    /// Of its foot above the zero of its Map.
+    pub bottom: f64,
+    /// Of its outline, cm².
+    pub base: f64,
+}
+
+/// What stands between two things fills at least this of the way between their middles, cm.
+const BETWEEN_LEAST: f64 = 1.0;
+/// A thing this far beside that way still stands between, cm.
+const BETWEEN_SLACK: f64 = 15.0;
+
+impl Relations {
+    /// Distance between the surfaces of two things of one Map, cm.
+    #[must_use]
+    pub fn distance(&self, a: ReplicaId, b: ReplicaId) -> Option<f64> {
+        let bodies = &self.measurements().bodies;
+        let (a, b) = (bodies.get(&a)?, bodies.get(&b)?);
+        (a.map == b.map).then(|| surface_distance(a, b).0)
+    }
+
+    /// Distance in the plan from a thing to a point of a Map, cm.
+    #[must_use]
+    pub fn distance_to_point(&self, a: ReplicaId, map: MapId, p: Point) -> Option<f64> {
+        let body = self.measurements().bodies.get(&a).filter(|b| b.map == map)?;
+        body.outline.iter().map(|f| f.distance_to(p)).reduce(f64::min)
+    }
+
+    /// Distance in the plan from a thing to a segment, such as a door's, cm.
+    #[must_use]
+    pub fn distance_to_segment(&self, a: ReplicaId, (from, to): (Point, Point)) -> Option<f64> {
+        let body = self.measurements().bodies.get(&a)?;
+        let along = (to - from).try_normalize(1e-9)?;
+        // A thread of a rectangle: the contact tests want an area.
+        let side = Vector::new(along.y, -along.x) * 0.05;
+        let thread = Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
+        body.outline.iter().map(|f| gap(f, &thread).distance).reduce(f64::min)
+    }
+
+    /// The Map on which a thing stands, and the middle of its outline there.
+    #[must_use]
+    pub fn centre(&self, id: ReplicaId) -> Option<(MapId, Point)> {
+        self.measurements().bodies.get(&id).map(|b| (b.map, b.centre))
+    }
+
+    #[must_use]
+    pub fn extent(&self, id: ReplicaId) -> Option<Extent> {
+        let body = self.measurements().bodies.get(&id)?;
+        let kind = self.measurements().kind(body.object)?;
+        Some(Extent {
+            width: kind.size.0,
+            depth: kind.size.1,
+            height: body.top - body.bottom,
+            bottom: body.bottom,
+            base: kind.outline_area,
+        })
+    }
+
+    /// Whether a thing has a side that is its front.
+    #[must_use]
+    pub fn has_front(&self, id: ReplicaId) -> bool {
+        self.measurements().bodies.get(&id).is_some_and(|b| b.front.is_some())
+    }
+
+    /// Floor area of an Area, cm², its extents along the Map's axes and its height, cm.
+    #[must_use]
+    pub fn area_extent(&self, id: AreaId) -> Option<Extent> {
+        let room = self.measurements().rooms.get(&id)?;
+        let (low, high) = room
+            .parts
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.1), h.max(p.2)));
+        Some(Extent {
+            width: room.bounds.max.x - room.bounds.min.x,
+            depth: room.bounds.max.y - room.bounds.min.y,
+            height: high - low,
+            bottom: low,
+            base: room.parts.iter().map(|(f, _, _)| f.area).sum(),
+        })
+    }
+
+    /// The middle of an Area and its Map.
+    #[must_use]
+    pub fn area_centre(&self, id: AreaId) -> Option<(MapId, Point)> {
+        let room = self.measurements().rooms.get(&id)?;
+        let largest = room.parts.iter().max_by(|a, b| a.0.area.total_cmp(&b.0.area))?;
+        Some((room.map, largest.0.interior_point()))
+    }
+
+    /// Distance in the plan from a thing to the floor of an Area, cm; 0 for what is in it.
+    #[must_use]
+    pub fn distance_to_area(&self, id: ReplicaId, area: AreaId) -> Option<f64> {
+        let body = self.measurements().bodies.get(&id)?;
+        let room = self.measurements().rooms.get(&area).filter(|r| r.map == body.map)?;
+        let gaps = body.outline.iter().flat_map(|f| room.parts.iter().map(move |(p, _, _)| gap(f, p)));
+        gaps.map(|g| g.distance).reduce(f64::min)
+    }
+
+    /// What stands between two things: across the straight way from middle to middle, or at most 15 cm beside it.
+    #[must_use]
+    pub fn standing_between(&self, a: ReplicaId, b: ReplicaId) -> Vec<ReplicaId> {
+        let bodies = &self.measurements().bodies;
+        let (Some(first), Some(second)) = (bodies.get(&a), bodies.get(&b)) else { return Vec::new() };
+        if first.map != second.map {
+            return Vec::new();
+        }
+        let way = gap(&first.hull, &second.hull);
+        let (from, to) = if way.distance > 0.0 { (way.from, way.to) } else { (first.centre, second.centre) };
+        let Some(along) = (to - from).try_normalize(1e-6) else { return Vec::new() };
+        let side = Vector::new(along.y, -along.x) * BETWEEN_SLACK;
+        let band = Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
+        let (low, high) = (first.bottom.min(second.bottom), first.top.max(second.top));
+        let crosses = |id: &ReplicaId| {
+            let body = &bodies[id];
+            *id != a
+                && *id != b
+                && body.map == first.map
+                && body.bottom < high
+                && body.top > low
+                && self.area_of(*id) == self.area_of(a)
+                && !self.holds_up(a, *id)
+                && !self.holds_up(b, *id)
+                && !self.holds_up(*id, a)
+                && !self.holds_up(*id, b)
+                && (length_within(from, to, &body.hull) >= BETWEEN_LEAST
+                    || overlap_area(&body.hull, &band) > 0.0)
+        };
+        let mut found: Vec<ReplicaId> = bodies.keys().copied().filter(|id| crosses(id)).collect();
+        found.sort_by(|x, y| {
+            let at = |id: &ReplicaId| (bodies[id].centre - from).dot(&along);
+            at(x).total_cmp(&at(y))
+        });
+        found
+    }
+
+    /// Whether `b` is under `a` as its support, or the support of that.
+    fn holds_up(&self, a: ReplicaId, b: ReplicaId) -> bool {
+        let mut at = a;
+        for _ in 0..32 {
+            match self.support_of(at) {
+                Some(support) if support == b => return true,
+                Some(support) => at = support,
+                None => return false,
+            }
+        }
+        false
+    }
+
+    /// The top of a thing: its area and how much of that nothing covers, cm².
+    #[must_use]
+    pub fn free_top(&self, id: ReplicaId) -> Option<(f64, f64)> {
+        let bodies = &self.measurements().bodies;
+        let body = bodies.get(&id)?;
+        let roofs = || {
+            body.blocks.iter().filter(|b| b.solid_roof && b.top >= body.top - 0.5).map(|b| b.roof())
+        };
+        // A back that stands up is no place to put things: then the largest roof serves.
+        let widest = body.blocks.iter().filter(|b| b.solid_roof).map(|b| b.roof());
+        let widest = widest.max_by(|a, b| a.area.total_cmp(&b.area))?;
+        let top: f64 = roofs().map(|f| f.area).sum();
+        let tops: Vec<&Footprint> = if top >= widest.area * 0.5 { roofs().collect() } else { vec![widest] };
+        let area: f64 = tops.iter().map(|f| f.area).sum();
+        let on_it = bodies.values().filter(|b| self.support_of(b.id) == Some(id));
+        let covered: f64 = on_it
+            .flat_map(|b| &b.outline)
+            .map(|f| tops.iter().map(|t| overlap_area(f, t)).sum::<f64>())
+            .sum();
+        Some((area, (area - covered).max(0.0)))
+    }
+}
