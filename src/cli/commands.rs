@@ -56,7 +56,7 @@ fn note_repairs(engine: &Engine) {
     }
 }
 
-fn warn(warnings: &MapErrors) {
+pub(super) fn warn(warnings: &MapErrors) {
     if !warnings.faults.is_empty() {
         note(drawn(warnings).trim_end());
     }
