@@ -11,6 +11,8 @@ mod draw;
 mod edit;
 mod fault;
 mod json;
+mod observe;
+mod store;
 mod text;
 
 use std::io::Write;
@@ -55,7 +57,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => commands::plan(common, plan),
-        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
+        Command::Do { task, draw, reset } => {
+            commands::perform(common, task, draw.as_deref(), *reset)
+        }
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }
@@ -63,7 +67,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Datalog { program, facts, output } => {
             commands::datalog(common, program, facts, output)
         }
-        Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
+        Command::Where { map, at } => commands::locate(common, map.as_deref(), at.as_deref()),
+        Command::Observe(command) => observe::run(common, command),
+        Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),
     }
 }
