@@ -13,6 +13,7 @@ mod floor_properties;
 mod floors;
 mod formats;
 mod generated_worlds;
+mod map_editing;
 mod maps;
 mod planning;
 mod relations;

@@ -10,9 +10,12 @@ mod corridor;
 mod demo;
 mod draw;
 mod export;
+mod edit;
 mod fault;
 mod import;
 mod json;
+mod observe;
+mod store;
 mod text;
 
 use std::io::Write;
@@ -53,16 +56,18 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             demo::run(common, dir.as_deref(), map.as_deref(), task, out)
         }
         Command::Import(args) => import::run(common, args),
-        Command::Import { file } => commands::import(common, file),
         Command::Export(args) => export::run(common, args),
         Command::Check { file } => commands::check(common, file),
+        Command::Edit(edit) => edit::run(common, edit),
         Command::Schema => say(&crate::map::json_schema()),
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => commands::plan(common, plan),
-        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
         Command::Ask(ask) => ask::run(common, ask),
+        Command::Do { task, draw, reset } => {
+            commands::perform(common, task, draw.as_deref(), *reset)
+        }
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }
@@ -70,7 +75,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Datalog { program, facts, output } => {
             commands::datalog(common, program, facts, output)
         }
-        Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
+        Command::Where { map, at } => commands::locate(common, map.as_deref(), at.as_deref()),
+        Command::Observe(command) => observe::run(common, command),
+        Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),
     }
 }

@@ -84,12 +84,16 @@ mod sqlite {
             }
             let report = match &mut self.store {
                 // Sizes and lengths are computed anew: who edits a corner in SQL need not.
-                Some(store) => store.import_sheet(&Sheet::of(&world)?, change)?,
-                None => ImportReport::default(),
+                Some(store) => {
+                    let report = store.import_sheet(&Sheet::of(&world)?, change)?;
+                    self.reread()?;
+                    report
+                }
+                None => {
+                    self.follow(world)?;
+                    ImportReport::default()
+                }
             };
-            self.world = Some(world);
-            self.relations = std::cell::OnceCell::new();
-            self.floors = std::cell::OnceCell::new();
             Ok(report)
         }
     }

@@ -16,15 +16,20 @@
 //! derived anew when that map changes.
 
 mod drawing;
+mod edit;
 mod error;
 mod export;
+mod history;
 mod lexicon;
+mod memory;
+mod observe;
 mod plan;
 mod position;
 mod route;
 mod rules;
 mod talk;
 mod task;
+mod upkeep;
 mod words;
 
 use std::cell::OnceCell;
@@ -32,12 +37,17 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use drawing::{Drawing, Lens};
+pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
+pub use history::When;
+pub use memory::{After, Now, ROBOT};
+pub use observe::{Believed, Proposal, Source, Station};
 pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
+pub use upkeep::{check_store, restore_store};
 
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
@@ -47,10 +57,12 @@ pub use crate::exchange::GridFiles;
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::language::question::{Answer, Memory, Unanswered};
-pub use crate::map::World;
+pub use crate::map::{Format, World};
 pub use crate::robot::Solved;
 pub use crate::semantics::Relations;
-pub use crate::store::{Change, Timestamp};
+pub use crate::store::{
+    Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
+};
 
 use crate::geometry::{DoorStates, FloorPlan};
 use crate::language::FormIndex;
@@ -117,6 +129,26 @@ impl Engine {
         })
     }
 
+    /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_read_only(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        let rules = Rules::read(rules)?;
+        let (store, opened) = Store::open_read_only(dir)?;
+        let world = store.world()?;
+        Ok(Self {
+            store: Some(store),
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            mind: OnceCell::new(),
+            forms: OnceCell::new(),
+            opened,
+        })
+    }
+
     /// Opens a store that is there already.
     ///
     /// # Errors
@@ -163,18 +195,14 @@ impl Engine {
         let report = match &mut self.store {
             Some(store) => {
                 let report = store.import(&world, change)?;
-                self.world = store.world()?;
+                self.reread()?;
                 report
             }
             None => {
-                self.world = Some(world);
+                self.follow(world)?;
                 ImportReport::default()
             }
         };
-        self.relations = OnceCell::new();
-        self.floors = OnceCell::new();
-        self.mind = OnceCell::new();
-        self.forms = OnceCell::new();
         Ok(Imported { report, reading, warnings })
     }
 
