@@ -8,9 +8,16 @@ fn main() {
     let mut m = Memory::default();
     for line in std::io::stdin().lines() {
         let line = line.unwrap();
-        if !keep { m = Memory::default(); }
+        if !keep {
+            m = Memory::default();
+        }
         match e.ask(&line, &mut m).unwrap() {
-            Ok(a) => { println!("{line}\n    {} | {:?}", a.text, a.said); if keep {println!("      {}", e.rule_of(&a).unwrap());} }
+            Ok(a) => {
+                println!("{line}\n    {} | {:?}", a.text, a.said);
+                if keep {
+                    println!("      {}", e.rule_of(&a).unwrap());
+                }
+            }
             Err(u) => println!("{line}\n    [{}] {}", u.doubt.kind(), u.text),
         }
     }

@@ -9,12 +9,13 @@ mod commands;
 mod corridor;
 mod demo;
 mod draw;
-mod export;
 mod edit;
+mod export;
 mod fault;
 mod import;
 mod json;
 mod observe;
+mod plan;
 mod store;
 mod text;
 
@@ -63,7 +64,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
-        Command::Plan(plan) => commands::plan(common, plan),
+        Command::Plan(plan) => plan::run(common, plan),
         Command::Ask(ask) => ask::run(common, ask),
         Command::Do { task, draw, reset } => {
             commands::perform(common, task, draw.as_deref(), *reset)

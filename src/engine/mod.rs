@@ -42,18 +42,18 @@ pub use error::{Error, RequestError};
 pub use history::When;
 pub use memory::{After, Now, ROBOT};
 pub use observe::{Believed, Proposal, Source, Station};
-pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
+pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use upkeep::{check_store, restore_store};
 
+pub use crate::exchange::GridFiles;
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
     Report as ReadingReport, read as read_building,
 };
-pub use crate::exchange::GridFiles;
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::language::question::{Answer, Memory, Unanswered};

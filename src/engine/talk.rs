@@ -52,12 +52,7 @@ impl Engine {
     }
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
-        Ok(Asker {
-            world: self.world()?,
-            relations: self.relations()?,
-            mind: self.mind()?,
-            senses,
-        })
+        Ok(Asker { world: self.world()?, relations: self.relations()?, mind: self.mind()?, senses })
     }
 
     /// The nouns of the map, read when first asked for.

@@ -318,6 +318,12 @@ impl FloorPlan {
         self.portals[number as usize].iter().any(|p| p.doorway == doorway)
     }
 
+    /// The doorways that the robot can pass as they stand.
+    #[must_use]
+    pub fn open_doorways(&self) -> BTreeSet<usize> {
+        self.portals.iter().flatten().map(|p| p.doorway).collect()
+    }
+
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
     pub(super) fn doorways_at(&self, number: u32) -> &[(usize, usize)] {
         self.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)

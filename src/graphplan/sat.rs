@@ -21,6 +21,10 @@ pub(super) struct Encoding<'a> {
     operators: Vec<Vec<Option<Literal>>>,
     /// Operators that need, and that delete, each fact.
     users: Vec<Users>,
+    /// The least number of steps before the end at which an operator can serve the goal.
+    relevant_from: Vec<u32>,
+    /// What is said of the length looked at; withdrawn with the next.
+    horizon: Option<(usize, Literal)>,
 }
 
 #[derive(Default, Clone)]
@@ -61,7 +65,29 @@ impl<'a> Encoding<'a> {
             facts: Vec::new(),
             operators: Vec::new(),
             users,
+            relevant_from: relevance(task),
+            horizon: None,
         }
+    }
+
+    /// An assumption under which no operator is carried out that comes too late to serve the goal.
+    fn horizon(&mut self, level: usize) -> Literal {
+        if let Some((length, literal)) = self.horizon {
+            if length == level {
+                return literal;
+            }
+            self.solver.add_clause(&[!literal]);
+        }
+        let literal = self.solver.new_variable();
+        for (step, operators) in self.operators[..level].iter().enumerate() {
+            for (operator, &from) in operators.iter().zip(&self.relevant_from) {
+                if let (Some(done), true) = (*operator, from as usize > level - step) {
+                    self.solver.add_clause(&[!literal, !done]);
+                }
+            }
+        }
+        self.horizon = Some((level, literal));
+        literal
     }
 
     /// Looks for a plan as long as the graph, with so many conflicts at most.
@@ -71,18 +97,25 @@ impl<'a> Encoding<'a> {
         conflicts: u64,
         limits: &Limits,
     ) -> Result<Verdict, Limit> {
-        while self.facts.len() <= graph.top() {
-            self.add_level(graph);
-            limits.check(self.bytes() + graph.bytes())?;
-        }
+        self.extract_within(graph, &[], conflicts, limits)
+    }
+
+    /// The same, under further assumptions.
+    pub(super) fn extract_within(
+        &mut self,
+        graph: &PlanningGraph,
+        assumptions: &[Literal],
+        conflicts: u64,
+        limits: &Limits,
+    ) -> Result<Verdict, Limit> {
+        self.reach(graph, limits)?;
         let level = graph.top();
-        let goal: Vec<Literal> = self
-            .task
-            .goal
-            .iter()
-            .map(|goal| self.facts[level][goal.index()].expect("the goal is possible"))
-            .collect();
-        Ok(match self.solver.solve(&goal, conflicts) {
+        let mut assumed = vec![self.horizon(level)];
+        let facts = &self.facts[level];
+        let wanted = self.task.goal.iter();
+        assumed.extend(wanted.map(|goal| facts[goal.index()].expect("the goal is possible")));
+        assumed.extend(assumptions);
+        Ok(match self.solver.solve(&assumed, conflicts) {
             Answer::Satisfiable => Verdict::Plan(self.plan(level)),
             Answer::Unsatisfiable => Verdict::None,
             Answer::Open => {
@@ -90,6 +123,30 @@ impl<'a> Encoding<'a> {
                 Verdict::Open
             }
         })
+    }
+
+    /// Adds the levels that the graph has and the formula has not.
+    pub(super) fn reach(&mut self, graph: &PlanningGraph, limits: &Limits) -> Result<(), Limit> {
+        while self.facts.len() <= graph.top() {
+            self.add_level(graph);
+            limits.check(self.bytes() + graph.bytes())?;
+        }
+        Ok(())
+    }
+
+    /// The variable of an operator in a step, if it may be carried out there to any purpose.
+    pub(super) fn operator(
+        &self,
+        graph: &PlanningGraph,
+        step: usize,
+        id: OperatorId,
+    ) -> Option<Literal> {
+        let serves = self.relevant_from[id.index()] as usize <= graph.top() - step;
+        self.operators[step][id.index()].filter(|_| serves)
+    }
+
+    pub(super) fn solver(&mut self) -> &mut Solver {
+        &mut self.solver
     }
 
     /// Conflicts met so far.
@@ -258,4 +315,35 @@ impl<'a> Encoding<'a> {
         steps.reverse();
         Plan { steps }
     }
+}
+
+/// How many steps before the end an operator must come at the latest: what adds a goal in the last, what adds a
+/// precondition of one of those in the last but one.
+fn relevance(task: &Task) -> Vec<u32> {
+    let mut achievers: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
+    for id in task.operator_ids() {
+        task.operator(id).add_effects.iter().for_each(|fact| achievers[fact.index()].push(id));
+    }
+    let mut from = vec![u32::MAX; task.operators.len()];
+    let mut asked = vec![false; task.facts.len()];
+    let mut wanted = task.goal.clone();
+    for distance in 1.. {
+        let mut next = Vec::new();
+        for fact in std::mem::take(&mut wanted) {
+            if std::mem::replace(&mut asked[fact.index()], true) {
+                continue;
+            }
+            for &id in &achievers[fact.index()] {
+                if from[id.index()] == u32::MAX {
+                    from[id.index()] = distance;
+                    next.extend(&task.operator(id).preconditions);
+                }
+            }
+        }
+        if next.is_empty() {
+            break;
+        }
+        wanted = next;
+    }
+    from
 }

@@ -2,8 +2,8 @@
 //!
 //! The relations hold what is near; a question may be about what is far. Lengths are cm, areas cm².
 
-use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
 use crate::geometry::Polygon;
+use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
 use crate::units::{AreaId, MapId, Point, ReplicaId, Vector};
 
 use super::measure::surface_distance;
@@ -49,7 +49,8 @@ impl Relations {
         let along = (to - from).try_normalize(1e-9)?;
         // A thread of a rectangle: the contact tests want an area.
         let side = Vector::new(along.y, -along.x) * 0.05;
-        let thread = Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
+        let thread =
+            Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
         body.outline.iter().map(|f| gap(f, &thread).distance).reduce(f64::min)
     }
 
@@ -108,7 +109,8 @@ impl Relations {
     pub fn distance_to_area(&self, id: ReplicaId, area: AreaId) -> Option<f64> {
         let body = self.measurements().bodies.get(&id)?;
         let room = self.measurements().rooms.get(&area).filter(|r| r.map == body.map)?;
-        let gaps = body.outline.iter().flat_map(|f| room.parts.iter().map(move |(p, _, _)| gap(f, p)));
+        let gaps =
+            body.outline.iter().flat_map(|f| room.parts.iter().map(move |(p, _, _)| gap(f, p)));
         gaps.map(|g| g.distance).reduce(f64::min)
     }
 
@@ -116,15 +118,19 @@ impl Relations {
     #[must_use]
     pub fn standing_between(&self, a: ReplicaId, b: ReplicaId) -> Vec<ReplicaId> {
         let bodies = &self.measurements().bodies;
-        let (Some(first), Some(second)) = (bodies.get(&a), bodies.get(&b)) else { return Vec::new() };
+        let (Some(first), Some(second)) = (bodies.get(&a), bodies.get(&b)) else {
+            return Vec::new();
+        };
         if first.map != second.map {
             return Vec::new();
         }
         let way = gap(&first.hull, &second.hull);
-        let (from, to) = if way.distance > 0.0 { (way.from, way.to) } else { (first.centre, second.centre) };
+        let (from, to) =
+            if way.distance > 0.0 { (way.from, way.to) } else { (first.centre, second.centre) };
         let Some(along) = (to - from).try_normalize(1e-6) else { return Vec::new() };
         let side = Vector::new(along.y, -along.x) * BETWEEN_SLACK;
-        let band = Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
+        let band =
+            Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
         let (low, high) = (first.bottom.min(second.bottom), first.top.max(second.top));
         let crosses = |id: &ReplicaId| {
             let body = &bodies[id];
@@ -174,7 +180,8 @@ impl Relations {
         let widest = body.blocks.iter().filter(|b| b.solid_roof).map(|b| b.roof());
         let widest = widest.max_by(|a, b| a.area.total_cmp(&b.area))?;
         let top: f64 = roofs().map(|f| f.area).sum();
-        let tops: Vec<&Footprint> = if top >= widest.area * 0.5 { roofs().collect() } else { vec![widest] };
+        let tops: Vec<&Footprint> =
+            if top >= widest.area * 0.5 { roofs().collect() } else { vec![widest] };
         let area: f64 = tops.iter().map(|f| f.area).sum();
         let on_it = bodies.values().filter(|b| self.support_of(b.id) == Some(id));
         let covered: f64 = on_it

@@ -63,7 +63,9 @@ impl Knowledge<'_> {
             Query::Find(noun) => self.say_found(noun)?,
             Query::Count(noun) => self.count(noun)?,
             Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
-            Query::Holds { subject, claims, negated } => self.say_holds(subject, claims, *negated)?,
+            Query::Holds { subject, claims, negated } => {
+                self.say_holds(subject, claims, *negated)?
+            }
             Query::Choice { subject, claims } => self.choose(subject, claims)?,
             Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,
             Query::Property { property, of } => self.property(property, of)?,
@@ -82,7 +84,9 @@ impl Knowledge<'_> {
             }
             Query::Same { property, of } => self.same(property, of)?,
             Query::Free(noun) => self.free(noun)?,
-            Query::Place { use_for, what, within } => self.usable(*use_for, what.as_ref(), within)?,
+            Query::Place { use_for, what, within } => {
+                self.usable(*use_for, what.as_ref(), within)?
+            }
             Query::LastSeen(noun) => self.last_seen(noun)?,
             Query::Before(noun) => self.before(noun)?,
             Query::WhereAreYou => self.where_are_you(),
@@ -159,7 +163,8 @@ impl Knowledge<'_> {
                 false => format!("{} {} {place}", self.list(things), self.is(things)),
             })
             .collect();
-        let text = if self.is_russian() { parts.join("; ") } else { enumerate(&parts, self.language) };
+        let text =
+            if self.is_russian() { parts.join("; ") } else { enumerate(&parts, self.language) };
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) })
     }
 
@@ -196,7 +201,8 @@ impl Knowledge<'_> {
                 match self.is_russian() {
                     true => format!("{name} – карта домейна «{}»", domain.name),
                     false => {
-                        let title = if domain.name_en.is_empty() { &domain.name } else { &domain.name_en };
+                        let title =
+                            if domain.name_en.is_empty() { &domain.name } else { &domain.name_en };
                         format!("{name} is a map of \"{title}\"")
                     }
                 }
@@ -218,7 +224,10 @@ impl Knowledge<'_> {
         if self.relations.support_of(id).is_some() {
             return String::new();
         }
-        if let Some(&above) = over.iter().find(|t| self.tuple(Rel::Under, thing, **t).is_some_and(|(r, _, _)| r == "UNDER")) {
+        if let Some(&above) = over
+            .iter()
+            .find(|t| self.tuple(Rel::Under, thing, **t).is_some_and(|(r, _, _)| r == "UNDER"))
+        {
             facts.extend(self.fact(Rel::Under, thing, above));
             return format!(", {}", self.place(Rel::Under, &[above]));
         }
@@ -267,7 +276,11 @@ impl Knowledge<'_> {
                 found.sort_unstable();
                 found
             }
-            Rel::On => self.related(Rel::Bears, thing).into_iter().filter(|t| self.tuple(Rel::On, thing, *t).is_some()).collect(),
+            Rel::On => self
+                .related(Rel::Bears, thing)
+                .into_iter()
+                .filter(|t| self.tuple(Rel::On, thing, *t).is_some())
+                .collect(),
             Rel::Under => {
                 let mut found = self.related(Rel::Above, thing);
                 found.extend(self.related(Rel::On, thing));
@@ -308,7 +321,11 @@ impl Knowledge<'_> {
         let mut text = match (map, self.is_russian()) {
             (Some(map), true) => {
                 let floor = self.form(map, Case::Genitive);
-                if several { format!("{name} – помещение карты {floor}") } else { format!("{name} – одно из помещений: {floor}") }
+                if several {
+                    format!("{name} – помещение карты {floor}")
+                } else {
+                    format!("{name} – одно из помещений: {floor}")
+                }
             }
             (Some(map), false) => format!("{name} is a room of {}", self.name(map)),
             (None, true) => format!("{name} – помещение"),
@@ -329,14 +346,19 @@ impl Knowledge<'_> {
         let Some(gate) = self.gate(thing) else {
             return self.where_object_door(thing);
         };
-        let areas: Vec<Thing> = gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect();
+        let areas: Vec<Thing> =
+            gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect();
         match (&areas[..], self.is_russian()) {
             ([_, _, ..], true) => {
                 format!("{name} {} {}", self.find_is(thing), self.place(Rel::Between, &areas))
             }
             ([_, _, ..], false) => format!("{name} is {}", self.place(Rel::Between, &areas)),
             ([only], true) => {
-                format!("{name} {} {} и ведёт за пределы карты", self.find_is(thing), self.place(Rel::In, &[*only]))
+                format!(
+                    "{name} {} {} и ведёт за пределы карты",
+                    self.find_is(thing),
+                    self.place(Rel::In, &[*only])
+                )
             }
             ([only], false) => {
                 format!("{name} is {} and leads out of the map", self.place(Rel::In, &[*only]))
@@ -387,10 +409,15 @@ impl Knowledge<'_> {
                 Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
                 None => match thing {
                     Thing::Entity(Entity::Area(id)) => {
-                        let map = self.world.placement(id).map(|(m, _)| Thing::Entity(Entity::Map(m)));
+                        let map =
+                            self.world.placement(id).map(|(m, _)| Thing::Entity(Entity::Map(m)));
                         map.into_iter().collect()
                     }
-                    _ => self.area_of(thing).map(|a| Thing::Entity(Entity::Area(a))).into_iter().collect(),
+                    _ => self
+                        .area_of(thing)
+                        .map(|a| Thing::Entity(Entity::Area(a)))
+                        .into_iter()
+                        .collect(),
                 },
             };
             let name = self.name(thing);
@@ -402,7 +429,11 @@ impl Knowledge<'_> {
                 continue;
             };
             facts.extend(self.fact(Rel::In, thing, first));
-            let place = if areas.len() > 1 { self.place(Rel::Between, &areas) } else { self.place(Rel::In, &areas) };
+            let place = if areas.len() > 1 {
+                self.place(Rel::Between, &areas)
+            } else {
+                self.place(Rel::In, &areas)
+            };
             let mut part = format!("{name} {} {place}", self.is(&[thing]));
             if several && let Some((map, _)) = first.area().and_then(|a| self.world.placement(a)) {
                 let map = Thing::Entity(Entity::Map(map));
@@ -456,7 +487,11 @@ impl Knowledge<'_> {
                 }
                 (true, false) => format!("{place}{frame} {} {list}", self.is(&found)),
                 (false, true) => {
-                    if general { list } else { format!("{}: {list}", self.counted(noun, found.len())) }
+                    if general {
+                        list
+                    } else {
+                        format!("{}: {list}", self.counted(noun, found.len()))
+                    }
                 }
                 (false, false) if self.is_having(noun) => {
                     format!("{}: {list}", self.counted(noun, found.len()))
@@ -476,7 +511,8 @@ impl Knowledge<'_> {
     fn is_having(&self, noun: &Noun) -> bool {
         noun.restrictions.iter().any(|r| {
             matches!(r.rel, Rel::Has | Rel::Bears)
-                || (r.rel == Rel::Near && noun.head.kinds.iter().any(|k| self.lexicon().is_area(*k)))
+                || (r.rel == Rel::Near
+                    && noun.head.kinds.iter().any(|k| self.lexicon().is_area(*k)))
         })
     }
 
@@ -489,9 +525,13 @@ impl Knowledge<'_> {
 
     /// Passages beside doors, and what lies inside beside what stands on top.
     fn also(&self, noun: &Noun, found: &[Thing]) -> String {
-        let doors = noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
-        let of_area = noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
-        let Some(restriction) = of_area.filter(|_| doors && noun.filters.is_empty()) else { return String::new() };
+        let doors =
+            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
+        let of_area =
+            noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
+        let Some(restriction) = of_area.filter(|_| doors && noun.filters.is_empty()) else {
+            return String::new();
+        };
         let Some(anchor) = restriction.anchors.first() else { return String::new() };
         let Ok(areas) = self.find(anchor, true) else { return String::new() };
         let passages: Vec<Thing> = self
@@ -511,9 +551,13 @@ impl Knowledge<'_> {
     /// Names; of doors with where they lead, of left and right with how far they are.
     fn with_details(&self, noun: &Noun, found: &[Thing]) -> String {
         let measured = noun.restrictions.iter().find(|r| {
-            matches!(r.rel, Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf | Rel::NextTo | Rel::Near)
+            matches!(
+                r.rel,
+                Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf | Rel::NextTo | Rel::Near
+            )
         });
-        let anchor = measured.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
+        let anchor =
+            measured.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
         let from = noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::Of));
         let from = from.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
         let mut found = found.to_vec();
@@ -525,7 +569,8 @@ impl Knowledge<'_> {
         }
         let detail = |thing: &Thing| -> String {
             let name = self.name(*thing);
-            if let (Some(gate), Some(Thing::Entity(Entity::Area(here)))) = (self.gate(*thing), from) {
+            if let (Some(gate), Some(Thing::Entity(Entity::Area(here)))) = (self.gate(*thing), from)
+            {
                 let others: Vec<Thing> = gate
                     .areas
                     .iter()
@@ -540,7 +585,9 @@ impl Knowledge<'_> {
             }
             let away = anchor.and_then(|a| self.distance(*thing, a)).filter(|d| *d >= 1.0);
             match away {
-                Some(d) if thing.replica().is_some() => format!("{name} ({})", length(d, self.language)),
+                Some(d) if thing.replica().is_some() => {
+                    format!("{name} ({})", length(d, self.language))
+                }
                 _ => name,
             }
         };
@@ -575,7 +622,9 @@ impl Knowledge<'_> {
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
             (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
             (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
-            (false, false) if place.is_empty() => format!("there are no {} on the map", self.none_of(noun)),
+            (false, false) if place.is_empty() => {
+                format!("there are no {} on the map", self.none_of(noun))
+            }
             (false, false) => format!("there are no {} {place}{frame}", self.none_of(noun)),
         }
     }
@@ -595,7 +644,10 @@ impl Knowledge<'_> {
                 let away = away.unwrap_or_default();
                 let form = self.form(anchor, Case::Genitive);
                 match self.is_russian() {
-                    true => format!("{away} {} {form}", russian::preposition(russian::Preposition::Ot, &form)),
+                    true => format!(
+                        "{away} {} {form}",
+                        russian::preposition(russian::Preposition::Ot, &form)
+                    ),
                     false => format!("{away} from {form}"),
                 }
             }
@@ -663,24 +715,34 @@ impl Knowledge<'_> {
                     let (phrase, english) = self.kind_phrase(noun);
                     match self.language {
                         Language::Russian => russian::count(number as u64, &phrase),
-                        Language::English => crate::language::words::english::count(number as u64, &english),
+                        Language::English => {
+                            crate::language::words::english::count(number as u64, &english)
+                        }
                     }
                 }
                 false => self.counted(noun, number),
             };
-            let list = if number <= 12 { format!(": {}", self.list(&found)) } else { String::new() };
+            let list =
+                if number <= 12 { format!(": {}", self.list(&found)) } else { String::new() };
             match (self.is_russian(), place.is_empty()) {
                 (true, true) => format!("на карте {counted}{list}"),
                 (true, false) if self.is_having(noun) => format!("{counted} {place}{list}"),
                 (true, false) => format!("{place} {counted}{list}"),
-                (false, true) => format!("there {} {counted}{list}", if number == 1 { "is" } else { "are" }),
+                (false, true) => {
+                    format!("there {} {counted}{list}", if number == 1 { "is" } else { "are" })
+                }
                 (false, false) => {
-                    format!("there {} {counted} {place}{list}", if number == 1 { "is" } else { "are" })
+                    format!(
+                        "there {} {counted} {place}{list}",
+                        if number == 1 { "is" } else { "are" }
+                    )
                 }
             }
         };
         let said = if number == 0 { Said::Nothing } else { Said::Found };
-        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&anchors).number(number as f64))
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }
+            .about(&anchors)
+            .number(number as f64))
     }
 
     fn exists(&self, what: &[Noun], either: bool, negated: bool) -> Result<Draft, Doubt> {
@@ -706,7 +768,8 @@ impl Knowledge<'_> {
         let things: Vec<Thing> = found.concat();
         let anchors = self.anchor_things(&what[0]);
         let said = if holds { Said::Yes } else { Said::No };
-        Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }.about(&anchors))
+        Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
+            .about(&anchors))
     }
 
     /// «в Комнате-В есть 2 стула: Стул-1 и Стул-2», «в Комнате-В нет стульев»
@@ -728,7 +791,10 @@ impl Knowledge<'_> {
         let general = noun.head.anything || noun.head.kinds.is_empty();
         let unplaced = place.is_empty() && things.len() == 1;
         let room = things.first().filter(|_| unplaced).and_then(|t| self.in_room(*t));
-        let room = room.filter(|_| things[0].area().is_none()).map(|r| format!(" {r}")).unwrap_or_default();
+        let room = room
+            .filter(|_| things[0].area().is_none())
+            .map(|r| format!(" {r}"))
+            .unwrap_or_default();
         match (self.is_russian(), general || things.len() == 1) {
             (true, true) => format!("{blank}есть {list}{room}"),
             (true, false) => format!("{blank}есть {}: {list}", self.counted(noun, things.len())),
@@ -736,7 +802,9 @@ impl Knowledge<'_> {
                 let verb = if things.len() == 1 { "is" } else { "are" };
                 format!("there {verb} {list}{room} {place}")
             }
-            (false, false) => format!("there are {} {place}: {list}", self.counted(noun, things.len())),
+            (false, false) => {
+                format!("there are {} {place}: {list}", self.counted(noun, things.len()))
+            }
         }
         .trim_end()
         .replace(" :", ":")
@@ -753,8 +821,13 @@ impl Knowledge<'_> {
                 let entry = self.lexicon().values.entry(filter.value);
                 let own = self.values(thing).into_iter().find(|(p, _, _)| *p == entry.property);
                 let fact = match (self.statuses(thing).first(), thing) {
-                    (Some((status, _)), Thing::Entity(Entity::Door(_))) if entry.property == Property::State => {
-                        Some(Fact::holding("DOOR_IS", vec![self.symbol(thing), status_word(*status).to_owned()]))
+                    (Some((status, _)), Thing::Entity(Entity::Door(_)))
+                        if entry.property == Property::State =>
+                    {
+                        Some(Fact::holding(
+                            "DOOR_IS",
+                            vec![self.symbol(thing), status_word(*status).to_owned()],
+                        ))
                     }
                     _ => own.map(|(_, _, text)| {
                         let property = self.property_name(thing, &entry.property);
@@ -777,10 +850,15 @@ impl Knowledge<'_> {
         };
         let found = match thing {
             Thing::Entity(Entity::Replica(id)) => self.world.replicas.get(&id).and_then(|r| {
-                find(&r.properties).or_else(|| self.world.objects.get(&r.object).and_then(|o| find(&o.properties)))
+                find(&r.properties)
+                    .or_else(|| self.world.objects.get(&r.object).and_then(|o| find(&o.properties)))
             }),
-            Thing::Entity(Entity::Door(id)) => self.world.doors.get(&id).and_then(|d| find(&d.properties)),
-            Thing::Entity(Entity::Area(id)) => self.world.areas.get(&id).and_then(|a| find(&a.properties)),
+            Thing::Entity(Entity::Door(id)) => {
+                self.world.doors.get(&id).and_then(|d| find(&d.properties))
+            }
+            Thing::Entity(Entity::Area(id)) => {
+                self.world.areas.get(&id).and_then(|a| find(&a.properties))
+            }
             _ => None,
         };
         found.unwrap_or_else(|| property.noun(Language::Russian).to_uppercase())
@@ -802,7 +880,9 @@ impl Knowledge<'_> {
             }
             return Ok((holds, Vec::new(), anchors));
         }
-        let Some(noun) = restriction.anchors.first() else { return Ok((false, Vec::new(), Vec::new())) };
+        let Some(noun) = restriction.anchors.first() else {
+            return Ok((false, Vec::new(), Vec::new()));
+        };
         let anchors = self.find(noun, true)?;
         if anchors.is_empty() {
             return Err(self.none_such(noun));
@@ -901,8 +981,12 @@ impl Knowledge<'_> {
             (_, true, false) => format!("all of them: {}", self.list(found)),
             (true, _, true) => format!("ни одно из них: {}", self.list(found)),
             (true, _, false) => format!("none of them: {}", self.list(found)),
-            (false, false, true) => format!("не все: {} – да, {} – нет", self.list(&fit), self.list(failed)),
-            (false, false, false) => format!("not all: {} yes, {} no", self.list(&fit), self.list(failed)),
+            (false, false, true) => {
+                format!("не все: {} – да, {} – нет", self.list(&fit), self.list(failed))
+            }
+            (false, false, false) => {
+                format!("not all: {} yes, {} no", self.list(&fit), self.list(failed))
+            }
         }
     }
 
@@ -913,7 +997,9 @@ impl Knowledge<'_> {
             Claim::Related(restriction) => {
                 let place = match anchors.len() {
                     0 | 1 => self.place(restriction.rel, &anchors),
-                    _ if holds || restriction.rel == Rel::Between => self.place(restriction.rel, &anchors),
+                    _ if holds || restriction.rel == Rel::Between => {
+                        self.place(restriction.rel, &anchors)
+                    }
                     _ => {
                         let mut noun = Noun::default();
                         noun.restrictions.push(restriction.clone());
@@ -921,7 +1007,9 @@ impl Knowledge<'_> {
                     }
                 };
                 let place = match restriction.anchors.first() {
-                    Some(anchor) if self.is_floor(anchor) => self.pick("на полу", "on the floor").to_owned(),
+                    Some(anchor) if self.is_floor(anchor) => {
+                        self.pick("на полу", "on the floor").to_owned()
+                    }
                     _ => place,
                 };
                 let verb = match (restriction.rel, self.is_russian()) {
@@ -929,12 +1017,23 @@ impl Knowledge<'_> {
                     (Rel::To, false) => "leads",
                     _ => self.is(&[thing]),
                 };
-                let frame = anchors.first().map(|a| self.frame_words(restriction.rel, *a)).unwrap_or_default();
+                let frame = anchors
+                    .first()
+                    .map(|a| self.frame_words(restriction.rel, *a))
+                    .unwrap_or_default();
                 match (holds, self.is_russian()) {
                     (true, _) => format!("{verb} {place}{frame}"),
-                    (false, true) => format!("{} {verb} {place}{frame}{}", "не", self.instead(thing, restriction.rel)),
-                    (false, false) if restriction.rel == Rel::To => format!("does not lead {place}"),
-                    (false, false) => format!("{verb} not {place}{frame}{}", self.instead(thing, restriction.rel)),
+                    (false, true) => format!(
+                        "{} {verb} {place}{frame}{}",
+                        "не",
+                        self.instead(thing, restriction.rel)
+                    ),
+                    (false, false) if restriction.rel == Rel::To => {
+                        format!("does not lead {place}")
+                    }
+                    (false, false) => {
+                        format!("{verb} not {place}{frame}{}", self.instead(thing, restriction.rel))
+                    }
                 }
             }
             Claim::Value(filter) => {
@@ -946,7 +1045,9 @@ impl Knowledge<'_> {
                     (false, Some(own), true) => own,
                     (false, Some(own), false) => format!("{} {own}", self.is(&[thing])),
                     (false, None, true) => format!("не {asked}: на карте такого свойства нет"),
-                    (false, None, false) => format!("{} not {asked}, as far as the map says", self.is(&[thing])),
+                    (false, None, false) => {
+                        format!("{} not {asked}, as far as the map says", self.is(&[thing]))
+                    }
                 }
             }
             Claim::Kind(noun) => {
@@ -1034,7 +1135,8 @@ impl Knowledge<'_> {
         };
         let floor = rel == Rel::On && found.is_empty();
         if let Some(what) = what.filter(|w| !w.head.kinds.is_empty() && !self.is_floor(w)) {
-            let kinds = self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
+            let kinds =
+                self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
             found.retain(|t| kinds.contains(t));
         }
         let facts: Vec<Fact> = found.iter().filter_map(|y| self.fact(rel, thing, *y)).collect();
@@ -1050,8 +1152,12 @@ impl Knowledge<'_> {
                     let room = self.in_room(thing).map(|r| format!(" {r}")).unwrap_or_default();
                     format!("{name} {verb} on the floor{room}")
                 }
-                (false, true) => format!("такого на карте нет: {}", self.where_one(thing, &mut Vec::new())),
-                (false, false) => format!("there is no such thing: {}", self.where_one(thing, &mut Vec::new())),
+                (false, true) => {
+                    format!("такого на карте нет: {}", self.where_one(thing, &mut Vec::new()))
+                }
+                (false, false) => {
+                    format!("there is no such thing: {}", self.where_one(thing, &mut Vec::new()))
+                }
             };
             let said = if floor { Said::Found } else { Said::Nothing };
             return Ok(Draft::new(said, text).about(&[thing]));
@@ -1082,7 +1188,8 @@ impl Knowledge<'_> {
         let mut known = false;
         for &thing in &found {
             let name = self.name(thing);
-            let own: Vec<_> = self.values(thing).into_iter().filter(|(p, _, _)| p == property).collect();
+            let own: Vec<_> =
+                self.values(thing).into_iter().filter(|(p, _, _)| p == property).collect();
             if own.is_empty() {
                 parts.push(self.no_property(property, thing));
                 continue;
@@ -1098,7 +1205,10 @@ impl Knowledge<'_> {
             for (_, _, text) in &own {
                 facts.push(match (thing, self.statuses(thing).first(), property) {
                     (Thing::Entity(Entity::Door(_)), Some((status, _)), Property::State) => {
-                        Fact::holding("DOOR_IS", vec![self.symbol(thing), status_word(*status).to_owned()])
+                        Fact::holding(
+                            "DOOR_IS",
+                            vec![self.symbol(thing), status_word(*status).to_owned()],
+                        )
                     }
                     _ => {
                         let name = self.property_name(thing, property);
@@ -1108,8 +1218,12 @@ impl Knowledge<'_> {
             }
             let words = enumerate(&words, self.language);
             parts.push(match (self.is_russian(), property) {
-                (true, Property::Colour | Property::State | Property::Surface | Property::Orientation) => {
-                    let dash = if words.ends_with(['н', 'т', 'а', 'о', 'ы']) { "" } else { "– " };
+                (
+                    true,
+                    Property::Colour | Property::State | Property::Surface | Property::Orientation,
+                ) => {
+                    let dash =
+                        if words.ends_with(['н', 'т', 'а', 'о', 'ы']) { "" } else { "– " };
                     let _ = dash;
                     format!("{name} {words}")
                 }
@@ -1128,11 +1242,16 @@ impl Knowledge<'_> {
     fn no_property(&self, property: &Property, thing: Thing) -> String {
         let noun = property.noun(self.language);
         match self.is_russian() {
-            true => format!("{} {} на карте не {}", noun, self.form(thing, Case::Genitive), match property {
-                Property::State => "указано",
-                Property::Surface | Property::Shape | Property::Orientation => "указана",
-                _ => "указан",
-            }),
+            true => format!(
+                "{} {} на карте не {}",
+                noun,
+                self.form(thing, Case::Genitive),
+                match property {
+                    Property::State => "указано",
+                    Property::Surface | Property::Shape | Property::Orientation => "указана",
+                    _ => "указан",
+                }
+            ),
             false => format!("the map does not give the {noun} of {}", self.name(thing)),
         }
     }
@@ -1155,41 +1274,117 @@ impl Knowledge<'_> {
             (Some(e), _) => {
                 let sizes = self.sizes(thing).unwrap_or_default();
                 match (dimension, self.is_russian()) {
-                    (Dimension::All, true) if is_area => (format!("{name}: площадь {}, высота {}", area(e.base, lang), length(e.height, lang)), e.base),
-                    (Dimension::All, false) if is_area => (format!("{name} has a floor area of {} and is {} high", area(e.base, lang), length(e.height, lang)), e.base),
-                    (Dimension::All, true) => (format!("размеры {}: {sizes} (ширина, глубина, высота)", self.form(thing, Case::Genitive)), e.height),
-                    (Dimension::All, false) => (format!("{name} measures {sizes} (width, depth, height)"), e.height),
-                    (Dimension::Height, true) => (format!("высота {} – {}", self.form(thing, Case::Genitive), length(e.height, lang)), e.height),
-                    (Dimension::Height, false) => (format!("{name} is {} high", length(e.height, lang)), e.height),
-                    (Dimension::Width, true) => (format!("ширина {} – {}", self.form(thing, Case::Genitive), length(e.width, lang)), e.width),
-                    (Dimension::Width, false) => (format!("{name} is {} wide", length(e.width, lang)), e.width),
+                    (Dimension::All, true) if is_area => (
+                        format!(
+                            "{name}: площадь {}, высота {}",
+                            area(e.base, lang),
+                            length(e.height, lang)
+                        ),
+                        e.base,
+                    ),
+                    (Dimension::All, false) if is_area => (
+                        format!(
+                            "{name} has a floor area of {} and is {} high",
+                            area(e.base, lang),
+                            length(e.height, lang)
+                        ),
+                        e.base,
+                    ),
+                    (Dimension::All, true) => (
+                        format!(
+                            "размеры {}: {sizes} (ширина, глубина, высота)",
+                            self.form(thing, Case::Genitive)
+                        ),
+                        e.height,
+                    ),
+                    (Dimension::All, false) => {
+                        (format!("{name} measures {sizes} (width, depth, height)"), e.height)
+                    }
+                    (Dimension::Height, true) => (
+                        format!(
+                            "высота {} – {}",
+                            self.form(thing, Case::Genitive),
+                            length(e.height, lang)
+                        ),
+                        e.height,
+                    ),
+                    (Dimension::Height, false) => {
+                        (format!("{name} is {} high", length(e.height, lang)), e.height)
+                    }
+                    (Dimension::Width, true) => (
+                        format!(
+                            "ширина {} – {}",
+                            self.form(thing, Case::Genitive),
+                            length(e.width, lang)
+                        ),
+                        e.width,
+                    ),
+                    (Dimension::Width, false) => {
+                        (format!("{name} is {} wide", length(e.width, lang)), e.width)
+                    }
                     (Dimension::Length, true) => {
                         let long = e.width.max(e.depth);
-                        (format!("длина {} – {}", self.form(thing, Case::Genitive), length(long, lang)), long)
+                        (
+                            format!(
+                                "длина {} – {}",
+                                self.form(thing, Case::Genitive),
+                                length(long, lang)
+                            ),
+                            long,
+                        )
                     }
                     (Dimension::Length, false) => {
                         let long = e.width.max(e.depth);
                         (format!("{name} is {} long", length(long, lang)), long)
                     }
-                    (Dimension::Area, true) => (format!("площадь {} – {}", self.form(thing, Case::Genitive), area(e.base, lang)), e.base),
-                    (Dimension::Area, false) => (format!("{name} has an area of {}", area(e.base, lang)), e.base),
+                    (Dimension::Area, true) => (
+                        format!(
+                            "площадь {} – {}",
+                            self.form(thing, Case::Genitive),
+                            area(e.base, lang)
+                        ),
+                        e.base,
+                    ),
+                    (Dimension::Area, false) => {
+                        (format!("{name} has an area of {}", area(e.base, lang)), e.base)
+                    }
                 }
             }
             (None, Some(door)) => {
                 let (width, height) = (door.width.get(), door.height.get());
                 let text = match (dimension, self.is_russian()) {
-                    (Dimension::Height, true) => format!("высота {} – {}", self.form(thing, Case::Genitive), length(height, lang)),
-                    (Dimension::Height, false) => format!("{name} is {} high", length(height, lang)),
-                    (Dimension::Width, true) => format!("ширина {} – {}", self.form(thing, Case::Genitive), length(width, lang)),
+                    (Dimension::Height, true) => format!(
+                        "высота {} – {}",
+                        self.form(thing, Case::Genitive),
+                        length(height, lang)
+                    ),
+                    (Dimension::Height, false) => {
+                        format!("{name} is {} high", length(height, lang))
+                    }
+                    (Dimension::Width, true) => format!(
+                        "ширина {} – {}",
+                        self.form(thing, Case::Genitive),
+                        length(width, lang)
+                    ),
                     (Dimension::Width, false) => format!("{name} is {} wide", length(width, lang)),
-                    (_, true) => format!("{name}: ширина {}, высота {}", length(width, lang), length(height, lang)),
-                    (_, false) => format!("{name} is {} wide and {} high", length(width, lang), length(height, lang)),
+                    (_, true) => format!(
+                        "{name}: ширина {}, высота {}",
+                        length(width, lang),
+                        length(height, lang)
+                    ),
+                    (_, false) => format!(
+                        "{name} is {} wide and {} high",
+                        length(width, lang),
+                        length(height, lang)
+                    ),
                 };
                 (text, if dimension == Dimension::Height { height } else { width })
             }
             (None, None) => {
                 let text = match self.is_russian() {
-                    true => format!("размеры {} на карте не указаны", self.form(thing, Case::Genitive)),
+                    true => {
+                        format!("размеры {} на карте не указаны", self.form(thing, Case::Genitive))
+                    }
                     false => format!("the map does not give the size of {name}"),
                 };
                 return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
@@ -1202,7 +1397,8 @@ impl Knowledge<'_> {
         let thing = self.one(noun)?;
         let items = match thing {
             Thing::Entity(Entity::Replica(id)) => {
-                let object = self.world.replicas.get(&id).and_then(|r| self.world.objects.get(&r.object));
+                let object =
+                    self.world.replicas.get(&id).and_then(|r| self.world.objects.get(&r.object));
                 object.map(|o| &o.items)
             }
             Thing::Entity(Entity::Area(id)) => self.world.areas.get(&id).map(|a| &a.items),
@@ -1232,7 +1428,10 @@ impl Knowledge<'_> {
                 let whole = match thing {
                     Thing::Entity(Entity::Replica(r)) => {
                         let object = self.world.replicas.get(&r)?.object;
-                        self.relations.symbols().symbol(crate::semantics::Subject::Object(object)).to_string()
+                        self.relations
+                            .symbols()
+                            .symbol(crate::semantics::Subject::Object(object))
+                            .to_string()
                     }
                     other => self.symbol(other),
                 };
@@ -1248,12 +1447,17 @@ impl Knowledge<'_> {
                     (true, Some(kind)) if !kind.name_en.is_empty() => kind.name_en.clone(),
                     _ => crate::language::english::name_of(&title).unwrap_or_else(|| title.clone()),
                 };
-                let phrase = crate::language::NounPhrase::parse(&title, &crate::language::WordHints::default());
+                let phrase = crate::language::NounPhrase::parse(
+                    &title,
+                    &crate::language::WordHints::default(),
+                );
                 Some(match (self.is_russian(), *n) {
                     (true, 1) => super::lexicon::lower_first(&phrase.case(Case::Genitive)),
                     (true, n) => genitive_count(n, &phrase),
                     (false, 1) => crate::language::english::with_article(&english.to_lowercase()),
-                    (false, n) => crate::language::english::count(n as u64, &english.to_lowercase()),
+                    (false, n) => {
+                        crate::language::english::count(n as u64, &english.to_lowercase())
+                    }
                 })
             })
             .collect();
@@ -1276,15 +1480,24 @@ impl Knowledge<'_> {
             .map(|g| g.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect())
             .unwrap_or_default();
         let text = match (&areas[..], self.is_russian()) {
-            ([a, b, ..], true) => format!("{name} соединяет {} и {}", self.form(*a, Case::Accusative), self.form(*b, Case::Accusative)),
+            ([a, b, ..], true) => format!(
+                "{name} соединяет {} и {}",
+                self.form(*a, Case::Accusative),
+                self.form(*b, Case::Accusative)
+            ),
             ([a, b, ..], false) => format!("{name} joins {} and {}", self.name(*a), self.name(*b)),
-            ([a], true) => format!("{name} ведёт {} за пределы карты", self.place(Rel::From, &[*a])),
+            ([a], true) => {
+                format!("{name} ведёт {} за пределы карты", self.place(Rel::From, &[*a]))
+            }
             ([a], false) => format!("{name} leads from {} out of the map", self.name(*a)),
             ([], true) => format!("{name}: куда ведёт, на карте не указано"),
             ([], false) => format!("the map does not tell where {name} leads"),
         };
         let facts = match &areas[..] {
-            [a, b, ..] => vec![Fact::holding("JOINS", vec![self.symbol(thing), self.symbol(*a), self.symbol(*b)])],
+            [a, b, ..] => vec![Fact::holding(
+                "JOINS",
+                vec![self.symbol(thing), self.symbol(*a), self.symbol(*b)],
+            )],
             _ => Vec::new(),
         };
         let said = if areas.is_empty() { Said::Unknown } else { Said::Found };
@@ -1311,8 +1524,13 @@ impl Knowledge<'_> {
             }
             Err(why) => {
                 let text = match self.is_russian() {
-                    true => format!("{}проехать туда нельзя: {why}", if yes_or_no { "нет, " } else { "" }),
-                    false => format!("{}there is no way: {why}", if yes_or_no { "no, " } else { "" }),
+                    true => format!(
+                        "{}проехать туда нельзя: {why}",
+                        if yes_or_no { "нет, " } else { "" }
+                    ),
+                    false => {
+                        format!("{}there is no way: {why}", if yes_or_no { "no, " } else { "" })
+                    }
                 };
                 Draft::new(Said::No, text).about(&topic)
             }
@@ -1336,14 +1554,37 @@ impl Knowledge<'_> {
         let lang = self.language;
         let name = |t: Thing| self.name(t);
         let text = match (way, straight, self.is_russian()) {
-            (Some(way), Some(d), true) => format!("{of} {a} {until} {b} {} пути, по прямой {}", length(way, lang), length(d, lang)),
+            (Some(way), Some(d), true) => format!(
+                "{of} {a} {until} {b} {} пути, по прямой {}",
+                length(way, lang),
+                length(d, lang)
+            ),
             (Some(way), None, true) => format!("{of} {a} {until} {b} {} пути", length(way, lang)),
             (None, Some(d), true) => format!("{of} {a} {until} {b} {}", length(d, lang)),
-            (Some(way), Some(d), false) => format!("from {} to {} it is {} by way, {} in a straight line", name(start), name(to), length(way, lang), length(d, lang)),
-            (Some(way), None, false) => format!("from {} to {} the way is {} long", name(start), name(to), length(way, lang)),
-            (None, Some(d), false) => format!("from {} to {} it is {}", name(start), name(to), length(d, lang)),
-            (None, None, true) => format!("расстояние {of} {a} {until} {b} неизвестно: они на разных картах"),
-            (None, None, false) => format!("the distance from {} to {} is unknown: they are on different maps", name(start), name(to)),
+            (Some(way), Some(d), false) => format!(
+                "from {} to {} it is {} by way, {} in a straight line",
+                name(start),
+                name(to),
+                length(way, lang),
+                length(d, lang)
+            ),
+            (Some(way), None, false) => format!(
+                "from {} to {} the way is {} long",
+                name(start),
+                name(to),
+                length(way, lang)
+            ),
+            (None, Some(d), false) => {
+                format!("from {} to {} it is {}", name(start), name(to), length(d, lang))
+            }
+            (None, None, true) => {
+                format!("расстояние {of} {a} {until} {b} неизвестно: они на разных картах")
+            }
+            (None, None, false) => format!(
+                "the distance from {} to {} is unknown: they are on different maps",
+                name(start),
+                name(to)
+            ),
         };
         let number = way.or(straight);
         let said = if number.is_some() { Said::Found } else { Said::Unknown };
@@ -1354,7 +1595,13 @@ impl Knowledge<'_> {
 
     // ── comparing ────────────────────────────────────────────────────────────────────────────────
 
-    fn closer(&self, what: &Noun, near: &Noun, than: &Noun, closeness: Closeness) -> Result<Draft, Doubt> {
+    fn closer(
+        &self,
+        what: &Noun,
+        near: &Noun,
+        than: &Noun,
+        closeness: Closeness,
+    ) -> Result<Draft, Doubt> {
         let (what, near, than) = (self.one(what)?, self.one(near)?, self.one(than)?);
         let (Some(a), Some(b)) = (self.distance(what, near), self.distance(what, than)) else {
             return Ok(self.apart(&[what, near, than]));
@@ -1379,7 +1626,11 @@ impl Knowledge<'_> {
             }
             false => format!(
                 "{head}it is {} from {} to {} and {} to {}",
-                length(a, lang), self.name(what), self.name(near), length(b, lang), self.name(than)
+                length(a, lang),
+                self.name(what),
+                self.name(near),
+                length(b, lang),
+                self.name(than)
             ),
         };
         let said = if yes { Said::Yes } else { Said::No };
@@ -1390,14 +1641,18 @@ impl Knowledge<'_> {
         let list = self.list(things);
         let text = match self.is_russian() {
             true => format!("сравнить нельзя: {list} – на разных картах или не имеют размеров"),
-            false => format!("they cannot be compared: {list} are on different maps or have no size"),
+            false => {
+                format!("they cannot be compared: {list} are on different maps or have no size")
+            }
         };
         Draft::new(Said::Unknown, text)
     }
 
     fn compared(&self, thing: Thing, extreme: Extreme, to: Option<Thing>) -> Option<f64> {
         match extreme {
-            Extreme::Nearest | Extreme::Farthest => self.distance(thing, to.unwrap_or(Thing::Robot)),
+            Extreme::Nearest | Extreme::Farthest => {
+                self.distance(thing, to.unwrap_or(Thing::Robot))
+            }
             other => self.measure(other, thing),
         }
     }
@@ -1409,20 +1664,30 @@ impl Knowledge<'_> {
         }
     }
 
-    fn which_more(&self, of: &[Noun; 2], extreme: Extreme, to: Option<&Noun>) -> Result<Draft, Doubt> {
+    fn which_more(
+        &self,
+        of: &[Noun; 2],
+        extreme: Extreme,
+        to: Option<&Noun>,
+    ) -> Result<Draft, Doubt> {
         let (a, b) = (self.one(&of[0])?, self.one(&of[1])?);
         let to = to.map(|noun| self.one(noun)).transpose()?;
-        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to)) else {
+        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
+        else {
             return Ok(self.apart(&[a, b]));
         };
-        let less = matches!(extreme, Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest);
+        let less = matches!(
+            extreme,
+            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
+        );
         let first = (x < y) == less;
         let (winner, best, other, rest) = if first { (a, x, b, y) } else { (b, y, a, x) };
         if (x - y).abs() < 1e-6 {
             let text = self.pick("они одинаковы", "they are equal").to_owned();
             return Ok(Draft::new(Said::Nothing, text).with(vec![a, b]));
         }
-        let (best, rest) = (self.compared_words(winner, extreme, best), self.compared_words(other, extreme, rest));
+        let (best, rest) =
+            (self.compared_words(winner, extreme, best), self.compared_words(other, extreme, rest));
         let (name, other_name) = (self.name(winner), self.name(other));
         let comparative = self.comparative(extreme);
         let text = match self.is_russian() {
@@ -1446,17 +1711,28 @@ impl Knowledge<'_> {
         }
     }
 
-    fn larger(&self, what: &Noun, than: &Noun, extreme: Extreme, to: Option<&Noun>) -> Result<Draft, Doubt> {
+    fn larger(
+        &self,
+        what: &Noun,
+        than: &Noun,
+        extreme: Extreme,
+        to: Option<&Noun>,
+    ) -> Result<Draft, Doubt> {
         let (a, b) = (self.one(what)?, self.one(than)?);
         let to = to.map(|noun| self.one(noun)).transpose()?;
-        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to)) else {
+        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
+        else {
             return Ok(self.apart(&[a, b]));
         };
-        let less = matches!(extreme, Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest);
+        let less = matches!(
+            extreme,
+            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
+        );
         let yes = (x - y).abs() > 1e-9 && (x < y) == less;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let words = |t, v| self.compared_words(t, extreme, v);
-        let text = format!("{head}{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
+        let text =
+            format!("{head}{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![a]).about(&[b]))
     }
@@ -1466,7 +1742,9 @@ impl Knowledge<'_> {
         let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
         let (Some((_, x, first)), Some((_, y, second))) = (own(a), own(b)) else {
             let missing = if own(a).is_none() { a } else { b };
-            return Ok(Draft::new(Said::Unknown, self.no_property(property, missing)).with(vec![a, b]));
+            return Ok(
+                Draft::new(Said::Unknown, self.no_property(property, missing)).with(vec![a, b])
+            );
         };
         let yes = if x.is_some() { x == y } else { first == second };
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
@@ -1477,7 +1755,10 @@ impl Knowledge<'_> {
         let dash = self.pick("", "is ");
         let text = format!(
             "{head}{} {dash}{}, {} {dash}{}",
-            self.name(a), words(a, x, &first), self.name(b), words(b, y, &second)
+            self.name(a),
+            words(a, x, &first),
+            self.name(b),
+            words(b, y, &second)
         );
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![a, b]))
@@ -1490,7 +1771,11 @@ impl Knowledge<'_> {
         let top = thing.replica().and_then(|id| self.relations.free_top(id));
         let Some((whole, free)) = top.filter(|(whole, _)| *whole > 0.0) else {
             let text = match self.is_russian() {
-                true => format!("{} {} ничего положить нельзя", "на", self.form(thing, Case::Accusative)),
+                true => format!(
+                    "{} {} ничего положить нельзя",
+                    "на",
+                    self.form(thing, Case::Accusative)
+                ),
                 false => format!("nothing can be put on {}", self.name(thing)),
             };
             return Ok(Draft::new(Said::No, text).with(vec![thing]));
@@ -1500,7 +1785,9 @@ impl Knowledge<'_> {
         let (free_words, place) = (area(free, self.language), self.place(Rel::On, &[thing]));
         let mut text = match (share >= 5.0, self.is_russian()) {
             (true, true) => format!("да, {place} свободно {share:.0} % поверхности ({free_words})"),
-            (true, false) => format!("yes, {share:.0} % of the surface {place} is free ({free_words})"),
+            (true, false) => {
+                format!("yes, {share:.0} % of the surface {place} is free ({free_words})")
+            }
             (false, true) => format!("нет, {place} почти нет свободного места"),
             (false, false) => format!("no, there is hardly any free space {place}"),
         };
@@ -1515,7 +1802,12 @@ impl Knowledge<'_> {
         Ok(Draft::new(said, text).with(vec![thing]).about(&on_it).number(share))
     }
 
-    fn usable(&self, use_for: Use, what: Option<&Noun>, within: &[Restriction]) -> Result<Draft, Doubt> {
+    fn usable(
+        &self,
+        use_for: Use,
+        what: Option<&Noun>,
+        within: &[Restriction],
+    ) -> Result<Draft, Doubt> {
         let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
         noun.head.anything = true;
         noun.restrictions = within.to_vec();
@@ -1528,7 +1820,10 @@ impl Knowledge<'_> {
             }
             _ => None,
         };
-        let needed = thing.and_then(Thing::replica).and_then(|id| self.relations.extent(id)).map_or(400.0, |e| e.base);
+        let needed = thing
+            .and_then(Thing::replica)
+            .and_then(|id| self.relations.extent(id))
+            .map_or(400.0, |e| e.base);
         let fits = |t: &Thing| {
             let Some(id) = t.replica() else { return false };
             match use_for {
@@ -1547,7 +1842,8 @@ impl Knowledge<'_> {
         let found: Vec<Thing> = match use_for {
             Use::Put => found,
             _ => {
-                let empty = |t: &Thing| t.replica().is_none_or(|id| !self.relations.bears_something(id));
+                let empty =
+                    |t: &Thing| t.replica().is_none_or(|id| !self.relations.bears_something(id));
                 found.into_iter().filter(empty).collect()
             }
         };
@@ -1615,8 +1911,15 @@ impl Knowledge<'_> {
         let name = self.name(thing);
         let Some(last) = past.last() else {
             let text = match self.is_russian() {
-                true => format!("других мест {} в истории нет: {}", self.form(thing, Case::Genitive), self.where_one(thing, &mut Vec::new())),
-                false => format!("the history knows no other place: {}", self.where_one(thing, &mut Vec::new())),
+                true => format!(
+                    "других мест {} в истории нет: {}",
+                    self.form(thing, Case::Genitive),
+                    self.where_one(thing, &mut Vec::new())
+                ),
+                false => format!(
+                    "the history knows no other place: {}",
+                    self.where_one(thing, &mut Vec::new())
+                ),
             };
             return Ok(Draft::new(Said::Nothing, text).with(vec![thing]));
         };
@@ -1649,7 +1952,8 @@ impl Knowledge<'_> {
     // ── the robot itself ─────────────────────────────────────────────────────────────────────────
 
     fn where_are_you(&self) -> Draft {
-        let unknown = || self.pick("я не знаю, где нахожусь", "I do not know where I am").to_owned();
+        let unknown =
+            || self.pick("я не знаю, где нахожусь", "I do not know where I am").to_owned();
         let text = self.senses.position(self.language);
         let said = if text.is_some() { Said::Found } else { Said::Unknown };
         let room = self.area_of(Thing::Robot).map(|a| Thing::Entity(Entity::Area(a)));
@@ -1657,8 +1961,12 @@ impl Knowledge<'_> {
     }
 
     fn what_do_you_see(&self) -> Draft {
-        let seen: Vec<Thing> =
-            self.senses.visible().into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect();
+        let seen: Vec<Thing> = self
+            .senses
+            .visible()
+            .into_iter()
+            .map(|id| Thing::Entity(Entity::Replica(id)))
+            .collect();
         let text = match (seen.is_empty(), self.is_russian()) {
             (true, true) => "передо мной ничего нет".to_owned(),
             (true, false) => "I see nothing before me".to_owned(),
@@ -1702,8 +2010,11 @@ impl Knowledge<'_> {
             });
         }
         if thing.area().is_some() {
-            let here: Vec<Thing> =
-                self.related(Rel::In, thing).into_iter().filter(|t| t.replica().is_some()).collect();
+            let here: Vec<Thing> = self
+                .related(Rel::In, thing)
+                .into_iter()
+                .filter(|t| t.replica().is_some())
+                .collect();
             if !here.is_empty() {
                 parts.push(match self.is_russian() {
                     true => format!("здесь {} {}", self.is(&here), self.list(&here)),
@@ -1711,7 +2022,14 @@ impl Knowledge<'_> {
                 });
             }
         }
-        Ok(Draft { facts, ..Draft::new(Said::Found, parts.iter().map(|p| sentence(p)).collect::<Vec<_>>().join(" ")).with(vec![thing]) })
+        Ok(Draft {
+            facts,
+            ..Draft::new(
+                Said::Found,
+                parts.iter().map(|p| sentence(p)).collect::<Vec<_>>().join(" "),
+            )
+            .with(vec![thing])
+        })
     }
 
     /// «стул», "chair": the type of a thing.
@@ -1721,7 +2039,9 @@ impl Knowledge<'_> {
                 let object = self.world.objects.get(&self.world.replicas.get(&id)?.object)?;
                 self.world.types.object.get(object.object_type)
             }
-            Thing::Entity(Entity::Area(id)) => self.world.types.area.get(self.world.areas.get(&id)?.area_type),
+            Thing::Entity(Entity::Area(id)) => {
+                self.world.types.area.get(self.world.areas.get(&id)?.area_type)
+            }
             Thing::Entity(Entity::Door(id)) => {
                 let door = self.world.doors.get(&id)?;
                 return Some(match (door.kind, self.is_russian()) {
@@ -1742,9 +2062,8 @@ impl Knowledge<'_> {
 
 /// «двух полок», as after «состоит из».
 fn genitive_count(n: usize, phrase: &crate::language::NounPhrase) -> String {
-    const WORDS: [&str; 11] = [
-        "", "", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти",
-    ];
+    const WORDS: [&str; 11] =
+        ["", "", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти"];
     let plural = super::lexicon::lower_first(&phrase.form(Case::Genitive, Number::Plural));
     match WORDS.get(n) {
         Some(word) => format!("{word} {plural}"),

@@ -36,8 +36,11 @@ pub(super) fn query(
 pub(super) fn fragment(sentence: &Sentence<'_>, lexicon: &Lexicon) -> Option<Noun> {
     let items = sentence.items();
     let frame = Frame::of(sentence, lexicon, &items, &|_| Vec::new()).ok()?;
-    let small = |mark: &Mark| matches!(mark, Mark::The | Mark::A | Mark::Be | Mark::One | Mark::Best(_) | Mark::And);
-    if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark)) {
+    let small = |mark: &Mark| {
+        matches!(mark, Mark::The | Mark::A | Mark::Be | Mark::One | Mark::Best(_) | Mark::And)
+    };
+    if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
+    {
         return None;
     }
     Some(frame.with_rest(frame.first().unwrap_or_default(), &[]))
@@ -167,10 +170,9 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Property(property) => {
                     frame.property.get_or_insert((property.clone(), at));
                 }
-                Item::Number(number) => frame.marks.push((
-                    if *number == 1 { Mark::A } else { Mark::Filler },
-                    at,
-                )),
+                Item::Number(number) => {
+                    frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at))
+                }
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
         }
@@ -302,7 +304,8 @@ impl<'s, 't> Frame<'s, 't> {
         if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
             return;
         }
-        let is_room = matches!(spot.rel, Rel::In | Rel::On | Rel::Of) && self.is_area(&spot.nouns[0]);
+        let is_room =
+            matches!(spot.rel, Rel::In | Rel::On | Rel::Of) && self.is_area(&spot.nouns[0]);
         if is_room && !self.is_area(noun) {
             for restriction in &mut noun.restrictions {
                 for anchor in &mut restriction.anchors {
@@ -412,7 +415,8 @@ impl<'s, 't> Frame<'s, 't> {
 
     fn way(&self) -> Option<Query> {
         let far = self.has(Mark::HowFar);
-        let how = self.has(Mark::HowGet) || (self.has(Mark::How) && (self.has(Mark::Move) || self.has(Mark::Lead)));
+        let how = self.has(Mark::HowGet)
+            || (self.has(Mark::How) && (self.has(Mark::Move) || self.has(Mark::Lead)));
         let can = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
         if !(far || how || can) {
             return None;
@@ -445,7 +449,10 @@ impl<'s, 't> Frame<'s, 't> {
             // "How far is the table from the bed?"
             (from, None, 1..) => {
                 let second = ends.get(1).cloned();
-                (from.or_else(|| second.clone().map(|_| ends[0].clone())), second.unwrap_or_else(|| ends[0].clone()))
+                (
+                    from.or_else(|| second.clone().map(|_| ends[0].clone())),
+                    second.unwrap_or_else(|| ends[0].clone()),
+                )
             }
             (Some(from), Some(mut to), 1..) if far => {
                 // "How far is the chair in the kitchen from the table?"
@@ -508,7 +515,9 @@ impl<'s, 't> Frame<'s, 't> {
                 let what = before.first()?.noun.clone();
                 let other_anchor = anchors.iter().find(|s| s.at > cut).map(|s| s.nouns[0].clone());
                 let near = near.nouns[0].clone();
-                if let Some(than) = other_anchor.or_else(|| than_to.and(after.first().map(|s| s.noun.clone()))) {
+                if let Some(than) =
+                    other_anchor.or_else(|| than_to.and(after.first().map(|s| s.noun.clone())))
+                {
                     return Some(Query::Closer {
                         what: placed(what),
                         near: placed(near),
@@ -517,7 +526,12 @@ impl<'s, 't> Frame<'s, 't> {
                     });
                 }
                 let than = placed(after.first()?.noun.clone());
-                return Some(Query::Larger { what: placed(what), than, extreme, to: Some(placed(near)) });
+                return Some(Query::Larger {
+                    what: placed(what),
+                    than,
+                    extreme,
+                    to: Some(placed(near)),
+                });
             }
             let [first, second] = &self.nouns[..] else { return None };
             let to = anchors.first().map(|s| placed(s.nouns[0].clone()));
@@ -565,11 +579,19 @@ impl<'s, 't> Frame<'s, 't> {
                 .flat_map(Spot::restrictions)
                 .collect()
         };
-        let asks = self.has(Mark::Where) || self.asks() || self.has(Mark::Can) || self.has(Mark::Whither) || self.has(Mark::Exists);
+        let asks = self.has(Mark::Where)
+            || self.asks()
+            || self.has(Mark::Can)
+            || self.has(Mark::Whither)
+            || self.has(Mark::Exists);
         let use_for = match () {
             () if self.has(Mark::Sit) => Some(Use::Sit),
             () if self.has(Mark::LieDown) => Some(Use::Lie),
-            () if self.has(Mark::PutDown) && (self.has(Mark::Where) || self.has(Mark::Whither) || self.has(Mark::Can)) => Some(Use::Put),
+            () if self.has(Mark::PutDown)
+                && (self.has(Mark::Where) || self.has(Mark::Whither) || self.has(Mark::Can)) =>
+            {
+                Some(Use::Put)
+            }
             () => None,
         };
         if let (Some(use_for), true) = (use_for, asks) {
@@ -583,9 +605,9 @@ impl<'s, 't> Frame<'s, 't> {
             // "free chairs in the kitchen", «свободно ли в комнате» are no questions about a top.
             let at = self.spots.first().map(|s| s.at);
             let noun = self.first()?;
-            return self.has(Mark::HowMany).then(|| {
-                Query::Free(self.with_rest(noun, &at.into_iter().collect::<Vec<_>>()))
-            });
+            return self
+                .has(Mark::HowMany)
+                .then(|| Query::Free(self.with_rest(noun, &at.into_iter().collect::<Vec<_>>())));
         }
         let mut place = place;
         for spot in self.spots.iter().skip(1) {
@@ -646,14 +668,20 @@ impl<'s, 't> Frame<'s, 't> {
             return;
         }
         let (rel, anchor) = match (self.is_area(noun), self.is_area(&other.noun)) {
-            (true, false) if self.is_doors(&other.noun) && self.has(Mark::Lead) => (Rel::Of, &other.noun),
+            (true, false) if self.is_doors(&other.noun) && self.has(Mark::Lead) => {
+                (Rel::Of, &other.noun)
+            }
             (true, _) => (Rel::Has, &other.noun),
             (false, true) => (Rel::In, &other.noun),
             (false, false) => (Rel::Bears, &other.noun),
         };
         let mut anchor = anchor.clone();
         anchor.indefinite |= rel == Rel::Has || rel == Rel::Bears;
-        noun.restrictions.push(Restriction { rel, anchors: vec![anchor], negated: other.negated || (rel == Rel::Has && self.negated) });
+        noun.restrictions.push(Restriction {
+            rel,
+            anchors: vec![anchor],
+            negated: other.negated || (rel == Rel::Has && self.negated),
+        });
     }
 
     fn made_of(&self) -> Option<Query> {
@@ -668,7 +696,13 @@ impl<'s, 't> Frame<'s, 't> {
             return of().map(Query::Parts);
         }
         let made = self.has(Mark::MadeOf);
-        if made && self.values.is_empty() && (self.asks() || self.has(Mark::How) || self.place_of(Mark::MadeOf) == Some(0) || !self.links.is_empty()) {
+        if made
+            && self.values.is_empty()
+            && (self.asks()
+                || self.has(Mark::How)
+                || self.place_of(Mark::MadeOf) == Some(0)
+                || !self.links.is_empty())
+        {
             return of().map(|of| Query::Property { property: Property::Material, of });
         }
         None
@@ -696,7 +730,8 @@ impl<'s, 't> Frame<'s, 't> {
         if let Some(door) = door
             && (asks_where || (self.asks() && (rooms || self.has(Mark::What))))
         {
-            let which = self.nouns.iter().any(|s| self.is_doors(&s.noun) && self.follows_which(s.at));
+            let which =
+                self.nouns.iter().any(|s| self.is_doors(&s.noun) && self.follows_which(s.at));
             if !which {
                 return Some(Query::Leads(self.with_rest(door.noun.clone(), &[])));
             }
@@ -726,10 +761,11 @@ impl<'s, 't> Frame<'s, 't> {
         }
         // «С какими комнатами соединена Комната-В?», «Куда можно выйти из Комнаты-В?»
         if self.asks() || asks_where {
-            let room = self.nouns.iter().rev().find(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
-            let anchor = room
-                .map(|s| s.noun.clone())
-                .or_else(|| self.spots.iter().find(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone()))?;
+            let room =
+                self.nouns.iter().rev().find(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
+            let anchor = room.map(|s| s.noun.clone()).or_else(|| {
+                self.spots.iter().find(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone())
+            })?;
             return Some(Query::Find(self.rooms_near(anchor)));
         }
         None
@@ -782,8 +818,10 @@ impl<'s, 't> Frame<'s, 't> {
         let mut asked = asked.filter(|(_, mark_at)| *mark_at < at);
         asked.any(|(_, mark_at)| {
             (mark_at + 1..at).all(|between| {
-                self.marks.iter().any(|(m, a)| *a == between && matches!(m, Mark::Be | Mark::Exists | Mark::Best(_) | Mark::The))
-                    || self.values.iter().any(|(_, a, _)| *a == between)
+                self.marks.iter().any(|(m, a)| {
+                    *a == between
+                        && matches!(m, Mark::Be | Mark::Exists | Mark::Best(_) | Mark::The)
+                }) || self.values.iter().any(|(_, a, _)| *a == between)
             })
         })
     }
@@ -797,14 +835,20 @@ impl<'s, 't> Frame<'s, 't> {
         let before = self.links.iter().find(|(_, at)| at + 1 == question);
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
         let link = before.or(stranded).map(|(rel, _)| *rel);
-        let asked = self.nouns.iter().find(|s| s.at > question && self.follows_which(s.at) && !self.nominal_subject(s, link));
+        let asked = self.nouns.iter().find(|s| {
+            s.at > question && self.follows_which(s.at) && !self.nominal_subject(s, link)
+        });
         let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
         if let (Some(rel), Some(of)) = (link, other) {
             let of_noun = self.with_rest(of.noun.clone(), &[]);
             if let Some(asked) = asked {
                 let rooms = self.is_rooms(&asked.noun);
                 if rooms && matches!(rel, Rel::In | Rel::On) {
-                    let general = asked.noun.plural || self.has(Mark::Exists) || self.has(Mark::Have) || of.noun.plural || of.noun.indefinite;
+                    let general = asked.noun.plural
+                        || self.has(Mark::Exists)
+                        || self.has(Mark::Have)
+                        || of.noun.plural
+                        || of.noun.indefinite;
                     if general && !self.is_storeys(&asked.noun) {
                         return Some(self.rooms_with(&asked.noun));
                     }
@@ -815,12 +859,14 @@ impl<'s, 't> Frame<'s, 't> {
             return Some(Query::Anchor { rel, of: of_noun, what: None });
         }
         if let Some(asked) = asked.or(other) {
-            let others: Vec<&Subject> =
-                self.nouns.iter().filter(|s| s.at != asked.at).collect();
+            let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
             let rooms = self.is_rooms(&asked.noun);
             if rooms && !others.is_empty() && asked.at < others[0].at {
                 let having = self.has(Mark::Have) || self.has(Mark::Exists);
-                if !having && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_))) && !self.has(Mark::And) {
+                if !having
+                    && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
+                    && !self.has(Mark::And)
+                {
                     return Some(Query::RoomOf(self.with_rest(others[0].noun.clone(), &[])));
                 }
                 if having {
@@ -868,15 +914,15 @@ impl<'s, 't> Frame<'s, 't> {
 
     /// "What objects …": no verb between.
     fn follows_what_directly(&self, at: usize) -> bool {
-        at > 0 && self.marks.iter().any(|(m, a)| matches!(m, Mark::What | Mark::Which) && *a + 1 == at)
+        at > 0
+            && self.marks.iter().any(|(m, a)| matches!(m, Mark::What | Mark::Which) && *a + 1 == at)
     }
 
     /// "Which rooms have a chair?"
     fn rooms_with(&self, rooms: &Noun) -> Query {
         let mut noun = rooms.clone();
         noun.plural = true;
-        let others: Vec<&Subject> =
-            self.nouns.iter().filter(|s| s.noun != *rooms).collect();
+        let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.noun != *rooms).collect();
         for other in others {
             let mut anchor = self.narrowed(other.noun.clone());
             anchor.indefinite = true;
@@ -901,7 +947,8 @@ impl<'s, 't> Frame<'s, 't> {
         if self.has(Mark::Describe) {
             let spot = self.spots.first();
             let noun = self.first().map(|n| (n, Vec::new()));
-            let (noun, without) = noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
+            let (noun, without) =
+                noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
             return Some(Query::Describe(self.with_rest(noun, &without)));
         }
         if !self.has(Mark::List) {
@@ -918,7 +965,9 @@ impl<'s, 't> Frame<'s, 't> {
     }
 
     fn exists(&self) -> Option<Query> {
-        let none = self.has(Mark::Not) && self.values.is_empty() && self.nouns.iter().any(|s| !s.nominative);
+        let none = self.has(Mark::Not)
+            && self.values.is_empty()
+            && self.nouns.iter().any(|s| !s.nominative);
         let seen = self.has(Mark::See) && !self.nouns.is_empty();
         let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none;
         if !exists {
@@ -1003,7 +1052,10 @@ impl<'s, 't> Frame<'s, 't> {
             if self.is_building(&restriction.anchors[0]) {
                 continue;
             }
-            if lead && self.has(Mark::Lead) && matches!(restriction.rel, Rel::In | Rel::On | Rel::At) {
+            if lead
+                && self.has(Mark::Lead)
+                && matches!(restriction.rel, Rel::In | Rel::On | Rel::At)
+            {
                 restriction.rel = Rel::To;
             }
             restriction.negated = false;
@@ -1032,7 +1084,11 @@ impl<'s, 't> Frame<'s, 't> {
         }
         if let (true, [Claim::Value(only)]) = (either, &claims[..]) {
             let filter = only.clone();
-            return Some(Query::Holds { subject, claims: vec![Claim::Value(filter)], negated: self.negated });
+            return Some(Query::Holds {
+                subject,
+                claims: vec![Claim::Value(filter)],
+                negated: self.negated,
+            });
         }
         Some(Query::Holds { subject, claims, negated: self.negated })
     }

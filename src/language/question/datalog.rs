@@ -58,7 +58,8 @@ impl Rule<'_, '_> {
         let pick = |r: &'static str, e: &'static str| self.knowledge.pick(r, e).to_owned();
         match query {
             Query::Find(noun) => {
-                let remark = noun.best.as_ref().map(|b| format!("{:?}", b.extreme)).unwrap_or_default();
+                let remark =
+                    noun.best.as_ref().map(|b| format!("{:?}", b.extreme)).unwrap_or_default();
                 (self.noun(noun), remark)
             }
             Query::Count(noun) => {
@@ -76,7 +77,8 @@ impl Rule<'_, '_> {
                 let inside = self.relation("INSIDE");
                 if matches!(query, Query::Where(_)) {
                     let on = self.relation("ON_TOP_OF");
-                    self.atoms.push(format!("({inside}({thing}, {place}) ; {on}({thing}, {place}))"));
+                    self.atoms
+                        .push(format!("({inside}({thing}, {place}) ; {on}({thing}, {place}))"));
                 } else {
                     self.atoms.push(format!("{inside}({thing}, {place})"));
                     self.atoms.push(format!("area({place}, _)"));
@@ -146,11 +148,16 @@ impl Rule<'_, '_> {
             Query::Size { of, .. } | Query::Free(of) | Query::Describe(of) => {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
-            Query::Distance { from, to } | Query::Way { from, to } | Query::CanReach { from, to } => {
+            Query::Distance { from, to }
+            | Query::Way { from, to }
+            | Query::CanReach { from, to } => {
                 let from = from.as_ref().map(|n| self.noun(n));
                 let to = self.noun(to);
                 let terms: Vec<String> = from.into_iter().chain([to]).collect();
-                (terms.join(", "), pick("путь и расстояние измеряются", "way and distance are measured"))
+                (
+                    terms.join(", "),
+                    pick("путь и расстояние измеряются", "way and distance are measured"),
+                )
             }
             Query::Closer { what, near, than, .. } => {
                 let terms = [what, near, than].map(|n| self.noun(n));
@@ -188,7 +195,8 @@ impl Rule<'_, '_> {
             (None, [only]) => Some(Thing::Entity(*only)),
             _ => None,
         };
-        if let (Some(only), true) = (named, noun.filters.is_empty() && noun.restrictions.is_empty()) {
+        if let (Some(only), true) = (named, noun.filters.is_empty() && noun.restrictions.is_empty())
+        {
             return self.quoted(only);
         }
         let term = self.variable();
@@ -249,18 +257,25 @@ impl Rule<'_, '_> {
                 Extension::Rooms => add(format!("area({term}, _)")),
                 Extension::AreaType(id) => {
                     let of_type = world.areas.values().filter(|a| a.area_type == Some(*id));
-                    let name = |a: &crate::map::Area| self.quoted(Thing::Entity(Entity::Area(a.id)));
+                    let name =
+                        |a: &crate::map::Area| self.quoted(Thing::Entity(Entity::Area(a.id)));
                     of_type.map(|a| format!("{term} = {}", name(a))).for_each(&mut add);
                 }
                 Extension::DoorType(id) => {
                     let of_type = world.doors.values().filter(|d| d.door_type == Some(*id));
-                    let name = |d: &crate::map::Door| self.quoted(Thing::Entity(Entity::Door(d.id)));
+                    let name =
+                        |d: &crate::map::Door| self.quoted(Thing::Entity(Entity::Door(d.id)));
                     of_type.map(|d| format!("{term} = {}", name(d))).for_each(&mut add);
                 }
                 Extension::Doors => add(format!("opening({term}, \"door\", _, _)")),
                 Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
-                Extension::Windows | Extension::Places | Extension::Storeys | Extension::Building
-                | Extension::Floor | Extension::Walls | Extension::Robot => {}
+                Extension::Windows
+                | Extension::Places
+                | Extension::Storeys
+                | Extension::Building
+                | Extension::Floor
+                | Extension::Walls
+                | Extension::Robot => {}
             }
         }
         match &choices[..] {

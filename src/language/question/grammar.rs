@@ -72,7 +72,11 @@ pub(super) enum Item {
     Mark(Mark),
     Noun(Phrase),
     /// A preposition and what follows it.
-    Place { rel: Rel, nouns: Vec<Phrase>, either: bool },
+    Place {
+        rel: Rel,
+        nouns: Vec<Phrase>,
+        either: bool,
+    },
     /// A preposition with nothing after it.
     Link(Rel),
     Value(ValueId),
@@ -147,8 +151,7 @@ type Parsed<'a, O> = IResult<Tokens<'a>, O>;
 impl<'t> Sentence<'t> {
     pub(super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
         let words = word_ranges(text);
-        let keys: Vec<String> =
-            words.iter().map(|range| name_key(&text[range.clone()])).collect();
+        let keys: Vec<String> = words.iter().map(|range| name_key(&text[range.clone()])).collect();
         let mut sentence = Self {
             text,
             language: Language::of(text),
@@ -168,8 +171,10 @@ impl<'t> Sentence<'t> {
 
     /// The text from one word to another.
     pub(super) fn said(&self, words: &Range<usize>) -> &'t str {
-        match (self.words.get(words.start), words.end.checked_sub(1).and_then(|l| self.words.get(l)))
-        {
+        match (
+            self.words.get(words.start),
+            words.end.checked_sub(1).and_then(|l| self.words.get(l)),
+        ) {
             (Some(first), Some(last)) => &self.text[first.start..last.end],
             _ => "",
         }
@@ -201,10 +206,17 @@ impl<'t> Sentence<'t> {
         }
         let before = self.tokens.last().map(|t| t.kind);
         // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
-        let article = matches!(before, Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany)));
+        let article = matches!(
+            before,
+            Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany))
+        );
         let noun_wins = named == longest
             && match mark {
-                Some((n, Mark::PutDown | Mark::Free | Mark::See | Mark::Describe | Mark::List)) if n == longest => article,
+                Some((n, Mark::PutDown | Mark::Free | Mark::See | Mark::Describe | Mark::List))
+                    if n == longest =>
+                {
+                    article
+                }
                 Some((n, Mark::Filler)) if n == longest => true,
                 Some((n, _)) => n < longest,
                 None => true,
@@ -217,7 +229,9 @@ impl<'t> Sentence<'t> {
             return push(self, named, Tok::Noun(number));
         }
         match (mark, value, property) {
-            (Some((n, mark)), _, _) if n == longest && !(mark == Mark::Filler && valued == longest) => {
+            (Some((n, mark)), _, _)
+                if n == longest && !(mark == Mark::Filler && valued == longest) =>
+            {
                 push(self, n, Tok::Mark(mark))
             }
             (_, Some((n, value)), _) if n == longest => push(self, n, Tok::Value(value)),
@@ -326,8 +340,7 @@ impl<'t> Sentence<'t> {
     }
 
     fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
-        let is_person =
-            |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
+        let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
         let (rest, mark) = self.mark(input, is_person)?;
         let words = input.0[0].from as usize..input.0[0].to as usize;
         let noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
@@ -353,8 +366,8 @@ impl<'t> Sentence<'t> {
                     kinds: found.kinds.clone(),
                     ..Head::default()
                 };
-                noun.plural = !found.readings.is_empty()
-                    && found.readings.iter().all(|r| !r.is_singular());
+                noun.plural =
+                    !found.readings.is_empty() && found.readings.iter().all(|r| !r.is_singular());
                 nominative = found.readings.iter().any(|r| {
                     r.has(Number::Singular, Case::Nominative)
                         || r.has(Number::Plural, Case::Nominative)
@@ -396,7 +409,10 @@ impl<'t> Sentence<'t> {
                 // «не чёрные стулья»
                 return match rest.0 {
                     [Token { kind: Tok::Value(value), .. }, after @ ..]
-                        if matches!(after.first().map(|t| t.kind), Some(Tok::Noun(_) | Tok::Mark(Mark::One))) =>
+                        if matches!(
+                            after.first().map(|t| t.kind),
+                            Some(Tok::Noun(_) | Tok::Mark(Mark::One))
+                        ) =>
                     {
                         Ok((Tokens(after), Modifier::Value(*value, true)))
                     }
@@ -412,10 +428,13 @@ impl<'t> Sentence<'t> {
     fn head<'a>(
         &self,
         input: Tokens<'a>,
-    ) -> Result<(Tokens<'a>, Option<&Found>, Option<(Rel, Noun)>), nom::Err<Error<Tokens<'a>>>> {
+    ) -> Result<(Tokens<'a>, Option<&Found>, Option<(Rel, Noun)>), nom::Err<Error<Tokens<'a>>>>
+    {
         let (rest, found) = match input.split_first() {
             Some((Token { kind: Tok::Noun(n), .. }, rest)) => (rest, &self.nouns[*n as usize]),
-            Some((Token { kind: Tok::Mark(Mark::One), .. }, rest)) => return Ok((rest, None, None)),
+            Some((Token { kind: Tok::Mark(Mark::One), .. }, rest)) => {
+                return Ok((rest, None, None));
+            }
             _ => return Err(nom::Err::Error(Error::new(input, ErrorKind::Tag))),
         };
         let Some((Token { kind: Tok::Noun(n), from, to }, after)) = rest.split_first() else {
@@ -428,7 +447,11 @@ impl<'t> Sentence<'t> {
             return Ok((rest, Some(found), None));
         }
         let noun_of = |found: &Found, words: Range<usize>| Noun {
-            head: Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() },
+            head: Head {
+                named: found.named.clone(),
+                kinds: found.kinds.clone(),
+                ..Head::default()
+            },
             text: self.said(&words).to_owned(),
             ..Noun::default()
         };

@@ -40,10 +40,8 @@ const fn swapped(relation: &'static str) -> Basis {
 
 /// The relations that a preposition stands for; what any of them gives counts.
 pub(super) fn bases(rel: Rel) -> &'static [Basis] {
-    const ON: &[Basis] = &[
-        basis("ON_TOP_OF"),
-        Basis { relation: "INSIDE", swapped: false, of_support: true },
-    ];
+    const ON: &[Basis] =
+        &[basis("ON_TOP_OF"), Basis { relation: "INSIDE", swapped: false, of_support: true }];
     const IN: &[Basis] = &[basis("INSIDE")];
     const UNDER: &[Basis] = &[basis("UNDER"), swapped("ON_TOP_OF"), swapped("ABOVE")];
     const ABOVE: &[Basis] = &[basis("ABOVE"), swapped("UNDER")];
@@ -340,7 +338,10 @@ impl Knowledge<'_> {
         for restriction in &noun.restrictions {
             let related = self.related_to(restriction, loose)?;
             // "What is in the kitchen" asks for things, "what is next to the kitchen" may ask for rooms.
-            if noun.head.anything && !restriction.negated && found.iter().all(|t| !related.contains(t)) {
+            if noun.head.anything
+                && !restriction.negated
+                && found.iter().all(|t| !related.contains(t))
+            {
                 let rooms = related.iter().filter(|t| t.area().is_some()).copied();
                 if restriction.rel == Rel::NextTo || restriction.rel == Rel::Near {
                     found = rooms.collect();
@@ -459,7 +460,9 @@ impl Knowledge<'_> {
     /// What lies to a thing as a preposition says.
     pub(super) fn related(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
         match (rel, anchor) {
-            (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => self.on_map(map),
+            (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
+                self.on_map(map)
+            }
             (Rel::In | Rel::On | Rel::At, Thing::Entity(Entity::Area(area))) => self.in_area(area),
             (Rel::Of | Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Area(area))) => {
                 let mut found = self.in_area(area);
@@ -479,13 +482,20 @@ impl Knowledge<'_> {
                     gates.flat_map(|g| &g.areas).copied().filter(|a| *a != area).collect();
                 rooms.into_iter().map(|a| Thing::Entity(Entity::Area(a))).collect()
             }
-            (Rel::Near | Rel::NextTo | Rel::At, Thing::Entity(Entity::Door(_)) | Thing::Opening(_)) => {
+            (
+                Rel::Near | Rel::NextTo | Rel::At,
+                Thing::Entity(Entity::Door(_)) | Thing::Opening(_),
+            ) => {
                 let Some(gate) = self.gate(anchor) else { return Vec::new() };
-                self.within_reach(&gate.areas, |id| self.relations.distance_to_segment(id, gate.ends))
+                self.within_reach(&gate.areas, |id| {
+                    self.relations.distance_to_segment(id, gate.ends)
+                })
             }
             (Rel::Near | Rel::NextTo | Rel::At | Rel::Under, Thing::Window(n)) => {
                 let window = &self.lexicon().windows[n as usize];
-                self.within_reach(&[window.area], |id| self.relations.distance_to_segment(id, window.ends))
+                self.within_reach(&[window.area], |id| {
+                    self.relations.distance_to_segment(id, window.ends)
+                })
             }
             (Rel::Near | Rel::NextTo | Rel::At, Thing::Entity(Entity::Place(_)) | Thing::Robot) => {
                 let Some((map, at)) = self.point(anchor) else { return Vec::new() };
@@ -510,7 +520,8 @@ impl Knowledge<'_> {
     fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
         let mut found: Vec<Thing> = Vec::new();
         for basis in bases(rel) {
-            if basis.of_support && anchor.replica().is_none_or(|id| !self.has_trait(id, "support")) {
+            if basis.of_support && anchor.replica().is_none_or(|id| !self.has_trait(id, "support"))
+            {
                 continue;
             }
             let Some(pairs) = self.pairs(basis.relation) else { continue };
@@ -526,7 +537,12 @@ impl Knowledge<'_> {
     }
 
     /// The tuple that makes a relation hold: its name in the rule text and its arguments in order.
-    pub(super) fn tuple(&self, rel: Rel, x: Thing, y: Thing) -> Option<(&'static str, Thing, Thing)> {
+    pub(super) fn tuple(
+        &self,
+        rel: Rel,
+        x: Thing,
+        y: Thing,
+    ) -> Option<(&'static str, Thing, Thing)> {
         if let (Rel::Has, _) = (rel, y) {
             return self.tuple(Rel::In, y, x);
         }
@@ -540,10 +556,16 @@ impl Knowledge<'_> {
     /// Rooms and things that hold a thing.
     fn holders(&self, thing: Thing) -> Vec<Thing> {
         match thing {
-            Thing::Window(n) => vec![Thing::Entity(Entity::Area(self.lexicon().windows[n as usize].area))],
-            Thing::Entity(Entity::Place(id)) => {
-                self.world.places.get(&id).map(|p| Thing::Entity(Entity::Area(p.area))).into_iter().collect()
+            Thing::Window(n) => {
+                vec![Thing::Entity(Entity::Area(self.lexicon().windows[n as usize].area))]
             }
+            Thing::Entity(Entity::Place(id)) => self
+                .world
+                .places
+                .get(&id)
+                .map(|p| Thing::Entity(Entity::Area(p.area)))
+                .into_iter()
+                .collect(),
             _ => match self.gate(thing) {
                 Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
                 None => self.by_relation(Rel::Has, thing),
@@ -574,7 +596,11 @@ impl Knowledge<'_> {
         found
     }
 
-    fn within_reach(&self, areas: &[AreaId], distance: impl Fn(ReplicaId) -> Option<f64>) -> Vec<Thing> {
+    fn within_reach(
+        &self,
+        areas: &[AreaId],
+        distance: impl Fn(ReplicaId) -> Option<f64>,
+    ) -> Vec<Thing> {
         let rooms = areas.iter().map(|a| Thing::Entity(Entity::Area(*a)));
         let mut near: Vec<(f64, Thing)> = rooms
             .flat_map(|room| self.by_relation(Rel::In, room))
@@ -612,14 +638,18 @@ impl Knowledge<'_> {
     fn beside_robot(&self, rel: Rel) -> Vec<Thing> {
         const REACH: f64 = 400.0;
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
-        let Some(area) = self.relations.measurements().area_at(map, pose.at) else { return Vec::new() };
+        let Some(area) = self.relations.measurements().area_at(map, pose.at) else {
+            return Vec::new();
+        };
         let (sin, cos) = pose.heading.sin_cos();
         let (ahead, left) = (Vector::new(cos, sin), Vector::new(-sin, cos));
         let mut found: Vec<(f64, Thing)> = Vec::new();
         for thing in self.by_relation(Rel::In, Thing::Entity(Entity::Area(area))) {
             let Some(id) = thing.replica() else { continue };
             let Some((_, at)) = self.relations.centre(id) else { continue };
-            let Some(distance) = self.relations.distance_to_point(id, map, pose.at) else { continue };
+            let Some(distance) = self.relations.distance_to_point(id, map, pose.at) else {
+                continue;
+            };
             let (forward, sideways) = ((at - pose.at).dot(&ahead), (at - pose.at).dot(&left));
             let fits = match rel {
                 Rel::InFrontOf => forward >= sideways.abs(),
@@ -715,19 +745,20 @@ impl Knowledge<'_> {
             | (Thing::Entity(Entity::Area(y)), Thing::Entity(Entity::Replica(x))) => {
                 self.relations.distance_to_area(x, y)
             }
-            (Thing::Entity(Entity::Replica(x)), other) | (other, Thing::Entity(Entity::Replica(x))) => {
-                match segment(other) {
-                    Some(ends) => {
-                        let (map, _) = self.point(other)?;
-                        let own = self.relations.centre(x).map(|(m, _)| m);
-                        (own == Some(map)).then(|| self.relations.distance_to_segment(x, ends)).flatten()
-                    }
-                    None => {
-                        let (map, at) = self.point(other)?;
-                        self.relations.distance_to_point(x, map, at)
-                    }
+            (Thing::Entity(Entity::Replica(x)), other)
+            | (other, Thing::Entity(Entity::Replica(x))) => match segment(other) {
+                Some(ends) => {
+                    let (map, _) = self.point(other)?;
+                    let own = self.relations.centre(x).map(|(m, _)| m);
+                    (own == Some(map))
+                        .then(|| self.relations.distance_to_segment(x, ends))
+                        .flatten()
                 }
-            }
+                None => {
+                    let (map, at) = self.point(other)?;
+                    self.relations.distance_to_point(x, map, at)
+                }
+            },
             _ => {
                 let ((m, p), (n, q)) = (self.point(a)?, self.point(b)?);
                 (m == n).then(|| (p - q).norm())
@@ -743,8 +774,11 @@ impl Knowledge<'_> {
             _ => {
                 let gate = self.gate(thing)?;
                 let width = (gate.ends.1 - gate.ends.0).norm();
-                return matches!(extreme, Extreme::Widest | Extreme::Narrowest | Extreme::Biggest | Extreme::Smallest)
-                    .then_some(width);
+                return matches!(
+                    extreme,
+                    Extreme::Widest | Extreme::Narrowest | Extreme::Biggest | Extreme::Smallest
+                )
+                .then_some(width);
             }
         };
         let is_area = thing.area().is_some();
@@ -778,7 +812,8 @@ impl Knowledge<'_> {
                 };
                 let sign = if best.extreme == Extreme::Nearest { 1.0 } else { -1.0 };
                 let away = |t: Thing| {
-                    let all = anchors.iter().filter(|a| **a != t).filter_map(|a| self.distance(t, *a));
+                    let all =
+                        anchors.iter().filter(|a| **a != t).filter_map(|a| self.distance(t, *a));
                     all.reduce(f64::min)
                 };
                 found.iter().filter_map(|t| Some((sign * away(*t)?, *t))).collect()
@@ -786,7 +821,10 @@ impl Knowledge<'_> {
             Extreme::LeftMost | Extreme::RightMost => self.from_left(&found, best.extreme),
             Extreme::Most => return Ok(found),
             extreme => {
-                let up = matches!(extreme, Extreme::Biggest | Extreme::Tallest | Extreme::Widest | Extreme::Longest);
+                let up = matches!(
+                    extreme,
+                    Extreme::Biggest | Extreme::Tallest | Extreme::Widest | Extreme::Longest
+                );
                 let sign = if up { -1.0 } else { 1.0 };
                 found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()
             }
@@ -794,7 +832,8 @@ impl Knowledge<'_> {
         let mut ranked = ranked;
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let wanted = usize::try_from(count).unwrap_or(usize::MAX);
-        let Some(limit) = ranked.get(wanted.min(ranked.len()).saturating_sub(1)).map(|r| r.0) else {
+        let Some(limit) = ranked.get(wanted.min(ranked.len()).saturating_sub(1)).map(|r| r.0)
+        else {
             return Ok(Vec::new());
         };
         // Equal ones are all the biggest.
@@ -806,7 +845,9 @@ impl Knowledge<'_> {
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
         let placed: Vec<(Vector, Thing)> = found
             .iter()
-            .filter_map(|t| self.point(*t).filter(|(m, _)| *m == map).map(|(_, p)| (p - pose.at, *t)))
+            .filter_map(|t| {
+                self.point(*t).filter(|(m, _)| *m == map).map(|(_, p)| (p - pose.at, *t))
+            })
             .collect();
         let middle: Vector = placed.iter().filter_map(|(v, _)| v.try_normalize(1e-6)).sum();
         let sign = if extreme == Extreme::LeftMost { -1.0 } else { 1.0 };
@@ -859,7 +900,9 @@ impl Knowledge<'_> {
             },
             Thing::Entity(Entity::Replica(id)) => {
                 let Some(replica) = self.world.replicas.get(&id) else { return Vec::new() };
-                let Some(object) = self.world.objects.get(&replica.object) else { return Vec::new() };
+                let Some(object) = self.world.objects.get(&replica.object) else {
+                    return Vec::new();
+                };
                 let state = |door: DoorId| {
                     let own = replica.door_states.get(&door).copied();
                     own.or_else(|| self.world.doors.get(&door).map(|d| d.state))

@@ -384,7 +384,9 @@ impl Knowledge<'_> {
         let last = &self.memory.last;
         match pronoun {
             Pronoun::They if !last.is_empty() => last.clone(),
-            Pronoun::They | Pronoun::Any => self.memory.spoken.first().copied().into_iter().collect(),
+            Pronoun::They | Pronoun::Any => {
+                self.memory.spoken.first().copied().into_iter().collect()
+            }
             Pronoun::He | Pronoun::She | Pronoun::It => {
                 let wanted = match pronoun {
                     Pronoun::He => Gender::Masculine,
@@ -416,7 +418,9 @@ impl Knowledge<'_> {
                 .to_owned(),
             Doubt::TooLong { length } => match russian {
                 true => format!("вопрос слишком длинный: {length} знаков. Спросите короче"),
-                false => format!("the question is too long: {length} characters. Ask a shorter one"),
+                false => {
+                    format!("the question is too long: {length} characters. Ask a shorter one")
+                }
             },
             Doubt::NotUnderstood { words } => match russian {
                 true => format!("я не понимаю: «{}»", tidy(words)),
@@ -528,7 +532,8 @@ impl Knowledge<'_> {
         {
             marks.extend(self.in_room(thing));
         }
-        (!marks.is_empty()).then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
+        (!marks.is_empty())
+            .then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
     }
 }
 

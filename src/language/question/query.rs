@@ -175,33 +175,84 @@ pub enum Query {
     Find(Noun),
     Count(Noun),
     /// Whether there is one; of several, whether there are all, or any. `negated` for «… нет?»
-    Exists { what: Vec<Noun>, either: bool, negated: bool },
+    Exists {
+        what: Vec<Noun>,
+        either: bool,
+        negated: bool,
+    },
     /// Whether all claims hold of the subject.
-    Holds { subject: Noun, claims: Vec<Claim>, negated: bool },
+    Holds {
+        subject: Noun,
+        claims: Vec<Claim>,
+        negated: bool,
+    },
     /// Which of several claims hold: "open or closed", «на столе или на полке».
-    Choice { subject: Noun, claims: Vec<Claim> },
+    Choice {
+        subject: Noun,
+        claims: Vec<Claim>,
+    },
     /// What the subject stands on, lies in …: the other end of a relation.
-    Anchor { rel: Rel, of: Noun, what: Option<Noun> },
-    Property { property: Property, of: Noun },
-    Size { dimension: Dimension, of: Noun },
+    Anchor {
+        rel: Rel,
+        of: Noun,
+        what: Option<Noun>,
+    },
+    Property {
+        property: Property,
+        of: Noun,
+    },
+    Size {
+        dimension: Dimension,
+        of: Noun,
+    },
     Parts(Noun),
     /// Which rooms a door joins.
     Leads(Noun),
-    Way { from: Option<Noun>, to: Noun },
-    CanReach { from: Option<Noun>, to: Noun },
-    Distance { from: Option<Noun>, to: Noun },
+    Way {
+        from: Option<Noun>,
+        to: Noun,
+    },
+    CanReach {
+        from: Option<Noun>,
+        to: Noun,
+    },
+    Distance {
+        from: Option<Noun>,
+        to: Noun,
+    },
     /// Is `what` closer to `near` than to `than`.
-    Closer { what: Noun, near: Noun, than: Noun, closeness: Closeness },
+    Closer {
+        what: Noun,
+        near: Noun,
+        than: Noun,
+        closeness: Closeness,
+    },
     /// Which of two is closer to the third, or bigger.
-    WhichMore { of: [Noun; 2], extreme: Extreme, to: Option<Noun> },
+    WhichMore {
+        of: [Noun; 2],
+        extreme: Extreme,
+        to: Option<Noun>,
+    },
     /// Is the first bigger than the second, or closer to the third than it.
-    Larger { what: Noun, than: Noun, extreme: Extreme, to: Option<Noun> },
+    Larger {
+        what: Noun,
+        than: Noun,
+        extreme: Extreme,
+        to: Option<Noun>,
+    },
     /// Have both the same value.
-    Same { property: Property, of: [Noun; 2] },
+    Same {
+        property: Property,
+        of: [Noun; 2],
+    },
     /// How much of it is free.
     Free(Noun),
     /// Where one can sit, lie, put something.
-    Place { use_for: Use, what: Option<Noun>, within: Vec<Restriction> },
+    Place {
+        use_for: Use,
+        what: Option<Noun>,
+        within: Vec<Restriction>,
+    },
     LastSeen(Noun),
     Before(Noun),
     WhereAreYou,
@@ -209,7 +260,10 @@ pub enum Query {
     WhatDoYouHold,
     Describe(Noun),
     /// Of the last answer, or of a claim.
-    Why { negated: bool, about: Option<Box<Query>> },
+    Why {
+        negated: bool,
+        about: Option<Box<Query>>,
+    },
 }
 
 /// What a place is to be good for.
@@ -247,9 +301,16 @@ impl Query {
     /// Does something to every noun of the query.
     pub(super) fn each_noun(&mut self, act: &mut dyn FnMut(&mut Noun)) {
         match self {
-            Self::Where(noun) | Self::RoomOf(noun) | Self::Find(noun) | Self::Count(noun)
-            | Self::Parts(noun) | Self::Leads(noun) | Self::Free(noun) | Self::LastSeen(noun)
-            | Self::Before(noun) | Self::Describe(noun) => noun.each(act),
+            Self::Where(noun)
+            | Self::RoomOf(noun)
+            | Self::Find(noun)
+            | Self::Count(noun)
+            | Self::Parts(noun)
+            | Self::Leads(noun)
+            | Self::Free(noun)
+            | Self::LastSeen(noun)
+            | Self::Before(noun)
+            | Self::Describe(noun) => noun.each(act),
             Self::Exists { what, .. } => what.iter_mut().for_each(|n| n.each(act)),
             Self::Holds { subject, claims, .. } | Self::Choice { subject, claims } => {
                 subject.each(act);

@@ -182,7 +182,10 @@ impl Knowledge<'_> {
                 let id = self.lexicon().kind_of(&things);
                 let kind = id.map(|id| self.lexicon().kind(id));
                 let phrase = kind.map(|k| k.phrase.clone());
-                (phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default())), "thing".to_owned())
+                (
+                    phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default())),
+                    "thing".to_owned(),
+                )
             }
         };
         let (mut russian_name, mut english_name) = (lower_first(base.name()), english_base);
@@ -251,7 +254,9 @@ impl Knowledge<'_> {
                     continue;
                 }
                 match self.find(anchor, true) {
-                    Ok(found) if found.len() == 1 || anchor.head.things.is_some() => anchors.extend(found),
+                    Ok(found) if found.len() == 1 || anchor.head.things.is_some() => {
+                        anchors.extend(found)
+                    }
                     _ => text = self.general_place(restriction.rel, anchor),
                 }
             }

@@ -44,10 +44,7 @@ impl Property {
 const NAMES: &[(Property, &str)] = &[
     (Property::Colour, "цвет|colour|color|цвета|цветом|цвете|colors|colours|окраска|расцветка"),
     (Property::Material, "материал|material|материала|материалом|материалы|materials"),
-    (
-        Property::State,
-        "состояние|state|status|состоянии|состояния|condition|статус|положение",
-    ),
+    (Property::State, "состояние|state|status|состоянии|состояния|condition|статус|положение"),
     (Property::Surface, "поверхность|surface|texture|фактура"),
     (Property::Shape, "форма|shape|формы|форме"),
     (Property::Orientation, "ориентация|orientation|ориентации"),
@@ -74,13 +71,28 @@ const VALUES: &[(Property, &str, &str, &str)] = &[
     (Property::Colour, "бордовый", "", "maroon"),
     (Property::Material, "деревянный", "дерево|дерева|из дерева", "wooden|wood|made of wood"),
     (Property::Material, "стеклянный", "стекло|стекла|из стекла", "glass|made of glass"),
-    (Property::Material, "металлический", "металл|металла|из металла", "metal|metallic|made of metal"),
+    (
+        Property::Material,
+        "металлический",
+        "металл|металла|из металла",
+        "metal|metallic|made of metal",
+    ),
     (Property::Material, "стальной", "сталь|стали|из стали", "steel|made of steel"),
     (Property::Material, "кожаный", "кожа|кожи|из кожи", "leather|made of leather"),
-    (Property::Material, "пластиковый", "пластик|пластика|из пластика|пластмассовый|пластмассовая|пластмасса", "plastic|made of plastic"),
+    (
+        Property::Material,
+        "пластиковый",
+        "пластик|пластика|из пластика|пластмассовый|пластмассовая|пластмасса",
+        "plastic|made of plastic",
+    ),
     (Property::Material, "тканевый", "ткань|ткани|из ткани", "fabric|cloth|textile"),
     (Property::Material, "каменный", "камень|камня|из камня", "stone"),
-    (Property::Material, "керамический", "керамика|керамики|из керамики|фарфор", "ceramic|ceramics|porcelain"),
+    (
+        Property::Material,
+        "керамический",
+        "керамика|керамики|из керамики|фарфор",
+        "ceramic|ceramics|porcelain",
+    ),
     (Property::Material, "бумажный", "бумага|бумаги|из бумаги", "paper"),
     (Property::Material, "резиновый", "резина|резины", "rubber"),
     (Property::Material, "картонный", "картон|картона|из картона", "cardboard"),
@@ -102,14 +114,24 @@ const VALUES: &[(Property, &str, &str, &str)] = &[
         "открыт|открыта|открыто|открыты|распахнут|распахнута|распахнуты|отворена|приоткрыта|приоткрыт",
         "open|opened|ajar",
     ),
-    (Property::State, "закрытый", "закрыт|закрыта|закрыто|закрыты|затворена|прикрыта", "closed|shut"),
+    (
+        Property::State,
+        "закрытый",
+        "закрыт|закрыта|закрыто|закрыты|затворена|прикрыта",
+        "closed|shut",
+    ),
     (
         Property::State,
         "запертый",
         "заперт|заперта|заперто|заперты|закрыта на ключ|закрыт на ключ|закрыты на ключ|закрыта на замок",
         "locked",
     ),
-    (Property::State, "отпертый", "отперт|отперта|отперты|не заперта|не заперт|не заперты", "unlocked"),
+    (
+        Property::State,
+        "отпертый",
+        "отперт|отперта|отперты|не заперта|не заперт|не заперты",
+        "unlocked",
+    ),
     (Property::State, "грязный", "грязен|грязна|грязно|грязны", "dirty|unclean|soiled"),
     (Property::State, "чистый", "чист|чиста|чисто|чисты", "clean"),
     (Property::State, "сломанный", "сломан|сломана|сломано|сломаны", "broken"),
@@ -211,7 +233,8 @@ impl Values {
             return;
         }
         let lower = value.to_lowercase();
-        let english = if Language::of(value) == Language::English { lower.clone() } else { String::new() };
+        let english =
+            if Language::of(value) == Language::English { lower.clone() } else { String::new() };
         let entry = ValueEntry { property, russian: lower.clone(), noun: lower.clone(), english };
         let id = self.add(entry);
         let forms = adjective_forms(&lower);
@@ -319,8 +342,7 @@ fn adjective_forms(adjective: &str) -> Vec<String> {
     let lower = adjective.to_lowercase();
     let masculine =
         russian::agreeing(&lower, Case::Nominative, Number::Singular, Gender::Masculine);
-    let feminine =
-        russian::agreeing(&lower, Case::Nominative, Number::Singular, Gender::Feminine);
+    let feminine = russian::agreeing(&lower, Case::Nominative, Number::Singular, Gender::Feminine);
     if masculine == feminine {
         return Vec::new();
     }

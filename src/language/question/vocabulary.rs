@@ -122,10 +122,16 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::What,
         "что|чего|чему|чём|что такое|что за|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
     ),
-    (Mark::Anything, "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто|everything"),
+    (
+        Mark::Anything,
+        "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто|everything",
+    ),
     (Mark::Whither, "куда|куда же|where to"),
     (Mark::How, "как|how|каким образом"),
-    (Mark::Move, "попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there"),
+    (
+        Mark::Move,
+        "попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
+    ),
     (Mark::As, "as|что и|как и|с чем"),
     (
         Mark::Which,
@@ -153,7 +159,10 @@ const WORDS: &[(Mark, &str)] = &[
         the way|way|what is the way|which way|the route|route|what is the route|what is the shortest way|what is the shortest route|shortest way|shortest route|shortest path|the shortest way|the shortest route|the shortest path|what is the shortest path|path|\
         directions|give me directions|show me the way|tell me the way|describe the way|describe the route|what is the best way|the best way|the quickest way",
     ),
-    (Mark::When, "когда|как давно|в котором часу|when|how long ago|since when|at what time|at which time"),
+    (
+        Mark::When,
+        "когда|как давно|в котором часу|when|how long ago|since when|at what time|at which time",
+    ),
     (
         Mark::Why,
         "почему|отчего|с чего ты взял|с чего ты это взял|откуда ты знаешь|откуда это известно|откуда ты это знаешь|откуда известно|почему ты так думаешь|почему ты так решил|почему так|почему это так|почему да|докажи|объясни|обоснуй|поясни|\
@@ -243,7 +252,10 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Sit,
         "сесть|посидеть|присесть|сидеть|sit|sit down|take a seat|have a seat|relax|be seated|take a rest",
     ),
-    (Mark::LieDown, "лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep"),
+    (
+        Mark::LieDown,
+        "лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep",
+    ),
     (
         Mark::PutDown,
         "положить|поставить|разместить|куда положить|куда поставить|куда можно положить|куда можно поставить|куда мне положить|куда мне поставить|put|place|set down|put down|lay down|leave",
@@ -261,22 +273,37 @@ const WORDS: &[(Mark, &str)] = &[
         "ты|тебя|тебе|тобой|тобою|вы|вас|вам|робот|робота|роботу|роботом|роботе|рб|рб 2|you|yourself|robot|the robot|rb 2",
     ),
     (Mark::Me, "я|мне|меня|мной|i|me|myself|us|we|нам|нас|мы"),
-    (Mark::Not, "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|without|без|isnt|arent|doesnt|dont"),
+    (
+        Mark::Not,
+        "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|without|без|isnt|arent|doesnt|dont",
+    ),
     (Mark::And, "и|а также|и еще|and|as well as|and also|together with|plus"),
     (Mark::Or, "или|либо|or|or else"),
-    (Mark::ThanTo, "чем к|чем от|чем до|нежели к|чем ко|than to|than from|than it is to|than it is from|than the distance to"),
+    (
+        Mark::ThanTo,
+        "чем к|чем от|чем до|нежели к|чем ко|than to|than from|than it is to|than it is from|than the distance to",
+    ),
     (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
     (
         Mark::All,
         "все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole|any",
     ),
-    (Mark::Other, "кроме|другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|except|besides|apart from|other than|the other|remaining|the rest of"),
+    (
+        Mark::Other,
+        "кроме|другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|except|besides|apart from|other than|the other|remaining|the rest of",
+    ),
     (
         Mark::Link(Rel::In),
         "в|во|внутри|внутрь|in|inside|inside of|within|into|in the middle of|in side",
     ),
-    (Mark::Link(Rel::On), "на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of"),
-    (Mark::Link(Rel::Under), "под|подо|снизу|снизу под|ниже|внизу под|under|below|beneath|underneath|under neath|bellow|at the bottom of|directly below|directly under|right under"),
+    (
+        Mark::Link(Rel::On),
+        "на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of",
+    ),
+    (
+        Mark::Link(Rel::Under),
+        "под|подо|снизу|снизу под|ниже|внизу под|under|below|beneath|underneath|under neath|bellow|at the bottom of|directly below|directly under|right under",
+    ),
     (Mark::Link(Rel::Above), "над|надо|сверху над|выше|above|over|directly above|right above"),
     (
         Mark::Link(Rel::NextTo),
@@ -294,25 +321,37 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Link(Rel::RightOf),
         "справа от|справа|правее|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
     ),
-    (Mark::Link(Rel::Behind), "за|позади|сзади|сзади от|позади от|behind|in back of|at the back of|in the back of|to the rear of"),
+    (
+        Mark::Link(Rel::Behind),
+        "за|позади|сзади|сзади от|позади от|behind|in back of|at the back of|in the back of|to the rear of",
+    ),
     (
         Mark::Link(Rel::InFrontOf),
         "перед|передо|впереди|спереди от|спереди|напротив|in front of|before the|ahead of|opposite|opposite to|across from|in the front of|facing",
     ),
-    (Mark::Link(Rel::Between), "между|посередине между|меж|between|in between|in the middle between|directly between|directly in between"),
-    (Mark::Link(Rel::Leaning), "прислонён к|прислонена к|прислонено к|прислонены к|прислонён|прислонена|прислонено|прислонены|опирается о|leaning against|leans against|leaning on|leans on|leaned against|lean against|propped against|leaning"),
+    (
+        Mark::Link(Rel::Between),
+        "между|посередине между|меж|between|in between|in the middle between|directly between|directly in between",
+    ),
+    (
+        Mark::Link(Rel::Leaning),
+        "прислонён к|прислонена к|прислонено к|прислонены к|прислонён|прислонена|прислонено|прислонены|опирается о|leaning against|leans against|leaning on|leans on|leaned against|lean against|propped against|leaning",
+    ),
     (Mark::Link(Rel::Has), "with|having"),
     (Mark::Link(Rel::Outside), "вне|снаружи|за пределами|outside|outside of|out side"),
-    (Mark::Link(Rel::From), "из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at"),
+    (
+        Mark::Link(Rel::From),
+        "из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at",
+    ),
     (Mark::Link(Rel::To), "к|ко|до|to|towards|toward|into the|up to|for the|till|as far as"),
     (Mark::Link(Rel::Through), "через|сквозь|through|via"),
     (Mark::Link(Rel::At), "at|при"),
     (Mark::Link(Rel::Of), "of|belonging to"),
+    (Mark::Nearer(Closeness::Nearer), "ближе|поближе|closer|nearer|less far"),
     (
-        Mark::Nearer(Closeness::Nearer),
-        "ближе|поближе|closer|nearer|less far",
+        Mark::Nearer(Closeness::Farther),
+        "дальше|подальше|farther|further|more distant|farther away|further away",
     ),
-    (Mark::Nearer(Closeness::Farther), "дальше|подальше|farther|further|more distant|farther away|further away"),
     (
         Mark::Best(Extreme::Nearest),
         "ближайший|ближайшая|ближайшее|ближайшие|ближайшего|ближайшую|ближайшей|ближайшем|ближайшему|ближайших|самый близкий|самая близкая|самое близкое|самые близкие|самую близкую|ближе всего|ближе всех|наиболее близкий|nearest|closest",
@@ -322,7 +361,10 @@ const WORDS: &[(Mark, &str)] = &[
         "самый дальний|самая дальняя|самое дальнее|самые дальние|самую дальнюю|дальше всего|дальше всех|наиболее удалённый|самый далёкий|самая далёкая|самое далёкое|самый удалённый|самая удалённая|самое удалённое|farthest|furthest|most distant|farthest away|furthest away",
     ),
     (Mark::BestTo(Extreme::Nearest), "nearest to|closest to|the nearest to|the closest to"),
-    (Mark::BestTo(Extreme::Farthest), "farthest from|furthest from|farthest away from|furthest away from|the farthest from|the furthest from|most distant from"),
+    (
+        Mark::BestTo(Extreme::Farthest),
+        "farthest from|furthest from|farthest away from|furthest away from|the farthest from|the furthest from|most distant from",
+    ),
     (
         Mark::Best(Extreme::Biggest),
         "самый большой|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|больше всего|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
@@ -347,9 +389,18 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Best(Extreme::Narrowest),
         "самый узкий|самая узкая|самое узкое|самую узкую|самые узкие|уже всех|narrowest|thinnest|самый тонкий|самая тонкая|самое тонкое",
     ),
-    (Mark::Best(Extreme::Longest), "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|longest"),
-    (Mark::Best(Extreme::LeftMost), "самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost"),
-    (Mark::Best(Extreme::RightMost), "самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost"),
+    (
+        Mark::Best(Extreme::Longest),
+        "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|longest",
+    ),
+    (
+        Mark::Best(Extreme::LeftMost),
+        "самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost",
+    ),
+    (
+        Mark::Best(Extreme::RightMost),
+        "самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost",
+    ),
     (Mark::Best(Extreme::Most), "больше всего всего|the most|most"),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
@@ -369,7 +420,10 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Pronoun(Pronoun::Any), "it|its"),
     (Mark::There, "там|оттуда|туда|в ней|в нём|there|in there|in it"),
     (Mark::One, "one|ones"),
-    (Mark::A, "a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно"),
+    (
+        Mark::A,
+        "a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно",
+    ),
     (
         Mark::The,
         "the|this|that|these|этот|эта|это|эти|этой|этом|этого|эту|этих|этими|этому|тот|та|те|той|том|тех|тому|my|your|our|his|мой|моя|моё|мои|мою|моего|моей|моих|твой|твоя|твоё|твои|наш|наша|наше|наши|свой|свою",
@@ -405,7 +459,9 @@ fn table() -> &'static HashMap<String, Phrases> {
 
 fn phrases() -> impl Iterator<Item = (Mark, &'static str)> {
     WORDS.iter().flat_map(|(mark, list)| {
-        list.split('|').map(|phrase| (*mark, phrase.trim())).filter(|(_, phrase)| !phrase.is_empty())
+        list.split('|')
+            .map(|phrase| (*mark, phrase.trim()))
+            .filter(|(_, phrase)| !phrase.is_empty())
     })
 }
 

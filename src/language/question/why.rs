@@ -48,7 +48,9 @@ impl Knowledge<'_> {
     fn reasons(&self, fact: &Fact) -> Vec<String> {
         let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
         if fact.holds {
-            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else { return Vec::new() };
+            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
+                return Vec::new();
+            };
             let mut lines = self.measured(&proof);
             lines.truncate(SAID);
             return lines;
@@ -69,7 +71,9 @@ impl Knowledge<'_> {
     pub(super) fn proof_lines(&self, fact: &Fact) -> Vec<String> {
         let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
         if fact.holds {
-            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else { return Vec::new() };
+            let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
+                return Vec::new();
+            };
             return proof.steps.iter().map(|s| tuple(&s.fact.name, &s.fact.values)).collect();
         }
         match self.relations.why_not(&fact.relation, &args) {
@@ -79,7 +83,11 @@ impl Knowledge<'_> {
                     Some(false) => "-",
                     None => "?",
                 };
-                failed.premises.iter().map(|(p, h)| format!("{} {}", sign(*h), self.premise(p))).collect()
+                failed
+                    .premises
+                    .iter()
+                    .map(|(p, h)| format!("{} {}", sign(*h), self.premise(p)))
+                    .collect()
             }
             _ => Vec::new(),
         }
@@ -126,25 +134,57 @@ impl Knowledge<'_> {
         let (a, b) = (word(0), word(1));
         let russian = self.is_russian();
         Some(match (name, russian) {
-            ("over", true) => format!("низ «{a}» отстоит от верха «{b}» на {}, и над ним {:.0} % опоры", cm(4), percent(5)),
-            ("over", false) => format!("the foot of {a} is {} from the top of {b} and {:.0} % of it is over that", cm(4), percent(5)),
-            ("below", true) => format!("«{a}» ниже «{b}» на {} и перекрыто им на {:.0} %", cm(4), percent(5)),
-            ("below", false) => format!("{a} is {} below {b} and {:.0} % of it is covered", cm(4), percent(5)),
-            ("within", true) => format!("«{a}» выступает за пределы «{b}» не больше чем на {} и лежит внутри на {:.0} %", cm(4), percent(8)),
-            ("within", false) => format!("{a} sticks out of {b} by {} at most, and {:.0} % of it is inside", cm(4), percent(8)),
+            ("over", true) => format!(
+                "низ «{a}» отстоит от верха «{b}» на {}, и над ним {:.0} % опоры",
+                cm(4),
+                percent(5)
+            ),
+            ("over", false) => format!(
+                "the foot of {a} is {} from the top of {b} and {:.0} % of it is over that",
+                cm(4),
+                percent(5)
+            ),
+            ("below", true) => {
+                format!("«{a}» ниже «{b}» на {} и перекрыто им на {:.0} %", cm(4), percent(5))
+            }
+            ("below", false) => {
+                format!("{a} is {} below {b} and {:.0} % of it is covered", cm(4), percent(5))
+            }
+            ("within", true) => format!(
+                "«{a}» выступает за пределы «{b}» не больше чем на {} и лежит внутри на {:.0} %",
+                cm(4),
+                percent(8)
+            ),
+            ("within", false) => format!(
+                "{a} sticks out of {b} by {} at most, and {:.0} % of it is inside",
+                cm(4),
+                percent(8)
+            ),
             ("distance" | "beside", true) => format!("расстояние между «{a}» и «{b}» – {}", cm(2)),
             ("distance" | "beside", false) => format!("{a} and {b} are {} apart", cm(2)),
-            ("sector", true) => format!("«{a}» видно под углом {:.0}° от лицевой стороны «{b}», расстояние {}", number(2), cm(3)),
-            ("sector", false) => format!("{a} is at {:.0}° from the front of {b}, {} away", number(2), cm(3)),
-            ("standing_in", true) => format!("«{a}» стоит в границах «{b}», на высоте {} от пола", cm(2)),
-            ("standing_in", false) => format!("{a} stands within the bounds of {b}, {} above its floor", cm(2)),
+            ("sector", true) => format!(
+                "«{a}» видно под углом {:.0}° от лицевой стороны «{b}», расстояние {}",
+                number(2),
+                cm(3)
+            ),
+            ("sector", false) => {
+                format!("{a} is at {:.0}° from the front of {b}, {} away", number(2), cm(3))
+            }
+            ("standing_in", true) => {
+                format!("«{a}» стоит в границах «{b}», на высоте {} от пола", cm(2))
+            }
+            ("standing_in", false) => {
+                format!("{a} stands within the bounds of {b}, {} above its floor", cm(2))
+            }
             ("off_area", true) => format!("«{a}» в стене, в {} от «{b}»", cm(2)),
             ("off_area", false) => format!("{a} is in the wall, {} from {b}", cm(2)),
             ("links", true) => format!("карта связывает «{}» и «{}» через «{a}»", word(1), word(2)),
             ("links", false) => format!("the map links {} and {} through {a}", word(1), word(2)),
             ("step", true) => format!("шаг через «{a}» ведёт в «{}»", word(2)),
             ("step", false) => format!("a step through {a} leads to {}", word(2)),
-            ("door_state", true) => format!("на карте дверь «{a}» {}", door_word(&b, Language::Russian)),
+            ("door_state", true) => {
+                format!("на карте дверь «{a}» {}", door_word(&b, Language::Russian))
+            }
             ("door_state", false) => format!("the map says that {a} is {b}"),
             ("property", true) => format!("на карте у «{a}» указано: {b} – {}", word(2)),
             ("property", false) => format!("the map gives {b} of {a}: {}", word(2)),
@@ -170,7 +210,9 @@ impl Knowledge<'_> {
             Premise::Fact(n) => format!("#{n}"),
             Premise::Pattern { name, values } => {
                 let what = match values.iter().cloned().collect::<Option<Vec<Value>>>() {
-                    Some(values) => self.measurement(name, &values).unwrap_or_else(|| tuple(name, &values)),
+                    Some(values) => {
+                        self.measurement(name, &values).unwrap_or_else(|| tuple(name, &values))
+                    }
                     None => format!("{name}({})", show(values)),
                 };
                 match self.is_russian() {
@@ -183,8 +225,12 @@ impl Knowledge<'_> {
                 false => format!("{name}({}) stands in the way", show(values)),
             },
             Premise::Compared { text, left, right, .. } => match self.is_russian() {
-                true => format!("условие «{text}» не выполнено: {} и {}", value(left), value(right)),
-                false => format!("the condition \"{text}\" fails: {} and {}", value(left), value(right)),
+                true => {
+                    format!("условие «{text}» не выполнено: {} и {}", value(left), value(right))
+                }
+                false => {
+                    format!("the condition \"{text}\" fails: {} and {}", value(left), value(right))
+                }
             },
             Premise::Counted { text, value: found } => {
                 let found = found.as_ref().map(value).unwrap_or_default();

@@ -32,6 +32,6 @@ pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints
 pub use index::{FormIndex, Hit, Readings, Spelling};
 pub(crate) use letters::is_hyphen;
 pub use letters::word_ranges;
-pub(crate) use parse::may_be_noun;
 pub use list::{Language, alternatives, enumerate};
+pub(crate) use parse::may_be_noun;
 pub use phrase::NounPhrase;
