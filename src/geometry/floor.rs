@@ -20,7 +20,7 @@ use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, Wo
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
 use super::doors::{Doorway, distance, object_leaves};
-use super::grid::{Contour, Grid, Shapes, difference, intersection, overlay, smooth};
+use super::grid::{Contour, Grid, Shapes, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::offset::{grow, shrink};
 use super::passframe::{Passframe, passframes};
@@ -182,15 +182,25 @@ impl FragmentFloor {
             obstacles.iter().map(|o| grid.contour(&o.polygon)).collect();
         blocked.extend(storey.inner_walls.iter().map(|p| grid.contour(p)));
 
-        let raw_shapes = difference(&floor, &blocked);
-        let raw = grid.regions(&raw_shapes);
-        let all_centres = shrink(&grid, &raw, reach - SLACK);
+        let mut inside = difference(&floor, &blocked);
+        let raw = grid.regions(&inside);
+        let [all_centres, centre] = overlays(
+            &shrink(&grid, &raw, reach - SLACK),
+            &beyond,
+            [OverlayRule::Subject, OverlayRule::Difference],
+            FillRule::Positive,
+        );
         let covered = grow(&grid, &grid.regions(&all_centres), reach - SLACK, &raw);
-        let inside = less(raw_shapes, &beyond);
-        let free =
-            smooth(&overlay(&covered, &flat(&inside), OverlayRule::Intersect, FillRule::Positive));
-        let dead = less(inside, &flat(&free));
-        let centre = less(all_centres, &beyond);
+        // Run through clockwise, what lies beyond the doorways' lines is taken from what lies inside.
+        beyond.iter_mut().for_each(|b| b.reverse());
+        let inside: Vec<Contour> = inside.drain(..).flatten().chain(beyond).collect();
+        let [free, dead] = overlays(
+            &covered,
+            &inside,
+            [OverlayRule::Intersect, OverlayRule::InverseDifference],
+            FillRule::Positive,
+        );
+        let free = smooth(free);
 
         let cells = Mesh::of(&grid, &centre);
         let frames = Mesh::of(&grid, &free);
@@ -243,10 +253,6 @@ impl FragmentFloor {
 
 fn flat(shapes: &Shapes) -> Vec<Contour> {
     shapes.iter().flatten().cloned().collect()
-}
-
-fn less(shapes: Shapes, cut: &[Contour]) -> Shapes {
-    if cut.is_empty() { shapes } else { difference(&flat(&shapes), cut) }
 }
 
 impl Doorway {

@@ -6,6 +6,7 @@
 //!
 //! **Invariant**: a [`Grid`] maps grid points to cm and back without loss; its unit is a power of two.
 
+use i_overlay::core::extract::BooleanExtractionBuffer;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -119,7 +120,7 @@ pub(super) fn positive(contours: &[Contour]) -> Shapes {
 
 /// The shapes without the slivers that rounding left: corners that stick out from the line between their
 /// neighbours by a few units are cut off. Nothing is added.
-pub(super) fn smooth(shapes: &Shapes) -> Shapes {
+pub(super) fn smooth(shapes: Shapes) -> Shapes {
     let mut is_changed = false;
     let mut contours: Vec<Contour> = Vec::with_capacity(shapes.len());
     for contour in shapes.iter().flatten() {
@@ -139,7 +140,7 @@ pub(super) fn smooth(shapes: &Shapes) -> Shapes {
             contours.push(kept);
         }
     }
-    if is_changed { positive(&contours) } else { shapes.clone() }
+    if is_changed { positive(&contours) } else { shapes }
 }
 
 /// A turn to the left, less than [`SLIVER`] units high over the line between its neighbours.
@@ -157,6 +158,25 @@ pub(super) fn overlay(
     rule: OverlayRule,
     fill: FillRule,
 ) -> Shapes {
+    overlaid(subject, clip).overlay(rule, fill)
+}
+
+/// Several results of one overlay, for little more than the work of one.
+pub(super) fn overlays<const N: usize>(
+    subject: &[Contour],
+    clip: &[Contour],
+    rules: [OverlayRule; N],
+    fill: FillRule,
+) -> [Shapes; N] {
+    let mut overlay = overlaid(subject, clip);
+    let mut buffer = BooleanExtractionBuffer::default();
+    match overlay.build_graph_view(fill) {
+        Some(graph) => rules.map(|rule| graph.extract_shapes(rule, &mut buffer)),
+        None => rules.map(|_| Shapes::new()),
+    }
+}
+
+fn overlaid(subject: &[Contour], clip: &[Contour]) -> Overlay<i32> {
     let edges = subject.iter().chain(clip).map(Vec::len).sum();
     let mut overlay = Overlay::new(edges);
     for contour in subject {
@@ -165,7 +185,7 @@ pub(super) fn overlay(
     for contour in clip {
         overlay.add_contour(contour, ShapeType::Clip);
     }
-    overlay.overlay(rule, fill)
+    overlay
 }
 
 #[cfg(test)]

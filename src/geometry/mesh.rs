@@ -14,6 +14,7 @@ use i_triangle::int::validation::Validation;
 
 use crate::units::Point;
 
+use super::buckets::Buckets;
 use super::grid::{Grid, Node, Shapes};
 use super::{Bounds, Polygon, nearest_on_segment};
 
@@ -60,7 +61,7 @@ impl Mesh {
         }
         mesh.is_corner = edges.corners();
         mesh.component = mesh.components();
-        mesh.buckets = Buckets::of(&mesh);
+        mesh.buckets = Buckets::of(&mesh.boxes());
         mesh
     }
 
@@ -93,6 +94,11 @@ impl Mesh {
 
     pub(super) fn polygon(&self, cell: u32) -> Polygon {
         Polygon::new(self.ring(cell).iter().map(|&v| self.vertices[v as usize]).collect())
+    }
+
+    fn boxes(&self) -> Vec<Bounds> {
+        let corner = |&v: &u32| self.vertices[v as usize];
+        self.cells().map(|c| Bounds::of(self.ring(c).iter().map(corner)).grown(1e-3)).collect()
     }
 
     /// A cell that holds `p`, its border within `tolerance` cm; the lowest of several.
@@ -167,7 +173,9 @@ impl Mesh {
 
     /// The cells whose boxes meet that of segment `a`-`b`.
     pub(super) fn near_segment(&self, a: Point, b: Point) -> Vec<u32> {
-        self.buckets.meeting(&Bounds::of([a, b]).grown(1e-6))
+        let mut found = Vec::new();
+        self.buckets.meeting(&Bounds::of([a, b]).grown(1e-6), &mut found);
+        found
     }
 
     /// The stretches of segment `a`-`b` that lie on the floor, as fractions of its length.
@@ -434,99 +442,6 @@ impl HalfEdges {
     fn has_area(&self, face: &[u32]) -> bool {
         let node = |h: u32| self.node(self.origin[h as usize]);
         face.windows(2).any(|e| orientation(node(face[0]), node(e[0]), node(e[1])) != 0)
-    }
-}
-
-/// A grid of boxes, each with the cells that reach into it.
-#[derive(Debug, Clone, PartialEq)]
-struct Buckets {
-    bounds: Bounds,
-    size: f64,
-    columns: usize,
-    rows: usize,
-    starts: Vec<u32>,
-    cells: Vec<u32>,
-}
-
-impl Default for Buckets {
-    fn default() -> Self {
-        Self {
-            bounds: Bounds::EMPTY,
-            size: 1.0,
-            columns: 0,
-            rows: 0,
-            starts: vec![0],
-            cells: vec![],
-        }
-    }
-}
-
-impl Buckets {
-    fn of(mesh: &Mesh) -> Self {
-        let boxes: Vec<Bounds> =
-            mesh.cells().map(|c| mesh.polygon(c).bounds().grown(1e-3)).collect();
-        let Some(bounds) = boxes.iter().copied().reduce(|a, b| a.union(&b)) else {
-            return Self::default();
-        };
-        let extent = bounds.max - bounds.min;
-        let size =
-            (extent.x * extent.y / boxes.len() as f64).sqrt().max(extent.amax() / 256.0).max(1e-3);
-        let (columns, rows) = ((extent.x / size) as usize + 1, (extent.y / size) as usize + 1);
-        let starts = vec![0; columns * rows + 1];
-        let mut buckets = Self { bounds, size, columns, rows, starts, cells: vec![] };
-        for reach in &boxes {
-            for bucket in buckets.covering(reach) {
-                buckets.starts[bucket + 1] += 1;
-            }
-        }
-        for i in 0..columns * rows {
-            buckets.starts[i + 1] += buckets.starts[i];
-        }
-        buckets.cells = vec![0; buckets.starts[columns * rows] as usize];
-        let mut filled = buckets.starts.clone();
-        for (cell, reach) in boxes.iter().enumerate() {
-            for bucket in buckets.covering(reach) {
-                buckets.cells[filled[bucket] as usize] = cell as u32;
-                filled[bucket] += 1;
-            }
-        }
-        buckets
-    }
-
-    fn column_row(&self, p: Point) -> (usize, usize) {
-        let v = (p - self.bounds.min) / self.size;
-        // Casts saturate, so points far off come to the rim.
-        ((v.x as usize).min(self.columns - 1), (v.y as usize).min(self.rows - 1))
-    }
-
-    fn covering(&self, reach: &Bounds) -> impl Iterator<Item = usize> + use<> {
-        let ((left, bottom), (right, top)) =
-            (self.column_row(reach.min), self.column_row(reach.max));
-        let columns = self.columns;
-        (bottom..=top).flat_map(move |row| (left..=right).map(move |column| row * columns + column))
-    }
-
-    fn bucket(&self, index: usize) -> &[u32] {
-        &self.cells[self.starts[index] as usize..self.starts[index + 1] as usize]
-    }
-
-    fn near(&self, p: Point) -> &[u32] {
-        if self.columns == 0 || !self.bounds.contains(p) {
-            return &[];
-        }
-        let (column, row) = self.column_row(p);
-        self.bucket(row * self.columns + column)
-    }
-
-    fn meeting(&self, reach: &Bounds) -> Vec<u32> {
-        if self.columns == 0 || !self.bounds.meets(reach) {
-            return Vec::new();
-        }
-        let mut found: Vec<u32> =
-            self.covering(reach).flat_map(|b| self.bucket(b).iter().copied()).collect();
-        found.sort_unstable();
-        found.dedup();
-        found
     }
 }
 

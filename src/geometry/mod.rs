@@ -19,6 +19,7 @@
 //! ```
 
 mod blocked;
+mod buckets;
 pub mod contact;
 mod doors;
 mod floor;

@@ -17,21 +17,22 @@
 //! **Invariant**: tangents stand outside the circle, so that a centre never comes nearer to a wall than the
 //! radius; they exceed it by 0.9 % at most.
 
-use std::collections::HashMap;
 use std::f64::consts::PI;
 
 use crate::units::{Point, Vector};
 
-use super::Polygon;
-use super::grid::{Contour, Grid, Region, Shapes, positive};
+use super::buckets::Buckets;
+use super::grid::{Contour, Grid, Region};
+use super::{Bounds, Polygon};
 
 /// The widest turn that one tangent takes, in radians: 15°.
 const ARC_STEP: f64 = PI / 12.0;
 
-/// The places of a disc's centre from which the disc lies within `floor`.
-pub(super) fn shrink(grid: &Grid, floor: &[Region], radius: f64) -> Shapes {
+/// Contours that wind once around the places of a disc's centre from which the disc lies within `floor`, and
+/// around all others less often.
+pub(super) fn shrink(grid: &Grid, floor: &[Region], radius: f64) -> Vec<Contour> {
     let curve = |contour: &Polygon| offset_curve(grid, contour, radius, shrink_joint);
-    positive(&floor.iter().flat_map(Region::contours).map(curve).collect::<Vec<_>>())
+    floor.iter().flat_map(Region::contours).map(curve).collect()
 }
 
 /// Everything that the disc covers from `centres`, which are `floor` shrunk by `radius`; to be cut to that floor.
@@ -121,32 +122,27 @@ fn offset_curve(
 struct CornerSet {
     /// No corner further than this is asked for.
     size: f64,
-    cells: HashMap<(i64, i64), Vec<Point>>,
+    corners: Vec<Point>,
+    buckets: Buckets,
 }
 
 impl CornerSet {
     fn of(floor: &[Region], size: f64) -> Self {
-        let mut set = Self { size, cells: HashMap::new() };
-        for &p in floor.iter().flat_map(Region::contours).flat_map(|c| &c.corners) {
-            set.cells.entry(set.cell(p)).or_default().push(p);
-        }
-        set
-    }
-
-    fn cell(&self, p: Point) -> (i64, i64) {
-        ((p.x / self.size).floor() as i64, (p.y / self.size).floor() as i64)
+        let corners: Vec<Point> =
+            floor.iter().flat_map(Region::contours).flat_map(|c| &c.corners).copied().collect();
+        let boxes: Vec<Bounds> =
+            corners.iter().map(|&c| Bounds { min: c, max: c }.grown(size)).collect();
+        Self { size, buckets: Buckets::of(&boxes), corners }
     }
 
     /// The corner nearest to `p` among those that are wanted.
     fn find(&self, p: Point, wanted: impl Fn(Point) -> bool) -> Option<Point> {
-        let (x, y) = self.cell(p);
-        (x - 1..=x + 1)
-            .flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)))
-            .filter_map(|cell| self.cells.get(&cell))
-            .flatten()
-            .copied()
+        self.buckets
+            .near(p)
+            .iter()
+            .map(|&i| self.corners[i as usize])
             .filter(|&c| (c - p).norm() <= self.size && wanted(c))
-            .min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()))
+            .min_by(|a, b| (a - p).norm_squared().total_cmp(&(b - p).norm_squared()))
     }
 }
 
@@ -176,7 +172,7 @@ fn rotated(v: Vector, angle: f64) -> Vector {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Bounds;
+    use crate::geometry::grid::{Shapes, positive};
 
     fn rectangle(x: f64, y: f64, w: f64, h: f64) -> Polygon {
         Polygon::new(vec![
@@ -196,23 +192,27 @@ mod tests {
         Region { outer, holes: holes.iter().map(turned).collect() }
     }
 
+    fn shrunk(floor: &[Region], radius: f64) -> Shapes {
+        positive(&shrink(&grid(), floor, radius))
+    }
+
     #[test]
     fn an_empty_room_shrinks_to_a_smaller_one() {
-        let shapes = shrink(&grid(), &[region(rectangle(0.0, 0.0, 400.0, 300.0), &[])], 30.0);
+        let shapes = shrunk(&[region(rectangle(0.0, 0.0, 400.0, 300.0), &[])], 30.0);
         let area = grid().regions(&shapes)[0].area();
         assert!((area - 340.0 * 240.0).abs() < 1e-6, "{area}");
     }
 
     #[test]
     fn a_room_narrower_than_the_disc_shrinks_to_nothing() {
-        assert!(shrink(&grid(), &[region(rectangle(0.0, 0.0, 400.0, 59.9), &[])], 30.0).is_empty());
+        assert!(shrunk(&[region(rectangle(0.0, 0.0, 400.0, 59.9), &[])], 30.0).is_empty());
     }
 
     #[test]
     fn the_disc_rolls_round_a_pillar() {
         let pillar = rectangle(180.0, 130.0, 40.0, 40.0);
         let floor = region(rectangle(0.0, 0.0, 400.0, 300.0), std::slice::from_ref(&pillar));
-        let shapes = shrink(&grid(), &[floor], 30.0);
+        let shapes = shrunk(&[floor], 30.0);
         let hole = &grid().regions(&shapes)[0].holes[0];
         let blocked = -hole.signed_area();
         let exact = 40.0 * 40.0 + 4.0 * 40.0 * 30.0 + PI * 900.0;
@@ -237,7 +237,7 @@ mod tests {
             p(0., 300.),
         ]);
         let floor = [region(outer, &[])];
-        let centres = grid().regions(&shrink(&grid(), &floor, 30.0));
+        let centres = grid().regions(&shrunk(&floor, 30.0));
         let covered = positive(&grow(&grid(), &centres, 30.0, &floor));
         let area = grid().regions(&covered)[0].area();
         // The disc bulges into the niche by a segment of 209 cm².

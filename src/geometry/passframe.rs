@@ -9,9 +9,10 @@ use std::fmt;
 use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point};
 
+use super::buckets::Buckets;
 use super::floor::{Blocker, FragmentFloor, Side, Site};
 use super::mesh::NONE;
-use super::{Polygon, nearest_on_segment};
+use super::{Bounds, Polygon, nearest_on_segment};
 
 /// Unique in its Fragment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -104,7 +105,7 @@ impl Passframe {
     }
 }
 
-/// Everything that can stand along a border.
+/// Something that can stand along a border.
 struct Face {
     start: Point,
     end: Point,
@@ -113,10 +114,36 @@ struct Face {
     names: Vec<String>,
 }
 
+/// Everything that can stand along a border, by place.
+struct Faces {
+    all: Vec<Face>,
+    buckets: Buckets,
+    zones: Buckets,
+}
+
+impl Faces {
+    fn of(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Self {
+        let all = faces(site, floor, sides);
+        let boxes: Vec<Bounds> =
+            all.iter().map(|f| Bounds::of([f.start, f.end]).grown(TOUCH)).collect();
+        let zones: Vec<Bounds> =
+            floor.dead_zones.iter().map(|z| z.region.outer.bounds().grown(TOUCH)).collect();
+        Self { all, buckets: Buckets::of(&boxes), zones: Buckets::of(&zones) }
+    }
+
+    /// Those whose boxes meet that of an edge, in their order.
+    fn near(&self, start: Point, end: Point) -> Vec<&Face> {
+        let (mut found, reach) = (Vec::new(), Bounds::of([start, end]));
+        self.buckets.meeting(&reach, &mut found);
+        let near = found.into_iter().map(|i| &self.all[i as usize]);
+        near.filter(|f| Bounds::of([f.start, f.end]).grown(TOUCH).meets(&reach)).collect()
+    }
+}
+
 /// The Passframes of a floor, in the order of its cells.
 pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Passframe> {
     let ids = ids(floor);
-    let faces = faces(site, floor, sides);
+    let faces = Faces::of(site, floor, sides);
     let mut frames: Vec<Passframe> = floor
         .frames
         .cells()
@@ -143,7 +170,7 @@ pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side])
 fn borders(
     floor: &FragmentFloor,
     ids: &[PassframeId],
-    faces: &[Face],
+    faces: &Faces,
     cell: u32,
     edge: usize,
 ) -> Vec<Border> {
@@ -161,8 +188,9 @@ fn borders(
         }];
     }
     let mut borders: Vec<Border> = Vec::new();
-    for (start, end) in pieces(faces, start, end) {
-        let (beyond, permeability, names) = what_stands_along(floor, faces, start, end);
+    let near = faces.near(start, end);
+    for (start, end) in pieces(&near, start, end) {
+        let (beyond, permeability, names) = what_stands_along(floor, faces, &near, start, end);
         match borders.last_mut() {
             Some(last) if last.beyond == beyond => last.end = end,
             _ => borders.push(Border {
@@ -185,7 +213,7 @@ fn borders(
 }
 
 /// An edge cut where faces along it end.
-fn pieces(faces: &[Face], start: Point, end: Point) -> Vec<(Point, Point)> {
+fn pieces(faces: &[&Face], start: Point, end: Point) -> Vec<(Point, Point)> {
     let length = (end - start).norm();
     let Some(along) = (end - start).try_normalize(0.0) else { return vec![(start, end)] };
     let mut cuts: Vec<(f64, Point)> = faces
@@ -217,7 +245,8 @@ fn crossing(floor: &FragmentFloor, a: Point, b: Point) -> Option<(Point, Point)>
 
 fn what_stands_along(
     floor: &FragmentFloor,
-    faces: &[Face],
+    faces: &Faces,
+    near: &[&Face],
     a: Point,
     b: Point,
 ) -> (Beyond, Permeability, Vec<String>) {
@@ -228,9 +257,9 @@ fn what_stands_along(
             .map(|p| (p - nearest_on_segment(p, f.start, f.end)).norm())
             .fold(0.0, f64::max)
     };
-    let best = faces
+    let best = near
         .iter()
-        .map(|f| (off(f), f))
+        .map(|&f| (off(f), f))
         .filter(|(off, _)| *off < TOUCH)
         // Doors stand first among faces, so that a door in a wall is named before the wall.
         .min_by(|(x, _), (y, _)| (*x > 0.02).cmp(&(*y > 0.02)));
@@ -238,14 +267,19 @@ fn what_stands_along(
         return (face.beyond, face.permeability, face.names.clone());
     }
     let middle = nalgebra::center(&a, &b);
-    let zone = (0..floor.dead_zones.len()).min_by(|&i, &j| {
-        let d = |k: usize| floor.dead_zones[k].region.outer.border_distance(middle);
-        d(i).total_cmp(&d(j))
-    });
-    match zone {
+    let mut zones = Vec::new();
+    faces.zones.meeting(&Bounds::of([middle]), &mut zones);
+    let off_zone = |k: usize| floor.dead_zones[k].region.outer.border_distance(middle);
+    let nearest = |zones: &mut dyn Iterator<Item = usize>| {
+        zones.map(|k| (off_zone(k), k)).min_by(|x, y| x.0.total_cmp(&y.0))
+    };
+    let zone = nearest(&mut zones.into_iter().map(|k| k as usize))
+        .filter(|(off, _)| *off < TOUCH)
+        .or_else(|| nearest(&mut (0..floor.dead_zones.len())));
+    match zone.map(|z| z.1) {
         Some(zone) => (Beyond::DeadZone(zone), Permeability::Impermeable, Vec::new()),
         // A sliver of rounding: whatever is nearest.
-        None => faces.iter().min_by(|x, y| off(x).total_cmp(&off(y))).map_or(
+        None => faces.all.iter().min_by(|x, y| off(x).total_cmp(&off(y))).map_or(
             (
                 Beyond::Face { blocker: Blocker::Floor { area: floor.area, item: 0 }, side: None },
                 Permeability::Impermeable,
