@@ -1,9 +1,9 @@
 //! Why there is no route (W5): the doors, gaps and things that stand between start and goal.
 //!
 //! Pieces of the centre space are nodes; a closed door, an opening too narrow and a dead zone between two pieces
-//! are edges that cost one each. The cheapest way over them names the fewest things that would have to change.
+//! are edges between them. The way over the fewest names what would have to change.
 
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -11,7 +11,7 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
-use super::floor::Blocker;
+use super::obstacle::Blocker;
 use super::plan::FloorPlan;
 use super::route::things;
 use super::search::CellKey;
@@ -72,33 +72,13 @@ type Piece = (u32, u32);
 pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[CellKey]) -> NoRoute {
     let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
     let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
-    let links = links(plan, world);
     let start = piece(from);
-    let mut came: BTreeMap<Piece, (Piece, Option<Barrier>)> = BTreeMap::new();
-    let mut cost: BTreeMap<Piece, u32> = BTreeMap::from([(start, 0)]);
-    let mut open = VecDeque::from([start]);
-    while let Some(at) = open.pop_front() {
-        let spent = cost[&at];
-        for (next, barrier) in links.get(&at).into_iter().flatten() {
-            let price = spent + u32::from(barrier.is_some());
-            if cost.get(next).is_none_or(|&c| price < c) {
-                cost.insert(*next, price);
-                came.insert(*next, (at, barrier.clone()));
-                // The queue stays sorted: free steps go to its front.
-                if barrier.is_some() { open.push_back(*next) } else { open.push_front(*next) }
-            }
-        }
-    }
-    let goal = goals.iter().filter(|g| cost.contains_key(g)).min_by_key(|g| cost[g]);
-    let mut barriers = Vec::new();
-    if let Some(&goal) = goal {
-        let mut at = goal;
-        while let Some((before, barrier)) = came.get(&at) {
-            barriers.extend(barrier.clone());
-            at = *before;
-        }
-        barriers.reverse();
-    }
+    let mut between = Between { plan, world, pieces: plan.pieces(), gaps: HashMap::new() };
+    let ends = [
+        BTreeSet::from([plan.region_of(start)]),
+        goals.iter().map(|&g| plan.region_of(g)).collect(),
+    ];
+    let mut barriers = between.fewest(ends).unwrap_or_default();
     if barriers.is_empty() {
         barriers = vec![enclosure(plan, start, &goals)];
     }
@@ -106,38 +86,104 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
     NoRoute::Blocked { barriers, text }
 }
 
-/// What would have to change between neighbouring pieces; nothing where the way is free.
-fn links(plan: &FloorPlan, world: &World) -> BTreeMap<Piece, Vec<(Piece, Option<Barrier>)>> {
-    let mut links: BTreeMap<Piece, Vec<(Piece, Option<Barrier>)>> = BTreeMap::new();
-    let mut join = |a: Piece, b: Piece, barrier: Option<Barrier>| {
-        links.entry(a).or_default().push((b, barrier.clone()));
-        links.entry(b).or_default().push((a, barrier));
-    };
-    for (from, to) in plan.portal_ends() {
-        let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
-        join(piece(from), piece(to), None);
-    }
-    let open: BTreeSet<usize> = plan.open_doorways();
-    for (index, doorway) in plan.doorways().iter().enumerate() {
-        if open.contains(&index) {
-            continue;
+/// What stands between regions of the centre space, found as far as it is asked for.
+struct Between<'a> {
+    plan: &'a FloorPlan,
+    world: &'a World,
+    pieces: BTreeMap<u32, Vec<Piece>>,
+    /// By Fragment.
+    gaps: HashMap<u32, Vec<(u32, u32, Barrier)>>,
+}
+
+/// The regions reached from one end, each with the region before it and what lies between; none for the first.
+struct Reached {
+    by: BTreeMap<u32, Option<(u32, Barrier)>>,
+    rim: Vec<u32>,
+}
+
+impl Reached {
+    /// The barriers from the end to a region.
+    fn barriers(&self, mut region: u32) -> Vec<Barrier> {
+        let mut barriers = Vec::new();
+        while let Some((before, barrier)) = &self.by[&region] {
+            barriers.push(barrier.clone());
+            region = *before;
         }
-        let near = |side: usize| {
-            let number = plan.number(doorway.areas[side])? as u32;
-            let cells = &plan.floor(number).cells;
-            let (_, cell) = cells.nearest(doorway.before(side, plan.reach()), |_| true)?;
-            Some((number, cells.component[cell as usize]))
-        };
-        if let (Some(a), Some(b)) = (near(0), near(1)) {
-            join(a, b, Some(barrier_at(plan, world, index)));
+        barriers.reverse();
+        barriers
+    }
+}
+
+impl Between<'_> {
+    /// The fewest barriers from the first set of regions to the second: breadth-first from both, a whole ring of
+    /// the smaller side at a time, so that a way out of a closet does not search the building.
+    fn fewest(&mut self, ends: [BTreeSet<u32>; 2]) -> Option<Vec<Barrier>> {
+        let mut sides = ends.map(|end| Reached {
+            by: end.iter().map(|&r| (r, None)).collect(),
+            rim: end.into_iter().collect(),
+        });
+        loop {
+            let met = sides[0].by.keys().find(|r| sides[1].by.contains_key(r));
+            if let Some(&met) = met {
+                let mut barriers = sides[0].barriers(met);
+                barriers.extend(sides[1].barriers(met).into_iter().rev());
+                return Some(barriers);
+            }
+            if sides.iter().any(|s| s.rim.is_empty()) {
+                return None;
+            }
+            let weight = |s: &Reached| s.rim.iter().map(|r| self.pieces[r].len()).sum::<usize>();
+            let smaller = usize::from(weight(&sides[1]) < weight(&sides[0]));
+            let side = &mut sides[smaller];
+            for region in std::mem::take(&mut side.rim) {
+                for (next, barrier) in self.around(region) {
+                    side.by.entry(next).or_insert_with(|| {
+                        side.rim.push(next);
+                        Some((region, barrier))
+                    });
+                }
+            }
         }
     }
-    for number in 0..plan.fragments().len() as u32 {
-        for (a, b, barrier) in gaps(plan, number) {
-            join((number, a), (number, b), Some(barrier));
+
+    /// The regions behind one barrier, and the barriers.
+    fn around(&mut self, region: u32) -> Vec<(u32, Barrier)> {
+        let plan = self.plan;
+        let mut found = Vec::new();
+        for &(number, component) in &self.pieces[&region] {
+            for &(index, side) in plan.doorways_at(number) {
+                if plan.is_passable(number, index) {
+                    continue;
+                }
+                if let (Some(near), Some(far)) =
+                    (before(plan, index, side), before(plan, index, 1 - side))
+                    && near == (number, component)
+                {
+                    found.push((plan.region_of(far), barrier_at(plan, self.world, index)));
+                }
+            }
+            let gaps = self.gaps.entry(number).or_insert_with(|| gaps(plan, number));
+            for (a, b, barrier) in gaps {
+                let other = match component {
+                    c if c == *a => *b,
+                    c if c == *b => *a,
+                    _ => continue,
+                };
+                found.push((plan.region_of((number, other)), barrier.clone()));
+            }
         }
+        found.retain(|(other, _)| *other != region);
+        found
     }
-    links
+}
+
+/// The piece of centre space before a doorway, on one of its sides.
+fn before(plan: &FloorPlan, index: usize, side: usize) -> Option<Piece> {
+    let doorway = &plan.doorways()[index];
+    let number = plan.number(doorway.areas[side])? as u32;
+    let cells = &plan.floor(number).cells;
+    let (_, cell) = cells.nearest(doorway.before(side, plan.reach()), |_| true)?;
+    Some((number, cells.component[cell as usize]))
 }
 
 fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Barrier {

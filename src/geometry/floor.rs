@@ -17,56 +17,23 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+use crate::units::{AreaId, DoorId, Point, ReplicaId};
 
-use super::doors::{Doorway, distance, object_leaves};
-use super::grid::{Contour, Grid, Shapes, difference, intersection, overlays, smooth};
+use super::buckets::Buckets;
+use super::dead_zone::{DeadZone, dead_zones};
+use super::doors::Doorway;
+use super::grid::{Contour, Grid, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
+use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::passframe::{Passframe, passframes};
 use super::plan::DoorStates;
-use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
+use super::scene::Scene;
+use super::storey::{Storey, THIN};
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
 pub const SLACK: f64 = 0.004;
-/// What has no thickness is given this to either side, in cm, so that it has a place on the floor.
-const THIN: f64 = 0.01;
-
-/// What takes floor away.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Blocker {
-    /// An Orthoframe of a replica.
-    Replica { replica: ReplicaId, item: usize },
-    /// A leaf of a door between Areas.
-    DoorLeaf { door: DoorId, leaf: usize },
-    /// A leaf of a replica's own door.
-    ReplicaLeaf { replica: ReplicaId, door: DoorId, leaf: usize },
-    /// A wall, by the side that stands on it.
-    Wall { area: AreaId, item: usize, side: usize },
-    /// A piece of the Area's floor that lies too high or too low, or under a low ceiling.
-    Floor { area: AreaId, item: usize },
-}
-
-/// A piece of floor that is taken, and the heights between which.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Obstacle {
-    pub blocker: Blocker,
-    pub polygon: Polygon,
-    /// Above the floor, in cm.
-    pub bottom: f64,
-    pub top: f64,
-}
-
-/// Floor that the robot cannot cover from any place where it fits.
-#[derive(Debug, Clone, PartialEq)]
-pub struct DeadZone {
-    pub region: Region,
-    /// What stands around it.
-    pub owners: Vec<Blocker>,
-    /// The narrowest gap between two of them that is too narrow for the robot, in cm.
-    pub gap: Option<f64>,
-}
 
 /// An edge of the centre space on a doorway's line.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -107,7 +74,7 @@ pub(super) struct Site<'a> {
     pub(super) world: &'a World,
     pub(super) scene: &'a Scene,
     /// Replicas near any place.
-    pub(super) nearby: &'a dyn Fn(&Bounds) -> Vec<ReplicaId>,
+    pub(super) nearby: &'a (dyn Fn(&Bounds) -> Vec<ReplicaId> + Sync),
     pub(super) doorways: &'a [Doorway],
     pub(super) by_area: &'a BTreeMap<AreaId, Vec<(usize, usize)>>,
     pub(super) robot: &'a RobotProfile,
@@ -169,8 +136,11 @@ impl FragmentFloor {
         let storey = Storey::of(site, placed);
         let open: Vec<_> = site.doorways_of(area).filter(|(_, d, _)| site.is_open(d)).collect();
 
+        let mut zones: Vec<Bounds> =
+            storey.floor.iter().map(|p| p.bounds().grown(10.0 * THIN)).collect();
+        zones.extend(open.iter().map(|(_, d, _)| d.mouth(reach).grown(10.0 * THIN)));
         let mut obstacles = storey.closed_floor.clone();
-        obstacles.extend(obstacles_near(site, &storey, &bounds.grown(3.0 * reach)));
+        obstacles.extend(obstacles_near(site, &storey, &zones));
         obstacles.extend(leaves_near(site, area));
         let mut floor: Vec<Contour> = storey.floor.iter().map(|p| grid.contour(p)).collect();
         let mut beyond: Vec<Contour> = Vec::new();
@@ -251,10 +221,6 @@ impl FragmentFloor {
     }
 }
 
-fn flat(shapes: &Shapes) -> Vec<Contour> {
-    shapes.iter().flatten().cloned().collect()
-}
-
 impl Doorway {
     /// The `s` of a line `depth` beyond the doorway's line, seen from an Area (0 or 1).
     fn past(&self, side: usize, depth: f64) -> f64 {
@@ -264,6 +230,12 @@ impl Doorway {
     fn beyond(&self, side: usize, depth: f64) -> Polygon {
         self.rectangle(self.past(side, 0.0), self.past(side, depth), 0.5)
     }
+
+    /// What a disc on the doorway's line can touch, on both sides.
+    pub(super) fn mouth(&self, reach: f64) -> Bounds {
+        let depth = self.gap / 2.0 + reach + 2.0;
+        self.rectangle(self.past(1, depth), self.past(0, depth), 0.0).bounds()
+    }
 }
 
 /// The floor through an open doorway as far as a disc on its line reaches.
@@ -271,370 +243,35 @@ fn stub(site: &Site<'_>, grid: &Grid, doorway: &Doorway, side: usize, reach: f64
     let other = doorway.areas[1 - side];
     let gap = grid.contour(&doorway.rectangle(-THIN, doorway.gap + THIN, 0.0));
     let depth = doorway.gap / 2.0 + reach + 2.0;
-    let ahead =
-        grid.contour(&doorway.rectangle(doorway.past(side, 0.0), doorway.past(side, depth), 0.0));
+    let ahead = doorway.rectangle(doorway.past(side, 0.0), doorway.past(side, depth), 0.0);
+    let near = ahead.bounds();
     let mut floor = vec![gap.clone()];
-    // Beyond a threshold that is less deep than the robot its next doorway counts too.
-    let near = doorway.rectangle(doorway.past(side, 0.0), doorway.past(side, depth), 0.0).bounds();
     let mut others = vec![other];
+    // Beyond a threshold that is less deep than the robot its next doorway counts too.
     for (_, next, at) in site.doorways_of(other) {
-        if next != doorway && site.is_open(next) {
-            let hole = next.rectangle(-THIN, next.gap + THIN, 0.0);
-            if hole.bounds().meets(&near) {
-                floor.push(grid.contour(&hole));
-                others.push(next.areas[1 - at]);
-            }
+        let hole = next.rectangle(-THIN, next.gap + THIN, 0.0);
+        if hole.bounds().meets(&near) && next != doorway && site.is_open(next) {
+            floor.push(grid.contour(&hole));
+            others.push(next.areas[1 - at]);
         }
     }
     for area in others.into_iter().filter_map(|a| site.scene.areas.get(&a)) {
-        floor.extend(Storey::of(site, area).floor.iter().map(|p| grid.contour(p)));
+        // A long corridor need not be overlaid whole for one of its doors.
+        let parts = Storey::of(site, area).floor.into_iter().map(|p| p.clipped(&near.grown(1.0)));
+        floor.extend(parts.filter(|p| p.corners.len() > 2).map(|p| grid.contour(&p)));
     }
-    let mut cut = flat(&intersection(&floor, &[ahead]));
+    let mut cut: Vec<Contour> =
+        intersection(&floor, &[grid.contour(&ahead)]).into_iter().flatten().collect();
     cut.push(gap);
     cut
 }
 
-/// An Area's side as a wall or an opening.
-#[derive(Debug, Clone)]
-pub(super) struct Side {
-    pub(super) item: usize,
-    pub(super) side: usize,
-    pub(super) start: Point,
-    pub(super) end: Point,
-    pub(super) permeability: Permeability,
-}
-
-/// The Area's items by what they mean to the robot.
-pub(super) struct Storey {
-    level: f64,
-    /// Bases that hang together without a step that the robot cannot take, and thin strips that weld them.
-    floor: Vec<Polygon>,
-    closed_floor: Vec<Obstacle>,
-    /// Walls between the items.
-    inner_walls: Vec<Polygon>,
-    pub(super) sides: Vec<Side>,
-}
-
-impl Storey {
-    fn of(site: &Site<'_>, placed: &PlacedArea) -> Self {
-        let model = &site.world.areas[&placed.id];
-        let step = site.robot.step.get().max(0.0) + 1e-9;
-        let height = site.robot.height.get();
-        let base = model.items.iter().position(|i| i.is_base).unwrap_or(0);
-        let level = placed.prisms.get(base).map_or(0.0, |p| p.bottom);
-        let low_ceiling = |p: &Prism| {
-            p.top > p.bottom
-                && p.top - p.bottom < height
-                && p.roof_permeability == Permeability::Impermeable
-        };
-        // The base is floor, whatever is above it; other items are floor if they have one.
-        let is_floor = |i: usize, p: &Prism| {
-            i == base
-                || (p.bottom - level < height && p.base_permeability == Permeability::Impermeable)
-        };
-        let candidates: Vec<usize> = placed
-            .prisms
-            .iter()
-            .enumerate()
-            .filter(|(i, p)| is_floor(*i, p))
-            .map(|(i, _)| i)
-            .collect();
-        let mut reached: Vec<usize> = candidates
-            .iter()
-            .copied()
-            .filter(|&i| i == base && !low_ceiling(&placed.prisms[i]))
-            .collect();
-        let mut frontier = reached.clone();
-        while let Some(i) = frontier.pop() {
-            for &j in &candidates {
-                let (p, q) = (&placed.prisms[i], &placed.prisms[j]);
-                if !reached.contains(&j)
-                    && !low_ceiling(q)
-                    && (p.bottom - q.bottom).abs() <= step
-                    && p.bounds.grown(0.05).meets(&q.bounds)
-                    && distance(&p.polygon, &q.polygon) <= 0.05
-                {
-                    reached.push(j);
-                    frontier.push(j);
-                }
-            }
-        }
-        let closed_floor = candidates
-            .iter()
-            .filter(|i| !reached.contains(i))
-            .map(|&i| Obstacle {
-                blocker: Blocker::Floor { area: placed.id, item: i },
-                polygon: placed.prisms[i].polygon.clone(),
-                bottom: placed.prisms[i].bottom - level,
-                top: placed.prisms[i].top - level,
-            })
-            .collect();
-        reached.sort_unstable();
-        let mut storey = Self {
-            level,
-            floor: reached.iter().map(|&i| placed.prisms[i].polygon.clone()).collect(),
-            closed_floor,
-            inner_walls: Vec::new(),
-            sides: sides(placed, &candidates),
-        };
-        storey.weld(site, placed, &reached);
-        storey
-    }
-
-    /// Joins items along shared open sides, and parts them along shared walls.
-    fn weld(&mut self, site: &Site<'_>, placed: &PlacedArea, reached: &[usize]) {
-        if reached.len() < 2 {
-            return;
-        }
-        let step = site.robot.step.get().max(0.0) + 1e-9;
-        let sides: Vec<&Side> = self.sides.iter().filter(|s| reached.contains(&s.item)).collect();
-        let (mut floor, mut walls) = (Vec::new(), Vec::new());
-        for (k, a) in sides.iter().enumerate() {
-            for b in &sides[k + 1..] {
-                let Some((from, to)) = (a.item != b.item).then(|| shared(a, b)).flatten() else {
-                    continue;
-                };
-                let level = |s: &Side| placed.prisms[s.item].bottom;
-                let open = self.is_open(site, placed.id, a)
-                    && self.is_open(site, placed.id, b)
-                    && (level(a) - level(b)).abs() <= step;
-                if open {
-                    floor.push(strip(from, to));
-                } else {
-                    walls.push(strip(from, to));
-                }
-            }
-        }
-        self.floor.extend(floor);
-        self.inner_walls = walls;
-    }
-
-    fn is_open(&self, site: &Site<'_>, area: AreaId, side: &Side) -> bool {
-        match side.permeability {
-            Permeability::Permeable => true,
-            Permeability::Impermeable => false,
-            Permeability::Conditional => {
-                let model = &site.world.areas[&area];
-                let item = &model.items[side.item];
-                let id = &site.world.orthoframe_of(item).base[side.side].id;
-                let mount = model.doors.iter().find(|m| m.item == item.id && m.side == *id);
-                mount.is_some_and(|m| site.state(m.door).status == DoorStatus::Open)
-            }
-        }
-    }
-
-    /// The height of the floor under a point, above the Area's level.
-    fn floor_under(&self, placed: &PlacedArea, p: Point) -> f64 {
-        placed
-            .prisms
-            .iter()
-            .filter(|f| f.bounds.contains(p) && f.polygon.contains(p, 1e-6))
-            .map(|f| f.bottom - self.level)
-            .filter(|z| self.floor.len() > 1 && z.abs() < 30.0)
-            .fold(0.0, f64::min)
-    }
-}
-
-fn sides(placed: &PlacedArea, items: &[usize]) -> Vec<Side> {
-    let mut found = Vec::new();
-    for &item in items {
-        let prism = &placed.prisms[item];
-        for (side, (start, end)) in prism.polygon.edges().enumerate() {
-            let permeability = prism.sides[side].permeability;
-            found.push(Side { item, side, start, end, permeability });
-        }
-    }
-    found
-}
-
-/// The stretch that two sides standing back to back share.
-fn shared(a: &Side, b: &Side) -> Option<(Point, Point)> {
-    const TOUCH: f64 = 0.05;
-    let along = (a.end - a.start).try_normalize(0.0)?;
-    let offset = |p: Point| along.perp(&(p - a.start)).abs();
-    let place = |p: Point| (p - a.start).dot(&along);
-    if offset(b.start) > TOUCH || offset(b.end) > TOUCH {
-        return None;
-    }
-    let (low, high) = (place(b.start).min(place(b.end)), place(b.start).max(place(b.end)));
-    let (from, to) = (low.max(0.0), high.min((a.end - a.start).norm()));
-    (to - from > TOUCH).then(|| (a.start + along * from, a.start + along * to))
-}
-
-/// A segment with the least thickness that the floor can show.
-fn strip(a: Point, b: Point) -> Polygon {
-    let across = match (b - a).try_normalize(0.0) {
-        Some(v) => Vector::new(-v.y, v.x) * THIN,
-        None => Vector::new(0.0, THIN),
-    };
-    Polygon::new(vec![a - across, b - across, b + across, a + across])
-}
-
-/// The floor that a prism takes from the robot above a floor at `floor`; none when it stands aside of the
-/// robot's height.
-fn footprint(prism: &Prism, floor: f64, robot: &RobotProfile) -> Vec<Polygon> {
-    let (step, height) = (robot.step.get().max(0.0), robot.height.get());
-    let (bottom, top) = (prism.bottom - floor, prism.top - floor);
-    let is_flat = top <= bottom;
-    let in_the_way =
-        if is_flat { bottom > step && bottom < height } else { top > step && bottom < height };
-    if !in_the_way {
-        return Vec::new();
-    }
-    let mut polygon = prism.polygon.clone();
-    if (prism.roof_scale - 1.0).abs() > f64::EPSILON && !is_flat {
-        // A Uniframe is as wide as its widest section that the robot can meet.
-        let scale_at = |z: f64| {
-            let share = ((z - bottom) / (top - bottom)).clamp(0.0, 1.0);
-            1.0 + (prism.roof_scale - 1.0) * share
-        };
-        let scale = scale_at(step.max(bottom)).max(scale_at(height.min(top))).max(0.0);
-        let centre = polygon.centroid();
-        for p in &mut polygon.corners {
-            *p = centre + (*p - centre) * scale;
-        }
-    }
-    let extent = polygon.bounds().max - polygon.bounds().min;
-    if polygon.signed_area().abs() <= 2.0 * THIN * extent.norm() {
-        return polygon.edges().map(|(a, b)| strip(a, b)).collect();
-    }
-    vec![polygon.counter_clockwise()]
-}
-
-fn obstacles_near(site: &Site<'_>, storey: &Storey, bounds: &Bounds) -> Vec<Obstacle> {
-    let mut found = Vec::new();
-    for id in (site.nearby)(bounds) {
-        let Some(replica) = site.scene.replicas.get(&id) else { continue };
-        let under = site.scene.areas.get(&replica.area).map_or(0.0, |placed| {
-            storey.floor_under(placed, nalgebra::center(&replica.bounds.min, &replica.bounds.max))
-        });
-        let floor = storey.level + under;
-        for prism in replica.prisms.iter().filter(|p| p.bounds.meets(bounds)) {
-            for polygon in footprint(prism, floor, site.robot) {
-                found.push(Obstacle {
-                    blocker: Blocker::Replica { replica: id, item: prism.item },
-                    polygon,
-                    bottom: prism.bottom - floor,
-                    top: prism.top - floor,
-                });
-            }
-        }
-        found.extend(own_leaves(site, replica, floor));
-    }
-    found
-}
-
-/// The open leaves of a replica's own doors.
-fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obstacle> {
-    let Some(model) = site.world.replicas.get(&replica.id) else { return Vec::new() };
-    let object = &site.world.objects[&model.object];
-    let mut found = Vec::new();
-    for mount in &object.doors {
-        let Some(door) = site.world.doors.get(&mount.door) else { continue };
-        let state = model.door_states.get(&mount.door).copied().unwrap_or(door.state);
-        let Some((prism, (a, b))) = mounted_side(site, object, replica, mount) else { continue };
-        if state.status != DoorStatus::Open {
-            continue;
-        }
-        let height =
-            if door.height.get() > 0.0 { door.height.get() } else { prism.top - prism.bottom };
-        let (bottom, top) = (prism.bottom - floor, prism.bottom + height - floor);
-        if top <= site.robot.step.get() || bottom >= site.robot.height.get() {
-            continue;
-        }
-        for (leaf, polygon) in object_leaves(door, mount, a, b, state).into_iter().enumerate() {
-            let blocker = Blocker::ReplicaLeaf { replica: replica.id, door: mount.door, leaf };
-            found.push(Obstacle { blocker, polygon, bottom, top });
-        }
-    }
-    found
-}
-
-fn mounted_side<'a>(
-    site: &Site<'_>,
-    object: &crate::map::Object,
-    replica: &'a PlacedReplica,
-    mount: &crate::map::DoorMount,
-) -> Option<(&'a Prism, (Point, Point))> {
-    let item = object.items.iter().position(|i| i.id == mount.item)?;
-    let (side, _) = site.world.orthoframe_of(&object.items[item]).side(&mount.side)?;
-    let prism = replica.prisms.get(item)?;
-    Some((prism, prism.polygon.edges().nth(side)?))
-}
-
-/// The leaves of the Area's doors, and of its neighbours' doors close by.
-fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
-    let mut near: Vec<&Doorway> = site.doorways_of(area).map(|(_, d, _)| d).collect();
-    for (_, doorway, side) in site.doorways_of(area).collect::<Vec<_>>() {
-        let zone = Bounds::of([doorway.middle()]).grown(doorway.width() / 2.0 + 3.0 * site.reach());
-        for (_, next, _) in site.doorways_of(doorway.areas[1 - side]) {
-            if !near.contains(&next) && zone.grown(next.width()).contains(next.middle()) {
-                near.push(next);
-            }
-        }
-    }
-    let mut found = Vec::new();
-    for doorway in near {
-        let Some(door) = doorway.door.and_then(|d| site.world.doors.get(&d)) else { continue };
-        let leaves = doorway.leaf_obstacles(door, site.state(door.id));
-        found.extend(leaves.into_iter().enumerate().map(|(leaf, polygon)| Obstacle {
-            blocker: Blocker::DoorLeaf { door: door.id, leaf },
-            polygon,
-            bottom: 0.0,
-            top: door.height.get(),
-        }));
-    }
-    found
-}
-
-/// The Area's sides without its doorways, and the doorways' jambs.
-fn walls(site: &Site<'_>, placed: &PlacedArea) -> Vec<(Point, Point)> {
-    let all: Vec<usize> = (0..placed.prisms.len()).collect();
-    let model = &site.world.areas[&placed.id];
-    let mut walls = Vec::new();
-    for side in sides(placed, &all) {
-        let reference = |d: &Doorway, at: usize| {
-            let id = &site.world.orthoframe_of(&model.items[side.item]).base[side.side].id;
-            d.sides[at].item == model.items[side.item].id && d.sides[at].side == *id
-        };
-        let doorway = site.doorways_of(placed.id).find(|(_, d, at)| reference(d, *at));
-        let along = (side.end - side.start).try_normalize(0.0).unwrap_or_else(Vector::zeros);
-        let length = (side.end - side.start).norm();
-        let mut pieces = Vec::new();
-        if let Some((_, d, at)) = doorway {
-            let face = if at == 0 { 0.0 } else { d.gap };
-            let (a, b) = d.line();
-            let place = |p: Point| (p - side.start).dot(&along).clamp(0.0, length);
-            let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
-            pieces.push((0.0, low));
-            pieces.push((high, length));
-            for t in [d.span().0, d.span().1] {
-                walls.push((d.at(t, face), d.at(t, d.gap / 2.0)));
-            }
-        } else if side.permeability == Permeability::Impermeable || !is_inner(placed, &side) {
-            pieces.push((0.0, length));
-        }
-        walls.extend(
-            pieces
-                .into_iter()
-                .filter(|(a, b)| b - a > 1e-6)
-                .map(|(a, b)| (side.start + along * a, side.start + along * b)),
-        );
-    }
-    walls.retain(|(a, b)| (b - a).norm() > 1e-6);
-    walls
-}
-
-/// Whether a side lies between two items of the Area.
-fn is_inner(placed: &PlacedArea, side: &Side) -> bool {
-    let middle = nalgebra::center(&side.start, &side.end);
-    placed.prisms.iter().enumerate().any(|(i, p)| {
-        i != side.item && p.bounds.grown(0.1).contains(middle) && p.polygon.contains(middle, 0.05)
-    })
-}
-
 /// The edges of the centre space that lie on open doorways.
 fn exits(cells: &Mesh, open: &[(usize, &Doorway, usize)]) -> Vec<Exit> {
+    const TOUCH: f64 = 0.01;
+    let lines: Vec<(Point, Point)> = open.iter().map(|(_, d, _)| d.line()).collect();
+    let boxes: Vec<Bounds> = lines.iter().map(|&(u, v)| Bounds::of([u, v]).grown(TOUCH)).collect();
+    let buckets = Buckets::of(&boxes);
     let mut found = Vec::new();
     if open.is_empty() {
         return found;
@@ -645,59 +282,14 @@ fn exits(cells: &Mesh, open: &[(usize, &Doorway, usize)]) -> Vec<Exit> {
                 continue;
             }
             let (a, b) = cells.edge(cell, edge);
-            let on_line = |d: &Doorway| {
-                let (u, v) = d.line();
-                [a, b].into_iter().all(|p| (p - nearest_on_segment(p, u, v)).norm() < 0.01)
+            let on_line = |i: &&u32| {
+                let (u, v) = lines[**i as usize];
+                [a, b].into_iter().all(|p| (p - nearest_on_segment(p, u, v)).norm() < TOUCH)
             };
-            if let Some((doorway, _, _)) = open.iter().find(|(_, d, _)| on_line(d)) {
-                found.push(Exit { doorway: *doorway, cell, edge });
+            if let Some(&i) = buckets.near(a).iter().find(on_line) {
+                found.push(Exit { doorway: open[i as usize].0, cell, edge });
             }
         }
     }
     found
-}
-
-fn dead_zones(
-    grid: &Grid,
-    dead: &Shapes,
-    area: AreaId,
-    obstacles: &[Obstacle],
-    sides: &[Side],
-    reach: f64,
-) -> Vec<DeadZone> {
-    let things: Vec<(Blocker, Polygon)> = obstacles
-        .iter()
-        .map(|o| (o.blocker, o.polygon.clone()))
-        .chain(sides.iter().filter(|s| s.permeability != Permeability::Permeable).map(|s| {
-            (Blocker::Wall { area, item: s.item, side: s.side }, Polygon::new(vec![s.start, s.end]))
-        }))
-        .collect();
-    let zone = |region: Region| {
-        let near: Vec<&(Blocker, Polygon)> = things
-            .iter()
-            .filter(|(_, p)| {
-                p.bounds().grown(0.1).meets(&region.outer.bounds())
-                    && distance(p, &region.outer) < 0.05
-            })
-            .collect();
-        let mut gap: Option<f64> = None;
-        for (i, (a, p)) in near.iter().enumerate() {
-            for (b, q) in &near[i + 1..] {
-                let d = distance(p, q);
-                if a != b && d > 0.05 && d < 2.0 * reach && gap.is_none_or(|g| d < g) {
-                    gap = Some(d);
-                }
-            }
-        }
-        let mut owners: Vec<Blocker> = near.iter().map(|(b, _)| *b).collect();
-        owners.sort_unstable();
-        owners.dedup();
-        DeadZone { region, owners, gap }
-    };
-    // What rounding leaves along the walls is no zone.
-    let rim = |r: &Region| {
-        r.contours().flat_map(Polygon::edges).map(|(a, b)| (b - a).norm()).sum::<f64>()
-    };
-    let is_zone = |r: &Region| r.area() > 0.01 * rim(r).max(1.0);
-    grid.regions(dead).into_iter().filter(is_zone).map(zone).collect()
 }

@@ -10,8 +10,10 @@ use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point};
 
 use super::buckets::Buckets;
-use super::floor::{Blocker, FragmentFloor, Side, Site};
+use super::floor::{FragmentFloor, Site};
 use super::mesh::NONE;
+use super::obstacle::Blocker;
+use super::storey::Side;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// Unique in its Fragment.
@@ -159,11 +161,26 @@ pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side])
             }
         })
         .collect();
+    share_crossings(&mut frames);
     let kinds: Vec<_> = kinds(&frames);
     for (frame, kind) in frames.iter_mut().zip(kinds) {
         frame.kind = kind;
     }
     frames
+}
+
+/// Gives each Passframe the crossings that were found from its neighbours of lower number.
+fn share_crossings(frames: &mut [Passframe]) {
+    for cell in 0..frames.len() {
+        let (lower, own) = frames.split_at_mut(cell);
+        for border in &mut own[0].borders {
+            let Some(other) = lower.get(border.across as usize) else { continue };
+            let twin = other.borders.iter().find(|b| {
+                b.across as usize == cell && b.start == border.end && b.end == border.start
+            });
+            border.crossing = twin.and_then(|t| t.crossing).map(|(from, to)| (to, from));
+        }
+    }
 }
 
 /// The borders along one edge of a cell: one to another Passframe, or one for each face that stands there.
@@ -183,7 +200,8 @@ fn borders(
             permeability: Permeability::Permeable,
             beyond: Beyond::Passframe(ids[across as usize]),
             names: Vec::new(),
-            crossing: crossing(floor, start, end),
+            // Found once for both Passframes, see below.
+            crossing: if cell < across { crossing(floor, start, end) } else { None },
             across,
         }];
     }

@@ -8,13 +8,15 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use crate::map::{DoorState, RobotProfile, World};
+use crate::map::{DoorState, Permeability, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
+use super::buckets::Buckets;
 use super::doors::{Doorway, doorways};
 use super::floor::{FragmentFloor, Site};
-use super::scene::{PlacedReplica, Scene};
+use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::search::{CellKey, Cells, Edge};
 use super::{Bounds, Passframe, PassframeId};
 
@@ -51,6 +53,8 @@ pub struct FloorPlan {
     regions: Vec<Vec<u32>>,
     /// See [`Branches`].
     branches: Branches,
+    /// The Fragments by place, with half of the walls behind their doorways.
+    by_place: Arc<Buckets>,
 }
 
 impl FloorPlan {
@@ -80,13 +84,48 @@ impl FloorPlan {
             portals: Vec::new(),
             regions: Vec::new(),
             branches: Branches::default(),
+            by_place: Arc::default(),
         };
         let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
-        plan.fragments = plan.with_site(world, |site| {
-            areas.iter().map(|&a| Arc::new(FragmentFloor::build(site, a))).collect()
-        });
+        plan.fragments = plan.with_site(world, |site| build_all(site, &areas));
+        let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
+        plan.by_place = Arc::new(Buckets::of(&boxes));
         plan.connect(0..areas.len());
         plan
+    }
+
+    /// A box around all that a Fragment's floor can ever reach, whatever its doors do.
+    fn extent_of(&self, fragment: &FragmentFloor) -> Bounds {
+        let doorways = self.by_area.get(&fragment.area).into_iter().flatten();
+        let mouths =
+            doorways.map(|&(d, _)| self.doorways[d].rectangle(0.0, self.doorways[d].gap, 0.0));
+        mouths.fold(fragment.bounds, |b, m| b.union(&m.bounds())).grown(1.0)
+    }
+
+    /// The numbers of the Fragments whose floor may hold a point.
+    pub(super) fn fragments_at(&self, p: Point) -> &[u32] {
+        self.by_place.near(p)
+    }
+
+    /// The Fragments that may reach into a box.
+    pub(super) fn fragments_near(
+        &self,
+        bounds: &Bounds,
+    ) -> impl Iterator<Item = &FragmentFloor> + '_ {
+        let mut found = Vec::new();
+        self.by_place.meeting(bounds, &mut found);
+        found.into_iter().map(|n| self.floor(n))
+    }
+
+    /// The Area that holds a point of the floor; the lowest id where borders meet.
+    #[must_use]
+    pub fn area_at(&self, p: Point) -> Option<AreaId> {
+        let holds = |area: &PlacedArea| {
+            let here = |f: &Prism| f.bounds.grown(1e-6).contains(p) && f.polygon.contains(p, 1e-6);
+            area.prisms.iter().any(here)
+        };
+        let areas = self.fragments_at(p).iter().map(|&n| self.floor(n).area);
+        areas.into_iter().find(|a| self.scene.areas.get(a).is_some_and(holds))
     }
 
     fn with_site<T>(&self, world: &World, work: impl FnOnce(&Site<'_>) -> T) -> T {
@@ -124,25 +163,36 @@ impl FloorPlan {
             }
         }
         touched.extend(self.footprint_of(area));
-        let reach = 3.0 * (self.robot.radius.get() + self.robot.clearance.get()) + 10.0;
+        let reach = self.reach();
+        let is_touched = |zone: Bounds| touched.iter().any(|b| b.grown(0.2).meets(&zone));
         let stale: Vec<AreaId> = self
             .scene
             .areas
             .values()
             .filter(|a| {
+                let mouths = self.by_area.get(&a.id).into_iter().flatten();
                 a.id == area
-                    || a.prisms
-                        .iter()
-                        .any(|p| touched.iter().any(|b| b.grown(reach).meets(&p.bounds)))
+                    || a.prisms.iter().any(|p| is_touched(p.bounds))
+                    || mouths.into_iter().any(|&(d, _)| is_touched(self.doorways[d].mouth(reach)))
             })
             .map(|a| a.id)
             .collect();
         self.renew(world, &stale);
     }
 
+    /// What the replicas of an Area can reach.
     fn footprint_of(&self, area: AreaId) -> Vec<Bounds> {
         let ids = self.index.by_area.get(&area).into_iter().flatten();
-        ids.filter_map(|id| self.scene.replicas.get(id)).map(|r| r.bounds).collect()
+        let replicas = ids.filter_map(|id| self.scene.replicas.get(id));
+        // Open leaves stick out; a Uniframe may be wider than its base.
+        let is_plain = |r: &PlacedReplica| {
+            let closed = |p: &Prism| {
+                p.roof_scale <= 1.0
+                    && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
+            };
+            r.prisms.iter().all(closed)
+        };
+        replicas.map(|r| r.bounds.grown(if is_plain(r) { 0.0 } else { 150.0 })).collect()
     }
 
     /// The same floor with doors in other states: those in `states` as given, the others as before.
@@ -186,11 +236,9 @@ impl FloorPlan {
     }
 
     fn renew(&mut self, world: &World, stale: &[AreaId]) {
-        let fresh: Vec<_> = self.with_site(world, |site| {
-            stale.iter().map(|&a| (a, Arc::new(FragmentFloor::build(site, a)))).collect()
-        });
-        for (area, floor) in fresh {
-            if let Some(number) = self.number(area) {
+        let fresh: Vec<_> = self.with_site(world, |site| build_all(site, stale));
+        for floor in fresh {
+            if let Some(number) = self.number(floor.area) {
                 self.fragments[number] = floor;
             }
         }
@@ -265,15 +313,30 @@ impl FloorPlan {
         self.regions[cell.0 as usize][component as usize]
     }
 
-    /// Both cells of every place where the robot can go over a doorway's line.
-    pub(super) fn portal_ends(&self) -> impl Iterator<Item = (CellKey, CellKey)> + '_ {
-        self.portals.iter().flatten().map(|p| (p.from, p.to))
+    /// Whether the robot can pass from a Fragment through a doorway as it stands.
+    pub(super) fn is_passable(&self, number: u32, doorway: usize) -> bool {
+        self.portals[number as usize].iter().any(|p| p.doorway == doorway)
     }
 
-    /// The doorways that the robot can pass as they stand.
-    #[must_use]
-    pub fn open_doorways(&self) -> BTreeSet<usize> {
-        self.portals.iter().flatten().map(|p| p.doorway).collect()
+    /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
+    pub(super) fn doorways_at(&self, number: u32) -> &[(usize, usize)] {
+        self.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
+    }
+
+    /// The pieces of centre space by the region they belong to: Fragment, component.
+    pub(super) fn pieces(&self) -> BTreeMap<u32, Vec<(u32, u32)>> {
+        let mut pieces: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
+        for (number, regions) in (0..).zip(&self.regions) {
+            for (component, &region) in (0..).zip(regions) {
+                pieces.entry(region).or_default().push((number, component));
+            }
+        }
+        pieces
+    }
+
+    /// The region of a piece.
+    pub(super) fn region_of(&self, (number, component): (u32, u32)) -> u32 {
+        self.regions[number as usize][component as usize]
     }
 
     /// Finds where the given Fragments touch others, and what hangs together now.
@@ -357,6 +420,38 @@ impl FloorPlan {
         let to = list.partition_point(|p| p.from <= cell);
         &list[from..to]
     }
+}
+
+/// The floors of Areas, in their order, by as many threads as the machine has for so much work.
+fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFloor>> {
+    let build = |area: &AreaId| Arc::new(FragmentFloor::build(site, *area));
+    const WORTH_A_THREAD: usize = 8;
+    let most = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = most.min(areas.len() / WORTH_A_THREAD);
+    if threads < 2 {
+        return areas.iter().map(build).collect();
+    }
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut built = Vec::new();
+        while let Some(area) = areas.get(next.fetch_add(1, Relaxed)) {
+            built.push(build(area));
+        }
+        built
+    };
+    let mut floors: Vec<_> = std::thread::scope(|scope| {
+        let others: Vec<_> = (1..threads).map(|_| scope.spawn(work)).collect();
+        let mut floors = work();
+        for other in others {
+            match other.join() {
+                Ok(built) => floors.extend(built),
+                Err(panic) => std::panic::resume_unwind(panic),
+            }
+        }
+        floors
+    });
+    floors.sort_by_key(|f| f.area);
+    floors
 }
 
 /// The upper level of the network: Fragments as nodes, open doorways as edges; what hangs on one doorway is cut

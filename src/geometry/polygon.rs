@@ -109,6 +109,32 @@ impl Polygon {
         Bounds::of(self.corners.iter().copied())
     }
 
+    /// The part within a box. Parts that hang together outside of it stay joined by lines along its border.
+    #[must_use]
+    pub(super) fn clipped(mut self, bounds: &Bounds) -> Self {
+        // Sutherland and Hodgman 1974: one side of the box after another.
+        for (axis, limit, sign) in [
+            (0, bounds.min.x, 1.0),
+            (0, bounds.max.x, -1.0),
+            (1, bounds.min.y, 1.0),
+            (1, bounds.max.y, -1.0),
+        ] {
+            let depth = |p: &Point| sign * (p[axis] - limit);
+            let mut kept = Vec::with_capacity(self.corners.len());
+            for (a, b) in self.edges() {
+                let (from, to) = (depth(&a), depth(&b));
+                if from >= 0.0 {
+                    kept.push(a);
+                }
+                if (from >= 0.0) != (to >= 0.0) {
+                    kept.push(a + (b - a) * (from / (from - to)));
+                }
+            }
+            self.corners = kept;
+        }
+        self
+    }
+
     /// Inside or on the border, the border within `tolerance` cm.
     #[must_use]
     pub fn contains(&self, p: Point, tolerance: f64) -> bool {
@@ -183,6 +209,17 @@ mod tests {
     fn nothing_joined_to_a_box_is_the_box() {
         let bounds = ell().bounds();
         assert_eq!(Bounds::EMPTY.union(&bounds), bounds);
+    }
+
+    #[test]
+    fn a_clipped_ell_keeps_its_area_within_the_box() {
+        let part = |min: (f64, f64), max: (f64, f64)| {
+            let at = |(x, y)| Point::new(x, y);
+            ell().clipped(&Bounds { min: at(min), max: at(max) }).signed_area()
+        };
+        assert!((part((5.0, 5.0), (15.0, 15.0)) - 75.0).abs() < 1e-9);
+        assert!((part((-5.0, -5.0), (50.0, 50.0)) - 300.0).abs() < 1e-9);
+        assert!(part((12.0, 12.0), (18.0, 18.0)).abs() < 1e-9);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use crate::map::{DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::blocked::{Barrier, NoRoute};
-use super::floor::Blocker;
+use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Target};
 

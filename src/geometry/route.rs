@@ -14,8 +14,9 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, Pose, ReplicaId, Vector}
 
 use super::blocked::{NoRoute, explain};
 use super::doors::Doorway;
-use super::floor::{Blocker, FragmentFloor};
+use super::floor::FragmentFloor;
 use super::nearest_on_segment;
+use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::{FloorPlan, Walkable};
 use super::search::{CellKey, shortest};
@@ -167,7 +168,7 @@ impl FloorPlan {
     pub fn clearance(&self, points: &[Point]) -> f64 {
         let mut least = f64::INFINITY;
         let reach = super::Bounds::of(points.iter().copied()).grown(3.0 * self.reach() + 100.0);
-        for fragment in self.fragments() {
+        for fragment in self.fragments_near(&reach) {
             let solid = fragment
                 .walls
                 .iter()
@@ -192,10 +193,9 @@ impl FloorPlan {
     /// The Area and the Passframe at a point of the floor.
     #[must_use]
     pub fn locate(&self, p: Point) -> Option<(AreaId, Option<PassframeId>)> {
-        let area = self
-            .scene()
-            .area_at(p)
-            .or_else(|| self.fragments().find(|f| f.passframe_at(p).is_some()).map(|f| f.area))?;
+        let holds = |n: &&u32| self.floor(**n).passframe_at(p).is_some();
+        let on_line = || self.fragments_at(p).iter().find(holds).map(|&n| self.floor(n).area);
+        let area = self.area_at(p).or_else(on_line)?;
         let frame = self.fragment(area).and_then(|f| f.passframe_at(p)).map(|f| f.id);
         Some((area, frame))
     }
@@ -205,14 +205,14 @@ impl FloorPlan {
         let admits = |number: u32| within.is_none_or(|w| w.contains(&number));
         let in_region = |key: CellKey| region.is_none_or(|r| self.region(key) == r);
         let numbers = || (0..self.fragments().len() as u32).filter(|&n| admits(n));
-        for number in numbers() {
+        for number in self.fragments_at(p).iter().copied().filter(|&n| admits(n)) {
             let cell = self.floor(number).cells.locate(p, 1e-6);
             if let Some(cell) = cell.filter(|&c| in_region((number, c))) {
                 return Some(Anchor { at: p, cell: (number, cell), moved: None });
             }
         }
         // Prefer the Area that holds the point, even if another one's floor is nearer through a wall.
-        let home = self.scene().area_at(p).and_then(|a| self.number(a)).map(|n| n as u32);
+        let home = self.area_at(p).and_then(|a| self.number(a)).map(|n| n as u32);
         let nearest = |numbers: &mut dyn Iterator<Item = u32>| {
             numbers
                 .filter_map(|n| {
@@ -403,7 +403,7 @@ impl FloorPlan {
             for share in [0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95] {
                 let face = a + along * (length * share);
                 let at = face + out * (self.reach() + back);
-                for number in 0..self.fragments().len() as u32 {
+                for &number in self.fragments_at(at) {
                     let Some(cell) = self.floor(number).cells.locate(at, 1e-6) else { continue };
                     if self.region((number, cell)) == region && self.is_open_between(at, face) {
                         let anchor = Anchor { at, cell: (number, cell), moved: None };
@@ -422,7 +422,7 @@ impl FloorPlan {
     fn is_open_between(&self, a: Point, b: Point) -> bool {
         let reach = super::Bounds::of([a, b]);
         let stop = b + (a - b) * 0.02;
-        self.fragments()
+        self.fragments_near(&reach)
             .flat_map(|f| f.walls.iter().copied())
             .filter(|&(u, v)| super::Bounds::of([u, v]).meets(&reach))
             .all(|(u, v)| super::doors::segment_distance(a, stop, u, v) > 0.0)
@@ -481,7 +481,8 @@ impl FloorPlan {
             if (next - from).norm() < 1e-9 {
                 continue;
             }
-            let straight = self.fragments.iter().any(|f| f.cells.sees(from, next));
+            let here = self.fragments_at(from).iter().map(|&n| self.floor(n));
+            let straight = here.into_iter().any(|f| f.cells.sees(from, next));
             if straight {
                 points.push(next);
             } else {

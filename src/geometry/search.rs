@@ -9,6 +9,7 @@
 
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
+use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::units::Point;
 
@@ -110,7 +111,8 @@ pub(super) fn shortest(
     let mut search = Search {
         goal,
         roots: vec![Root { at: start, parent: u32::MAX }],
-        best: HashMap::new(),
+        best: HashMap::default(),
+        edges: Vec::new(),
         open: BinaryHeap::new(),
     };
     cells.edges(from, &mut |edge| search.push(0.0, 0, edge, edge.right, edge.left, from));
@@ -134,7 +136,9 @@ struct Search {
     goal: Point,
     roots: Vec<Root>,
     /// Least length found up to each root.
-    best: HashMap<(u64, u64), f64>,
+    best: HashMap<(u64, u64), f64, BuildHasherDefault<PlaceHasher>>,
+    /// The edges of the cell that is looked at.
+    edges: Vec<Edge>,
     open: BinaryHeap<SearchNode>,
 }
 
@@ -224,7 +228,8 @@ impl Search {
         // A root in line with the stretch sees nothing past it, save through its nearer end.
         let area = side(at, right, left);
         let is_flat = area <= EPSILON * (left - right).norm().max(EPSILON);
-        let mut edges = Vec::with_capacity(8);
+        let mut edges = std::mem::take(&mut self.edges);
+        edges.clear();
         cells.edges(node.cell, &mut |edge| {
             if edge.to != node.from {
                 edges.push(edge);
@@ -232,9 +237,15 @@ impl Search {
         });
         if is_flat {
             self.expand_flat(node, at, &edges);
-            return;
+        } else {
+            self.expand_cone(node, at, &edges);
         }
-        for edge in edges {
+        self.edges = edges;
+    }
+
+    fn expand_cone(&mut self, node: &SearchNode, at: Point, edges: &[Edge]) {
+        let (right, left) = (node.right, node.left);
+        for &edge in edges {
             let (r, l) = (edge.right, edge.left);
             // What the two rays cut from the edge: left of the left ray, between, right of the right ray.
             let (r_left, l_left) = (side(at, left, r) > 0.0, side(at, left, l) > 0.0);
@@ -301,6 +312,24 @@ impl Search {
             points.push(points[0]);
         }
         Way { length: points.windows(2).map(|p| (p[1] - p[0]).norm()).sum(), points }
+    }
+}
+
+/// A quick hash of two coordinates; nobody outside chooses them to collide.
+#[derive(Default)]
+struct PlaceHasher(u64);
+
+impl Hasher for PlaceHasher {
+    fn write_u64(&mut self, word: u64) {
+        self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95);
+    }
+
+    fn write(&mut self, bytes: &[u8]) {
+        bytes.iter().for_each(|&b| self.write_u64(u64::from(b)));
+    }
+
+    fn finish(&self) -> u64 {
+        self.0.rotate_left(26)
     }
 }
 

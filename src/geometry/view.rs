@@ -15,8 +15,9 @@ use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
-use super::floor::{Blocker, FragmentFloor};
+use super::floor::FragmentFloor;
 use super::nearest_on_segment;
+use super::obstacle::Blocker;
 use super::plan::FloorPlan;
 use super::scene::Prism;
 

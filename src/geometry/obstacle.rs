@@ -1,0 +1,207 @@
+//! What takes floor away: bases of Orthoframes in the robot's height band, door leaves, walls.
+//!
+//! **Invariant**: an obstacle lies on the Fragment's floor or in the mouth of one of its open doorways, by its box:
+//! a thing behind a wall is no obstacle.
+
+use crate::map::{DoorStatus, Permeability, RobotProfile};
+use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
+
+use super::doors::{Doorway, object_leaves};
+use super::floor::Site;
+use super::scene::{PlacedArea, PlacedReplica, Prism};
+use super::storey::{Side, Storey, THIN, sides, strip};
+use super::{Bounds, Polygon};
+
+/// What takes floor away.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Blocker {
+    /// An Orthoframe of a replica.
+    Replica { replica: ReplicaId, item: usize },
+    /// A leaf of a door between Areas.
+    DoorLeaf { door: DoorId, leaf: usize },
+    /// A leaf of a replica's own door.
+    ReplicaLeaf { replica: ReplicaId, door: DoorId, leaf: usize },
+    /// A wall, by the side that stands on it.
+    Wall { area: AreaId, item: usize, side: usize },
+    /// A piece of the Area's floor that lies too high or too low, or under a low ceiling.
+    Floor { area: AreaId, item: usize },
+}
+
+/// A piece of floor that is taken, and the heights between which.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Obstacle {
+    pub blocker: Blocker,
+    pub polygon: Polygon,
+    /// Above the floor, in cm.
+    pub bottom: f64,
+    pub top: f64,
+}
+
+/// The floor that a prism takes from the robot above a floor at `floor`; none when it stands aside of the
+/// robot's height.
+fn footprint(prism: &Prism, floor: f64, robot: &RobotProfile) -> Vec<Polygon> {
+    let (step, height) = (robot.step.get().max(0.0), robot.height.get());
+    let (bottom, top) = (prism.bottom - floor, prism.top - floor);
+    let is_flat = top <= bottom;
+    let in_the_way =
+        if is_flat { bottom > step && bottom < height } else { top > step && bottom < height };
+    if !in_the_way {
+        return Vec::new();
+    }
+    let mut polygon = prism.polygon.clone();
+    if (prism.roof_scale - 1.0).abs() > f64::EPSILON && !is_flat {
+        // A Uniframe is as wide as its widest section that the robot can meet.
+        let scale_at = |z: f64| {
+            let share = ((z - bottom) / (top - bottom)).clamp(0.0, 1.0);
+            1.0 + (prism.roof_scale - 1.0) * share
+        };
+        let scale = scale_at(step.max(bottom)).max(scale_at(height.min(top))).max(0.0);
+        let centre = polygon.centroid();
+        for p in &mut polygon.corners {
+            *p = centre + (*p - centre) * scale;
+        }
+    }
+    let extent = polygon.bounds().max - polygon.bounds().min;
+    if polygon.signed_area().abs() <= 2.0 * THIN * extent.norm() {
+        return polygon.edges().map(|(a, b)| strip(a, b)).collect();
+    }
+    vec![polygon.counter_clockwise()]
+}
+
+/// The obstacles that the replicas are, as far as they meet one of the boxes.
+pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds]) -> Vec<Obstacle> {
+    let Some(bounds) = zones.iter().copied().reduce(|a, b| a.union(&b)) else { return Vec::new() };
+    let mut found = Vec::new();
+    for id in (site.nearby)(&bounds) {
+        let Some(replica) = site.scene.replicas.get(&id) else { continue };
+        let under = site.scene.areas.get(&replica.area).map_or(0.0, |placed| {
+            storey.floor_under(placed, nalgebra::center(&replica.bounds.min, &replica.bounds.max))
+        });
+        let floor = storey.level + under;
+        for prism in &replica.prisms {
+            for polygon in footprint(prism, floor, site.robot) {
+                found.push(Obstacle {
+                    blocker: Blocker::Replica { replica: id, item: prism.item },
+                    polygon,
+                    bottom: prism.bottom - floor,
+                    top: prism.top - floor,
+                });
+            }
+        }
+        found.extend(own_leaves(site, replica, floor));
+    }
+    found.retain(|o| {
+        let at = o.polygon.bounds();
+        zones.iter().any(|zone| zone.meets(&at))
+    });
+    found
+}
+
+/// The open leaves of a replica's own doors.
+fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obstacle> {
+    let Some(model) = site.world.replicas.get(&replica.id) else { return Vec::new() };
+    let object = &site.world.objects[&model.object];
+    let mut found = Vec::new();
+    for mount in &object.doors {
+        let Some(door) = site.world.doors.get(&mount.door) else { continue };
+        let state = model.door_states.get(&mount.door).copied().unwrap_or(door.state);
+        let Some((prism, (a, b))) = mounted_side(site, object, replica, mount) else { continue };
+        if state.status != DoorStatus::Open {
+            continue;
+        }
+        let height =
+            if door.height.get() > 0.0 { door.height.get() } else { prism.top - prism.bottom };
+        let (bottom, top) = (prism.bottom - floor, prism.bottom + height - floor);
+        if top <= site.robot.step.get() || bottom >= site.robot.height.get() {
+            continue;
+        }
+        for (leaf, polygon) in object_leaves(door, mount, a, b, state).into_iter().enumerate() {
+            let blocker = Blocker::ReplicaLeaf { replica: replica.id, door: mount.door, leaf };
+            found.push(Obstacle { blocker, polygon, bottom, top });
+        }
+    }
+    found
+}
+
+fn mounted_side<'a>(
+    site: &Site<'_>,
+    object: &crate::map::Object,
+    replica: &'a PlacedReplica,
+    mount: &crate::map::DoorMount,
+) -> Option<(&'a Prism, (Point, Point))> {
+    let item = object.items.iter().position(|i| i.id == mount.item)?;
+    let (side, _) = site.world.orthoframe_of(&object.items[item]).side(&mount.side)?;
+    let prism = replica.prisms.get(item)?;
+    Some((prism, prism.polygon.edges().nth(side)?))
+}
+
+/// The leaves of the Area's doors, and of its neighbours' doors close by.
+pub(super) fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
+    let mut near: Vec<&Doorway> = site.doorways_of(area).map(|(_, d, _)| d).collect();
+    for (_, doorway, side) in site.doorways_of(area).collect::<Vec<_>>() {
+        let zone = Bounds::of([doorway.middle()]).grown(doorway.width() / 2.0 + 3.0 * site.reach());
+        for (_, next, _) in site.doorways_of(doorway.areas[1 - side]) {
+            if !near.contains(&next) && zone.grown(next.width()).contains(next.middle()) {
+                near.push(next);
+            }
+        }
+    }
+    let mut found = Vec::new();
+    for doorway in near {
+        let Some(door) = doorway.door.and_then(|d| site.world.doors.get(&d)) else { continue };
+        let leaves = doorway.leaf_obstacles(door, site.state(door.id));
+        found.extend(leaves.into_iter().enumerate().map(|(leaf, polygon)| Obstacle {
+            blocker: Blocker::DoorLeaf { door: door.id, leaf },
+            polygon,
+            bottom: 0.0,
+            top: door.height.get(),
+        }));
+    }
+    found
+}
+
+/// The Area's sides without its doorways, and the doorways' jambs.
+pub(super) fn walls(site: &Site<'_>, placed: &PlacedArea) -> Vec<(Point, Point)> {
+    let all: Vec<usize> = (0..placed.prisms.len()).collect();
+    let model = &site.world.areas[&placed.id];
+    let mut walls = Vec::new();
+    for side in sides(placed, &all) {
+        let reference = |d: &Doorway, at: usize| {
+            let id = &site.world.orthoframe_of(&model.items[side.item]).base[side.side].id;
+            d.sides[at].item == model.items[side.item].id && d.sides[at].side == *id
+        };
+        let doorway = site.doorways_of(placed.id).find(|(_, d, at)| reference(d, *at));
+        let along = (side.end - side.start).try_normalize(0.0).unwrap_or_else(Vector::zeros);
+        let length = (side.end - side.start).norm();
+        let mut pieces = Vec::new();
+        if let Some((_, d, at)) = doorway {
+            let face = if at == 0 { 0.0 } else { d.gap };
+            let (a, b) = d.line();
+            let place = |p: Point| (p - side.start).dot(&along).clamp(0.0, length);
+            let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
+            pieces.push((0.0, low));
+            pieces.push((high, length));
+            for t in [d.span().0, d.span().1] {
+                walls.push((d.at(t, face), d.at(t, d.gap / 2.0)));
+            }
+        } else if side.permeability == Permeability::Impermeable || !is_inner(placed, &side) {
+            pieces.push((0.0, length));
+        }
+        walls.extend(
+            pieces
+                .into_iter()
+                .filter(|(a, b)| b - a > 1e-6)
+                .map(|(a, b)| (side.start + along * a, side.start + along * b)),
+        );
+    }
+    walls.retain(|(a, b)| (b - a).norm() > 1e-6);
+    walls
+}
+
+/// Whether a side lies between two items of the Area.
+fn is_inner(placed: &PlacedArea, side: &Side) -> bool {
+    let middle = nalgebra::center(&side.start, &side.end);
+    placed.prisms.iter().enumerate().any(|(i, p)| {
+        i != side.item && p.bounds.grown(0.1).contains(middle) && p.polygon.contains(middle, 0.05)
+    })
+}
