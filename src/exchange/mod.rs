@@ -7,8 +7,10 @@ mod assemble;
 mod error;
 mod fault;
 mod input;
+mod osmag;
 mod read;
 mod report;
+mod rmf;
 mod scene;
 mod survey;
 mod synonyms;
@@ -17,8 +19,10 @@ pub use assemble::assemble;
 pub use error::ReadError;
 pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
+pub use osmag::read as read_osmag;
 pub use read::{Format, Imported, Options, read};
 pub use report::{Count, Deed, Note, Report, What, Why};
+pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 pub use survey::{
     Kind, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
