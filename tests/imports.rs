@@ -6,9 +6,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use orthoframe::engine::Engine;
-use orthoframe::exchange::{Deed, Imported, ImportError, Options, What, read};
-use orthoframe::map::{World, check};
-use orthoframe::units::AreaId;
+use orthoframe::exchange::{Deed, ImportError, Imported, Options, What, read};
+use orthoframe::map::{LiftStop, World, check};
+use orthoframe::units::{AreaId, Cm};
 
 fn data(name: &str) -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
@@ -37,7 +37,8 @@ fn taken(imported: &Imported, what: What) -> (usize, usize) {
 fn groups(world: &World) -> BTreeMap<AreaId, AreaId> {
     let mut group: BTreeMap<AreaId, AreaId> = world.areas.keys().map(|&a| (a, a)).collect();
     let mut pairs: Vec<Vec<AreaId>> = world.doors.keys().map(|&d| world.door_areas(d)).collect();
-    pairs.extend(world.domain.lifts.iter().map(|(_, stops)| stops.iter().map(|s| s.area).collect()));
+    pairs
+        .extend(world.domain.lifts.iter().map(|(_, stops)| stops.iter().map(|s| s.area).collect()));
     let mut is_changed = true;
     while is_changed {
         is_changed = false;
@@ -85,7 +86,10 @@ fn routes(world: World) -> Vec<String> {
 fn the_office_arrives_with_its_doors() {
     let Some(office) = imported("rmf/office.building.yaml") else { return };
     assert_eq!(taken(&office, What::Door), (3, 3), "{}", office.report);
-    assert_eq!(taken(&office, What::Thing).1, 79 + office.world.objects.values().filter(|o| o.name == "Перегородка").count());
+    assert_eq!(
+        taken(&office, What::Thing).1,
+        79 + office.world.objects.values().filter(|o| o.name == "Перегородка").count()
+    );
 }
 
 #[test]
@@ -93,7 +97,7 @@ fn the_clinic_arrives_with_its_doors_and_lifts() {
     let Some(clinic) = imported("rmf/clinic.building.yaml") else { return };
     let world = &clinic.world;
     assert_eq!(world.maps.len(), 2);
-    assert_eq!(world.domain.maps[1].frame.z.get(), 1000.0);
+    assert_eq!(world.domain.maps[1].frame.z, Cm::of(1000.0));
     assert_eq!(world.domain.lifts.len(), 4);
     let (doors, of) = taken(&clinic, What::Door);
     // 132 in the walls, and four cabins with one door on each of two floors.
@@ -121,7 +125,16 @@ fn passages_of_osmag_join_the_areas_that_they_name() {
     let passages: Vec<_> =
         ways.iter().filter(|(_, t)| t.get("osmAG:type") == Some(&"passage")).collect();
     assert_eq!((rooms.len(), passages.len()), (177, 200));
-    assert_eq!(taken(&school, What::Room), (177, 177), "{}", school.report);
+    // One of the 177 has two nodes and so no floor: «E1c-F2-COR-01», way -175029.
+    assert_eq!(taken(&school, What::Room), (176, 177), "{}", school.report);
+    let lost: Vec<&str> = school
+        .report
+        .notes
+        .iter()
+        .filter(|n| n.deed == Deed::Skipped)
+        .map(|n| n.source.as_str())
+        .collect();
+    assert_eq!(lost, ["-175029"]);
 
     let world = &school.world;
     let joined: BTreeMap<&str, BTreeSet<&str>> = world
@@ -144,7 +157,9 @@ fn passages_of_osmag_join_the_areas_that_they_name() {
     let (mut sound, mut exact, mut wrong) = (0, 0, Vec::new());
     for (id, tags) in &passages {
         let on = tags.get("level").copied();
-        let (Some(from), Some(to)) = (tags.get("osmAG:from"), tags.get("osmAG:to")) else { continue };
+        let (Some(from), Some(to)) = (tags.get("osmAG:from"), tags.get("osmAG:to")) else {
+            continue;
+        };
         let ([from], [to]) = (&found(from, on)[..], &found(to, on)[..]) else { continue };
         if from == to {
             continue;

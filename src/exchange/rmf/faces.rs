@@ -36,12 +36,20 @@ pub(super) struct Face {
     pub(super) tags: BTreeSet<usize>,
 }
 
+/// The tag of an edge that nothing stands on: see [`Plan::open`].
+const OPEN: usize = usize::MAX;
+/// The farthest that an open edge reaches, cm.
+const REACH: f64 = 1_000.0;
+
 /// What a graph encloses.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Plan {
     pub(super) faces: Vec<Face>,
     /// Pieces of edges that bound no face.
     pub(super) loose: Vec<Edge>,
+    /// Edges between faces on which nothing stands. A door in a wall that ends in the open would have one room on both
+    /// sides; the loose ends of its wall are led across to the next wall, and rooms meet there by a passage.
+    pub(super) open: Vec<(Point, Point)>,
 }
 
 /// The faces of a graph of walls.
@@ -56,6 +64,10 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.lead_loose_ends();
     graph.split();
     graph.dedup();
+    if graph.part_doors() {
+        graph.split();
+        graph.dedup();
+    }
     let mut loose = graph.prune();
     let mut cycles = graph.cycles();
     // An edge with one face on both sides bounds nothing: an arm, or a bridge to an inner ring.
@@ -70,11 +82,14 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
         loose.extend(graph.prune());
         cycles = graph.cycles();
     }
+    let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
+    let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
     let loose = loose
         .into_iter()
+        .filter(|e| e.2 != OPEN)
         .map(|(a, b, tag)| Edge { ends: (graph.points[a], graph.points[b]), tag })
         .collect();
-    Plan { faces: graph.faces(&cycles), loose }
+    Plan { faces: graph.faces(&cycles), loose, open }
 }
 
 #[derive(Default)]
@@ -201,12 +216,65 @@ impl Graph {
         }
     }
 
-    /// One edge between two nodes; doors, which have the higher tags, before walls.
+    /// Leads the free ends of walls with a door in them, which bound nothing, on to the nearest other wall.
+    fn part_doors(&mut self) -> bool {
+        let mut rest = Self { points: self.points.clone(), ..Self::default() };
+        rest.edges.clone_from(&self.edges);
+        let loose = rest.prune();
+        let mut group: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut is_changed = true;
+        while is_changed {
+            is_changed = false;
+            for &(a, b, _) in &loose {
+                let of = |n: usize| group.get(&n).copied().unwrap_or(n);
+                let least = of(a).min(of(b));
+                for n in [a, b] {
+                    is_changed |= group.insert(n, least) != Some(least);
+                }
+            }
+        }
+        let with_door: BTreeSet<usize> =
+            loose.iter().filter(|e| e.2 > 0).map(|e| group[&e.0]).collect();
+        let degrees = self.degrees();
+        let ends: Vec<usize> = group
+            .iter()
+            .filter(|(n, g)| degrees[**n] == 1 && with_door.contains(g))
+            .map(|(&n, _)| n)
+            .collect();
+        let loose: BTreeSet<(usize, usize, usize)> = loose.into_iter().collect();
+        let is_own = |edge: &(usize, usize, usize), of: usize| {
+            loose.contains(edge) && group.get(&edge.0) == Some(&of)
+        };
+        let mut added = Vec::new();
+        for end in ends {
+            let p = self.points[end];
+            let nearest = self
+                .edges
+                .iter()
+                .filter(|edge| !is_own(edge, group[&end]))
+                .map(|&edge| foot(p, self.ends(edge)))
+                .min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()))
+                .filter(|foot| (foot - p).norm() <= REACH);
+            added.extend(nearest.map(|foot| (end, foot)));
+        }
+        for &(end, foot) in &added {
+            let to = self.node(foot);
+            if to != end {
+                self.edges.push((end, to, OPEN));
+            }
+        }
+        !added.is_empty()
+    }
+
+    /// One edge between two nodes: a door before a wall, a wall before nothing.
     fn dedup(&mut self) {
         let mut best: BTreeMap<(usize, usize), usize> = BTreeMap::new();
         for &(a, b, tag) in self.edges.iter().filter(|e| e.0 != e.1) {
             let kept = best.entry((a.min(b), a.max(b))).or_insert(tag);
-            *kept = (*kept).max(tag);
+            let rank = |tag: usize| tag.wrapping_add(1);
+            if rank(tag) > rank(*kept) {
+                *kept = tag;
+            }
         }
         self.edges = best.into_iter().map(|((a, b), tag)| (a, b, tag)).collect();
     }
@@ -338,11 +406,9 @@ mod tests {
     use super::*;
 
     fn plan(walls: &[[f64; 4]]) -> Plan {
-        let edge = |(tag, w): (usize, &[f64; 4])| Edge {
-            ends: (Point::new(w[0], w[1]), Point::new(w[2], w[3])),
-            tag,
-        };
-        faces(&walls.iter().enumerate().map(edge).collect::<Vec<_>>())
+        let edge =
+            |w: &[f64; 4]| Edge { ends: (Point::new(w[0], w[1]), Point::new(w[2], w[3])), tag: 0 };
+        faces(&walls.iter().map(edge).collect::<Vec<_>>())
     }
 
     fn areas(plan: &Plan) -> Vec<i64> {
@@ -369,6 +435,28 @@ mod tests {
         ]);
         assert_eq!(areas(&plan), [60_000, 120_000]);
         assert_eq!(plan.loose.len(), 2, "{:?}", plan.loose);
+    }
+
+    #[test]
+    fn a_door_in_a_wall_that_ends_in_the_open_parts_two_rooms() {
+        let walls = [
+            [0.0, 0.0, 600.0, 0.0],
+            [600.0, 0.0, 600.0, 300.0],
+            [600.0, 300.0, 0.0, 300.0],
+            [0.0, 300.0, 0.0, 0.0],
+            [200.0, 0.0, 200.0, 50.0],
+            [200.0, 140.0, 200.0, 200.0],
+        ];
+        let edge = |tag: usize, w: [f64; 4]| Edge {
+            ends: (Point::new(w[0], w[1]), Point::new(w[2], w[3])),
+            tag,
+        };
+        let mut edges: Vec<Edge> = walls.iter().map(|&w| edge(0, w)).collect();
+        assert_eq!(areas(&faces(&edges)), [180_000]);
+        edges.push(edge(1, [200.0, 50.0, 200.0, 140.0]));
+        let plan = faces(&edges);
+        assert_eq!(areas(&plan), [60_000, 120_000]);
+        assert_eq!(plan.open, [(Point::new(200.0, 200.0), Point::new(200.0, 300.0))]);
     }
 
     #[test]

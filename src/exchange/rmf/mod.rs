@@ -163,6 +163,16 @@ impl Reader {
                 made.openings.push(opening);
             }
         }
+        made.openings.extend(plan.open.iter().enumerate().map(|(i, &(a, b))| Opening {
+            source: format!("{name}/open/{i}"),
+            name: String::new(),
+            what: OpeningKind::Passage,
+            jambs: [a, b],
+            rooms: None,
+            height: None,
+            sill: Cm::ZERO,
+            properties: Properties::new(),
+        }));
         for (i, model) in list(level, "models").iter().enumerate() {
             self.model(name, i, model, &fit, &mut made.things);
         }
