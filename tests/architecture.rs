@@ -163,6 +163,7 @@ fn each_package_has_its_own_folder() {
         ("encoding_rs", &["exchange"]),
         ("rusqlite", &["exchange"]),
         ("png", &["exchange"]),
+        ("roxmltree", &["exchange"]),
         ("i_overlay", &["geometry", "map", "corridor", "exchange"]),
         ("resvg", &["draw"]),
     ];

@@ -14,6 +14,7 @@ mod floors;
 mod formats;
 mod generated_worlds;
 mod map_editing;
+mod imports;
 mod maps;
 mod planning;
 mod relations;

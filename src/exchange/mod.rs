@@ -14,6 +14,8 @@ mod outline;
 mod read;
 mod report;
 pub mod ros;
+mod osmag;
+mod rmf;
 mod scene;
 mod shafts;
 mod survey;
@@ -26,8 +28,10 @@ pub use export::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_rou
 pub use export::{SqliteError, read_sqlite, write_sqlite};
 pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
+pub use osmag::read as read_osmag;
 pub use read::{Format, Imported, Options, read};
 pub use report::{Count, Deed, Note, Report, What, Why};
+pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 pub use survey::{
     Kind, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,

@@ -7,7 +7,7 @@ use crate::units::Source;
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
-use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input};
+use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input, osmag, rmf};
 
 /// A format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -15,6 +15,8 @@ use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input};
 pub enum Format {
     /// orthoframe's own map file.
     Map,
+    Rmf,
+    OsmAg,
     ProcThor,
     Thor,
     VirtualHome,
@@ -34,6 +36,20 @@ struct Reader {
 
 /// In the order in which they are asked.
 const READERS: &[Reader] = &[
+    Reader {
+        format: Format::Rmf,
+        key: "rmf",
+        title: "Open-RMF",
+        recognises: |input| rmf::recognises(input.text()),
+        read: |input| rmf::read(input.source()?),
+    },
+    Reader {
+        format: Format::OsmAg,
+        key: "osmag",
+        title: "osmAG",
+        recognises: |input| osmag::recognises(input.text()),
+        read: |input| osmag::read(input.source()?),
+    },
     Reader {
         format: Format::ProcThor,
         key: "procthor",

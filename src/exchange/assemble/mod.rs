@@ -17,7 +17,7 @@ mod index;
 mod kinds;
 mod names;
 mod openings;
-mod ring;
+pub(super) mod ring;
 mod rooms;
 mod things;
 mod types;

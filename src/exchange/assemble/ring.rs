@@ -16,37 +16,37 @@ use crate::map::plane::{bounds, doubled_area, edges, meeting, near_pairs, segmen
 use crate::units::{Point, Vector};
 
 /// A closed chain of corners, without the closing one.
-pub(super) type Ring = Vec<Point>;
+pub(in crate::exchange) type Ring = Vec<Point>;
 
 /// Corners nearer than this are one, cm; twice what the map's checks call the same place.
-pub(super) const NEAR: f64 = 0.1;
+pub(in crate::exchange) const NEAR: f64 = 0.1;
 /// A corner that stands out from the line between its neighbours by less is none, cm.
 const STRAIGHT: f64 = 1e-4;
 /// Floor smaller than this is none, cm².
-pub(super) const LEAST_AREA: f64 = 400.0;
+pub(in crate::exchange) const LEAST_AREA: f64 = 400.0;
 
 /// A connected piece of floor.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub(super) struct Region {
-    pub(super) outer: Ring,
-    pub(super) holes: Vec<Ring>,
+pub(in crate::exchange) struct Region {
+    pub(in crate::exchange) outer: Ring,
+    pub(in crate::exchange) holes: Vec<Ring>,
 }
 
 impl Region {
-    pub(super) fn rings(&self) -> impl Iterator<Item = &Ring> {
+    pub(in crate::exchange) fn rings(&self) -> impl Iterator<Item = &Ring> {
         std::iter::once(&self.outer).chain(&self.holes)
     }
 
-    pub(super) fn area(&self) -> f64 {
+    pub(in crate::exchange) fn area(&self) -> f64 {
         self.rings().map(|ring| doubled_area(ring)).sum::<f64>() / 2.0
     }
 
-    pub(super) fn contains(&self, p: Point) -> bool {
+    pub(in crate::exchange) fn contains(&self, p: Point) -> bool {
         // Even-odd over all rings: a point in a hole is within two of them.
         self.rings().filter(|ring| crate::map::plane::contains(ring, p)).count() % 2 == 1
     }
 
-    pub(super) fn border_distance(&self, p: Point) -> f64 {
+    pub(in crate::exchange) fn border_distance(&self, p: Point) -> f64 {
         self.rings()
             .flat_map(|ring| edges(ring))
             .map(|edge| segment_distance(p, edge))
@@ -56,14 +56,14 @@ impl Region {
 
 /// A cleaned outline and whether anything but points without meaning had to go.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Cleaned {
-    pub(super) region: Region,
-    pub(super) was_crossed: bool,
-    pub(super) bad_holes: usize,
+pub(in crate::exchange) struct Cleaned {
+    pub(in crate::exchange) region: Region,
+    pub(in crate::exchange) was_crossed: bool,
+    pub(in crate::exchange) bad_holes: usize,
 }
 
 /// Makes a region of an outline of any rotation with any dirt; None when nothing of it is floor.
-pub(super) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Option<Cleaned> {
+pub(in crate::exchange) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Option<Cleaned> {
     let outer = tidy(outline);
     let mut rings = Vec::with_capacity(holes.len());
     let mut bad_holes = 0;
@@ -94,7 +94,7 @@ pub(super) fn clean(outline: &[Point], holes: &[Vec<Point>]) -> Option<Cleaned> 
 }
 
 /// The outline of a part of a thing: simple, counter-clockwise, of any size that is one.
-pub(super) fn clean_part(outline: &[Point]) -> Option<Ring> {
+pub(in crate::exchange) fn clean_part(outline: &[Point]) -> Option<Ring> {
     let ring = tidy(outline);
     let ring = if is_simple(&ring) {
         ring
@@ -109,7 +109,7 @@ pub(super) fn clean_part(outline: &[Point]) -> Option<Ring> {
 }
 
 /// Without the closing point, repeated corners, corners on a straight line, and spikes.
-pub(super) fn tidy(points: &[Point]) -> Ring {
+pub(in crate::exchange) fn tidy(points: &[Point]) -> Ring {
     let mut ring: Ring = points.to_vec();
     loop {
         let before = ring.len();
@@ -149,7 +149,7 @@ fn is_straight(a: Point, p: Point, b: Point) -> bool {
     longest <= 0.0 || u.perp(&v).abs() / longest < STRAIGHT
 }
 
-pub(super) fn counter_clockwise(mut ring: Ring) -> Ring {
+pub(in crate::exchange) fn counter_clockwise(mut ring: Ring) -> Ring {
     if doubled_area(&ring) < 0.0 {
         ring.reverse();
     }
@@ -157,7 +157,7 @@ pub(super) fn counter_clockwise(mut ring: Ring) -> Ring {
 }
 
 /// Whether no two sides meet but neighbours in their common corner.
-pub(super) fn is_simple(ring: &[Point]) -> bool {
+pub(in crate::exchange) fn is_simple(ring: &[Point]) -> bool {
     let sides: Vec<_> = edges(ring).collect();
     let boxes: Vec<_> = sides.iter().map(|&(a, b)| bounds([a, b])).collect();
     let n = sides.len();
@@ -182,7 +182,7 @@ fn crosses(sides: &[(Point, Point)], n: usize, i: usize, j: usize) -> bool {
 }
 
 /// Whether no ring of a region meets another.
-pub(super) fn is_sound(region: &Region) -> bool {
+pub(in crate::exchange) fn is_sound(region: &Region) -> bool {
     if !region.rings().all(|ring| is_simple(ring)) || doubled_area(&region.outer) <= 0.0 {
         return false;
     }
@@ -217,7 +217,7 @@ fn points(contour: &[[f64; 2]]) -> Ring {
 }
 
 /// A boolean operation; no ring of the result touches itself or another in more than points.
-pub(super) fn overlay(
+pub(in crate::exchange) fn overlay(
     subject: &[Ring],
     clip: &[Ring],
     rule: OverlayRule,
@@ -251,7 +251,7 @@ fn region(shape: &[Contour]) -> Option<Region> {
 }
 
 /// The largest sound region, when it is floor at all.
-pub(super) fn largest(regions: Vec<Region>) -> Option<Region> {
+pub(in crate::exchange) fn largest(regions: Vec<Region>) -> Option<Region> {
     regions
         .into_iter()
         .flat_map(unpinched)
@@ -310,14 +310,14 @@ fn touching(rings: &[Ring]) -> Vec<Point> {
 }
 
 /// The floor of `region` outside of `others`.
-pub(super) fn subtract(region: &Region, others: &[Ring]) -> Vec<Region> {
+pub(in crate::exchange) fn subtract(region: &Region, others: &[Ring]) -> Vec<Region> {
     let rings: Vec<Ring> = region.rings().cloned().collect();
     let both: Vec<Region> = overlay(&rings, others, OverlayRule::Difference, FillRule::NonZero);
     both
 }
 
 /// The common floor of two regions, cm², and the length of its border, cm.
-pub(super) fn common(one: &Region, other: &Region) -> (f64, f64) {
+pub(in crate::exchange) fn common(one: &Region, other: &Region) -> (f64, f64) {
     let rings = |r: &Region| r.rings().cloned().collect::<Vec<_>>();
     let shapes = overlay(&rings(one), &rings(other), OverlayRule::Intersect, FillRule::NonZero);
     let around = |r: &Region| {
@@ -328,7 +328,10 @@ pub(super) fn common(one: &Region, other: &Region) -> (f64, f64) {
 
 /// A region with holes as pieces without, cut by upright slits from its holes to the next ring above and below.
 /// Pieces share their cuts exactly. `is_closed` tells of sides that no slit may end on: doors.
-pub(super) fn pieces(region: &Region, is_closed: impl Fn(Point, Point) -> bool) -> Vec<Ring> {
+pub(in crate::exchange) fn pieces(
+    region: &Region,
+    is_closed: impl Fn(Point, Point) -> bool,
+) -> Vec<Ring> {
     if region.holes.is_empty() {
         return vec![region.outer.clone()];
     }

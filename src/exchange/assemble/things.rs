@@ -301,8 +301,10 @@ impl Maker<'_> {
                 return self.names.numbered_with(&ru, &name);
             }
         }
-        let name_en = if names::is_russian(&name) { String::new() } else { name.clone() };
-        self.names.unique(&name, &name_en)
+        if names::is_russian(&name) {
+            return self.names.unique(&name, "");
+        }
+        self.names.numbered_with("Точка", &name)
     }
 }
 

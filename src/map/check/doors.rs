@@ -242,7 +242,8 @@ impl<'w> Checker<'w> {
     /// The side of a mount where it stands on its Map.
     fn placed_mount(&self, mounted: Mounted<'_>) -> Option<(crate::units::MapId, PlacedSide)> {
         let area = &self.world.areas[&mounted.area];
-        let (map, frame) = self.world.placement(mounted.area)?;
+        let &(map, item) = self.placed.get(&mounted.area)?;
+        let frame = self.world.maps[&map].items[item].frame;
         let item = area.item(&mounted.mount.item)?;
         if !self.sound.contains(&item.orthoframe) {
             return None;

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::map::fault::{MapError, Record, Spot};
 use crate::map::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
-use crate::units::{AreaId, Cm, Frame};
+use crate::units::{AreaId, Cm, DoorId, Frame};
 
 use super::group::{
     Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,
@@ -110,7 +110,12 @@ impl<'w> Checker<'w> {
         side: &SideRef,
         spot: &Spot,
     ) -> Option<(&'w BaseVector, Frame, usize)> {
-        let Some((index, item)) = map.items.iter().enumerate().find(|(_, i)| i.area == area) else {
+        let known = self.placed.get(&area).filter(|(on, _)| *on == map.id);
+        let found = match known {
+            Some(&(_, index)) => Some((index, &map.items[index])),
+            None => map.items.iter().enumerate().find(|(_, i)| i.area == area),
+        };
+        let Some((index, item)) = found else {
             let error = MapError::UnknownReference {
                 what: "Помещение на этой карте",
                 name: area_title(self.world, area),
@@ -228,17 +233,22 @@ impl<'w> Checker<'w> {
 
     fn connected_areas(&mut self, map: &Map, title: &str, spot: &Spot) {
         let mut parts = Parts::new(map.items.len());
-        let index = |area| map.items.iter().position(|item| item.area == area);
+        let indices: BTreeMap<AreaId, usize> =
+            map.items.iter().enumerate().map(|(i, item)| (item.area, i)).collect();
         for link in &map.links {
-            if let (Some(i), Some(j)) = (index(link.area), index(link.to_area)) {
+            if let (Some(&i), Some(&j)) = (indices.get(&link.area), indices.get(&link.to_area)) {
                 parts.join(i, j);
             }
         }
-        for door in self.world.doors.keys() {
-            if let [one, other] = self.world.door_areas(*door)[..]
-                && let (Some(i), Some(j)) = (index(one), index(other))
-            {
-                parts.join(i, j);
+        let mut mounts: BTreeMap<DoorId, Vec<usize>> = BTreeMap::new();
+        for item in &map.items {
+            for mount in self.world.areas.get(&item.area).map_or(&[][..], |a| &a.doors) {
+                mounts.entry(mount.door).or_default().push(indices[&item.area]);
+            }
+        }
+        for mounted in mounts.values() {
+            if let [one, other] = mounted[..] {
+                parts.join(one, other);
             }
         }
         let base = map.items.iter().position(|item| item.is_base).unwrap_or(0);

@@ -10,9 +10,9 @@ mod names;
 mod placed;
 pub(crate) mod plane;
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use crate::units::{Cm, Frame, OrFrId, Point, TypeId};
+use crate::units::{AreaId, Cm, Frame, MapId, OrFrId, Point, TypeId};
 
 use super::fault::{Fault, MapError, Record, Spot};
 use super::{Item, TypeKind, World};
@@ -44,7 +44,13 @@ pub fn check(world: &World) -> Vec<Fault> {
 
 /// [`check`] for a world of which some records are known to be faulty already.
 pub(super) fn check_except(world: &World, broken: &BTreeSet<Record>) -> Vec<Fault> {
-    let mut checker = Checker { world, broken, sound: BTreeSet::new(), faults: Vec::new() };
+    let mut placed = BTreeMap::new();
+    for map in world.maps.values() {
+        for (index, item) in map.items.iter().enumerate() {
+            placed.entry(item.area).or_insert((map.id, index));
+        }
+    }
+    let mut checker = Checker { world, broken, placed, sound: BTreeSet::new(), faults: Vec::new() };
     checker.bases();
     checker.groups();
     checker.doors();
@@ -61,6 +67,8 @@ struct Checker<'w> {
     world: &'w World,
     /// Records with faults of their own, found before.
     broken: &'w BTreeSet<Record>,
+    /// Where each Area stands: its Map, and which of the Map's items it is.
+    placed: BTreeMap<AreaId, (MapId, usize)>,
     /// Orthoframes whose bases can be measured.
     sound: BTreeSet<OrFrId>,
     faults: Vec<Fault>,

@@ -1,0 +1,353 @@
+//! osmAG: areas of a building in OpenStreetMap's XML, with passages between them.
+//!
+//! An *area* is a closed way tagged `osmAG:type=area`; those of `osmAG:areaType=structure` only hold others and are no
+//! floor. A *passage* is a way tagged `osmAG:type=passage` along the opening, with the names or ids of the two areas in
+//! `osmAG:from` and `osmAG:to`. Latitude and longitude are laid flat about the root node. Rooms of one name on several
+//! levels that lie over one another are a flight of stairs or a shaft. Ways of plain indoor tagging (`indoor=room`,
+//! `area`, `corridor`) are rooms too.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+
+use roxmltree::{Document, Node, ParsingOptions};
+
+use crate::map::Properties;
+use crate::map::plane::bounds;
+use crate::units::{Cm, Point, Source};
+
+use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey};
+
+const FORMAT: &str = "osmAG";
+/// Mean radius of the earth, cm.
+const EARTH: f64 = 637_100_880.0;
+/// Floor to floor where the file does not tell, cm.
+const STOREY: f64 = 320.0;
+/// Elements of one file.
+const MOST: u32 = 20_000_000;
+
+/// Whether a text is OpenStreetMap's XML.
+#[must_use]
+pub(super) fn recognises(text: &str) -> bool {
+    let mut end = text.len().min(2000);
+    while !text.is_char_boundary(end) {
+        end -= 1;
+    }
+    text[..end].contains("<osm")
+}
+
+/// Reads a building.
+///
+/// # Errors
+/// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when it has no area.
+pub fn read(source: &Source) -> Result<Survey, ReadError> {
+    let options =
+        ParsingOptions { allow_dtd: false, nodes_limit: MOST, ..ParsingOptions::default() };
+    let document = Document::parse_with_options(source.text(), options).map_err(|e| {
+        let pos = e.pos();
+        let lines = source.text().split_inclusive('\n');
+        let start: usize = lines.take((pos.row as usize).saturating_sub(1)).map(str::len).sum();
+        let rest = source.text().get(start..).unwrap_or_default();
+        let within: usize =
+            rest.chars().take((pos.col as usize).saturating_sub(1)).map(char::len_utf8).sum();
+        ReadError::syntax(FORMAT, format!("это не XML: {e}"), source, start + within)
+    })?;
+    let mut reader = Reader { ways: ways(document.root_element()), ..Reader::default() };
+    reader.nodes(document.root_element());
+    reader.areas();
+    if reader.areas.is_empty() {
+        let what = "нет ни одного пути с osmAG:type=area или indoor=room".to_owned();
+        return Err(ReadError::NoBuilding { format: FORMAT, what });
+    }
+    reader.passages();
+    reader.shafts();
+    Ok(reader.survey)
+}
+
+type Tags<'x> = BTreeMap<&'x str, &'x str>;
+
+struct Way<'x> {
+    id: &'x str,
+    tags: Tags<'x>,
+    nodes: Vec<&'x str>,
+}
+
+#[derive(Default)]
+struct Reader<'x> {
+    ways: Vec<Way<'x>>,
+    points: HashMap<&'x str, Point>,
+    survey: Survey,
+    /// Every area that is a room: its level, its place there, its name and id.
+    areas: Vec<Found<'x>>,
+    by_word: HashMap<&'x str, Vec<usize>>,
+}
+
+struct Found<'x> {
+    level: usize,
+    room: usize,
+    name: &'x str,
+}
+
+fn tags<'x>(element: Node<'x, '_>) -> Tags<'x> {
+    let tag = |t: Node<'x, '_>| Some((t.attribute("k")?, t.attribute("v")?));
+    element.children().filter(|c| c.has_tag_name("tag")).filter_map(tag).collect()
+}
+
+fn ways<'x>(root: Node<'x, '_>) -> Vec<Way<'x>> {
+    let mut seen = BTreeSet::new();
+    root.children()
+        .filter(|c| c.has_tag_name("way") && c.attribute("action") != Some("delete"))
+        .filter_map(|way| {
+            let id = way.attribute("id")?;
+            let nodes = way.children().filter(|c| c.has_tag_name("nd"));
+            seen.insert(id).then(|| Way {
+                id,
+                tags: tags(way),
+                nodes: nodes.filter_map(|nd| nd.attribute("ref")).collect(),
+            })
+        })
+        .collect()
+}
+
+impl<'x> Reader<'x> {
+    fn remark(&mut self, source: &str, text: impl Into<String>) {
+        self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
+    }
+
+    /// Lays latitude and longitude flat about the root.
+    fn nodes(&mut self, root: Node<'x, '_>) {
+        let number = |n: Node<'x, '_>, name: &str| {
+            n.attribute(name)?.trim().parse::<f64>().ok().filter(|v| v.is_finite())
+        };
+        let mut places: Vec<(&str, f64, f64, bool)> = Vec::new();
+        for node in root.children().filter(|c| c.has_tag_name("node")) {
+            let Some(id) = node.attribute("id") else { continue };
+            match (number(node, "lat"), number(node, "lon")) {
+                (Some(lat), Some(lon)) if lat.abs() <= 89.0 && lon.abs() <= 360.0 => {
+                    let is_root = node.attribute("root") == Some("true")
+                        || tags(node).get("name") == Some(&"root");
+                    places.push((id, lat, lon, is_root));
+                }
+                _ => self.remark(id, "узел пропущен: негодные широта и долгота"),
+            }
+        }
+        let Some(&(_, lat0, lon0, _)) = places.iter().find(|p| p.3).or(places.first()) else {
+            return;
+        };
+        let east = EARTH * lat0.to_radians().cos();
+        for (id, lat, lon, _) in places {
+            let p = Point::new((lon - lon0).to_radians() * east, (lat - lat0).to_radians() * EARTH);
+            // Of two nodes with one id the first counts; JOSM writes the root twice.
+            if Cm::new(p.x).is_ok() && Cm::new(p.y).is_ok() {
+                self.points.entry(id).or_insert(p);
+            }
+        }
+    }
+
+    fn outline(&mut self, way: usize) -> Vec<Point> {
+        let mut outline = Vec::new();
+        let mut missing = 0;
+        for node in &self.ways[way].nodes {
+            match self.points.get(node) {
+                Some(&p) => outline.push(p),
+                None => missing += 1,
+            }
+        }
+        if missing > 0 {
+            let id = self.ways[way].id;
+            self.remark(id, format!("нет узлов контура: {missing}"));
+        }
+        outline
+    }
+
+    fn areas(&mut self) {
+        let is_room = |tags: &Tags<'_>| {
+            let kind = tags.get("osmAG:type").copied();
+            let indoor = matches!(tags.get("indoor"), Some(&("room" | "area" | "corridor")));
+            let structure = tags.get("osmAG:areaType") == Some(&"structure");
+            !structure && (kind == Some("area") || kind.is_none() && indoor)
+        };
+        let rooms: Vec<usize> =
+            (0..self.ways.len()).filter(|&i| is_room(&self.ways[i].tags)).collect();
+        let mut levels: Vec<f64> = rooms.iter().map(|&i| level(&self.ways[i].tags)).collect();
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        self.survey.name = self
+            .ways
+            .iter()
+            .find(|w| w.tags.contains_key("building"))
+            .and_then(|w| w.tags.get("name"))
+            .map_or_else(String::new, |name| (*name).to_owned());
+        let storey = rooms
+            .iter()
+            .filter_map(|&i| height(&self.ways[i].tags))
+            .fold(0.0_f64, |most, h| most.max(h.get()));
+        let storey = if storey > 0.0 { storey } else { STOREY };
+        let lowest = levels.first().copied().unwrap_or(0.0);
+        self.survey.levels = levels
+            .iter()
+            .map(|&number| Level {
+                source: number.to_string(),
+                name: number.to_string(),
+                elevation: Cm::new((number - lowest) * storey).unwrap_or(Cm::ZERO),
+                ..Level::default()
+            })
+            .collect();
+        for way in rooms {
+            let outline = self.outline(way);
+            let Way { id, tags, .. } = &self.ways[way];
+            let number = level(tags);
+            let at = levels.iter().position(|l| l.total_cmp(&number).is_eq()).unwrap_or(0);
+            let name = tags.get("name").copied().unwrap_or_default();
+            let mut properties = Properties::new();
+            if let Some(parent) = tags.get("osmAG:parent") {
+                properties.insert("ЧАСТЬ".to_owned(), (*parent).to_owned());
+            }
+            let kind = ["room", "osmAG:roomType", "amenity", "highway"]
+                .into_iter()
+                .find_map(|key| tags.get(key))
+                .map_or_else(|| name.to_owned(), |kind| (*kind).to_owned());
+            let room = self.survey.levels[at].rooms.len();
+            let found = self.areas.len();
+            self.by_word.entry(name).or_default().push(found);
+            self.by_word.entry(id).or_default().push(found);
+            self.areas.push(Found { level: at, room, name });
+            self.survey.levels[at].rooms.push(Room {
+                source: (*id).to_owned(),
+                name: name.to_owned(),
+                kind,
+                outline,
+                holes: Vec::new(),
+                height: height(tags),
+                properties,
+            });
+        }
+    }
+
+    fn passages(&mut self) {
+        let passages: Vec<usize> = (0..self.ways.len())
+            .filter(|&i| self.ways[i].tags.get("osmAG:type") == Some(&"passage"))
+            .collect();
+        for way in passages {
+            let line = self.outline(way);
+            let Way { id, tags, .. } = &self.ways[way];
+            let (id, tags) = (*id, tags.clone());
+            let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
+                self.remark(id, "проход пропущен: нет узлов");
+                continue;
+            };
+            let wanted = tags.get("level").map(|_| level(&tags));
+            let mut ends = Vec::new();
+            for key in ["osmAG:from", "osmAG:to"] {
+                match tags.get(key) {
+                    None => self.remark(id, format!("у прохода нет {key}")),
+                    Some(&word) => match self.nearest(word, wanted, first) {
+                        Some(found) => ends.push(found),
+                        None => {
+                            let text = format!("проход ссылается на «{word}», чего в файле нет");
+                            self.remark(id, text);
+                        }
+                    },
+                }
+            }
+            let rooms = match ends[..] {
+                [one, other] => {
+                    let (a, b) = (&self.areas[one], &self.areas[other]);
+                    if a.level == b.level {
+                        Some((a.level, [Some(a.room), Some(b.room)]))
+                    } else {
+                        let stops = vec![(a.level, a.room), (b.level, b.room)];
+                        let name = a.name.to_owned();
+                        self.survey.lifts.push(Lift { source: id.to_owned(), name, stops });
+                        continue;
+                    }
+                }
+                _ => None,
+            };
+            let at = rooms.map(|(level, _)| level).or_else(|| {
+                let number = wanted?;
+                self.survey.levels.iter().position(|l| l.source == number.to_string())
+            });
+            let Some(at) = at.or_else(|| ends.first().map(|&e| self.areas[e].level)) else {
+                self.remark(id, "проход пропущен: этаж неизвестен");
+                continue;
+            };
+            self.survey.levels[at].openings.push(Opening {
+                source: id.to_owned(),
+                name: String::new(),
+                what: OpeningKind::Passage,
+                jambs: [first, last],
+                rooms: rooms.map(|(_, rooms)| rooms),
+                height: None,
+                sill: Cm::ZERO,
+                properties: Properties::new(),
+            });
+        }
+    }
+
+    /// The area of a name or id: of several, one of the wanted level, then the nearest.
+    fn nearest(&self, word: &str, wanted: Option<f64>, at: Point) -> Option<usize> {
+        let distance = |found: usize| {
+            let area = &self.areas[found];
+            let level = &self.survey.levels[area.level];
+            let away = level.rooms[area.room]
+                .outline
+                .iter()
+                .map(|p| (p - at).norm())
+                .fold(f64::INFINITY, f64::min);
+            let is_other = wanted.is_some_and(|number| level.source != number.to_string());
+            (is_other, away)
+        };
+        self.by_word.get(word)?.iter().copied().min_by(|&a, &b| {
+            let ((other_a, away_a), (other_b, away_b)) = (distance(a), distance(b));
+            other_a.cmp(&other_b).then(away_a.total_cmp(&away_b))
+        })
+    }
+
+    /// Rooms of one name over one another.
+    fn shafts(&mut self) {
+        let mut by_name: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (i, area) in self.areas.iter().enumerate() {
+            if !area.name.is_empty() {
+                by_name.entry(area.name).or_default().push(i);
+            }
+        }
+        for (name, found) in by_name {
+            let outline = |i: usize| {
+                let area = &self.areas[i];
+                let room = &self.survey.levels[area.level].rooms[area.room];
+                bounds(room.outline.iter().copied())
+            };
+            let first = found[0];
+            let mut stops = vec![(self.areas[first].level, self.areas[first].room)];
+            for &i in &found[1..] {
+                let (a, b) = (outline(first), outline(i));
+                let common = a.1.inf(&b.1) - a.0.sup(&b.0);
+                let level = self.areas[i].level;
+                if common.x > 0.0 && common.y > 0.0 && stops.iter().all(|s| s.0 != level) {
+                    stops.push((level, self.areas[i].room));
+                }
+            }
+            if stops.len() > 1 {
+                let name = name.to_owned();
+                self.survey.lifts.push(Lift { source: name.clone(), name, stops });
+            }
+        }
+    }
+}
+
+/// The first of the levels of a tag: `1`, `1;2`, `-1--2`.
+fn level(tags: &Tags<'_>) -> f64 {
+    let first = |text: &str| {
+        text.split(';')
+            .next()?
+            .trim()
+            .parse::<f64>()
+            .ok()
+            .filter(|l| l.is_finite() && l.abs() < 500.0)
+    };
+    tags.get("level").and_then(|text| first(text)).unwrap_or(0.0)
+}
+
+fn height(tags: &Tags<'_>) -> Option<Cm> {
+    let metres: f64 = tags.get("height")?.trim().trim_end_matches('m').trim().parse().ok()?;
+    Cm::new(metres * 100.0).ok().filter(|cm| cm.get() > 0.0)
+}

@@ -1,0 +1,474 @@
+//! Rooms as the faces of a graph of walls and doors.
+//!
+//! Drawn walls rarely close: ends stop short of the wall that they meet, walls cross without a common vertex, several
+//! vertices stand in one corner. The graph is mended first: near nodes are welded, loose ends led to a wall near by,
+//! crossings made nodes. Then every half-edge is followed round its face. Walls that bound nothing are handed back.
+//!
+//! **Invariant.** Faces do not overlap, run counter-clockwise, and together with their holes fill what the walls
+//! enclose.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::ops::ControlFlow;
+
+use crate::map::plane::{bounds, contains, doubled_area, meeting, near_pairs};
+use crate::units::Point;
+
+/// Nodes nearer than this are one, cm.
+const WELD: f64 = 4.0;
+/// A loose end is led to a wall that is no farther than this, cm.
+const GAP: f64 = 30.0;
+/// Faces smaller than this are drawn walls and columns, cm².
+const LEAST_FACE: f64 = 2_500.0;
+
+/// A wall or a door between two points, with the caller's number for it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Edge {
+    pub(super) ends: (Point, Point),
+    pub(super) tag: usize,
+}
+
+/// A bounded face.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Face {
+    pub(super) outline: Vec<Point>,
+    pub(super) holes: Vec<Vec<Point>>,
+    /// Tags of the edges around it.
+    pub(super) tags: BTreeSet<usize>,
+}
+
+/// The tag of an edge that nothing stands on: see [`Plan::open`].
+const OPEN: usize = usize::MAX;
+/// The farthest that an open edge reaches, cm.
+const REACH: f64 = 1_000.0;
+
+/// What a graph encloses.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub(super) struct Plan {
+    pub(super) faces: Vec<Face>,
+    /// Pieces of edges that bound no face.
+    pub(super) loose: Vec<Edge>,
+    /// Edges between faces on which nothing stands. A door in a wall that ends in the open would have one room on both
+    /// sides; the loose ends of its wall are led across to the next wall, and rooms meet there by a passage.
+    pub(super) open: Vec<(Point, Point)>,
+}
+
+/// The faces of a graph of walls.
+pub(super) fn faces(edges: &[Edge]) -> Plan {
+    let mut graph = Graph::default();
+    for edge in edges {
+        let (a, b) = (graph.node(edge.ends.0), graph.node(edge.ends.1));
+        if a != b {
+            graph.edges.push((a, b, edge.tag));
+        }
+    }
+    graph.lead_loose_ends();
+    graph.split();
+    graph.dedup();
+    if graph.part_doors() {
+        graph.split();
+        graph.dedup();
+    }
+    let mut loose = graph.prune();
+    let mut cycles = graph.cycles();
+    // An edge with one face on both sides bounds nothing: an arm, or a bridge to an inner ring.
+    loop {
+        let bridges = bridges(&cycles);
+        if bridges.is_empty() {
+            break;
+        }
+        let is_bridge = |e: &(usize, usize, usize)| bridges.contains(&(e.0.min(e.1), e.0.max(e.1)));
+        loose.extend(graph.edges.iter().filter(|e| is_bridge(e)).copied());
+        graph.edges.retain(|e| !is_bridge(e));
+        loose.extend(graph.prune());
+        cycles = graph.cycles();
+    }
+    let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
+    let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
+    let loose = loose
+        .into_iter()
+        .filter(|e| e.2 != OPEN)
+        .map(|(a, b, tag)| Edge { ends: (graph.points[a], graph.points[b]), tag })
+        .collect();
+    Plan { faces: graph.faces(&cycles), loose, open }
+}
+
+#[derive(Default)]
+struct Graph {
+    points: Vec<Point>,
+    cells: HashMap<(i64, i64), Vec<usize>>,
+    edges: Vec<(usize, usize, usize)>,
+}
+
+impl Graph {
+    /// The node at a point, an old one when there is one near.
+    fn node(&mut self, p: Point) -> usize {
+        let cell = |v: f64| (v / WELD).floor() as i64;
+        let (x, y) = (cell(p.x), cell(p.y));
+        let mut nearest: Option<(f64, usize)> = None;
+        for (dx, dy) in (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| (dx, dy))) {
+            for &i in self.cells.get(&(x + dx, y + dy)).into_iter().flatten() {
+                let distance = (self.points[i] - p).norm();
+                if distance <= WELD && nearest.is_none_or(|(least, _)| distance < least) {
+                    nearest = Some((distance, i));
+                }
+            }
+        }
+        if let Some((_, i)) = nearest {
+            return i;
+        }
+        self.points.push(p);
+        self.cells.entry((x, y)).or_default().push(self.points.len() - 1);
+        self.points.len() - 1
+    }
+
+    fn degrees(&self) -> Vec<usize> {
+        let mut degrees = vec![0; self.points.len()];
+        for &(a, b, _) in &self.edges {
+            degrees[a] += 1;
+            degrees[b] += 1;
+        }
+        degrees
+    }
+
+    fn ends(&self, edge: (usize, usize, usize)) -> (Point, Point) {
+        (self.points[edge.0], self.points[edge.1])
+    }
+
+    /// An end that stops short of a wall is led on to it.
+    fn lead_loose_ends(&mut self) {
+        let degrees = self.degrees();
+        let loose: Vec<usize> = (0..degrees.len()).filter(|&i| degrees[i] == 1).collect();
+        let mut boxes: Vec<_> = self
+            .edges
+            .iter()
+            .map(|&e| {
+                let (a, b) = self.ends(e);
+                bounds([a, b])
+            })
+            .collect();
+        let count = boxes.len();
+        boxes.extend(loose.iter().map(|&i| (self.points[i], self.points[i])));
+        let mut nearest: BTreeMap<usize, (f64, Point, usize)> = BTreeMap::new();
+        near_pairs(&boxes, GAP, |i, j| {
+            if i < count && j >= count {
+                let (node, edge) = (loose[j - count], self.edges[i]);
+                if edge.0 != node && edge.1 != node {
+                    let p = self.points[node];
+                    let foot = foot(p, self.ends(edge));
+                    let distance = (foot - p).norm();
+                    let best = nearest.get(&node);
+                    if distance <= GAP && best.is_none_or(|b| distance < b.0) {
+                        let own = self.edges.iter().find(|e| e.0 == node || e.1 == node);
+                        nearest.insert(node, (distance, foot, own.map_or(0, |e| e.2)));
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        for (node, (_, foot, tag)) in nearest {
+            let to = self.node(foot);
+            if to != node {
+                self.edges.push((node, to, tag));
+            }
+        }
+    }
+
+    /// Splits edges where they cross, and where a node lies on them.
+    fn split(&mut self) {
+        let boxes: Vec<_> = self
+            .edges
+            .iter()
+            .map(|&e| {
+                let (a, b) = self.ends(e);
+                bounds([a, b])
+            })
+            .collect();
+        let mut cuts: BTreeMap<usize, Vec<Point>> = BTreeMap::new();
+        near_pairs(&boxes, WELD, |i, j| {
+            let (one, other) = (self.ends(self.edges[i]), self.ends(self.edges[j]));
+            if let Some(p) = meeting(one, other) {
+                cuts.entry(i).or_default().push(p);
+                cuts.entry(j).or_default().push(p);
+            }
+            for (edge, ends, points) in [(i, one, other), (j, other, one)] {
+                for p in [points.0, points.1] {
+                    if (foot(p, ends) - p).norm() <= WELD {
+                        cuts.entry(edge).or_default().push(p);
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        for (i, mut points) in cuts {
+            let (a, b, tag) = self.edges[i];
+            let from = self.points[a];
+            points.sort_by(|p, q| (p - from).norm().total_cmp(&(q - from).norm()));
+            let mut chain = vec![a];
+            for p in points {
+                let node = self.node(p);
+                if node != b && !chain.contains(&node) {
+                    chain.push(node);
+                }
+            }
+            chain.push(b);
+            self.edges[i] = (chain[0], chain[1], tag);
+            self.edges.extend(chain.windows(2).skip(1).map(|w| (w[0], w[1], tag)));
+        }
+    }
+
+    /// Leads the free ends of walls with a door in them, which bound nothing, on to the nearest other wall.
+    fn part_doors(&mut self) -> bool {
+        let mut rest = Self { points: self.points.clone(), ..Self::default() };
+        rest.edges.clone_from(&self.edges);
+        let loose = rest.prune();
+        let mut group: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut is_changed = true;
+        while is_changed {
+            is_changed = false;
+            for &(a, b, _) in &loose {
+                let of = |n: usize| group.get(&n).copied().unwrap_or(n);
+                let least = of(a).min(of(b));
+                for n in [a, b] {
+                    is_changed |= group.insert(n, least) != Some(least);
+                }
+            }
+        }
+        let with_door: BTreeSet<usize> =
+            loose.iter().filter(|e| e.2 > 0).map(|e| group[&e.0]).collect();
+        let degrees = self.degrees();
+        let ends: Vec<usize> = group
+            .iter()
+            .filter(|(n, g)| degrees[**n] == 1 && with_door.contains(g))
+            .map(|(&n, _)| n)
+            .collect();
+        let loose: BTreeSet<(usize, usize, usize)> = loose.into_iter().collect();
+        let is_own = |edge: &(usize, usize, usize), of: usize| {
+            loose.contains(edge) && group.get(&edge.0) == Some(&of)
+        };
+        let mut added = Vec::new();
+        for end in ends {
+            let p = self.points[end];
+            let nearest = self
+                .edges
+                .iter()
+                .filter(|edge| !is_own(edge, group[&end]))
+                .map(|&edge| foot(p, self.ends(edge)))
+                .min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()))
+                .filter(|foot| (foot - p).norm() <= REACH);
+            added.extend(nearest.map(|foot| (end, foot)));
+        }
+        for &(end, foot) in &added {
+            let to = self.node(foot);
+            if to != end {
+                self.edges.push((end, to, OPEN));
+            }
+        }
+        !added.is_empty()
+    }
+
+    /// One edge between two nodes: a door before a wall, a wall before nothing.
+    fn dedup(&mut self) {
+        let mut best: BTreeMap<(usize, usize), usize> = BTreeMap::new();
+        for &(a, b, tag) in self.edges.iter().filter(|e| e.0 != e.1) {
+            let kept = best.entry((a.min(b), a.max(b))).or_insert(tag);
+            let rank = |tag: usize| tag.wrapping_add(1);
+            if rank(tag) > rank(*kept) {
+                *kept = tag;
+            }
+        }
+        self.edges = best.into_iter().map(|((a, b), tag)| (a, b, tag)).collect();
+    }
+
+    /// Takes away edges with a free end until none is left.
+    fn prune(&mut self) -> Vec<(usize, usize, usize)> {
+        let mut degrees = self.degrees();
+        let mut loose = Vec::new();
+        loop {
+            let before = loose.len();
+            self.edges.retain(|&(a, b, tag)| {
+                let is_kept = degrees[a] > 1 && degrees[b] > 1;
+                if !is_kept {
+                    degrees[a] -= 1;
+                    degrees[b] -= 1;
+                    loose.push((a, b, tag));
+                }
+                is_kept
+            });
+            if loose.len() == before {
+                return loose;
+            }
+        }
+    }
+
+    /// Every face as the chain of its nodes, the face to the left; with the tag of each edge.
+    fn cycles(&self) -> Vec<Vec<(usize, usize)>> {
+        let mut out: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+        for &(a, b, tag) in &self.edges {
+            out.entry(a).or_default().push((b, tag));
+            out.entry(b).or_default().push((a, tag));
+        }
+        let angle = |from: usize, to: usize| {
+            let v = self.points[to] - self.points[from];
+            v.y.atan2(v.x)
+        };
+        for (&node, ends) in &mut out {
+            ends.sort_by(|a, b| angle(node, a.0).total_cmp(&angle(node, b.0)));
+        }
+        let mut seen = BTreeSet::new();
+        let mut cycles = Vec::new();
+        let starts: Vec<(usize, usize)> =
+            self.edges.iter().flat_map(|&(a, b, _)| [(a, b), (b, a)]).collect();
+        for start in starts {
+            if seen.contains(&start) {
+                continue;
+            }
+            let mut cycle = Vec::new();
+            let (mut from, mut to) = start;
+            while seen.insert((from, to)) {
+                let ends = &out[&to];
+                let back = ends.iter().position(|e| e.0 == from).unwrap_or(0);
+                cycle.push((from, ends[back].1));
+                // The next edge clockwise from the way back keeps the face to the left.
+                let next = ends[(back + ends.len() - 1) % ends.len()].0;
+                (from, to) = (to, next);
+            }
+            cycles.push(cycle);
+        }
+        cycles
+    }
+
+    fn faces(&self, cycles: &[Vec<(usize, usize)>]) -> Vec<Face> {
+        let ring = |cycle: &Vec<(usize, usize)>| -> Vec<Point> {
+            cycle.iter().map(|&(n, _)| self.points[n]).collect()
+        };
+        let rings: Vec<(Vec<Point>, f64)> = cycles
+            .iter()
+            .map(|cycle| {
+                let ring = ring(cycle);
+                let area = doubled_area(&ring) / 2.0;
+                (ring, area)
+            })
+            .collect();
+        let mut faces: Vec<(f64, BTreeSet<usize>, Face)> = Vec::new();
+        for (cycle, (ring, area)) in cycles.iter().zip(&rings) {
+            if *area >= LEAST_FACE {
+                let tags = cycle.iter().map(|&(_, tag)| tag).collect();
+                let nodes = cycle.iter().map(|&(n, _)| n).collect();
+                let face = Face { outline: ring.clone(), holes: Vec::new(), tags };
+                faces.push((*area, nodes, face));
+            }
+        }
+        // The outer border of a group of walls is a hole of the face around it.
+        for (cycle, (ring, area)) in cycles.iter().zip(&rings) {
+            if *area < -LEAST_FACE {
+                let around = faces
+                    .iter_mut()
+                    .filter(|(size, nodes, face)| {
+                        *size > -area
+                            && !cycle.iter().any(|(n, _)| nodes.contains(n))
+                            && contains(&face.outline, ring[0])
+                    })
+                    .min_by(|a, b| a.0.total_cmp(&b.0));
+                if let Some((_, _, face)) = around {
+                    face.holes.push(ring.clone());
+                    face.tags.extend(cycle.iter().map(|&(_, tag)| tag));
+                }
+            }
+        }
+        faces.into_iter().map(|(_, _, face)| face).collect()
+    }
+}
+
+/// Edges that one face has on both sides.
+fn bridges(cycles: &[Vec<(usize, usize)>]) -> BTreeSet<(usize, usize)> {
+    let mut bridges = BTreeSet::new();
+    for cycle in cycles {
+        let mut seen = BTreeSet::new();
+        for i in 0..cycle.len() {
+            let (a, b) = (cycle[i].0, cycle[(i + 1) % cycle.len()].0);
+            if !seen.insert((a.min(b), a.max(b))) {
+                bridges.insert((a.min(b), a.max(b)));
+            }
+        }
+    }
+    bridges
+}
+
+fn foot(p: Point, (a, b): (Point, Point)) -> Point {
+    let along = b - a;
+    let square = along.norm_squared();
+    let t = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
+    a + along * t
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn plan(walls: &[[f64; 4]]) -> Plan {
+        let edge =
+            |w: &[f64; 4]| Edge { ends: (Point::new(w[0], w[1]), Point::new(w[2], w[3])), tag: 0 };
+        faces(&walls.iter().map(edge).collect::<Vec<_>>())
+    }
+
+    fn areas(plan: &Plan) -> Vec<i64> {
+        let area = |f: &Face| {
+            let holes: f64 = f.holes.iter().map(|h| doubled_area(h).abs()).sum();
+            ((doubled_area(&f.outline) - holes) / 2.0).round() as i64
+        };
+        let mut areas: Vec<i64> = plan.faces.iter().map(area).collect();
+        areas.sort_unstable();
+        areas
+    }
+
+    #[test]
+    fn two_rooms_of_one_wall_that_stops_short_and_one_that_crosses() {
+        let plan = plan(&[
+            [0.0, 0.0, 600.0, 0.0],
+            [600.0, 0.0, 600.0, 300.0],
+            [600.0, 300.0, 0.0, 300.0],
+            [0.0, 300.0, 0.0, 0.0],
+            // Stops 10 cm short below and sticks out 20 cm above.
+            [200.0, 10.0, 200.0, 320.0],
+            // A stub into the room.
+            [600.0, 100.0, 450.0, 100.0],
+        ]);
+        assert_eq!(areas(&plan), [60_000, 120_000]);
+        assert_eq!(plan.loose.len(), 2, "{:?}", plan.loose);
+    }
+
+    #[test]
+    fn a_door_in_a_wall_that_ends_in_the_open_parts_two_rooms() {
+        let walls = [
+            [0.0, 0.0, 600.0, 0.0],
+            [600.0, 0.0, 600.0, 300.0],
+            [600.0, 300.0, 0.0, 300.0],
+            [0.0, 300.0, 0.0, 0.0],
+            [200.0, 0.0, 200.0, 50.0],
+            [200.0, 140.0, 200.0, 200.0],
+        ];
+        let edge = |tag: usize, w: [f64; 4]| Edge {
+            ends: (Point::new(w[0], w[1]), Point::new(w[2], w[3])),
+            tag,
+        };
+        let mut edges: Vec<Edge> = walls.iter().map(|&w| edge(0, w)).collect();
+        assert_eq!(areas(&faces(&edges)), [180_000]);
+        edges.push(edge(1, [200.0, 50.0, 200.0, 140.0]));
+        let plan = faces(&edges);
+        assert_eq!(areas(&plan), [60_000, 120_000]);
+        assert_eq!(plan.open, [(Point::new(200.0, 200.0), Point::new(200.0, 300.0))]);
+    }
+
+    #[test]
+    fn a_ring_within_a_room_is_its_hole() {
+        let square = |x: f64, y: f64, s: f64| {
+            [[x, y, x + s, y], [x + s, y, x + s, y + s], [x + s, y + s, x, y + s], [x, y + s, x, y]]
+        };
+        let mut walls = square(0.0, 0.0, 1000.0).to_vec();
+        walls.extend(square(400.0, 400.0, 200.0));
+        // A wall that leads from the outer ring to the inner one parts nothing.
+        walls.push([0.0, 500.0, 400.0, 500.0]);
+        let plan = plan(&walls);
+        assert_eq!(areas(&plan), [40_000, 960_000]);
+    }
+}
