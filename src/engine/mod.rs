@@ -17,6 +17,7 @@
 
 mod drawing;
 mod error;
+mod journey;
 mod lexicon;
 mod plan;
 mod position;
@@ -31,6 +32,7 @@ use std::path::Path;
 
 pub use drawing::{Drawing, Lens};
 pub use error::{Error, RequestError};
+pub use journey::{Advice, Journey, ride_in_words};
 pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
