@@ -15,6 +15,7 @@ mod formats;
 mod generated_worlds;
 mod map_editing;
 mod imports;
+mod lifts;
 mod maps;
 mod planning;
 mod relations;

@@ -5,6 +5,10 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose};
+use crate::engine::{
+    Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone, ride_in_words,
+};
+use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 
 use super::args::{Common, RouteMethod};
@@ -173,20 +177,30 @@ pub(super) fn route(
         RouteMethod::Shortest => Method::Shortest,
         RouteMethod::Paper => Method::Paper,
     };
-    let answer = engine.route(from, to, method)?;
+    let journey = engine.journey(from, to, method)?;
     let world = engine.world()?;
+    let found = journey.legs.iter().all(|leg| leg.route.is_ok());
+    let language = common.lang.language();
     if common.json {
-        let mut view = json::route(world, &answer);
-        if words && answer.route.is_ok() {
-            view["words"] = json!(engine.route_in_words(&answer, common.lang.language())?);
+        let mut view = json::journey(world, &journey, language);
+        if words && found {
+            view["words"] = json!(engine.journey_in_words(&journey, language)?);
         }
         say(&view.to_string())?;
-    } else if words && answer.route.is_ok() {
-        say(&engine.route_in_words(&answer, common.lang.language())?.join("\n"))?;
+    } else if words && found {
+        say(&engine.journey_in_words(&journey, language)?.join("\n"))?;
     } else {
-        say(&text::route(world, engine.floor(answer.map)?, &answer, common.lang))?;
+        let mut parts = Vec::new();
+        for (k, leg) in journey.legs.iter().enumerate() {
+            parts.push(text::route(world, engine.floor(leg.map)?, leg, common.lang));
+            parts.extend(journey.rides.get(k).map(|r| ride_in_words(world, r, language)));
+        }
+        let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
+        let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
+        parts.extend(advice.map(|a| format!("{head} {a}.")));
+        say(&parts.join("\n"))?;
     }
-    Ok(if answer.route.is_ok() { Answer::Yes } else { Answer::No })
+    Ok(if found { Answer::Yes } else { Answer::No })
 }
 
 pub(super) fn locate(

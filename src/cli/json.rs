@@ -4,11 +4,11 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::engine::{
-    PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout, World,
-    steps,
+    Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
+    World, steps,
 };
 use crate::facts;
-use crate::geometry::Route;
+use crate::geometry::{Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
@@ -155,6 +155,32 @@ pub(super) fn route(world: &World, answer: &RouteAnswer) -> Value {
         }
     }
     view
+}
+
+/// A single leg as [`route`] gives it; several as a list of those, with the rides between them.
+pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> Value {
+    if let [leg] = &journey.legs[..] {
+        let mut view = route(world, leg);
+        if let Some(advice) = &journey.advice {
+            view["advice"] = json!(advice.in_words(world, language));
+        }
+        return view;
+    }
+    let ride = |ride: &Ride| {
+        json!({
+            "lift": world.domain.lifts[ride.lift].0,
+            "from": world.areas[&ride.from].name,
+            "to": world.areas[&ride.to].name,
+            "rise_cm": round(ride.rise),
+        })
+    };
+    let length = |leg: &RouteAnswer| leg.route.as_ref().map_or(0.0, |r| r.length);
+    json!({
+        "outcome": "route",
+        "length_cm": round(journey.legs.iter().map(length).sum()),
+        "legs": journey.legs.iter().map(|leg| route(world, leg)).collect::<Vec<_>>(),
+        "rides": journey.rides.iter().map(ride).collect::<Vec<_>>(),
+    })
 }
 
 fn way(world: &World, route: &Route) -> Value {

@@ -107,7 +107,7 @@ impl Engine {
 }
 
 /// The Areas of a way and the doorways between them.
-fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
+pub(super) fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
     let mut areas: Vec<AreaId> = route.chain.iter().map(|(area, _)| *area).collect();
     areas.dedup();
     let leaves_by = route.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));

@@ -1,0 +1,160 @@
+//! Ways over several floors, in legs and rides, and what would open a way where there is none.
+
+use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, across};
+use crate::language::{Case, Language};
+use crate::map::{Entity, World};
+use crate::units::{DoorId, ReplicaId};
+
+use super::lexicon::named;
+use super::route::{RouteAnswer, stages};
+use super::{Engine, Error};
+
+/// A way from one place to another, over as many maps as it takes.
+#[derive(Debug, Clone)]
+pub struct Journey {
+    /// One for each map passed; a single one without a route when there is no way.
+    pub legs: Vec<RouteAnswer>,
+    /// The rides between them, one fewer.
+    pub rides: Vec<Ride>,
+    /// The smallest change that would open a way where there is none.
+    pub advice: Option<Advice>,
+}
+
+/// A change that is known to open a way.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Advice {
+    Open(Vec<DoorId>),
+    /// So far, in cm, in a direction of the Map's axes.
+    Move {
+        replica: ReplicaId,
+        distance: f64,
+        by: (f64, f64),
+    },
+}
+
+impl Engine {
+    /// A way between two places given by name or as `X,Y`; lifts are ridden where they lie on different maps.
+    ///
+    /// # Errors
+    /// A name that means nothing. No way at all is an answer, not an error.
+    pub fn journey(&self, from: &str, to: &str, method: Method) -> Result<Journey, Error> {
+        let world = self.world()?;
+        let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
+        let floors = self.floors()?;
+        let ends = ((start.map, start.at), (goal.map, goal.target));
+        let answer = |map, from: &str, to: &str, route: Result<_, NoRoute>| {
+            let stages = route.as_ref().map(|r| stages(&floors[&map], r)).unwrap_or_default();
+            RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), route, stages }
+        };
+        match across(world, floors, ends.0, ends.1, method) {
+            Ok(found) => {
+                let rides: Vec<Ride> = found.iter().filter_map(|leg| leg.ride.clone()).collect();
+                let lift = |k: usize| rides.get(k).map(|r| world.domain.lifts[r.lift].0.as_str());
+                let leg = |(k, leg): (usize, Leg)| {
+                    let from = k.checked_sub(1).and_then(lift).unwrap_or(from);
+                    answer(leg.map, from, lift(k).unwrap_or(to), Ok(leg.route))
+                };
+                let legs = found.into_iter().enumerate().map(leg).collect();
+                Ok(Journey { legs, rides, advice: None })
+            }
+            Err((map, no)) => {
+                let advice = (start.map == goal.map)
+                    .then(|| floors[&map].remedy(world, start.at, goal.target, &no))
+                    .flatten()
+                    .map(Advice::from);
+                Ok(Journey { legs: vec![answer(map, from, to, Err(no))], rides: vec![], advice })
+            }
+        }
+    }
+
+    /// A journey as sentences: those of its legs, and of the rides between them.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn journey_in_words(
+        &self,
+        journey: &Journey,
+        language: Language,
+    ) -> Result<Vec<String>, Error> {
+        let world = self.world()?;
+        let mut sentences = Vec::new();
+        for (k, leg) in journey.legs.iter().enumerate() {
+            sentences.extend(self.route_in_words(leg, language)?);
+            if let Some(ride) = journey.rides.get(k) {
+                sentences.push(ride_in_words(world, ride, language));
+            }
+        }
+        Ok(sentences)
+    }
+}
+
+/// «Поднимитесь на лифте «Лифт-1» на этаж «Второй этаж».»
+#[must_use]
+pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
+    let lift = &world.domain.lifts[ride.lift].0;
+    let floor = world.placement(ride.to).map_or("", |(map, _)| world.maps[&map].name.as_str());
+    let floor_en = world.placement(ride.to).map_or("", |(map, _)| {
+        let map = &world.maps[&map];
+        if map.name_en.is_empty() { map.name.as_str() } else { map.name_en.as_str() }
+    });
+    match language {
+        Language::Russian => {
+            let verb = if ride.rise > 1.0 {
+                "Поднимитесь"
+            } else if ride.rise < -1.0 {
+                "Спуститесь"
+            } else {
+                "Проезжайте"
+            };
+            format!("{verb} на лифте «{lift}» на этаж «{floor}».")
+        }
+        Language::English => {
+            let way = if ride.rise > 1.0 {
+                "up "
+            } else if ride.rise < -1.0 {
+                "down "
+            } else {
+                ""
+            };
+            format!("Take the lift “{lift}” {way}to the floor “{floor_en}”.")
+        }
+    }
+}
+
+impl From<Remedy> for Advice {
+    fn from(remedy: Remedy) -> Self {
+        match remedy {
+            Remedy::Open(doors) => Self::Open(doors),
+            Remedy::Move { replica, by } => {
+                Self::Move { replica, distance: by.norm(), by: (by.x, by.y) }
+            }
+        }
+    }
+}
+
+impl Advice {
+    /// «подвиньте Стул-2 на 14 см»
+    #[must_use]
+    pub fn in_words(&self, world: &World, language: Language) -> String {
+        let thing = |entity: Entity| {
+            let name = named(world, entity);
+            match language {
+                Language::Russian => name.phrase().case(Case::Accusative),
+                Language::English => name.english().to_owned(),
+            }
+        };
+        match (self, language) {
+            (Self::Open(doors), _) => {
+                let doors: Vec<String> = doors.iter().map(|&d| thing(Entity::Door(d))).collect();
+                let verb = if language == Language::Russian { "откройте" } else { "open" };
+                format!("{verb} {}", doors.join(", "))
+            }
+            (Self::Move { replica, distance, .. }, Language::Russian) => {
+                format!("подвиньте {} на {distance:.0} см", thing(Entity::Replica(*replica)))
+            }
+            (Self::Move { replica, distance, .. }, Language::English) => {
+                format!("move {} by {distance:.0} cm", thing(Entity::Replica(*replica)))
+            }
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Ways between Maps (M6): over the floors by routes, from floor to floor by lift.
+//!
+//! The uppermost level of the network: start, goal and the lifts' stops are nodes; a route over one Map is an edge
+//! as long as it is, a ride one as long as the robot could have driven meanwhile. Stairs, whose stops are Areas
+//! of a type with the trait `stairs`, are no way for a robot on wheels.
+//!
+//! **Invariant**: legs and rides alternate; a leg begins where the ride before it ends, in the middle of the stop.
+
+use std::collections::BTreeMap;
+
+use petgraph::graph::{DiGraph, NodeIndex};
+
+use crate::map::World;
+use crate::units::{AreaId, MapId, Point};
+
+use super::blocked::NoRoute;
+use super::plan::FloorPlan;
+use super::route::{Method, Route, Target};
+
+/// A ride from one stop to another.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Ride {
+    /// Index in [`crate::map::Domain::lifts`].
+    pub lift: usize,
+    pub from: AreaId,
+    pub to: AreaId,
+    /// In cm; negative downwards.
+    pub rise: f64,
+}
+
+/// A way over one Map, and the ride that follows it; none after the last.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Leg {
+    pub map: MapId,
+    pub route: Route,
+    pub ride: Option<Ride>,
+}
+
+/// What waiting for a lift costs, in cm of way: half a minute.
+const WAIT: f64 = 1500.0;
+/// What a ride costs for every cm of height, in cm of way.
+const CLIMB: f64 = 0.5;
+
+/// A place where a lift can be boarded and left.
+struct Stop {
+    lift: usize,
+    area: AreaId,
+    map: MapId,
+    at: Point,
+    height: f64,
+}
+
+enum Edge {
+    Drive(Box<Route>),
+    Ride(Ride),
+}
+
+/// The shortest way between places of any Maps, by as many lifts as it takes.
+///
+/// # Errors
+/// Why there is none, and on which Map: [`NoRoute::OtherMap`] when no lift links the Maps, else what bars the way
+/// to or from the lifts.
+pub fn across(
+    world: &World,
+    plans: &BTreeMap<MapId, FloorPlan>,
+    (map, from): (MapId, Point),
+    (goal_map, target): (MapId, Target),
+    method: Method,
+) -> Result<Vec<Leg>, (MapId, NoRoute)> {
+    let plan = |map: MapId| plans.get(&map).ok_or((map, NoRoute::NoFloor));
+    if map == goal_map {
+        let route = plan(map)?.route(world, from, target, method).map_err(|no| (map, no))?;
+        return Ok(vec![Leg { map, route, ride: None }]);
+    }
+    let stops = stops(world, plans);
+    let mut graph = DiGraph::<MapId, (f64, Edge)>::new();
+    let nodes: Vec<NodeIndex> = stops.iter().map(|s| graph.add_node(s.map)).collect();
+    let (start, goal) = (graph.add_node(map), graph.add_node(goal_map));
+    let mut barred: Vec<(MapId, NoRoute)> = Vec::new();
+    let mut drive = |graph: &mut DiGraph<MapId, (f64, Edge)>, a, b, from, target| {
+        let on = graph[a];
+        match plan(on).and_then(|p| p.route(world, from, target, method).map_err(|no| (on, no))) {
+            Ok(route) => {
+                graph.add_edge(a, b, (route.length, Edge::Drive(Box::new(route))));
+            }
+            Err(no) => barred.push(no),
+        }
+    };
+    for (i, one) in stops.iter().enumerate() {
+        if one.map == map {
+            drive(&mut graph, start, nodes[i], from, Target::Point(one.at));
+        }
+        if one.map == goal_map {
+            drive(&mut graph, nodes[i], goal, one.at, target);
+        }
+        for (j, other) in stops.iter().enumerate().filter(|(j, _)| *j != i) {
+            if one.lift == other.lift {
+                let rise = other.height - one.height;
+                let ride = Ride { lift: one.lift, from: one.area, to: other.area, rise };
+                graph.add_edge(nodes[i], nodes[j], (WAIT + CLIMB * rise.abs(), Edge::Ride(ride)));
+            } else if one.map == other.map {
+                drive(&mut graph, nodes[i], nodes[j], one.at, Target::Point(other.at));
+            }
+        }
+    }
+    let cost = |e: petgraph::graph::EdgeReference<'_, (f64, Edge)>| e.weight().0;
+    let Some((_, way)) = petgraph::algo::astar(&graph, start, |n| n == goal, cost, |_| 0.0) else {
+        let to_other = || (goal_map, NoRoute::OtherMap { area: area_of(world, target, goal_map) });
+        return Err(barred.into_iter().next().unwrap_or_else(to_other));
+    };
+    let mut legs = Vec::new();
+    for step in way.windows(2) {
+        let on = graph[step[0]];
+        // Of parallel edges the cheapest was taken.
+        let edge = graph
+            .edges_connecting(step[0], step[1])
+            .min_by(|a, b| a.weight().0.total_cmp(&b.weight().0))
+            .map(|e| &e.weight().1);
+        match edge {
+            Some(Edge::Drive(route)) => {
+                legs.push(Leg { map: on, route: Route::clone(route), ride: None });
+            }
+            Some(Edge::Ride(ride)) => {
+                if let Some(leg) = legs.last_mut() {
+                    leg.ride = Some(ride.clone());
+                }
+            }
+            None => {}
+        }
+    }
+    Ok(legs)
+}
+
+fn stops(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> Vec<Stop> {
+    let is_stairs =
+        |area: AreaId| world.types.area.has_trait(world.areas[&area].area_type, "stairs");
+    let mut found = Vec::new();
+    for (lift, (_, stops)) in world.domain.lifts.iter().enumerate() {
+        if stops.iter().any(|s| is_stairs(s.area)) {
+            continue;
+        }
+        for area in stops.iter().map(|s| s.area) {
+            let Some((map, frame)) = world.placement(area) else { continue };
+            let floor = world.domain.maps.iter().find(|m| m.map == map);
+            let height = floor.map_or(0.0, |m| m.frame.z.get()) + frame.z.get();
+            // A cabin in which the robot does not fit is no stop.
+            let Some(at) = plans.get(&map).and_then(|p| p.rest_in(area)) else { continue };
+            found.push(Stop { lift, area, map, at, height });
+        }
+    }
+    found
+}
+
+/// The Area that a target lies in; that of the Map's base for a point.
+fn area_of(world: &World, target: Target, map: MapId) -> AreaId {
+    let base = || world.maps[&map].items.first().map_or(AreaId(0), |i| i.area);
+    match target {
+        Target::Area(area) | Target::Door { area, .. } => area,
+        Target::Place(id) => world.places.get(&id).map_or_else(base, |p| p.area),
+        Target::Replica(id) => world.replicas.get(&id).map_or_else(base, |r| r.area),
+        Target::Point(_) => base(),
+    }
+}
+
+impl FloorPlan {
+    /// The place nearest to an Area's middle where the robot fits.
+    #[must_use]
+    pub fn rest_in(&self, area: AreaId) -> Option<Point> {
+        let middle = self.scene().areas.get(&area)?.prisms.first()?.polygon.centroid();
+        self.fragment(area)?.cells.nearest(middle, |_| true).map(|(at, _)| at)
+    }
+}
