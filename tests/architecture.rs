@@ -155,7 +155,7 @@ fn the_drawing_has_no_cycle_and_no_ghost() {
 #[test]
 fn each_package_has_its_own_folder() {
     // Package, and the folders that may name it.
-    let owners: [(&str, &[&str]); 8] = [
+    let owners: [(&str, &[&str]); 9] = [
         ("sled", &["store"]),
         ("datafrog", &["facts"]),
         ("clap", &["cli", "main"]),

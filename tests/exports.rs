@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use orthoframe::exchange::{geojson, ros, to_geojson, to_grid, to_route_graph};
 use orthoframe::geometry::{DoorStates, FloorPlan};
 use orthoframe::map::{DoorState, World};
-use orthoframe::units::{Point, Source};
+use orthoframe::units::{MapId, Point, Source};
 use serde_json::Value;
 
 fn rb2() -> World {
@@ -14,7 +14,7 @@ fn rb2() -> World {
 }
 
 fn floors(world: &World) -> Vec<FloorPlan> {
-    let plan = |map| FloorPlan::build(world, *map, &world.robot, &DoorStates::new());
+    let plan = |map: &MapId| FloorPlan::build(world, *map, &world.robot, &DoorStates::new());
     world.maps.keys().map(plan).collect()
 }
 

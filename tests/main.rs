@@ -13,11 +13,14 @@ mod floor_properties;
 mod floors;
 mod formats;
 mod generated_worlds;
+mod hostile;
 mod maps;
 mod planning;
 mod relations;
 mod routes;
 mod scenes;
+#[cfg(feature = "sqlite")]
+mod sqlite;
 mod store;
 mod store_faults;
 mod store_world;

@@ -74,8 +74,6 @@ pub(super) enum Command {
     },
     /// Import a building into the store: a map file, or a foreign format (docs/import.md)
     Import(ImportArgs),
-    /// Check a map file and import it into the store
-    Import { file: PathBuf },
     /// Write the map in other programs' formats (docs/export.md)
     Export(ExportArgs),
     /// Check a map file; all faults at once, with line and column
@@ -261,6 +259,10 @@ pub(super) struct ImportArgs {
     /// Synonym table laid over the built-in one; `import-synonyms.toml` of the rules directory when absent
     #[arg(long, value_name = "FILE")]
     pub synonyms: Option<PathBuf>,
+    /// The file is an SQLite base of the store's tables, as `ortho export --sqlite` writes it
+    #[cfg(feature = "sqlite")]
+    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms"])]
+    pub sqlite: bool,
 }
 
 fn import_format(key: &str) -> Result<ImportFormat, String> {

@@ -49,7 +49,6 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             demo::run(common, dir.as_deref(), map.as_deref(), task, out)
         }
         Command::Import(args) => import::run(common, args),
-        Command::Import { file } => commands::import(common, file),
         Command::Export(args) => export::run(common, args),
         Command::Check { file } => commands::check(common, file),
         Command::Schema => say(&crate::map::json_schema()),

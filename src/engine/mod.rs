@@ -38,11 +38,11 @@ pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 
+pub use crate::exchange::GridFiles;
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
     Report as ReadingReport, read as read_building,
 };
-pub use crate::exchange::GridFiles;
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::map::World;

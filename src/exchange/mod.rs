@@ -5,15 +5,14 @@
 
 mod assemble;
 mod error;
-mod fault;
 mod export;
+mod fault;
 pub mod geojson;
 pub mod ifc;
 mod input;
+mod outline;
 mod read;
 mod report;
-mod scene;
-mod outline;
 pub mod ros;
 mod scene;
 mod shafts;
@@ -22,10 +21,10 @@ mod synonyms;
 
 pub use assemble::assemble;
 pub use error::ReadError;
-pub use fault::ImportError;
 pub use export::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_route_graph};
 #[cfg(feature = "sqlite")]
 pub use export::{SqliteError, read_sqlite, write_sqlite};
+pub use fault::ImportError;
 pub use input::{LARGEST, decode, file_bytes, file_text};
 pub use read::{Format, Imported, Options, read};
 pub use report::{Count, Deed, Note, Report, What, Why};
