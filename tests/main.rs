@@ -16,11 +16,14 @@ mod generated_worlds;
 mod map_editing;
 mod imports;
 mod lifts;
+mod hostile;
 mod maps;
 mod planning;
 mod relations;
 mod routes;
 mod scenes;
+#[cfg(feature = "sqlite")]
+mod sqlite;
 mod store;
 mod store_faults;
 mod store_world;

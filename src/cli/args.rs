@@ -292,6 +292,10 @@ pub(super) struct ImportArgs {
     /// Synonym table laid over the built-in one; `import-synonyms.toml` of the rules directory when absent
     #[arg(long, value_name = "FILE")]
     pub synonyms: Option<PathBuf>,
+    /// The file is an SQLite base of the store's tables, as `ortho export --sqlite` writes it
+    #[cfg(feature = "sqlite")]
+    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms"])]
+    pub sqlite: bool,
 }
 
 fn import_format(key: &str) -> Result<ImportFormat, String> {

@@ -13,6 +13,10 @@ use super::{Answer, say};
 const SYNONYMS: &str = "import-synonyms.toml";
 
 pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure> {
+    #[cfg(feature = "sqlite")]
+    if args.sqlite {
+        return tables(common, &args.file);
+    }
     let rules = rules_dir(common);
     let beside_rules = rules.as_ref().map(|dir| dir.join(SYNONYMS)).filter(|p| p.is_file());
     let options = ImportOptions {
@@ -54,4 +58,28 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
         ),
     };
     say(&format!("{}\nРевизия {}: {what}.", described(world), imported.report.revision))
+}
+
+/// The tables of an SQLite file, taken as they are: no reader, no assembler, the checks of a map file.
+#[cfg(feature = "sqlite")]
+fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
+    let rules = rules_dir(common);
+    let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
+    note_repairs(&engine);
+    let reason = format!("импорт {}", file.display());
+    let report = engine.import_sqlite(file, &change_now(&common.user, &reason))?;
+    let (world, counts) = (engine.world()?, report.counts);
+    if common.json {
+        return say(&json!({
+            "outcome": "imported",
+            "revision": report.revision,
+            "created": counts.created,
+            "changed": counts.changed,
+            "deleted": counts.deleted,
+            "warnings": 0,
+            "world": size(world),
+        })
+        .to_string());
+    }
+    say(&format!("{}\nРевизия {}.", described(world), report.revision))
 }

@@ -8,6 +8,7 @@ use crate::units::Source;
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
 use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input, osmag, rmf};
+use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, geojson, ifc, input, ros};
 
 /// A format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -21,6 +22,11 @@ pub enum Format {
     Thor,
     VirtualHome,
     PyRoboSim,
+    /// IMDF and other GeoJSON.
+    GeoJson,
+    Ifc,
+    /// Occupancy grids of map_server.
+    Ros,
 }
 
 /// How a format is known and read.
@@ -77,6 +83,32 @@ const READERS: &[Reader] = &[
         title: "pyrobosim",
         recognises: |input| is_scene(input, SceneFormat::PyRoboSim),
         read: |input| scene::read_pyrobosim(input.source()?, &mut |name| input.beside(name)),
+    },
+    Reader {
+        format: Format::Ifc,
+        key: "ifc",
+        title: "IFC (STEP)",
+        recognises: |input| ifc::recognises(input.text()),
+        read: |input| ifc::read(input.source()?),
+    },
+    Reader {
+        format: Format::GeoJson,
+        key: "geojson",
+        title: "IMDF, GeoJSON",
+        recognises: |input| {
+            geojson::recognises(input.text()) || geojson::recognises_folder(input.path)
+        },
+        read: |input| match &input.text {
+            Some(source) => geojson::read(source),
+            None => geojson::read_folder(input.path),
+        },
+    },
+    Reader {
+        format: Format::Ros,
+        key: "ros",
+        title: "карты ROS map_server",
+        recognises: |input| ros::recognises(input.text()),
+        read: |input| ros::read(input.path),
     },
 ];
 

@@ -210,7 +210,8 @@ fn size(feature: &Feature) -> Option<f64> {
         polygons.first()?.first()?.iter().map(|p| Point::new(p[0], p[1])).collect();
     let (low, high) = outline::bounds(&points);
     let size = high - low;
-    Some((size.x * size.y).sqrt()).filter(|s| s.is_finite())
+    // What is no length tells nothing of the unit.
+    Some((size.x * size.y).sqrt()).filter(|s| *s < 1e6)
 }
 
 struct Reader {

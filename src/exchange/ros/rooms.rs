@@ -219,23 +219,17 @@ fn across(
         .filter(|(a, b)| is_wall(*a, *b))
         .min_by_key(|(a, b)| (square(*a, *b), *b, *a))?;
     let towards = Vector::new((near.0 - x) as f64, (near.1 - y) as f64).try_normalize(1e-9)?;
-    // The narrowest way across: the wall on the other side, looked for within 30° of straight on.
-    let most = WIDEST_DOOR / sheet.resolution * 1.2;
-    let far = (-6..=6).filter_map(|turn| {
-        let turn = nalgebra::Rotation2::new(f64::from(turn) * 5.0_f64.to_radians());
-        let way = turn * -towards;
-        let mut at = 0.5;
-        while at <= most {
-            let p =
-                ((x as f64 + way.x * at).round() as i64, (y as f64 + way.y * at).round() as i64);
-            if is_wall(p.0, p.1) {
-                return Some(p);
-            }
-            at += 0.5;
-        }
-        None
-    });
-    let far = far.min_by_key(|(a, b)| ((a - near.0).pow(2) + (b - near.1).pow(2), *b, *a))?;
+    // The narrowest way across: of the walls on the other side, within 45° of straight on, the one nearest to the
+    // first. A wall may be one cell thick, so that a ray could pass it by.
+    let most = (WIDEST_DOOR / sheet.resolution * 1.2) as i64;
+    let is_opposite = |a: i64, b: i64| {
+        let way = Vector::new((a - x) as f64, (b - y) as f64);
+        way.dot(&-towards) >= way.norm() * std::f64::consts::FRAC_1_SQRT_2
+    };
+    let far = (y - most..=y + most)
+        .flat_map(|b| (x - most..=x + most).map(move |a| (a, b)))
+        .filter(|(a, b)| is_opposite(*a, *b) && is_wall(*a, *b))
+        .min_by_key(|(a, b)| ((a - near.0).pow(2) + (b - near.1).pow(2), *b, *a))?;
     let ends = [(near.0 as f64, near.1 as f64), (far.0 as f64, far.1 as f64)];
     let width =
         (Vector::new(ends[1].0 - ends[0].0, ends[1].1 - ends[0].1).norm() - 1.0) * sheet.resolution;
@@ -586,6 +580,19 @@ mod tests {
         for (a, b) in straight.openings.iter().zip(&turned.openings) {
             assert!((plan.sheet.origin.apply(a.jambs[0]) - b.jambs[0]).norm() < 1e-6);
         }
+    }
+
+    #[test]
+    fn walls_of_one_cell_are_walls() {
+        let mut plan = Plan::new(9.0, 5.0);
+        plan.fill([0.5, 0.5, 8.5, 4.5], Cell::Free);
+        for (y0, y1) in [(0.5, 2.0), (2.9, 4.5)] {
+            plan.fill([4.0, y0, 4.05, y1], Cell::Occupied);
+        }
+        let (level, _) = plan.read();
+        check(&level, 2, 1);
+        let jambs = level.openings[0].jambs;
+        assert!((jambs[1] - jambs[0]).norm() < 95.0, "{jambs:?}");
     }
 
     #[test]
