@@ -2,6 +2,7 @@
 //!
 //! `cargo bench --bench relations` prints a table; `-- 1000 50000` chooses the numbers of replicas.
 
+use std::sync::LazyLock;
 use std::time::{Duration, Instant};
 
 use orthoframe::map::{Area, Format, MapItem, Replica, World};
@@ -118,10 +119,44 @@ fn hospital(replicas: usize) -> World {
     world
 }
 
+/// Processor time of this thread, so that other load on the machine counts little; wall time where it is not told.
+fn processor_time() -> Duration {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanos = told.and_then(|text| text.split_whitespace().next()?.parse().ok());
+    nanos.map_or_else(|| START.elapsed(), Duration::from_nanos)
+}
+
 fn time<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let start = Instant::now();
+    let start = processor_time();
     let result = work();
-    (result, start.elapsed())
+    (result, processor_time() - start)
+}
+
+/// The most memory that this process has held, in MiB; none where the system does not tell.
+fn peak_memory() -> Option<usize> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
+    Some(line.split_whitespace().nth(1)?.parse::<usize>().ok()? / 1024)
+}
+
+/// Moves of cups, chairs and beds all over the hospital: where to, and back again.
+fn moves(world: &World, count: usize) -> Vec<(ReplicaId, Frame)> {
+    let wards = world.areas.len();
+    let mut moves = Vec::new();
+    for n in 0..count / 2 {
+        let ward = n * 7919 % wards;
+        // The cup goes from the tray to the desk's edge, the chair across the room, the bed a little aside.
+        let (thing, to) = [
+            (16, Frame::new(420.0, 350.0, 75.0, Deg::ZERO)),
+            (8, Frame::new(240.0, 60.0, 0.0, Deg::of(45.0))),
+            (2, Frame::new(14.0, 180.0, 0.0, Deg::of(3.0))),
+        ][n % 3];
+        let id = ReplicaId((ward * 25 + thing) as u32);
+        let Some(replica) = world.replicas.get(&id) else { continue };
+        moves.extend([(id, to), (id, replica.frame)]);
+    }
+    moves
 }
 
 #[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
@@ -130,10 +165,11 @@ fn main() {
     let sizes = if wanted.is_empty() { vec![1_000, 5_000, 20_000, 50_000] } else { wanted };
     let rules = RelationRules::standard();
     println!(
-        "replicas | near pairs | measure ms | rows and rules ms | relations | one move: measure ms | in all ms"
+        "| replicas | near pairs | measure, ms | rows and rules, ms | relations | one move: first, ms | median | worst of 300 | of it measuring | peak, MiB |"
     );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
     for size in sizes {
-        let world = hospital(size);
+        let mut world = hospital(size);
         let _warm = (size < 10_000).then(|| derive(&world, &rules, Profile::Surveyed));
         let (measured, measuring) = time(|| Measurements::of(&world, rules.reach()));
         let pairs = measured.pair_count();
@@ -141,22 +177,28 @@ fn main() {
             time(|| derive_from(&world, &rules, Profile::Surveyed, measured));
         let mut relations = relations.expect("standard rules end");
         let tuples: usize = relations.counts().iter().map(|c| c.count).sum();
-        // The cup of the middle ward goes from the tray to the bookcase.
-        let mut after = world.clone();
-        let id = ReplicaId((size / 50 * 25 + 16) as u32);
-        after.replicas.get_mut(&id).expect("within the hospital").frame =
-            Frame::new(420.0, 350.0, 75.0, Deg::ZERO);
         let mut alone = relations.measurements().clone();
-        let (_, moving) = time(|| alone.update(&after, id));
-        let (moved, updating) = time(|| relations.update(&after, id));
-        assert!(moved.expect("standard rules end"));
+        let (mut measuring_moves, mut updating) = (Vec::new(), Vec::new());
+        for (id, to) in moves(&world, 300) {
+            world.replicas.get_mut(&id).expect("within the hospital").frame = to;
+            measuring_moves.push(time(|| alone.update(&world, id)).1);
+            let (moved, spent) = time(|| relations.update(&world, id));
+            assert!(moved.expect("standard rules end"));
+            updating.push(spent);
+        }
         let ms = |d: Duration| d.as_secs_f64() * 1e3;
+        let first = updating[0];
+        measuring_moves.sort_unstable();
+        updating.sort_unstable();
         println!(
-            "{size} | {pairs} | {:.1} | {:.1} | {tuples} | {:.3} | {:.1}",
+            "| {size} | {pairs} | {:.1} | {:.1} | {tuples} | {:.2} | {:.2} | {:.2} | {:.2} | {} |",
             ms(measuring),
             ms(deriving),
-            ms(moving),
-            ms(updating)
+            ms(first),
+            ms(updating[updating.len() / 2]),
+            ms(updating[updating.len() - 1]),
+            ms(measuring_moves[measuring_moves.len() / 2]),
+            peak_memory().map_or_else(|| "–".to_owned(), |mib| mib.to_string()),
         );
     }
 }

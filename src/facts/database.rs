@@ -6,7 +6,8 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use super::program::{Kind, Names, Program, RelationId, RelationInfo};
-use super::rows::{SharedRows, Table, table};
+use super::rows::SharedRows;
+use super::stored::{Stored, stored};
 use super::word::{NO_WORD, Value, Word, Words};
 use crate::units::nearest_name;
 
@@ -107,25 +108,18 @@ impl Schema {
 /// The input facts of one program.
 ///
 /// Relations that rules derive may have input facts too; both count.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Database {
     pub(super) schema: Schema,
     pub(super) words: Words,
-    tables: Vec<Box<dyn Table>>,
-}
-
-impl Clone for Database {
-    fn clone(&self) -> Self {
-        let tables = self.tables.iter().map(|table| table.boxed_clone()).collect();
-        Self { schema: self.schema.clone(), words: self.words.clone(), tables }
-    }
+    tables: Vec<Box<dyn Stored>>,
 }
 
 impl Program {
     /// An empty database for this program.
     #[must_use]
     pub fn database(&self) -> Database {
-        let tables = self.relations.iter().map(|info| table(info.columns.len())).collect();
+        let tables = self.relations.iter().map(|info| stored(info.columns.len())).collect();
         Database { schema: Schema::of(self), words: self.words.share(), tables }
     }
 }
@@ -140,6 +134,16 @@ impl Database {
         relation: impl RelationKey,
         tuple: &[Value],
     ) -> Result<bool, FactError> {
+        let (relation, row) = self.encode(relation, tuple)?;
+        Ok(self.insert_row(relation, &row))
+    }
+
+    /// The words of a tuple, made where there are none yet.
+    pub(super) fn encode(
+        &mut self,
+        relation: impl RelationKey,
+        tuple: &[Value],
+    ) -> Result<(RelationId, Vec<Word>), FactError> {
         let relation = relation.find(&self.schema)?;
         let words = &mut self.words;
         let row = self.schema.encode(relation, tuple, |value| match value {
@@ -147,7 +151,29 @@ impl Database {
             Value::Symbol(text) => words.symbol(text),
         })?;
         words.settle();
-        Ok(self.tables[relation.index()].insert(&row))
+        Ok((relation, row))
+    }
+
+    pub(super) fn insert_row(&mut self, relation: RelationId, row: &[Word]) -> bool {
+        self.tables[relation.index()].insert(row).is_some()
+    }
+
+    pub(super) fn remove_row(&mut self, relation: RelationId, row: &[Word]) -> bool {
+        self.tables[relation.index()].remove(row).is_some()
+    }
+
+    pub(super) fn contains_row(&self, relation: RelationId, row: &[Word]) -> bool {
+        self.tables[relation.index()].find(row).is_some()
+    }
+
+    /// Adds many tuples at once: [`Loader::push`] takes them, [`Loader::finish`] puts them in.
+    pub fn load(&mut self) -> Loader<'_> {
+        Loader { rows: self.tables.iter().map(|_| Vec::new()).collect(), database: self }
+    }
+
+    /// Puts the tuples of each relation together, so that evaluations share them.
+    pub(super) fn settle(&mut self) {
+        self.tables.iter_mut().for_each(|table| table.settle());
     }
 
     /// Takes a tuple out; false when it was not there.
@@ -159,17 +185,15 @@ impl Database {
         relation: impl RelationKey,
         tuple: &[Value],
     ) -> Result<bool, FactError> {
-        let relation = relation.find(&self.schema)?;
-        let row = self.find_row(relation, tuple)?;
-        Ok(self.tables[relation.index()].remove(&row))
+        let (relation, row) = self.find_row(relation, tuple)?;
+        Ok(self.remove_row(relation, &row))
     }
 
     /// # Errors
     /// [`FactError`] when the relation is unknown or the tuple does not fit it.
     pub fn contains(&self, relation: impl RelationKey, tuple: &[Value]) -> Result<bool, FactError> {
-        let relation = relation.find(&self.schema)?;
-        let row = self.find_row(relation, tuple)?;
-        Ok(self.tables[relation.index()].contains(&row))
+        let (relation, row) = self.find_row(relation, tuple)?;
+        Ok(self.contains_row(relation, &row))
     }
 
     /// Takes all tuples of a relation out.
@@ -197,12 +221,82 @@ impl Database {
         self.tables.iter().all(|table| table.len() == 0)
     }
 
-    fn find_row(&self, relation: RelationId, tuple: &[Value]) -> Result<Vec<Word>, FactError> {
-        self.schema.encode(relation, tuple, |value| find_word(&self.words, value))
+    /// The words of a tuple, [`NO_WORD`] for values that it has never seen.
+    pub(super) fn find_row(
+        &self,
+        relation: impl RelationKey,
+        tuple: &[Value],
+    ) -> Result<(RelationId, Vec<Word>), FactError> {
+        let relation = relation.find(&self.schema)?;
+        let row = self.schema.encode(relation, tuple, |value| find_word(&self.words, value))?;
+        Ok((relation, row))
     }
 
     pub(super) fn rows(&self, relation: RelationId) -> SharedRows {
         self.tables[relation.index()].rows()
+    }
+}
+
+/// A value that a database knows already: to say it again costs no look-up.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Known {
+    word: Word,
+    is_number: bool,
+}
+
+/// Takes tuples for a database, many at once.
+#[derive(Debug)]
+pub struct Loader<'a> {
+    database: &'a mut Database,
+    /// By relation, one row after the other.
+    rows: Vec<Vec<Word>>,
+}
+
+impl Loader<'_> {
+    pub fn number(&mut self, number: i64) -> Known {
+        Known { word: self.database.words.number(number), is_number: true }
+    }
+
+    pub fn symbol(&mut self, text: &str) -> Known {
+        Known { word: self.database.words.symbol(text), is_number: false }
+    }
+
+    /// # Errors
+    /// [`FactError`] when the tuple does not fit the relation.
+    pub fn push(&mut self, relation: RelationId, tuple: &[Known]) -> Result<(), FactError> {
+        let info = self.database.schema.info(relation);
+        let fits = tuple.len() == info.columns.len()
+            && tuple.iter().zip(&info.columns).all(|(value, column)| {
+                value.is_number == column.kind.is_number()
+                    && (column.kind != Kind::Unsigned
+                        || self.database.words.to_number(value.word) >= 0)
+            });
+        if !fits {
+            let words = &self.database.words;
+            let value = |known: &Known| match known.is_number {
+                true => Value::Number(words.to_number(known.word)),
+                false => Value::Symbol(Arc::clone(words.text(known.word))),
+            };
+            let values: Vec<Value> = tuple.iter().map(value).collect();
+            return self.database.find_row(relation, &values).map(|_| ());
+        }
+        if tuple.is_empty() {
+            self.database.insert_row(relation, &[]);
+        }
+        self.rows[relation.index()].extend(tuple.iter().map(|known| known.word));
+        Ok(())
+    }
+
+    pub fn finish(self) {
+        let Self { database, rows, .. } = self;
+        database.words.settle();
+        for ((rows, table), info) in
+            rows.into_iter().zip(&mut database.tables).zip(database.schema.relations.iter())
+        {
+            if !rows.is_empty() {
+                table.extend(&rows, info.columns.len());
+            }
+        }
     }
 }
 

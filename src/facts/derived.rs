@@ -3,8 +3,10 @@
 use std::fmt;
 
 use super::database::{FactError, RelationKey, Schema, find_word};
+use super::kept::Kept;
 use super::program::{Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
+use super::stored::{Starting, Stored};
 use super::word::{Value, Word, Words};
 
 /// All relations of a program after evaluation, input facts included.
@@ -12,26 +14,53 @@ use super::word::{Value, Word, Words};
 pub struct Derived {
     pub(super) program: Program,
     pub(super) schema: Schema,
-    pub(super) words: Words,
-    pub(super) rows: Vec<SharedRows>,
-    /// What was told rather than derived: facts of the text and the database.
-    pub(super) given: Vec<SharedRows>,
+    pub(super) kept: Kept,
+    /// What was told rather than derived, facts of the text and the database; none where everything was told.
+    pub(super) given: Vec<Option<Box<dyn Stored>>>,
 }
 
 impl fmt::Debug for Derived {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let sizes = self.schema.relations.iter().zip(&self.rows);
-        f.debug_map().entries(sizes.map(|(info, rows)| (&info.name, rows.len()))).finish()
+        let sizes = self.relations().map(|(id, info)| (&info.name, self.kept.rows(id).len()));
+        f.debug_map().entries(sizes).finish()
     }
 }
 
 impl Derived {
+    pub(super) fn new(
+        program: &Program,
+        words: Words,
+        rows: Vec<SharedRows>,
+        given: Vec<SharedRows>,
+    ) -> Self {
+        let columns: Vec<usize> = program.relations.iter().map(|info| info.columns.len()).collect();
+        let mut is_derived = vec![false; columns.len()];
+        program.clauses.iter().for_each(|clause| is_derived[clause.head.index()] = true);
+        let given = given.into_iter().zip(is_derived);
+        let given = given.map(|(given, is_derived)| is_derived.then(|| given.stored())).collect();
+        let schema = Schema::of(program);
+        Self { program: program.clone(), schema, kept: Kept::new(words, rows, &columns), given }
+    }
+
+    /// Whether a tuple was told, by the text or the database.
+    pub(super) fn is_told(&self, relation: RelationId, row: &[Word]) -> bool {
+        match &self.given[relation.index()] {
+            Some(given) => given.find(row).is_some(),
+            None => self.kept.rows(relation).find(row).is_some(),
+        }
+    }
+
+    pub(super) fn tuple<'a>(&'a self, relation: RelationId, row: &'a [Word]) -> Tuple<'a> {
+        let info = self.schema.info(relation);
+        Tuple { words: &self.kept.words, info, row: &row[..info.columns.len()] }
+    }
+
     /// Number of tuples.
     ///
     /// # Errors
     /// [`FactError::UnknownRelation`].
     pub fn len(&self, relation: impl RelationKey) -> Result<usize, FactError> {
-        Ok(self.rows[relation.find(&self.schema)?.index()].len())
+        Ok(self.kept.rows(relation.find(&self.schema)?).len())
     }
 
     /// Distinct tuples: numbers ascending, symbols in the order in which they were first seen.
@@ -40,7 +69,7 @@ impl Derived {
     /// [`FactError::UnknownRelation`].
     pub fn tuples(&self, relation: impl RelationKey) -> Result<Tuples<'_>, FactError> {
         let id = relation.find(&self.schema)?;
-        Ok(Tuples { derived: self, id, at: 0..self.rows[id.index()].len() })
+        Ok(Tuples { derived: self, id, rest: self.kept.rows(id).starting(&[]) })
     }
 
     /// The tuples whose first values are these; found without looking at the others.
@@ -58,8 +87,8 @@ impl Derived {
             let (relation, expected) = (info.name.clone(), info.columns.len());
             return Err(FactError::Arity { relation, expected, found: first.len() });
         }
-        let key: Vec<Word> = first.iter().map(|value| find_word(&self.words, value)).collect();
-        Ok(Tuples { derived: self, id, at: self.rows[id.index()].range(&key) })
+        let key: Vec<Word> = first.iter().map(|value| find_word(&self.kept.words, value)).collect();
+        Ok(Tuples { derived: self, id, rest: self.kept.rows(id).starting(&key) })
     }
 
     /// Distinct tuples as values, sorted: numbers ascending, symbols alphabetically.
@@ -77,8 +106,8 @@ impl Derived {
     /// [`FactError`] when the relation is unknown or the tuple does not fit it.
     pub fn contains(&self, relation: impl RelationKey, tuple: &[Value]) -> Result<bool, FactError> {
         let id = relation.find(&self.schema)?;
-        let row = self.schema.encode(id, tuple, |value| find_word(&self.words, value))?;
-        Ok(!row.contains(&super::word::NO_WORD) && self.rows[id.index()].contains(&row))
+        let row = self.schema.encode(id, tuple, |value| find_word(&self.kept.words, value))?;
+        Ok(!row.contains(&super::word::NO_WORD) && self.kept.rows(id).find(&row).is_some())
     }
 
     /// All relations with their ids, in the order of their declarations.
@@ -92,20 +121,20 @@ impl Derived {
 pub struct Tuples<'a> {
     derived: &'a Derived,
     id: RelationId,
-    at: std::ops::Range<usize>,
+    rest: Starting,
 }
 
 impl<'a> Iterator for Tuples<'a> {
     type Item = Tuple<'a>;
 
     fn next(&mut self) -> Option<Tuple<'a>> {
-        let info = self.derived.schema.info(self.id);
-        let row = self.derived.rows[self.id.index()].row(self.at.next()?);
-        Some(Tuple { words: &self.derived.words, info, row: &row[..info.columns.len()] })
+        let rows = self.derived.kept.rows(self.id);
+        let slot = self.rest.next(rows)?;
+        Some(self.derived.tuple(self.id, rows.row(slot)))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {
-        self.at.size_hint()
+        (self.rest.len, Some(self.rest.len))
     }
 }
 

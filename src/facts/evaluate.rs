@@ -11,7 +11,7 @@ use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::database::{Database, Schema};
+use super::database::Database;
 use super::derived::Derived;
 use super::index::Index;
 use super::plan::{Plan, Request, Statistics, Task, Version, plan};
@@ -36,7 +36,7 @@ pub enum EvaluateError {
 }
 
 /// A relation's rows at most, unless `.limitsize` says less.
-const MAX_ROWS: usize = 1 << 27;
+pub(super) const MAX_ROWS: usize = 1 << 27;
 
 impl Program {
     /// Derives everything that follows from the database.
@@ -70,7 +70,7 @@ impl Finished {
     }
 
     /// Builds the indexes that a plan asks for, and points the plan's scans to their columns.
-    pub(super) fn provide(&mut self, plan: &mut Plan) {
+    fn provide(&mut self, plan: &mut Plan) {
         let mut places: Vec<Option<Vec<usize>>> = Vec::with_capacity(plan.requests.len());
         for request in &plan.requests {
             let Request::Index { relation, key, columns } = request else {
@@ -93,26 +93,8 @@ impl Finished {
         }
     }
 
-    /// The first rows whose key columns have these words.
-    pub(super) fn find(
-        &mut self,
-        relation: RelationId,
-        key: &[Expr],
-        word: &[Word],
-        limit: usize,
-    ) -> Vec<Vec<Word>> {
-        let rows = self.rows[relation.index()].as_deref().expect("all relations are finished");
-        let is_natural = key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32));
-        if is_natural {
-            return rows.range(word).take(limit).map(|at| rows.row(at).to_vec()).collect();
-        }
-        let entry = self.indexes.entry((relation, key.to_vec()));
-        let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
-        index.range(word).take(limit).map(|at| rows.row(index.row(at)).to_vec()).collect()
-    }
-
     /// Runs a provided plan from the given registers.
-    pub(super) fn run(
+    fn run(
         &mut self,
         plan: &Plan,
         growing: &[Vec<Ref<'_, dyn RowSet>>],
@@ -156,7 +138,7 @@ impl Statistics for Finished {
 }
 
 /// Different words in a column, estimated from a sample where the relation is large.
-fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
+pub(super) fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
     const SAMPLE: usize = 4096;
     let step = rows.len().div_ceil(SAMPLE).max(1);
     let mut words: Vec<Word> =
@@ -173,38 +155,30 @@ fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
 /// A program under way.
 pub(super) struct Evaluation<'a> {
     program: &'a Program,
-    finished: Finished,
+    pub(super) finished: Finished,
     /// Facts of the text and the database, by relation.
     given: Vec<SharedRows>,
 }
 
 impl<'a> Evaluation<'a> {
     pub(super) fn new(program: &'a Program, database: &Database) -> Self {
-        let given = given(program, database);
+        let all: Vec<RelationId> = program.relations().map(|(relation, _)| relation).collect();
+        Self::of(program, database, &all)
+    }
+
+    /// To evaluate some relations only.
+    pub(super) fn of(program: &'a Program, database: &Database, relations: &[RelationId]) -> Self {
+        let given = given(program, database, relations);
         let finished = Finished::new(database.words.share(), vec![None; given.len()]);
         Self { program, finished, given }
     }
 
-    pub(super) fn derived(self) -> Derived {
+    fn derived(self) -> Derived {
         let rows = self.finished.rows.into_iter().zip(&self.given);
         let rows = rows.map(|(rows, given)| rows.unwrap_or_else(|| given.clone())).collect();
         let mut words = self.finished.words;
         words.settle();
-        let (program, schema) = (self.program.clone(), Schema::of(self.program));
-        Derived { program, schema, words, rows, given: self.given }
-    }
-
-    /// Takes a stratum's relations from an earlier result.
-    pub(super) fn keep(&mut self, stratum: &Stratum, from: &Derived) {
-        for relation in &stratum.relations {
-            self.finished.rows[relation.index()] = Some(from.rows[relation.index()].clone());
-        }
-    }
-
-    /// Whether a finished relation has the rows of an earlier result.
-    pub(super) fn is_same(&self, relation: RelationId, as_in: &Derived) -> bool {
-        let (now, before) = (self.finished.relation(relation), &as_in.rows[relation.index()]);
-        now.len() == before.len() && (0..now.len()).all(|at| now.row(at) == before.row(at))
+        Derived::new(self.program, words, rows, self.given)
     }
 
     fn limit(&self, relation: RelationId) -> usize {
@@ -336,8 +310,7 @@ impl<'a> Evaluation<'a> {
     }
 
     fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {
-        let mut wanted: Vec<VariableId> = Vec::new();
-        clause.args.iter().for_each(|arg| arg.for_each_variable(&mut |v| wanted.push(v)));
+        let wanted = head_variables(clause);
         let task = Task { clause, versions, first, bound: &[], wanted: &wanted };
         plan(&task, &self.finished)
     }
@@ -350,23 +323,24 @@ impl<'a> Evaluation<'a> {
         limit: usize,
         sink: &mut dyn Sink,
     ) {
-        let columns = &self.program.info(clause.head).columns;
-        let unsigned: Vec<usize> =
-            (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
-        let row = vec![0; clause.args.len()];
-        let mut head = Head { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink };
+        let mut head = Head::new(self.program, clause, limit, sink);
         let mut registers = vec![0; clause.variables.len()];
         self.finished.run(plan, parts, &mut registers, &mut head);
     }
 }
 
-/// Every relation's facts of the text and the database.
-pub(super) fn given(program: &Program, database: &Database) -> Vec<SharedRows> {
+/// The facts of the text and the database; none of relations that are not asked for.
+fn given(program: &Program, database: &Database, of: &[RelationId]) -> Vec<SharedRows> {
     let mut by_relation: HashMap<RelationId, Vec<&[Word]>> = HashMap::new();
     for fact in program.facts.iter() {
         by_relation.entry(fact.relation).or_default().push(&fact.words);
     }
+    let mut is_asked = vec![false; program.relations.len()];
+    of.iter().for_each(|relation| is_asked[relation.index()] = true);
     let rows = program.relations().map(|(relation, info)| {
+        if !is_asked[relation.index()] {
+            return heap(info.columns.len()).sort();
+        }
         let given = database.rows(relation);
         let Some(facts) = by_relation.get(&relation) else { return given };
         let mut all = heap(info.columns.len());
@@ -400,7 +374,14 @@ fn own_atoms<'a>(
     clause.body.iter().enumerate().filter(move |(_, literal)| is_own_atom(literal)).map(|(n, _)| n)
 }
 
-pub(super) fn no_parts(plan: &Plan) -> Vec<Vec<Ref<'static, dyn RowSet>>> {
+/// The variables whose values a clause's head reads.
+pub(super) fn head_variables(clause: &Clause) -> Vec<VariableId> {
+    let mut wanted: Vec<VariableId> = Vec::new();
+    clause.args.iter().for_each(|arg| arg.for_each_variable(&mut |v| wanted.push(v)));
+    wanted
+}
+
+fn no_parts(plan: &Plan) -> Vec<Vec<Ref<'static, dyn RowSet>>> {
     plan.requests.iter().map(|_| Vec::new()).collect()
 }
 
@@ -437,6 +418,44 @@ struct Head<'a> {
     left: usize,
     row: Vec<Word>,
     sink: &'a mut dyn Sink,
+}
+
+impl<'a> Head<'a> {
+    fn new(program: &Program, clause: &'a Clause, limit: usize, sink: &'a mut dyn Sink) -> Self {
+        let columns = &program.info(clause.head).columns;
+        let unsigned: Vec<usize> =
+            (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
+        let row = vec![0; clause.args.len()];
+        Self { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink }
+    }
+}
+
+/// The heads of a clause's solutions, one by one.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) rows: Vec<Box<[Word]>>,
+}
+
+impl Rows {
+    /// Takes the solutions that `run` finds for the goal that it is given.
+    pub(super) fn fill(
+        &mut self,
+        program: &Program,
+        clause: &Clause,
+        run: impl FnOnce(&mut dyn Goal),
+    ) {
+        run(&mut Head::new(program, clause, MAX_ROWS, self));
+    }
+}
+
+impl Sink for Rows {
+    fn push(&mut self, row: &[Word]) {
+        self.rows.push(row.into());
+    }
+
+    fn len(&self) -> usize {
+        self.rows.len()
+    }
 }
 
 impl Goal for Head<'_> {

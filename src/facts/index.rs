@@ -132,10 +132,15 @@ fn column(rows: &dyn RowSet, order: Option<&[u32]>, expr: &Expr, words: &mut Wor
 /// Row positions by key, those without a key left out.
 fn sorted_order(keys: &[Vec<Word>], len: usize) -> Vec<u32> {
     let has_key = |at: &usize| keys.iter().all(|part| part[*at] != NO_WORD);
-    let first = |at: usize| (u64::from(keys[0][at]) << 32) | at as u64;
-    let mut packed: Vec<u64> = (0..len).filter(has_key).map(first).collect();
-    packed.sort_unstable();
-    let mut order: Vec<u32> = packed.into_iter().map(|packed| packed as u32).collect();
+    let mut order = match counted_order(&keys[0], &has_key) {
+        Some(order) => order,
+        None => {
+            let first = |at: usize| (u64::from(keys[0][at]) << 32) | at as u64;
+            let mut packed: Vec<u64> = (0..len).filter(has_key).map(first).collect();
+            packed.sort_unstable();
+            packed.into_iter().map(|packed| packed as u32).collect()
+        }
+    };
     if keys.len() > 1 {
         let rest = |at: u32| keys[1..].iter().map(move |part| part[at as usize]);
         for same in order.chunk_by_mut(|a, b| keys[0][*a as usize] == keys[0][*b as usize]) {
@@ -143,6 +148,28 @@ fn sorted_order(keys: &[Vec<Word>], len: usize) -> Vec<u32> {
         }
     }
     order
+}
+
+/// Row positions by a word, counted out; none where the words lie too far apart for that.
+fn counted_order(words: &[Word], has_key: &impl Fn(&usize) -> bool) -> Option<Vec<u32>> {
+    let known = || (0..words.len()).filter(has_key).map(|at| words[at]);
+    let (least, most) = (known().min()?, known().max()?);
+    let span = (most - least) as usize;
+    if span > 2 * words.len() + 1024 {
+        return None;
+    }
+    let mut starts = vec![0_u32; span + 2];
+    known().for_each(|word| starts[(word - least) as usize + 1] += 1);
+    for at in 1..starts.len() {
+        starts[at] += starts[at - 1];
+    }
+    let mut order = vec![0; starts[span + 1] as usize];
+    for at in (0..words.len()).filter(has_key) {
+        let place = &mut starts[(words[at] - least) as usize];
+        order[*place as usize] = at as u32;
+        *place += 1;
+    }
+    Some(order)
 }
 
 fn directory(keys: &[Word]) -> Directory {

@@ -34,11 +34,13 @@
 mod check;
 mod clause;
 mod database;
+mod delta;
 mod derived;
 mod evaluate;
 mod fault;
 mod files;
 mod index;
+mod kept;
 mod lex;
 mod live;
 mod parse;
@@ -48,12 +50,13 @@ mod proof;
 mod rows;
 mod run;
 mod seen;
+mod stored;
 mod syntax;
 mod value;
 mod why_not;
 mod word;
 
-pub use database::{Database, FactError, RelationKey, Schema};
+pub use database::{Database, FactError, Known, Loader, RelationKey, Schema};
 pub use derived::{Derived, Tuple, Tuples};
 pub use evaluate::EvaluateError;
 pub use fault::{Faults, FileFaults, RuleError};

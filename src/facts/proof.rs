@@ -10,11 +10,12 @@ use std::fmt;
 
 use super::database::{FactError, RelationKey};
 use super::derived::{Derived, values};
-use super::evaluate::{Finished, no_parts};
+use super::kept::{Kept, View};
 use super::plan::{Plan, Task, Version, plan};
 use super::program::{
     Atom, Clause, Compare, Expr, Literal, Program, RelationId, Term, Variable, VariableId,
 };
+use super::stored::Stored;
 use super::syntax::{Comparison, Span};
 use super::value;
 use super::word::{NO_WORD, Value, Word, Words};
@@ -105,8 +106,8 @@ pub enum Premise {
 /// Answers why and why not about one result; keeps what it builds for the next question.
 pub struct Explainer {
     pub(super) program: Program,
-    pub(super) finished: Finished,
-    given: Vec<super::rows::SharedRows>,
+    pub(super) finished: Kept,
+    given: Vec<Option<Box<dyn Stored>>>,
     /// By clause, once asked for.
     pub(super) asked: HashMap<usize, Asked>,
 }
@@ -160,10 +161,9 @@ impl Derived {
     /// What answers questions about this result.
     #[must_use]
     pub fn explain(&self) -> Explainer {
-        let rows = self.rows.iter().cloned().map(Some).collect();
         Explainer {
             program: self.program.clone(),
-            finished: Finished::new(self.words.share(), rows),
+            finished: self.kept.clone(),
             given: self.given.clone(),
             asked: HashMap::new(),
         }
@@ -217,7 +217,7 @@ impl Explainer {
     }
 
     pub(super) fn holds(&self, relation: RelationId, row: &[Word]) -> bool {
-        self.finished.rows[relation.index()].as_ref().is_some_and(|rows| rows.contains(row))
+        self.finished.holds(relation, row, View::After)
     }
 
     /// Every tuple and rule instance that could take part in a proof.
@@ -227,7 +227,11 @@ impl Explainer {
         let mut next = 0;
         while next < cone.nodes.len() {
             let (relation, row) = (cone.nodes[next].relation, cone.nodes[next].row.clone());
-            if self.given[relation.index()].contains(&row) {
+            let is_told = match &self.given[relation.index()] {
+                Some(given) => given.find(&row).is_some(),
+                None => self.finished.rows(relation).find(&row).is_some(),
+            };
+            if is_told {
                 cone.nodes[next].height = Some(0);
             } else {
                 for clause in 0..self.program.clauses.len() {
@@ -254,7 +258,7 @@ impl Explainer {
             found.push(registers.into());
             true
         };
-        self.finished.run(&asked.plan, &no_parts(&asked.plan), &mut registers, &mut keep);
+        self.finished.run(&asked.plan, View::After, &[], &mut registers, &mut keep);
         for registers in found {
             let premises: Vec<usize> = asked.clause.body[..asked.own]
                 .iter()
@@ -284,8 +288,8 @@ impl Explainer {
                 bound: &head,
                 wanted: &wanted,
             };
-            let mut plan = plan(&task, &self.finished);
-            self.finished.provide(&mut plan);
+            let plan = plan(&task, &self.finished);
+            self.finished.provide(&plan);
             self.asked.insert(clause, Asked { clause: clause_turned, head, plan, own });
         }
         &self.asked[&clause]
@@ -399,7 +403,7 @@ impl Cone {
 }
 
 /// The clause with a variable for every column of its head and every `_` of its atoms.
-fn turned(clause: &Clause) -> (Clause, Vec<VariableId>, usize) {
+pub(super) fn turned(clause: &Clause) -> (Clause, Vec<VariableId>, usize) {
     let mut turned = clause.clone();
     let own = turned.body.len();
     let fresh = |is_number: bool, variables: &mut Vec<Variable>| {

@@ -4,15 +4,14 @@
 //! and [`RowSet`] and [`Growing`] are what the rest of the engine sees of any width.
 
 use std::cell::{Ref, RefCell, RefMut};
-use std::collections::BTreeSet;
-use std::fmt::Debug;
 use std::ops::Range;
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use datafrog::{Iteration, Relation, Variable};
 
 use super::plan::Version;
 use super::seen::Seen;
+use super::stored::{Stored, StoredRows};
 use super::word::Word;
 
 /// A tuple, filled up with zeros to its width.
@@ -21,7 +20,7 @@ pub(super) struct Row<const N: usize>(pub(super) [Word; N]);
 
 impl<const N: usize> Row<N> {
     #[inline]
-    fn of(words: &[Word]) -> Self {
+    pub(super) fn of(words: &[Word]) -> Self {
         let mut row = [0; N];
         row[..words.len()].copy_from_slice(words);
         Self(row)
@@ -66,6 +65,8 @@ macro_rules! at_width {
     };
 }
 
+pub(super) use at_width;
+
 /// Distinct rows in ascending order.
 pub(super) trait RowSet {
     fn len(&self) -> usize;
@@ -75,9 +76,8 @@ pub(super) trait RowSet {
     /// The rows that start with the key.
     fn range(&self, key: &[Word]) -> Range<usize>;
 
-    fn contains(&self, row: &[Word]) -> bool {
-        !self.range(row).is_empty()
-    }
+    /// The same rows, to be edited.
+    fn stored(self: Arc<Self>) -> Box<dyn Stored>;
 }
 
 /// A set of rows that evaluations share.
@@ -106,6 +106,10 @@ impl<const N: usize> RowSet for Relation<Row<N>> {
         }
         let near = &rest[..rest.len().min(step)];
         start..start + near.partition_point(|row| row.0[..key.len()] == *key)
+    }
+
+    fn stored(self: Arc<Self>) -> Box<dyn Stored> {
+        Box::new(StoredRows::over(self))
     }
 }
 
@@ -151,7 +155,7 @@ pub(super) fn heap(columns: usize) -> Box<dyn Heap> {
     at_width!(columns, N => Box::new(Vec::<Row<N>>::new()))
 }
 
-fn sorted<const N: usize>(mut rows: Vec<Row<N>>) -> Relation<Row<N>> {
+pub(super) fn sorted<const N: usize>(mut rows: Vec<Row<N>>) -> Relation<Row<N>> {
     if !rows.is_sorted() {
         if N <= 2 && rows.len() > 512 { radix_sort(&mut rows) } else { rows.sort_unstable() }
     }
@@ -407,74 +411,4 @@ fn subtract<const N: usize>(rows: &mut Vec<Row<N>>, others: &[Row<N>]) {
         }
         rest.first() != Some(row)
     });
-}
-
-/// A set of rows that is edited one by one.
-pub(super) trait Table: Send + Sync + Debug {
-    /// False when it was there.
-    fn insert(&mut self, row: &[Word]) -> bool;
-    /// False when it was not there.
-    fn remove(&mut self, row: &[Word]) -> bool;
-    fn contains(&self, row: &[Word]) -> bool;
-    fn len(&self) -> usize;
-    fn clear(&mut self);
-    /// All rows; made once after each edit.
-    fn rows(&self) -> SharedRows;
-    fn boxed_clone(&self) -> Box<dyn Table>;
-}
-
-#[derive(Clone)]
-struct TableRows<const N: usize> {
-    rows: BTreeSet<Row<N>>,
-    shared: OnceLock<Arc<Relation<Row<N>>>>,
-}
-
-impl<const N: usize> Debug for TableRows<N> {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        self.rows.fmt(f)
-    }
-}
-
-impl<const N: usize> TableRows<N> {
-    fn new() -> Self {
-        Self { rows: BTreeSet::new(), shared: OnceLock::new() }
-    }
-}
-
-/// An empty table for rows of so many columns.
-pub(super) fn table(columns: usize) -> Box<dyn Table> {
-    at_width!(columns, N => Box::new(TableRows::<N>::new()))
-}
-
-impl<const N: usize> Table for TableRows<N> {
-    fn insert(&mut self, row: &[Word]) -> bool {
-        self.shared.take();
-        self.rows.insert(Row::of(row))
-    }
-
-    fn remove(&mut self, row: &[Word]) -> bool {
-        self.shared.take();
-        self.rows.remove(&Row::of(row))
-    }
-
-    fn contains(&self, row: &[Word]) -> bool {
-        self.rows.contains(&Row::of(row))
-    }
-
-    fn len(&self) -> usize {
-        self.rows.len()
-    }
-
-    fn clear(&mut self) {
-        *self = Self::new();
-    }
-
-    fn rows(&self) -> SharedRows {
-        let shared = || Arc::new(Relation { elements: self.rows.iter().copied().collect() });
-        self.shared.get_or_init(shared).clone()
-    }
-
-    fn boxed_clone(&self) -> Box<dyn Table> {
-        Box::new(self.clone())
-    }
 }

@@ -3,20 +3,72 @@
 //! Registers are the clause's variables. A step either fails, or runs the steps behind it once for each
 //! of its partners; the last step hands the registers to a [`Goal`].
 
+use std::collections::HashSet;
 use std::ops::Range;
 
 use super::index::{Index, IndexColumn};
+use super::kept::{KeptIndex, column_word};
 use super::program::{Compare, Expr};
 use super::rows::RowSet;
+use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
 use super::value;
-use super::word::{Word, Words, is_in_place};
+use super::word::{NO_WORD, Word, Words, is_in_place};
 
 /// Where a scan finds its rows.
 pub(super) enum Source<'a> {
     Index(&'a Index),
     /// Parts of one relation, each in the order of the scan's key.
     Rows(Vec<&'a dyn RowSet>),
+    Kept(Kept<'a>),
+}
+
+/// A relation that is kept in step with its input.
+pub(super) struct Kept<'a> {
+    pub(super) rows: &'a dyn Stored,
+    /// None where the rows stand in the order of the key.
+    pub(super) index: Option<&'a KeptIndex>,
+    /// What a scan's slots mean; none where they are the relation's columns.
+    pub(super) columns: Option<&'a [Expr]>,
+    pub(super) hidden: Option<&'a HashSet<Slot>>,
+}
+
+impl Kept<'_> {
+    /// The rows with the key that are to be seen.
+    pub(super) fn collect(&self, key: &[Word], found: &mut Vec<Slot>) {
+        match self.index {
+            Some(index) => {
+                index.collect(key, found);
+                found.retain(|slot| self.rows.is_there(*slot));
+            }
+            None => {
+                let mut starting = self.rows.starting(key);
+                while let Some(slot) = starting.next(self.rows) {
+                    found.push(slot);
+                }
+            }
+        }
+        if let Some(hidden) = self.hidden {
+            found.retain(|slot| !hidden.contains(slot));
+        }
+    }
+
+    fn count(&self, key: &[Word]) -> usize {
+        if self.index.is_none() && self.hidden.is_none() {
+            return self.rows.starting(key).len;
+        }
+        let mut found = Vec::new();
+        self.collect(key, &mut found);
+        found.len()
+    }
+
+    fn word(&self, slot: Slot, column: usize, words: &mut Words) -> Word {
+        let row = self.rows.row(slot);
+        match self.columns {
+            Some(columns) => column_word(&columns[column], row, words),
+            None => row[column],
+        }
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -191,6 +243,7 @@ impl<'a> Machine<'a, '_> {
         match &self.sources[source] {
             Source::Index(index) => !index.range(key).is_empty(),
             Source::Rows(parts) => parts.iter().any(|rows| !rows.range(key).is_empty()),
+            Source::Kept(kept) => kept.count(key) > 0,
         }
     }
 
@@ -201,12 +254,14 @@ impl<'a> Machine<'a, '_> {
             return match &sources[scan.source] {
                 Source::Index(index) => self.scan_index(scan, index, index.range(&[word]), next),
                 Source::Rows(parts) => self.scan_rows(scan, parts, &[word], next),
+                Source::Kept(kept) => self.scan_kept(scan, kept, &[word], next),
             };
         }
         let Some(key) = self.key(&scan.key) else { return false };
         match &sources[scan.source] {
             Source::Index(index) => self.scan_index(scan, index, index.range(key.words()), next),
             Source::Rows(parts) => self.scan_rows(scan, parts, key.words(), next),
+            Source::Kept(kept) => self.scan_kept(scan, kept, key.words(), next),
         }
     }
 
@@ -293,6 +348,43 @@ impl<'a> Machine<'a, '_> {
         found
     }
 
+    fn scan_kept(&mut self, scan: &'a Scan, kept: &Kept<'_>, key: &[Word], next: usize) -> bool {
+        let mut chosen = self.spare.pop().unwrap_or_default();
+        chosen.clear();
+        kept.collect(key, &mut chosen);
+        for filter in &scan.filters {
+            if chosen.is_empty() {
+                break;
+            }
+            let Some(word) = self.compute(&filter.value) else {
+                chosen.clear();
+                break;
+            };
+            chosen.retain(|slot| {
+                let known = kept.word(*slot, filter.column, self.words);
+                known != NO_WORD
+                    && value::holds(filter.op, filter.is_number, known, word, self.words)
+            });
+        }
+        let mut found = false;
+        for slot in &chosen {
+            for (column, register) in &scan.loads {
+                self.registers[*register as usize] = kept.word(*slot, *column, self.words);
+            }
+            let same = scan.same.iter().all(|(column, v)| {
+                self.registers[*v as usize] == kept.word(*slot, *column, self.words)
+            });
+            if same && self.run(next) {
+                found = true;
+                if scan.once {
+                    break;
+                }
+            }
+        }
+        self.spare.push(chosen);
+        found
+    }
+
     fn visit(&mut self, scan: &'a Scan, index: &Index, at: usize, next: usize) -> bool {
         for (column, register) in &scan.loads {
             self.registers[*register as usize] = index.at(*column).words[at];
@@ -315,6 +407,7 @@ impl<'a> Machine<'a, '_> {
             Source::Rows(parts) => {
                 parts.iter().map(|rows| rows.range(key.words()).len() as i64).sum()
             }
+            Source::Kept(kept) => kept.count(key.words()) as i64,
         })
     }
 
@@ -422,7 +515,7 @@ fn retain(
             }
         }
         _ => {
-            let has_value = |at: usize| of[at] != super::word::NO_WORD;
+            let has_value = |at: usize| of[at] != NO_WORD;
             keep(chosen, |at| {
                 has_value(at) && value::holds(op, filter.is_number, of[at], word, words)
             });

@@ -6,7 +6,7 @@
 //! wins; among equals the one whose failed comparison misses by least.
 
 use super::database::{FactError, RelationKey};
-use super::evaluate::no_parts;
+use super::kept::View;
 use super::plan::{Task, Version, plan};
 use super::program::{Aggregate, Atom, Clause, Compare, Expr, Literal, Term, VariableId};
 use super::proof::{Explainer, Premise, RuleInstance, premise, rule_instance};
@@ -248,7 +248,7 @@ impl Explainer {
             wanted: &wanted,
         };
         let mut plan = plan(&task, &self.finished);
-        self.finished.provide(&mut plan);
+        self.finished.provide(&plan);
         plan.count_all();
         let mut count = super::run::Count::default();
         let mut each = |registers: &[Word], words: &mut Words| {
@@ -260,7 +260,7 @@ impl Explainer {
             true
         };
         let mut registers = search.registers.clone();
-        self.finished.run(&plan, &no_parts(&plan), &mut registers, &mut each);
+        self.finished.run(&plan, View::After, &[], &mut registers, &mut each);
         match count.value(aggregate.function) {
             Some(number) => {
                 search.registers[aggregate.target as usize] = self.finished.words.number(number);

@@ -68,50 +68,79 @@ pub(super) fn small_number(number: i64) -> Option<Word> {
 /// One layer of interned symbols and large numbers.
 #[derive(Debug, Clone, Default)]
 struct Layer {
+    /// Symbols and large numbers of the layers below.
+    below: (usize, usize),
     symbols: Vec<Arc<str>>,
     symbol_words: HashMap<Arc<str>, Word>,
     numbers: Vec<i64>,
     number_words: HashMap<i64, Word>,
 }
 
-/// Symbols and large numbers by word: a layer shared with others and one of its own.
+impl Layer {
+    fn len(&self) -> usize {
+        self.symbols.len() + self.numbers.len()
+    }
+
+    /// Symbols and large numbers up to the end of this layer.
+    fn end(&self) -> (usize, usize) {
+        (self.below.0 + self.symbols.len(), self.below.1 + self.numbers.len())
+    }
+
+    fn append(&mut self, above: Self) {
+        self.symbols.extend(above.symbols);
+        self.symbol_words.extend(above.symbol_words);
+        self.numbers.extend(above.numbers);
+        self.number_words.extend(above.number_words);
+    }
+}
+
+/// Symbols and large numbers by word: layers shared with others and one of its own.
 ///
-/// An evaluation shares the layer of its input and adds what its rules compute.
+/// An evaluation shares the layers of its input and adds what its rules compute. Each shared layer is more than
+/// twice as large as the next, so there are few.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Words {
-    shared: Arc<Layer>,
+    shared: Vec<Arc<Layer>>,
     own: Layer,
 }
 
 impl Words {
     /// Another table that starts with the shared words of this one; costs nothing after [`Self::settle`].
     pub(super) fn share(&self) -> Self {
-        if self.own.symbols.is_empty() && self.own.numbers.is_empty() {
-            return Self { shared: Arc::clone(&self.shared), own: Layer::default() };
-        }
         let mut all = self.clone();
         all.settle();
         all
     }
 
-    /// Moves all words into the layer that [`Self::share`] shares.
+    /// Moves all words into the layers that [`Self::share`] shares.
     pub(super) fn settle(&mut self) {
-        if self.own.symbols.is_empty() && self.own.numbers.is_empty() {
+        if self.own.len() == 0 {
             return;
         }
-        let own = std::mem::take(&mut self.own);
-        let shared = Arc::make_mut(&mut self.shared);
-        shared.symbols.extend(own.symbols);
-        shared.symbol_words.extend(own.symbol_words);
-        shared.numbers.extend(own.numbers);
-        shared.number_words.extend(own.number_words);
+        let above = Layer { below: self.own.end(), ..Layer::default() };
+        let mut own = std::mem::replace(&mut self.own, above);
+        while let Some(last) = self.shared.last_mut() {
+            // A layer that nobody else has grows in place.
+            if let Some(last) = Arc::get_mut(last) {
+                last.append(own);
+                return;
+            }
+            if last.len() > 2 * own.len() {
+                break;
+            }
+            let mut below = Layer::clone(last);
+            below.append(own);
+            own = below;
+            self.shared.pop();
+        }
+        self.shared.push(Arc::new(own));
     }
 
     pub(super) fn symbol(&mut self, text: &str) -> Word {
         if let Some(word) = self.find_symbol(text) {
             return word;
         }
-        let word = (self.shared.symbols.len() + self.own.symbols.len()) as Word;
+        let word = self.own.end().0 as Word;
         assert!(word < NO_WORD, "fewer than 2^32 - 1 symbols fit into the memory that holds them");
         let text: Arc<str> = text.into();
         self.own.symbols.push(Arc::clone(&text));
@@ -119,32 +148,34 @@ impl Words {
         word
     }
 
+    fn layers(&self) -> impl Iterator<Item = &Layer> {
+        self.shared.iter().map(|layer| &**layer).chain(std::iter::once(&self.own))
+    }
+
     pub(super) fn find_symbol(&self, text: &str) -> Option<Word> {
-        let known = self.shared.symbol_words.get(text).or_else(|| self.own.symbol_words.get(text));
-        known.copied()
+        self.layers().find_map(|layer| layer.symbol_words.get(text)).copied()
     }
 
     pub(super) fn text(&self, word: Word) -> &Arc<str> {
         let word = word as usize;
-        let shared = self.shared.symbols.len();
-        if word < shared { &self.shared.symbols[word] } else { &self.own.symbols[word - shared] }
+        let layer = self.layers().find(|layer| word < layer.end().0);
+        let layer = layer.expect("a word stands for a symbol of one of the layers");
+        &layer.symbols[word - layer.below.0]
     }
 
     pub(super) fn number(&mut self, number: i64) -> Word {
         if let Some(word) = self.find_number(number) {
             return word;
         }
-        let word = LARGE + (self.shared.numbers.len() + self.own.numbers.len()) as Word;
+        let word = LARGE + self.own.end().1 as Word;
         self.own.numbers.push(number);
         self.own.number_words.insert(number, word);
         word
     }
 
     pub(super) fn find_number(&self, number: i64) -> Option<Word> {
-        small_number(number).or_else(|| {
-            let large = &self.shared.number_words;
-            large.get(&number).or_else(|| self.own.number_words.get(&number)).copied()
-        })
+        small_number(number)
+            .or_else(|| self.layers().find_map(|layer| layer.number_words.get(&number)).copied())
     }
 
     pub(super) fn to_number(&self, word: Word) -> i64 {
@@ -152,8 +183,9 @@ impl Words {
             return i64::from(word) - IN_PLACE;
         }
         let at = (word - LARGE) as usize;
-        let shared = self.shared.numbers.len();
-        if at < shared { self.shared.numbers[at] } else { self.own.numbers[at - shared] }
+        let layer = self.layers().find(|layer| at < layer.end().1);
+        let layer = layer.expect("a word stands for a number of one of the layers");
+        layer.numbers[at - layer.below.1]
     }
 }
 

@@ -1,6 +1,6 @@
 //! Relations of a world, derived by the rule text from what was measured (SPEC R).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,13 +8,13 @@ use miette::Diagnostic;
 use thiserror::Error;
 
 use crate::facts::{
-    Database, Derived, EvaluateError, FactError, Faults, Live, Program, Proof, RelationId,
-    RelationInfo, Value, WhyNot,
+    Database, Derived, EvaluateError, FactError, Faults, Known, Live, Loader, Program, Proof,
+    RelationId, RelationInfo, Value, WhyNot,
 };
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ReplicaId, Source, name_key, nearest_name};
 
-use super::feed::{Cell, Feed};
+use super::feed::{Cell, Feed, Sink};
 use super::measure::{Measurements, Reach};
 use super::names::{Subject, Symbols};
 use super::openings::{Opening, openings};
@@ -26,6 +26,9 @@ const MAX_FILE_BYTES: u64 = 16 << 20;
 
 /// OUTSIDE is derived for all things while there are no more pairs of thing and Area than this.
 const MOST_OUTSIDE: usize = 100_000;
+
+/// With more pairs than this, what updates need is prepared beforehand: deriving takes longer than that anyway.
+const MANY_PAIRS: usize = 5_000;
 
 /// Why there are no relations.
 #[derive(Debug, Error, Diagnostic)]
@@ -208,9 +211,11 @@ pub struct Relations {
     measured: Measurements,
     openings: Vec<Opening>,
     live: Live,
-    areas: BTreeMap<ReplicaId, AreaId>,
+    /// Each thing with the Areas in which it is.
+    areas: BTreeSet<(ReplicaId, AreaId)>,
     supports: BTreeMap<ReplicaId, ReplicaId>,
-    bearing: BTreeSet<ReplicaId>,
+    /// What bears something, and what it bears.
+    bearing: BTreeSet<(ReplicaId, ReplicaId)>,
 }
 
 /// Measures a world and derives its relations.
@@ -240,22 +245,22 @@ pub fn derive_from(
     let symbols = Symbols::of(world);
     let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
-    let mut rows = Rows { database: rules.program.database(), fault: None };
-    rows.insert("profile", &[Cell::Word(profile.name())]);
-    feed.ground(&openings, &mut |relation: &'static str, cells: &[Cell<'_>]| {
-        rows.insert(relation, cells)
-    });
-    feed.things(&mut |relation: &'static str, cells: &[Cell<'_>]| rows.insert(relation, cells));
+    let mut database = rules.program.database();
+    let mut rows = Load::new(&rules.program, &mut database);
+    rows.row("profile", &[Cell::Word(profile.name())]);
+    feed.ground(&openings, &mut rows);
+    feed.things(&mut rows);
     if measured.bodies.len() * measured.rooms.len() <= MOST_OUTSIDE {
         for body in measured.bodies.values() {
             let map = symbols.symbol(Subject::Entity(Entity::Map(body.map)));
-            rows.insert("asked", &[Cell::Name(symbols.replica(body.id)), Cell::Name(map)]);
+            rows.row("asked", &[Cell::Name(symbols.replica(body.id)), Cell::Name(map)]);
         }
     }
-    if let Some(fault) = rows.fault {
-        return Err(RelationError::Schema { fault });
+    rows.finish().map_err(|fault| RelationError::Schema { fault })?;
+    let mut live = Live::new(rules.program.clone(), database)?;
+    if measured.pair_count() > MANY_PAIRS {
+        live.prepare();
     }
-    let live = Live::new(rules.program.clone(), rows.database)?;
     let mut relations = Relations {
         rules: rules.clone(),
         profile,
@@ -263,7 +268,7 @@ pub fn derive_from(
         measured,
         openings,
         live,
-        areas: BTreeMap::new(),
+        areas: BTreeSet::new(),
         supports: BTreeMap::new(),
         bearing: BTreeSet::new(),
     };
@@ -292,6 +297,58 @@ impl Rows {
     pub(super) fn insert(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
         if let Err(fault) = self.database.insert(relation, &tuple(cells)) {
             note(&mut self.fault, fault);
+        }
+    }
+}
+
+/// Rows on their way into the database, all at once. Names are looked up by where they stand, each but once.
+struct Load<'a> {
+    program: &'a Program,
+    loader: Loader<'a>,
+    relations: HashMap<(*const u8, usize), Option<RelationId>>,
+    names: HashMap<*const u8, Known>,
+    row: Vec<Known>,
+    fault: Option<FactError>,
+}
+
+impl<'a> Load<'a> {
+    fn new(program: &'a Program, database: &'a mut Database) -> Self {
+        Self {
+            program,
+            loader: database.load(),
+            relations: HashMap::new(),
+            names: HashMap::new(),
+            row: Vec::new(),
+            fault: None,
+        }
+    }
+
+    fn finish(self) -> Result<(), FactError> {
+        self.loader.finish();
+        self.fault.map_or(Ok(()), Err)
+    }
+}
+
+impl Sink for Load<'_> {
+    fn row(&mut self, relation: &'static str, cells: &[Cell<'_>]) {
+        // A rule text may do without a measurement.
+        let known = self.relations.entry((relation.as_ptr(), relation.len()));
+        let Some(relation) = *known.or_insert_with(|| self.program.relation(relation)) else {
+            return;
+        };
+        self.row.clear();
+        for cell in cells {
+            self.row.push(match cell {
+                // The Map's own symbols outlive the loading, so that a place stands for one name.
+                Cell::Name(name) => {
+                    *self.names.entry(name.as_ptr()).or_insert_with(|| self.loader.symbol(name))
+                }
+                Cell::Word(word) => self.loader.symbol(word),
+                Cell::Number(number) => self.loader.number(*number),
+            });
+        }
+        if let Err(fault) = self.loader.push(relation, &self.row) {
+            self.fault.get_or_insert(fault);
         }
     }
 }
@@ -337,7 +394,7 @@ impl Relations {
             return Err(RelationError::Schema { fault });
         }
         self.live.update()?;
-        self.index();
+        self.follow();
         Ok(true)
     }
 
@@ -448,7 +505,11 @@ impl Relations {
     /// The Area in which a thing is.
     #[must_use]
     pub fn area_of(&self, id: ReplicaId) -> Option<AreaId> {
-        self.areas.get(&id).copied()
+        self.areas
+            .range((id, AreaId(0))..)
+            .next()
+            .filter(|(of, _)| *of == id)
+            .map(|(_, area)| *area)
     }
 
     /// What a thing stands on or lies in.
@@ -460,7 +521,7 @@ impl Relations {
     /// Whether something stands on a thing.
     #[must_use]
     pub fn bears_something(&self, id: ReplicaId) -> bool {
-        self.bearing.contains(&id)
+        self.bearing.range((id, ReplicaId(0))..).next().is_some_and(|(lower, _)| *lower == id)
     }
 
     /// Doors and passages between Areas, both ways.
@@ -527,6 +588,52 @@ impl Relations {
         self.derived().relations().filter(|(_, i)| i.output.is_some() && i.second_name.is_some())
     }
 
+    /// Brings what was looked up to the last update.
+    fn follow(&mut self) {
+        let program = &self.rules.program;
+        let find = |name: &str| program.relation(name);
+        let symbols = &self.symbols;
+        let replica = |symbol: Option<&str>| match symbols.subject(symbol?)? {
+            Subject::Entity(Entity::Replica(id)) => Some(id),
+            _ => None,
+        };
+        let area = |symbol: Option<&str>| match symbols.subject(symbol?)? {
+            Subject::Entity(Entity::Area(id)) => Some(id),
+            _ => None,
+        };
+        if let Some(contains) = find("CONTAINS") {
+            for tuple in self.live.removed(contains) {
+                let (Some(area), Some(id)) = (area(tuple.symbol(0)), replica(tuple.symbol(1)))
+                else {
+                    continue;
+                };
+                self.areas.remove(&(id, area));
+            }
+            for tuple in self.live.added(contains) {
+                self.areas.extend(replica(tuple.symbol(1)).zip(area(tuple.symbol(0))));
+            }
+        }
+        if let Some(rests_on) = find("RESTS_ON") {
+            for tuple in self.live.removed(rests_on) {
+                replica(tuple.symbol(0)).map(|id| self.supports.remove(&id));
+            }
+            for tuple in self.live.added(rests_on) {
+                self.supports.extend(replica(tuple.symbol(0)).zip(replica(tuple.symbol(1))));
+            }
+        }
+        if let Some(on_top) = find("ON_TOP_OF") {
+            for tuple in self.live.removed(on_top) {
+                if let Some((upper, lower)) = replica(tuple.symbol(0)).zip(replica(tuple.symbol(1)))
+                {
+                    self.bearing.remove(&(lower, upper));
+                }
+            }
+            for tuple in self.live.added(on_top) {
+                self.bearing.extend(replica(tuple.symbol(1)).zip(replica(tuple.symbol(0))));
+            }
+        }
+    }
+
     /// Looks up once what others ask for often.
     fn index(&mut self) {
         let replica = |symbol: Option<&str>| match self.symbols.subject(symbol?)? {
@@ -542,7 +649,8 @@ impl Relations {
             pairs("CONTAINS").filter_map(|t| Some((replica(t.symbol(1))?, area(t.symbol(0))?)));
         let supports =
             pairs("RESTS_ON").filter_map(|t| Some((replica(t.symbol(0))?, replica(t.symbol(1))?)));
-        let bearing = pairs("ON_TOP_OF").filter_map(|t| replica(t.symbol(1)));
+        let bearing =
+            pairs("ON_TOP_OF").filter_map(|t| Some((replica(t.symbol(1))?, replica(t.symbol(0))?)));
         let (areas, supports, bearing) = (areas.collect(), supports.collect(), bearing.collect());
         (self.areas, self.supports, self.bearing) = (areas, supports, bearing);
     }

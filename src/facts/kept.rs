@@ -1,0 +1,310 @@
+//! Derived relations that stay: rows that are edited, and indexes that follow the edits.
+//!
+//! An update looks up a few rows in large relations. So indexes are built once, over the part of a relation that
+//! edits never touch, and what comes later is found through a table beside it. While an update runs a relation
+//! holds the rows of before and after together; [`View`] says which of the two a plan reads.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::{Arc, OnceLock};
+
+use super::evaluate::distinct;
+use super::index::Index;
+use super::plan::{Plan, Request, Statistics};
+use super::program::{Expr, RelationId};
+use super::rows::{RowSet, SharedRows};
+use super::run::{Goal, Kept as KeptSource, Source, run};
+use super::stored::{Slot, Stored};
+use super::value;
+use super::word::{NO_WORD, Word, Words};
+
+/// What an update has changed in a relation so far.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Edit {
+    pub(super) added: HashSet<Slot>,
+    pub(super) removed: HashSet<Slot>,
+}
+
+impl Edit {
+    pub(super) fn is_empty(&self) -> bool {
+        self.added.is_empty() && self.removed.is_empty()
+    }
+}
+
+/// Which rows of a relation under edit are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum View {
+    Before,
+    After,
+}
+
+/// Slots by key.
+#[derive(Debug, Clone)]
+pub(super) struct KeptIndex {
+    key: Vec<Expr>,
+    /// Over the base.
+    base: Arc<Index>,
+    later: HashMap<Box<[Word]>, Vec<Slot>>,
+}
+
+impl KeptIndex {
+    fn new(rows: &dyn Stored, key: &[Expr], words: &mut Words) -> Self {
+        let base = Arc::new(Index::new(&*rows.base(), key, words));
+        let mut index = Self { key: key.to_vec(), base, later: HashMap::new() };
+        for slot in rows.later() {
+            index.insert(rows.row(slot), slot, words);
+        }
+        index
+    }
+
+    fn key_of(&self, row: &[Word], words: &mut Words) -> Option<Box<[Word]>> {
+        self.key.iter().map(|part| value::compute(part, &|c| row[c as usize], words)).collect()
+    }
+
+    fn insert(&mut self, row: &[Word], slot: Slot, words: &mut Words) {
+        if let Some(key) = self.key_of(row, words) {
+            self.later.entry(key).or_default().push(slot);
+        }
+    }
+
+    fn remove(&mut self, row: &[Word], slot: Slot, words: &mut Words) {
+        let Some(key) = self.key_of(row, words) else { return };
+        if let Some(slots) = self.later.get_mut(&key) {
+            slots.retain(|known| *known != slot);
+            if slots.is_empty() {
+                self.later.remove(&key);
+            }
+        }
+    }
+
+    /// Slots with the key; those of the base may be gone.
+    pub(super) fn collect(&self, key: &[Word], found: &mut Vec<Slot>) {
+        found.extend(self.base.range(key).map(|at| self.base.row(at) as Slot));
+        if !self.later.is_empty()
+            && let Some(slots) = self.later.get(key)
+        {
+            found.extend(slots);
+        }
+    }
+}
+
+/// All relations of a result, with the indexes that were asked for.
+#[derive(Debug, Clone)]
+pub(super) struct Kept {
+    pub(super) words: Words,
+    rows: Vec<Box<dyn Stored>>,
+    indexes: Vec<Vec<KeptIndex>>,
+    edits: Vec<Edit>,
+    distinct: Vec<Vec<OnceLock<f64>>>,
+}
+
+impl Clone for Box<dyn Stored> {
+    fn clone(&self) -> Self {
+        self.boxed_clone()
+    }
+}
+
+impl Kept {
+    pub(super) fn new(words: Words, rows: Vec<SharedRows>, columns: &[usize]) -> Self {
+        Self {
+            words,
+            indexes: rows.iter().map(|_| Vec::new()).collect(),
+            edits: rows.iter().map(|_| Edit::default()).collect(),
+            distinct: columns.iter().map(|columns| vec![OnceLock::new(); *columns]).collect(),
+            rows: rows.into_iter().map(|rows| rows.stored()).collect(),
+        }
+    }
+
+    pub(super) fn rows(&self, relation: RelationId) -> &dyn Stored {
+        &*self.rows[relation.index()]
+    }
+
+    pub(super) fn edit(&self, relation: RelationId) -> &Edit {
+        &self.edits[relation.index()]
+    }
+
+    /// Builds the indexes that a plan asks for.
+    pub(super) fn provide(&mut self, plan: &Plan) {
+        for request in &plan.requests {
+            if let Request::Index { relation, key, .. } = request {
+                self.index(*relation, key);
+            }
+        }
+    }
+
+    /// The number of an index; none where rows stand in the order of the key.
+    fn index(&mut self, relation: RelationId, key: &[Expr]) -> Option<usize> {
+        if is_natural(key) {
+            return None;
+        }
+        let indexes = &mut self.indexes[relation.index()];
+        Some(indexes.iter().position(|known| known.key == key).unwrap_or_else(|| {
+            let rows = &*self.rows[relation.index()];
+            indexes.push(KeptIndex::new(rows, key, &mut self.words));
+            indexes.len() - 1
+        }))
+    }
+
+    /// The first rows whose key columns have these words.
+    pub(super) fn find(
+        &mut self,
+        relation: RelationId,
+        key: &[Expr],
+        word: &[Word],
+        limit: usize,
+    ) -> Vec<Vec<Word>> {
+        let index = self.index(relation, key).map(|n| &self.indexes[relation.index()][n]);
+        let source = self.source(relation, index, None, View::After);
+        let mut slots = Vec::new();
+        source.collect(word, &mut slots);
+        slots.into_iter().take(limit).map(|slot| source.rows.row(slot).to_vec()).collect()
+    }
+
+    fn source<'a>(
+        &'a self,
+        relation: RelationId,
+        index: Option<&'a KeptIndex>,
+        columns: Option<&'a [Expr]>,
+        view: View,
+    ) -> KeptSource<'a> {
+        let edit = &self.edits[relation.index()];
+        let hidden = match view {
+            View::Before => &edit.added,
+            View::After => &edit.removed,
+        };
+        let hidden = (!hidden.is_empty()).then_some(hidden);
+        KeptSource { rows: &*self.rows[relation.index()], index, columns, hidden }
+    }
+
+    /// Runs a provided plan from the given registers; `delta` holds the rows of each growing source, turned as the
+    /// plan asks for.
+    pub(super) fn run(
+        &mut self,
+        plan: &Plan,
+        view: View,
+        delta: &[Option<SharedRows>],
+        registers: &mut [Word],
+        goal: &mut dyn Goal,
+    ) -> bool {
+        let mut words = std::mem::take(&mut self.words);
+        let mut sources = Vec::with_capacity(plan.requests.len());
+        for (n, request) in plan.requests.iter().enumerate() {
+            sources.push(match request {
+                Request::Whole(relation) => Source::Kept(self.source(*relation, None, None, view)),
+                Request::Index { relation, key, columns } => {
+                    let known = self.indexes[relation.index()].iter().find(|k| k.key == *key);
+                    debug_assert!(known.is_some() || is_natural(key));
+                    Source::Kept(self.source(*relation, known, Some(columns), view))
+                }
+                Request::Growing { .. } => {
+                    let rows = delta.get(n).and_then(Option::as_ref);
+                    Source::Rows(rows.map(|rows| &**rows as &dyn RowSet).into_iter().collect())
+                }
+            });
+        }
+        let found = run(&plan.steps, &sources, registers, &mut words, goal);
+        drop(sources);
+        self.words = words;
+        found
+    }
+
+    /// Whether a row holds in a view.
+    pub(super) fn holds(&self, relation: RelationId, row: &[Word], view: View) -> bool {
+        let edit = &self.edits[relation.index()];
+        let hidden = match view {
+            View::Before => &edit.added,
+            View::After => &edit.removed,
+        };
+        self.rows[relation.index()].find(row).is_some_and(|slot| !hidden.contains(&slot))
+    }
+
+    /// Puts a row into the view after; false when it was there.
+    pub(super) fn add(&mut self, relation: RelationId, row: &[Word]) -> bool {
+        let at = relation.index();
+        if let Some(slot) = self.rows[at].find(row) {
+            return self.edits[at].removed.remove(&slot);
+        }
+        let slot = self.rows[at].insert(row).expect("it was not found");
+        self.edits[at].added.insert(slot);
+        if slot as usize >= self.rows[at].base().len() {
+            self.indexes[at].iter_mut().for_each(|i| i.insert(row, slot, &mut self.words));
+        }
+        true
+    }
+
+    /// Takes a row out of the view after; false when it was not there.
+    pub(super) fn take(&mut self, relation: RelationId, row: &[Word]) -> bool {
+        let at = relation.index();
+        let Some(slot) = self.rows[at].find(row) else { return false };
+        if self.edits[at].added.remove(&slot) {
+            self.purge(relation, slot);
+            return true;
+        }
+        self.edits[at].removed.insert(slot)
+    }
+
+    fn purge(&mut self, relation: RelationId, slot: Slot) {
+        let at = relation.index();
+        let row = self.rows[at].row(slot).to_vec();
+        self.rows[at].remove(&row);
+        if slot as usize >= self.rows[at].base().len() {
+            self.indexes[at].iter_mut().for_each(|i| i.remove(&row, slot, &mut self.words));
+        }
+    }
+
+    /// Ends the update: the view after is what is there.
+    pub(super) fn commit(&mut self) {
+        for n in 0..self.rows.len() {
+            let edit = std::mem::take(&mut self.edits[n]);
+            edit.removed.into_iter().for_each(|slot| self.purge(RelationId(n as u32), slot));
+            if self.rows[n].is_unsettled() {
+                self.rows[n].settle();
+                self.indexes[n].clear();
+                self.distinct[n].iter_mut().for_each(|known| *known = OnceLock::new());
+            }
+        }
+    }
+
+    /// Ends the update: the view before is what is there.
+    pub(super) fn roll_back(&mut self) {
+        for n in 0..self.rows.len() {
+            let edit = std::mem::take(&mut self.edits[n]);
+            edit.added.into_iter().for_each(|slot| self.purge(RelationId(n as u32), slot));
+        }
+    }
+
+    /// All rows of the view after.
+    pub(super) fn shared(&self, relation: RelationId) -> SharedRows {
+        let (rows, edit) = (&self.rows[relation.index()], &self.edits[relation.index()]);
+        if edit.removed.is_empty() {
+            return rows.rows();
+        }
+        let mut without = rows.clone();
+        for slot in &edit.removed {
+            without.remove(rows.row(*slot));
+        }
+        without.rows()
+    }
+}
+
+impl Statistics for Kept {
+    fn size(&self, relation: RelationId) -> f64 {
+        self.rows[relation.index()].len().max(1) as f64
+    }
+
+    fn distinct(&self, relation: RelationId, column: usize) -> f64 {
+        let known = &self.distinct[relation.index()][column];
+        *known.get_or_init(|| distinct(&*self.rows[relation.index()].base(), column))
+    }
+}
+
+fn is_natural(key: &[Expr]) -> bool {
+    key.iter().enumerate().all(|(n, part)| *part == Expr::Variable(n as u32))
+}
+
+/// The word of a column, or of what is computed from a row; [`NO_WORD`] where there is no value.
+pub(super) fn column_word(expr: &Expr, row: &[Word], words: &mut Words) -> Word {
+    match expr {
+        Expr::Variable(column) => row[*column as usize],
+        _ => value::compute(expr, &|c| row[c as usize], words).unwrap_or(NO_WORD),
+    }
+}
