@@ -133,6 +133,13 @@ fn time<T>(work: impl FnOnce() -> T) -> (T, Duration) {
     (result, processor_time() - start)
 }
 
+/// Wall time, for what is shorter than the system's ticks.
+fn wall<T>(work: impl FnOnce() -> T) -> (T, Duration) {
+    let start = Instant::now();
+    let result = work();
+    (result, start.elapsed())
+}
+
 /// The most memory that this process has held, in MiB; none where the system does not tell.
 fn peak_memory() -> Option<usize> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
@@ -165,7 +172,7 @@ fn main() {
     let sizes = if wanted.is_empty() { vec![1_000, 5_000, 20_000, 50_000] } else { wanted };
     let rules = RelationRules::standard();
     println!(
-        "| replicas | near pairs | measure, ms | rows and rules, ms | relations | one move: first, ms | median | worst of 300 | of it measuring | peak, MiB |"
+        "| replicas | near pairs | measure, ms | rows and rules, ms | relations | one move: first, ms | median of 300 | 9 of 10 below | of it measuring | peak, MiB |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|");
     for size in sizes {
@@ -181,8 +188,8 @@ fn main() {
         let (mut measuring_moves, mut updating) = (Vec::new(), Vec::new());
         for (id, to) in moves(&world, 300) {
             world.replicas.get_mut(&id).expect("within the hospital").frame = to;
-            measuring_moves.push(time(|| alone.update(&world, id)).1);
-            let (moved, spent) = time(|| relations.update(&world, id));
+            measuring_moves.push(wall(|| alone.update(&world, id)).1);
+            let (moved, spent) = wall(|| relations.update(&world, id));
             assert!(moved.expect("standard rules end"));
             updating.push(spent);
         }
@@ -196,7 +203,7 @@ fn main() {
             ms(deriving),
             ms(first),
             ms(updating[updating.len() / 2]),
-            ms(updating[updating.len() - 1]),
+            ms(updating[updating.len() * 9 / 10]),
             ms(measuring_moves[measuring_moves.len() / 2]),
             peak_memory().map_or_else(|| "–".to_owned(), |mib| mib.to_string()),
         );

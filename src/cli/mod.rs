@@ -12,6 +12,7 @@ mod fault;
 mod import;
 mod json;
 mod text;
+mod why;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -53,6 +54,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
+        Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Plan(plan) => commands::plan(common, plan),
         Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
         Command::Route { from, to, method, words } => {

@@ -324,11 +324,11 @@ impl<'a> Draft<'a> {
         let start = self.plan.steps.len();
         let (function, value) = (aggregate.function, aggregate.value.clone());
         let target = aggregate.target;
-        // The target may be bound already, then the value is compared with it.
         self.plan.steps.push(Step::Aggregate {
             function,
             value: value.clone(),
             register: target,
+            is_known: self.bound[target as usize],
             end: 0,
         });
         let outer = (self.solutions, self.bound.clone(), self.uses.clone());

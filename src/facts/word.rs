@@ -65,6 +65,11 @@ pub(super) fn small_number(number: i64) -> Option<Word> {
     (-IN_PLACE..IN_PLACE).contains(&number).then(|| (number + IN_PLACE) as Word)
 }
 
+/// The position in the list of large numbers.
+pub(super) fn large_at(word: Word) -> Option<usize> {
+    (!is_in_place(word) && word != NO_WORD).then(|| (word - LARGE) as usize)
+}
+
 /// One layer of interned symbols and large numbers.
 #[derive(Debug, Clone, Default)]
 struct Layer {
@@ -146,6 +151,16 @@ impl Words {
         self.own.symbols.push(Arc::clone(&text));
         self.own.symbol_words.insert(text, word);
         word
+    }
+
+    /// All symbols in the order of their words.
+    pub(super) fn symbols(&self) -> impl Iterator<Item = &Arc<str>> {
+        self.layers().flat_map(|layer| &layer.symbols)
+    }
+
+    /// All large numbers in the order of their words.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = &i64> {
+        self.layers().flat_map(|layer| &layer.numbers)
     }
 
     fn layers(&self) -> impl Iterator<Item = &Layer> {

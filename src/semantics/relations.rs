@@ -261,19 +261,60 @@ pub fn derive_from(
     if measured.pair_count() > MANY_PAIRS {
         live.prepare();
     }
-    let mut relations = Relations {
-        rules: rules.clone(),
-        profile,
-        symbols,
-        measured,
-        openings,
-        live,
-        areas: BTreeSet::new(),
-        supports: BTreeMap::new(),
-        bearing: BTreeSet::new(),
-    };
-    relations.index();
-    Ok(relations)
+    Ok(Relations::new(rules, profile, symbols, measured, openings, live))
+}
+
+impl Relations {
+    /// What was derived as bytes, for [`Relations::restore`].
+    #[must_use]
+    pub fn save(&self) -> Option<Vec<u8>> {
+        let mut bytes = vec![self.profile as u8];
+        bytes.extend(self.live.save()?);
+        Some(bytes)
+    }
+
+    /// What [`Relations::save`] saved of the same world under the same rules, derived no more; none where the bytes are
+    /// of other rules, or broken. Whoever keeps the bytes knows of which state of the world they are.
+    #[must_use]
+    pub fn restore(
+        world: &World,
+        rules: &RelationRules,
+        profile: Profile,
+        bytes: &[u8],
+    ) -> Option<Self> {
+        let (&saved_profile, bytes) = bytes.split_first()?;
+        if saved_profile != profile as u8 {
+            return None;
+        }
+        let live = Live::restore(&rules.program, bytes)?;
+        let symbols = Symbols::of(world);
+        let measured = Measurements::of_things(world, rules.reach);
+        let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
+        Some(Self::new(rules, profile, symbols, measured, openings, live))
+    }
+
+    fn new(
+        rules: &RelationRules,
+        profile: Profile,
+        symbols: Symbols,
+        measured: Measurements,
+        openings: Vec<Opening>,
+        live: Live,
+    ) -> Self {
+        let mut relations = Self {
+            rules: rules.clone(),
+            profile,
+            symbols,
+            measured,
+            openings,
+            live,
+            areas: BTreeSet::new(),
+            supports: BTreeMap::new(),
+            bearing: BTreeSet::new(),
+        };
+        relations.index();
+        relations
+    }
 }
 
 fn tuple(cells: &[Cell<'_>]) -> Vec<Value> {
@@ -386,7 +427,7 @@ impl Relations {
         };
         change.single_after.iter().for_each(|s| feed.single(moved, s, &mut put));
         for key in &change.added {
-            if let Some(pair) = self.measured.pairs.get(key) {
+            if let Some(pair) = self.measured.pairs().get(key) {
                 feed.pair(*key, pair, &mut put);
             }
         }
