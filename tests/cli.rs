@@ -605,3 +605,30 @@ fn why_and_why_not_go_down_to_the_measurements() {
     let wrong = place.run(&["why", "Чашка на столе"]).is(2);
     assert!(wrong.err.contains("не читается как факт"), "{}", wrong.err);
 }
+
+#[test]
+fn relations_are_kept_in_the_store_for_its_map_and_rules() {
+    let place = Place::with_rb2();
+    let derived = place.run(&["relations", "--name", "NEXT_TO"]).is(0).out;
+    let kept = place.path("ortho-store").join("derived/relations");
+    let bytes = std::fs::read(&kept).unwrap_or_else(|_| panic!("{} is there", kept.display()));
+    assert_eq!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_eq!(std::fs::read(&kept).unwrap(), bytes);
+
+    // Other rules: what was kept does not count.
+    let rules = std::fs::read_to_string(project("rules/relations.dl")).unwrap();
+    place.write(
+        "rules/relations.dl",
+        rules.replace(
+            "limit(\"common\",   \"next most\",         6000)",
+            "limit(\"common\",   \"next most\",         0)",
+        ),
+    );
+    assert_ne!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_ne!(std::fs::read(&kept).unwrap(), bytes);
+    // Broken bytes: derived anew.
+    std::fs::write(&kept, b"broken").unwrap();
+    std::fs::remove_file(place.path("rules/relations.dl")).unwrap();
+    assert_eq!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_eq!(std::fs::read(&kept).unwrap(), bytes);
+}

@@ -11,6 +11,8 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
+
 /// One word of a tuple.
 pub(super) type Word = u32;
 
@@ -76,9 +78,9 @@ struct Layer {
     /// Symbols and large numbers of the layers below.
     below: (usize, usize),
     symbols: Vec<Arc<str>>,
-    symbol_words: HashMap<Arc<str>, Word>,
+    symbol_words: HashMap<Arc<str>, Word, RandomState>,
     numbers: Vec<i64>,
-    number_words: HashMap<i64, Word>,
+    number_words: HashMap<i64, Word, RandomState>,
 }
 
 impl Layer {

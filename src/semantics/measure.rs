@@ -212,7 +212,7 @@ pub(super) struct Room {
 pub struct Measurements {
     reach: Reach,
     kinds: BTreeMap<ObjectId, Kind>,
-    placements: BTreeMap<AreaId, (MapId, Frame)>,
+    pub(super) placements: BTreeMap<AreaId, (MapId, Frame)>,
     pub(super) rooms: BTreeMap<AreaId, Room>,
     room_grid: BTreeMap<MapId, Grid<AreaId>>,
     pub(super) bodies: BTreeMap<ReplicaId, Body>,
@@ -376,6 +376,14 @@ impl Measurements {
         let mut near = Vec::new();
         self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+
+    /// The Areas of a Map whose bounds may meet these, in the order of their ids.
+    pub(super) fn rooms_near(&self, map: MapId, bounds: &Bounds, found: &mut Vec<AreaId>) {
+        match self.room_grid.get(&map) {
+            Some(grid) => grid.near(bounds, found),
+            None => found.clear(),
+        }
     }
 
     /// Number of pairs near enough to say something of.

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -243,7 +244,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
+    let openings = openings(world, &measured, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut database = rules.program.database();
     let mut rows = Load::new(&rules.program, &mut database);
@@ -268,7 +269,7 @@ impl Relations {
     /// What was derived as bytes, for [`Relations::restore`].
     #[must_use]
     pub fn save(&self) -> Option<Vec<u8>> {
-        let mut bytes = vec![self.profile as u8];
+        let mut bytes = saved_head(self.profile);
         bytes.extend(self.live.save()?);
         Some(bytes)
     }
@@ -282,14 +283,10 @@ impl Relations {
         profile: Profile,
         bytes: &[u8],
     ) -> Option<Self> {
-        let (&saved_profile, bytes) = bytes.split_first()?;
-        if saved_profile != profile as u8 {
-            return None;
-        }
-        let live = Live::restore(&rules.program, bytes)?;
+        let live = Live::restore(&rules.program, bytes.strip_prefix(&*saved_head(profile))?)?;
         let symbols = Symbols::of(world);
         let measured = Measurements::of_things(world, rules.reach);
-        let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
+        let openings = openings(world, &measured, rules.step as f64 / 100.0, &symbols);
         Some(Self::new(rules, profile, symbols, measured, openings, live))
     }
 
@@ -315,6 +312,11 @@ impl Relations {
         relations.index();
         relations
     }
+}
+
+/// What stands before saved relations: another version of this crate may measure otherwise.
+fn saved_head(profile: Profile) -> Vec<u8> {
+    format!("{} {}\n", env!("CARGO_PKG_VERSION"), profile.name()).into_bytes()
 }
 
 fn tuple(cells: &[Cell<'_>]) -> Vec<Value> {
@@ -346,8 +348,8 @@ impl Rows {
 struct Load<'a> {
     program: &'a Program,
     loader: Loader<'a>,
-    relations: HashMap<(*const u8, usize), Option<RelationId>>,
-    names: HashMap<*const u8, Known>,
+    relations: HashMap<(*const u8, usize), Option<RelationId>, RandomState>,
+    names: HashMap<*const u8, Known, RandomState>,
     row: Vec<Known>,
     fault: Option<FactError>,
 }
@@ -357,8 +359,8 @@ impl<'a> Load<'a> {
         Self {
             program,
             loader: database.load(),
-            relations: HashMap::new(),
-            names: HashMap::new(),
+            relations: HashMap::default(),
+            names: HashMap::default(),
             row: Vec::new(),
             fault: None,
         }
