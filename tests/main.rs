@@ -4,6 +4,7 @@ mod architecture;
 mod cli;
 mod corridor;
 mod corridor_lattice;
+mod datalog_files;
 mod drawings;
 mod exports;
 mod facts;

@@ -840,6 +840,21 @@ proptest! {
                     fresh.tuples(&count.name).expect("same rules")
                 );
             }
+            for &id in after.replicas.keys() {
+                prop_assert_eq!(relations.area_of(id), fresh.area_of(id));
+                prop_assert_eq!(relations.support_of(id), fresh.support_of(id));
+                prop_assert_eq!(relations.bears_something(id), fresh.bears_something(id));
+            }
+            // What was kept is taken up again, pairs not yet measured.
+            if n % 2 == 0 {
+                let bytes = relations.save().expect("no edit waits");
+                let rules = RelationRules::standard();
+                relations = Relations::restore(&after, &rules, Profile::Surveyed, &bytes)
+                    .expect("the same rules");
+                prop_assert!(
+                    Relations::restore(&after, &rules, Profile::Detected, &bytes).is_none()
+                );
+            }
             world = after;
         }
     }

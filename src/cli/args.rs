@@ -101,6 +101,14 @@ pub(super) enum Command {
         #[arg(long, value_name = "NAME")]
         of: Option<String>,
     },
+    /// Why a relation holds, down to what was measured: ortho why "ON_TOP_OF(Чашка-1, Стол-1)"
+    Why {
+        /// RELATION(name, name)
+        fact: String,
+        /// Ask why it does not hold: the nearest rule and the premise that failed, with its numbers
+        #[arg(long)]
+        not: bool,
+    },
     /// Plan a scenario of a rule file, or a PDDL problem
     Plan(PlanArgs),
     /// Carry out a task given in words, in the simulator: ortho do "Принеси лекарство"

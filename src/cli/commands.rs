@@ -237,14 +237,16 @@ pub(super) fn datalog(
     if common.json {
         let sizes: Vec<_> =
             report.sizes.iter().map(|(name, n)| json!({"relation": name, "tuples": n})).collect();
-        return say(
-            &json!({"outcome": "done", "sizes": sizes, "written": report.written}).to_string()
-        );
+        return say(&json!({
+            "outcome": "done", "sizes": sizes, "written": report.written, "printed": report.printed,
+        })
+        .to_string());
     }
-    let lines: Vec<String> = report
-        .sizes
-        .iter()
-        .map(|(name, n)| format!("{name}\t{n}"))
+    let printed = report.printed.trim_end();
+    let lines: Vec<String> = (!printed.is_empty())
+        .then(|| printed.to_owned())
+        .into_iter()
+        .chain(report.sizes.iter().map(|(name, n)| format!("{name}\t{n}")))
         .chain(report.written.iter().map(|path| path.display().to_string()))
         .collect();
     say(&lines.join("\n"))

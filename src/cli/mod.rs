@@ -18,6 +18,7 @@ mod observe;
 mod plan;
 mod store;
 mod text;
+mod why;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -69,6 +70,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Do { task, draw, reset } => {
             commands::perform(common, task, draw.as_deref(), *reset)
         }
+        Command::Why { fact, not } => why::run(common, fact, *not),
+        Command::Plan(plan) => commands::plan(common, plan),
+        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

@@ -90,6 +90,16 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_map), help("импортируйте карту: ortho import maps/rb2.toml"))]
     NoMap { store: String },
 
+    /// A fact that does not read as one.
+    #[error("«{text}» не читается как факт")]
+    #[diagnostic(
+        code(engine::fact),
+        help(
+            "факт пишется как ОТНОШЕНИЕ(имя, имя), например НАХОДИТСЯ_СВЕРХУ_НА(Чашка-1, Стол-1)"
+        )
+    )]
+    Fact { text: String },
+
     /// A name that nothing bears.
     #[error("на карте нет имени «{name}»")]
     #[diagnostic(code(engine::unknown_name))]

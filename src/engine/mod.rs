@@ -93,6 +93,9 @@ pub struct Engine {
     pub opened: OpenReport,
 }
 
+/// Under this name the store keeps the relations.
+const RELATIONS: &str = "relations";
+
 /// What an import did.
 #[derive(Debug, Clone)]
 pub struct Imported {
@@ -235,8 +238,31 @@ impl Engine {
         if let Some(relations) = self.relations.get() {
             return Ok(relations);
         }
-        let relations = derive(world, &self.rules.relations, Profile::Surveyed)?;
+        let relations = match self.kept_relations(world) {
+            Some(relations) => relations,
+            None => {
+                let relations = derive(world, &self.rules.relations, Profile::Surveyed)?;
+                self.keep_relations(&relations);
+                relations
+            }
+        };
         Ok(self.relations.get_or_init(|| relations))
+    }
+
+    /// The relations that the store keeps for its map as it stands, under these rules.
+    fn kept_relations(&self, world: &World) -> Option<Relations> {
+        let bytes = self.store.as_ref()?.get_derived(RELATIONS)?;
+        Relations::restore(world, &self.rules.relations, Profile::Surveyed, &bytes)
+    }
+
+    /// Keeps relations for the next start. They can be derived again, so that a store that cannot take them does no
+    /// harm.
+    fn keep_relations(&self, relations: &Relations) {
+        let Some(store) = &self.store else { return };
+        let Some(bytes) = relations.save() else { return };
+        if let Err(error) = store.put_derived(RELATIONS, store.revision(), &bytes) {
+            tracing::debug!(%error, "relations are not kept");
+        }
     }
 
     /// Facts with their relations: those of one relation, those about one thing, or both.

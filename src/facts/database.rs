@@ -171,6 +171,10 @@ impl Database {
         Loader { rows: self.tables.iter().map(|_| Vec::new()).collect(), database: self }
     }
 
+    pub(super) fn from_tables(program: &Program, tables: Vec<Box<dyn Stored>>) -> Self {
+        Self { schema: Schema::of(program), words: program.words.share(), tables }
+    }
+
     /// Puts the tuples of each relation together, so that evaluations share them.
     pub(super) fn settle(&mut self) {
         self.tables.iter_mut().for_each(|table| table.settle());

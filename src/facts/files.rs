@@ -41,6 +41,13 @@ pub enum FilesError {
         #[source]
         cause: Box<FactError>,
     },
+    /// A parameter of `.input` or `.output` that asks for what is not done here.
+    #[error("«{relation}»: не поддерживается {name}={value}")]
+    #[diagnostic(
+        code(facts::parameter),
+        help("есть IO=file и для .output IO=stdout, filename, delimiter, headers")
+    )]
+    Parameter { relation: String, name: String, value: String },
     #[error(transparent)]
     #[diagnostic(transparent)]
     Evaluate(#[from] EvaluateError),
@@ -54,12 +61,15 @@ pub struct FilesReport {
     pub sizes: Vec<(String, usize)>,
     /// `.output`: the files written.
     pub written: Vec<PathBuf>,
+    /// `.output` with `IO=stdout`: what is to be printed, as Soufflé prints it.
+    pub printed: String,
 }
 
 /// Runs a program: `.input` relations from `facts_dir`, `.output` relations into `out_dir`.
 ///
 /// A relation `r` is read from `r.facts` and written to `r.csv` unless its directive says `filename="…"`;
-/// `delimiter="…"` replaces the tab.
+/// `delimiter="…"` replaces the tab, `headers=true` stands for a first line with the columns' names, and
+/// `IO=stdout` prints instead of writing a file.
 ///
 /// # Errors
 /// [`FilesError`] with the place in the program or in the file of facts.
@@ -70,6 +80,11 @@ pub fn run_files(
 ) -> Result<FilesReport, FilesError> {
     let source = Source::read(program).map_err(|cause| file_error(program, cause))?;
     let program = Program::parse(&source)?;
+    for (_, info) in program.relations() {
+        for (parameters, may_print) in [(&info.input, false), (&info.output, true)] {
+            parameters.iter().try_for_each(|known| check(info, known, may_print))?;
+        }
+    }
     let mut database = program.database();
     for (relation, info) in program.relations() {
         if let Some(parameters) = &info.input {
@@ -85,8 +100,12 @@ pub fn run_files(
             report.sizes.push((info.name.clone(), size));
         }
         if let Some(parameters) = &info.output {
+            if is_printed(parameters) {
+                print(&derived, relation, info, parameters, &mut report.printed);
+                continue;
+            }
             let path = out_dir.join(file_name(info, parameters, "csv"));
-            write(&derived, relation, parameters, &path)
+            write(&derived, relation, info, parameters, &path)
                 .map_err(|cause| file_error(&path, cause))?;
             report.written.push(path);
         }
@@ -100,6 +119,31 @@ fn file_error(path: &Path, cause: std::io::Error) -> FilesError {
 
 fn parameter<'a>(parameters: &'a Parameters, name: &str) -> Option<&'a str> {
     parameters.iter().find(|(known, _)| known == name).map(|(_, value)| value.as_str())
+}
+
+/// Refuses what Soufflé may do and this program does not.
+fn check(info: &RelationInfo, parameters: &Parameters, may_print: bool) -> Result<(), FilesError> {
+    for (name, value) in parameters {
+        let is_known = match name.as_str() {
+            "IO" => value == "file" || may_print && value == "stdout",
+            "headers" => matches!(value.as_str(), "true" | "false"),
+            "filename" | "delimiter" => true,
+            _ => false,
+        };
+        if !is_known {
+            let (relation, name, value) = (info.name.clone(), name.clone(), value.clone());
+            return Err(FilesError::Parameter { relation, name, value });
+        }
+    }
+    Ok(())
+}
+
+fn is_printed(parameters: &Parameters) -> bool {
+    parameter(parameters, "IO") == Some("stdout")
+}
+
+fn has_headers(parameters: &Parameters) -> bool {
+    parameter(parameters, "headers") == Some("true")
 }
 
 fn file_name(info: &RelationInfo, parameters: &Parameters, extension: &str) -> String {
@@ -120,7 +164,7 @@ fn read(
 ) -> Result<(), FilesError> {
     let path = facts_dir.join(file_name(info, parameters, "facts"));
     let text = std::fs::read_to_string(&path).map_err(|cause| file_error(&path, cause))?;
-    for (n, line) in text.lines().enumerate() {
+    for (n, line) in text.lines().enumerate().skip(usize::from(has_headers(parameters))) {
         let tuple = tuple_of(line, info, delimiter(parameters));
         let inserted = database.insert(relation, &tuple);
         inserted.map_err(|cause| FilesError::Line {
@@ -147,24 +191,55 @@ fn tuple_of(line: &str, info: &RelationInfo, delimiter: &str) -> Vec<Value> {
     values.collect()
 }
 
+/// The relation's lines: the columns' names where they are asked for, then the tuples in order.
+fn lines<'a>(
+    derived: &'a Derived,
+    relation: RelationId,
+    info: &'a RelationInfo,
+    parameters: &'a Parameters,
+) -> impl Iterator<Item = String> + 'a {
+    let delimiter = delimiter(parameters);
+    let names: Vec<&str> = info.columns.iter().map(|column| column.name.as_str()).collect();
+    let header = has_headers(parameters).then(|| names.join(delimiter));
+    let tuples = derived.sorted(relation).expect("the relation is the program's own");
+    let line = move |tuple: Vec<Value>| {
+        let mut line = String::new();
+        for (n, value) in tuple.iter().enumerate() {
+            let before = if n == 0 { "" } else { delimiter };
+            let _ = write!(line, "{before}{value}");
+        }
+        // Soufflé writes the tuple of no columns so.
+        if tuple.is_empty() { "()".to_owned() } else { line }
+    };
+    header.into_iter().chain(tuples.into_iter().map(line))
+}
+
 fn write(
     derived: &Derived,
     relation: RelationId,
+    info: &RelationInfo,
     parameters: &Parameters,
     path: &Path,
 ) -> std::io::Result<()> {
     let mut file = BufWriter::new(std::fs::File::create(path)?);
-    let mut line = String::new();
-    for tuple in derived.sorted(relation).expect("the relation is the program's own") {
-        line.clear();
-        for (n, value) in tuple.iter().enumerate() {
-            let before = if n == 0 { "" } else { delimiter(parameters) };
-            let _ = write!(line, "{before}{value}");
-        }
-        // Soufflé writes the tuple of no columns so.
-        writeln!(file, "{}", if tuple.is_empty() { "()" } else { &line })?;
+    for line in lines(derived, relation, info, parameters) {
+        writeln!(file, "{line}")?;
     }
     file.flush()
+}
+
+fn print(
+    derived: &Derived,
+    relation: RelationId,
+    info: &RelationInfo,
+    parameters: &Parameters,
+    out: &mut String,
+) {
+    let _ = writeln!(out, "---------------\n{}\n===============", info.name);
+    for line in lines(derived, relation, info, parameters) {
+        let _ = writeln!(out, "{line}");
+    }
+    let _ = writeln!(out, "===============");
 }
 
 #[cfg(test)]

@@ -251,17 +251,21 @@ impl Kept {
         }
     }
 
-    /// Ends the update: the view after is what is there.
-    pub(super) fn commit(&mut self) {
+    /// Ends the update: the view after is what is there. True when indexes were dropped, so that plans must ask for
+    /// them again.
+    pub(super) fn commit(&mut self) -> bool {
+        let mut dropped = false;
         for n in 0..self.rows.len() {
             let edit = std::mem::take(&mut self.edits[n]);
             edit.removed.into_iter().for_each(|slot| self.purge(RelationId(n as u32), slot));
             if self.rows[n].is_unsettled() {
                 self.rows[n].settle();
                 self.indexes[n].clear();
+                dropped = true;
                 self.distinct[n].iter_mut().for_each(|known| *known = OnceLock::new());
             }
         }
+        dropped
     }
 
     /// Ends the update: the view before is what is there.

@@ -58,7 +58,7 @@ impl Live {
     }
 
     /// From a result of this database.
-    fn resume(program: Program, mut database: Database, derived: Derived) -> Self {
+    pub(super) fn resume(program: Program, mut database: Database, derived: Derived) -> Self {
         // The database goes on from the result's words, so that kept rows keep their meaning.
         database.words = derived.kept.words.share();
         let written = program.facts.iter().map(|fact| (fact.relation, fact.words.clone()));
@@ -114,6 +114,11 @@ impl Live {
         Ok(changed)
     }
 
+    /// Whether an edit waits for [`Self::update`].
+    pub(super) fn has_edits(&self) -> bool {
+        !self.touched.is_empty()
+    }
+
     fn touch(&mut self, relation: RelationId, row: Vec<Word>, changed: bool) {
         if changed {
             self.touched.insert((relation, row.into()));
@@ -156,7 +161,9 @@ impl Live {
             }
         }
         self.note_changes();
-        self.derived.kept.commit();
+        if self.derived.kept.commit() {
+            self.deltas.plan_anew();
+        }
         self.derived.kept.words.settle();
         self.database.words = self.derived.kept.words.share();
         self.touched.clear();

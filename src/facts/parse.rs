@@ -366,7 +366,7 @@ fn comparison(input: Input<'_>) -> Read<'_, Body> {
 }
 
 fn expression(input: Input<'_>) -> Read<'_, Expr> {
-    let (rest, value) = chain(product, &[("+", Functor::Add), ("-", Functor::Subtract)], input)?;
+    let (rest, value) = bits(input)?;
     if depth(&value) > MAX_CHAIN {
         let at = value.at().into();
         return input.refuse(RuleError::TooLarge {
@@ -386,6 +386,19 @@ fn depth(expr: &Expr) -> usize {
     }
 }
 
+// a bor b bxor c band d bshl 1: Soufflé's words between operands, the loosest first.
+fn bits(input: Input<'_>) -> Read<'_, Expr> {
+    let shift =
+        |input| chain(sum, &[("bshl", Functor::ShiftLeft), ("bshr", Functor::ShiftRight)], input);
+    let and = |input| chain(shift, &[("band", Functor::BitAnd)], input);
+    let xor = |input| chain(and, &[("bxor", Functor::BitXor)], input);
+    chain(xor, &[("bor", Functor::BitOr)], input)
+}
+
+fn sum(input: Input<'_>) -> Read<'_, Expr> {
+    chain(product, &[("+", Functor::Add), ("-", Functor::Subtract)], input)
+}
+
 fn product(input: Input<'_>) -> Read<'_, Expr> {
     chain(
         power,
@@ -402,9 +415,8 @@ fn chain<'a>(
 ) -> Read<'a, Expr> {
     let (mut input, mut left) = operand(input)?;
     for _ in 0..MAX_CHAIN {
-        let next = operators
-            .iter()
-            .find_map(|(word, f)| sign(word)(input).ok().map(|(rest, _)| (rest, *f)));
+        let next =
+            operators.iter().find_map(|(word, functor)| Some((operator(word, input)?, *functor)));
         let Some((rest, functor)) = next else { return Ok((input, left)) };
         let (rest, right) = operand(rest)?;
         let at = left.at().to(right.at());
@@ -414,6 +426,19 @@ fn chain<'a>(
     let at = input.at().into();
     input
         .refuse(RuleError::TooLarge { what: "действий подряд", limit: MAX_CHAIN, at })
+}
+
+/// What stands behind an operator: a sign, or a word between two operands.
+fn operator<'a>(word: &'static str, input: Input<'a>) -> Option<Input<'a>> {
+    if !word.starts_with(char::is_alphabetic) {
+        return sign(word)(input).ok().map(|(rest, _)| rest);
+    }
+    match input.rest {
+        [Token { word: Word::Name(name), .. }, rest @ ..] if name == word => {
+            Some(Input { rest, ..input })
+        }
+        _ => None,
+    }
 }
 
 // a ^ b ^ c is a ^ (b ^ c), and -a ^ b is -(a ^ b), as in Soufflé.

@@ -29,7 +29,7 @@ pub(super) enum Version {
 /// A source that a plan reads; the evaluation provides it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Request {
-    /// All rows in the relation's own order; slots are columns.
+    /// Rows in the relation's own order, searched by their first columns; slots are columns.
     Whole(RelationId),
     /// Slots are the positions in `columns`.
     Index { relation: RelationId, key: Vec<Expr>, columns: Vec<Expr> },
@@ -324,11 +324,11 @@ impl<'a> Draft<'a> {
         let start = self.plan.steps.len();
         let (function, value) = (aggregate.function, aggregate.value.clone());
         let target = aggregate.target;
-        // The target may be bound already, then the value is compared with it.
         self.plan.steps.push(Step::Aggregate {
             function,
             value: value.clone(),
             register: target,
+            is_known: self.bound[target as usize],
             end: 0,
         });
         let outer = (self.solutions, self.bound.clone(), self.uses.clone());
@@ -426,6 +426,7 @@ impl<'a> Draft<'a> {
         open.retain(|other| *other != n && !taken.contains(other));
         self.spend(&body[n]);
         taken.iter().for_each(|other| self.spend(&body[*other]));
+        let probes = self.solutions;
         self.solutions *= fan_out.max(1e-6);
         self.cost += self.solutions;
         // Filters over columns pay off where a key brings many rows at once.
@@ -467,7 +468,7 @@ impl<'a> Draft<'a> {
                 self.bound[v as usize] = true;
             }
         }
-        self.request(atom.relation, version, columns, slots, &mut scan);
+        self.request(atom.relation, version, columns, slots, &mut scan, probes);
         self.plan.steps.push(Step::Scan(scan));
     }
 
@@ -479,9 +480,15 @@ impl<'a> Draft<'a> {
         key: Vec<Expr>,
         slots: Vec<Expr>,
         scan: &mut Scan,
+        probes: f64,
     ) {
+        let is_natural = key.iter().enumerate().all(|(n, c)| *c == Expr::Variable(n as u32));
+        // A few searches in the relation's own order cost less than an index.
+        let few = probes * 32.0 < self.statistics.size(relation);
         let place: Vec<usize> = match version {
-            Version::Finished if key.is_empty() && scan.filters.is_empty() => {
+            Version::Finished
+                if scan.filters.is_empty() && (key.is_empty() || is_natural && few) =>
+            {
                 scan.source = self.source(Request::Whole(relation));
                 slots.iter().filter_map(plain_column).collect()
             }

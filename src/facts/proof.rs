@@ -193,12 +193,16 @@ impl Explainer {
         tuple: &[Value],
     ) -> Result<Option<Proof>, FactError> {
         let (relation, row) = self.encode(relation, tuple)?;
+        Ok(self.prove(relation, row.into()))
+    }
+
+    pub(super) fn prove(&mut self, relation: RelationId, row: Box<[Word]>) -> Option<Proof> {
         if !self.holds(relation, &row) {
-            return Ok(None);
+            return None;
         }
-        let mut cone = self.cone(relation, row.into());
+        let mut cone = self.cone(relation, row);
         cone.give_heights();
-        Ok(Some(self.proof(&cone)))
+        Some(self.proof(&cone))
     }
 
     pub(super) fn encode(
@@ -439,7 +443,7 @@ pub(super) fn turned(clause: &Clause) -> (Clause, Vec<VariableId>, usize) {
     (turned, head, own)
 }
 
-fn row_of(atom: &Atom, registers: &[Word]) -> Box<[Word]> {
+pub(super) fn row_of(atom: &Atom, registers: &[Word]) -> Box<[Word]> {
     let word = |term: &Term| match term {
         Term::Variable(v) => registers[*v as usize],
         Term::Constant(word) => *word,

@@ -90,6 +90,8 @@ pub(super) enum Step {
         function: Aggregation,
         value: Option<Expr>,
         register: u32,
+        /// The register has a value already, which the aggregate's must equal.
+        is_known: bool,
         end: usize,
     },
     Reached,
@@ -201,14 +203,17 @@ impl<'a> Machine<'a, '_> {
                 // A key without a value is in no relation.
                 !has_row.unwrap_or(false) && self.run(at + 1)
             }
-            Step::Aggregate { function, value, register, end } => {
-                match self.aggregate(*function, value.as_ref(), at + 1, *end) {
-                    Some(number) => {
-                        self.registers[*register as usize] = self.words.number(number);
-                        self.run(*end)
-                    }
-                    None => false,
+            Step::Aggregate { function, value, register, is_known, end } => {
+                let Some(number) = self.aggregate(*function, value.as_ref(), at + 1, *end) else {
+                    return false;
+                };
+                let word = self.words.number(number);
+                let register = &mut self.registers[*register as usize];
+                if *is_known && *register != word {
+                    return false;
                 }
+                *register = word;
+                self.run(*end)
             }
             Step::Reached => self.goal.reached(self.registers, self.words),
         }

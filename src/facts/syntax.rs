@@ -149,7 +149,9 @@ impl Comparison {
         })
     }
 
-    pub(super) fn sign(self) -> &'static str {
+    /// As rule texts write it.
+    #[must_use]
+    pub fn sign(self) -> &'static str {
         match self {
             Self::Equal => "=",
             Self::NotEqual => "!=",

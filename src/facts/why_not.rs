@@ -3,13 +3,18 @@
 //! Each rule of the relation is matched with the tuple, and its premises are tried in the order in which
 //! their variables become known. A failed premise does not end the search but is noted, so that an instance
 //! with one failure is found even when that premise comes first. The instance with the fewest failures
-//! wins; among equals the one whose failed comparison misses by least.
+//! wins; among equals the one whose failed comparison misses by least. A failed premise that rules derive is
+//! asked about in turn, down to a comparison that failed with its numbers or to what was simply not told.
+
+use std::fmt;
 
 use super::database::{FactError, RelationKey};
 use super::kept::View;
 use super::plan::{Task, Version, plan};
-use super::program::{Aggregate, Atom, Clause, Compare, Expr, Literal, Term, VariableId};
-use super::proof::{Explainer, Premise, RuleInstance, premise, rule_instance};
+use super::program::{
+    Aggregate, Atom, Clause, Compare, Expr, Literal, RelationId, Term, VariableId,
+};
+use super::proof::{Explainer, Premise, Proof, RuleInstance, premise, row_of, rule_instance};
 use super::syntax::{Aggregation, Comparison};
 use super::value;
 use super::word::{NO_WORD, Value, Word, Words};
@@ -31,6 +36,18 @@ pub struct FailedRule {
     /// All premises in the order of the rule, each with whether it holds; none where that could not be told,
     /// because a failed premise left a variable open.
     pub premises: Vec<(Premise, Option<bool>)>,
+    /// Why premises failed, by their positions in `premises`. A comparison, or a tuple that was simply not told,
+    /// says it itself.
+    pub below: Vec<(usize, Below)>,
+}
+
+/// Why a premise failed.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Below {
+    /// The tuple is missing: the rule that came closest to deriving one.
+    Missing(FailedRule),
+    /// The tuple should be absent and is there.
+    There(Proof),
 }
 
 impl FailedRule {
@@ -42,9 +59,14 @@ impl FailedRule {
 
 /// Premises tried at most for one question, over all rules.
 const MAX_TRIED: usize = 200_000;
+/// Rules below rules at most.
+const MAX_DEPTH: usize = 24;
 
 /// How far an instance is from success: failures and premises not judged, then the relative miss of a comparison.
 type Distance = (usize, f64);
+
+/// The patterns that the rules above were to derive.
+type Above = Vec<(RelationId, Vec<Word>)>;
 
 struct Best {
     distance: Distance,
@@ -67,6 +89,21 @@ impl Explainer {
         if self.holds(relation, &row) {
             return Ok(WhyNot::Holds);
         }
+        let nearest = self.nearest(relation, &row, &mut Vec::new());
+        Ok(nearest.map_or(WhyNot::NotTold, WhyNot::Nearest))
+    }
+
+    /// The rule that came closest to deriving a tuple that fits the pattern, [`NO_WORD`] standing for any word.
+    fn nearest(
+        &mut self,
+        relation: RelationId,
+        row: &[Word],
+        above: &mut Above,
+    ) -> Option<FailedRule> {
+        if above.len() >= MAX_DEPTH || above.iter().any(|(r, known)| *r == relation && known == row)
+        {
+            return None;
+        }
         let clauses: Vec<usize> = (0..self.program.clauses.len())
             .filter(|n| self.program.clauses[*n].head == relation)
             .collect();
@@ -76,7 +113,7 @@ impl Explainer {
             self.ask(clause);
             let asked = self.asked(clause);
             let mut registers = vec![NO_WORD; asked.clause.variables.len()];
-            for (v, word) in asked.head.iter().zip(&row) {
+            for (v, word) in asked.head.iter().zip(row) {
                 registers[*v as usize] = *word;
             }
             let body = asked.clause.body.clone();
@@ -84,18 +121,28 @@ impl Explainer {
             let open: Vec<usize> = (0..body.len()).collect();
             self.search(clause, &body, open, search, &mut best, &mut tried);
         }
-        Ok(best.map_or(WhyNot::NotTold, |best| WhyNot::Nearest(self.failed_rule(&best))))
+        let best = best?;
+        above.push((relation, row.to_vec()));
+        let failed = self.failed_rule(&best, above);
+        above.pop();
+        Some(failed)
     }
 
-    fn failed_rule(&mut self, best: &Best) -> FailedRule {
+    fn failed_rule(&mut self, best: &Best, above: &mut Above) -> FailedRule {
         let program = self.program.clone();
         // The rule as written: its own variables come first among those of the turned one.
         let clause: &Clause = &program.clauses[best.clause];
         let own = &best.registers[..clause.variables.len()];
-        let words = &mut self.finished.words;
         let mut premises: Vec<(Premise, Option<bool>)> = Vec::new();
+        let mut below = Vec::new();
         for (literal, holds) in clause.body.iter().zip(&best.holds) {
+            let words = &mut self.finished.words;
             if let Some(premise) = premise(&program, clause, literal, own, words) {
+                if *holds == Some(false)
+                    && let Some(why) = self.below(literal, own, above)
+                {
+                    below.push((premises.len(), why));
+                }
                 premises.push((premise, *holds));
             }
         }
@@ -131,7 +178,25 @@ impl Explainer {
             premises.push((premise, *holds));
         }
         let rule = rule_instance(&program, clause, own, &self.finished.words);
-        FailedRule { rule, premises }
+        FailedRule { rule, premises, below }
+    }
+
+    /// Why a failed premise failed.
+    fn below(&mut self, literal: &Literal, registers: &[Word], above: &mut Above) -> Option<Below> {
+        match literal {
+            Literal::Atom(atom) => {
+                let row = row_of(atom, registers);
+                self.nearest(atom.relation, &row, above).map(Below::Missing)
+            }
+            Literal::Not(atom) => {
+                let search =
+                    Search { registers: registers.to_vec(), holds: Vec::new(), distance: (0, 0.0) };
+                let mut row = self.matching(atom, &search).into_iter().next()?;
+                row.truncate(atom.args.len());
+                self.prove(atom.relation, row.into()).map(Below::There)
+            }
+            Literal::Compare(_) | Literal::Aggregate(_) => None,
+        }
     }
 
     /// Tries all ways to go on from a partial instance, and keeps the best complete one.
@@ -270,6 +335,39 @@ impl Explainer {
             None if aggregate.function == Aggregation::Count => Judged::Holds,
             None => Judged::Fails(f64::INFINITY),
         }
+    }
+}
+
+/// As an indented tree: `+` holds, `-` failed, `?` could not be told; below a failed premise what failed in turn.
+impl fmt::Display for FailedRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let mut open: Vec<(usize, &Self, usize)> = vec![(0, self, 0)];
+        writeln!(f, "← {}:{}", self.rule.source, self.rule.line)?;
+        while let Some((depth, rule, at)) = open.pop() {
+            let Some((premise, holds)) = rule.premises.get(at) else { continue };
+            let mark = match holds {
+                Some(true) => '+',
+                Some(false) => '-',
+                None => '?',
+            };
+            let indent = "  ".repeat(depth + 1);
+            write!(f, "{indent}{mark} {premise}")?;
+            open.push((depth, rule, at + 1));
+            match rule.below.iter().find(|(of, _)| *of == at).map(|(_, why)| why) {
+                Some(Below::Missing(next)) => {
+                    writeln!(f, "  ← {}:{}", next.rule.source, next.rule.line)?;
+                    open.push((depth + 1, next, 0));
+                }
+                Some(Below::There(proof)) => {
+                    writeln!(f)?;
+                    for line in proof.to_string().lines() {
+                        writeln!(f, "{indent}    {line}")?;
+                    }
+                }
+                None => writeln!(f)?,
+            }
+        }
+        Ok(())
     }
 }
 

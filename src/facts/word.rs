@@ -11,6 +11,8 @@ use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
+
 /// One word of a tuple.
 pub(super) type Word = u32;
 
@@ -65,15 +67,20 @@ pub(super) fn small_number(number: i64) -> Option<Word> {
     (-IN_PLACE..IN_PLACE).contains(&number).then(|| (number + IN_PLACE) as Word)
 }
 
+/// The position in the list of large numbers.
+pub(super) fn large_at(word: Word) -> Option<usize> {
+    (!is_in_place(word) && word != NO_WORD).then(|| (word - LARGE) as usize)
+}
+
 /// One layer of interned symbols and large numbers.
 #[derive(Debug, Clone, Default)]
 struct Layer {
     /// Symbols and large numbers of the layers below.
     below: (usize, usize),
     symbols: Vec<Arc<str>>,
-    symbol_words: HashMap<Arc<str>, Word>,
+    symbol_words: HashMap<Arc<str>, Word, RandomState>,
     numbers: Vec<i64>,
-    number_words: HashMap<i64, Word>,
+    number_words: HashMap<i64, Word, RandomState>,
 }
 
 impl Layer {
@@ -146,6 +153,16 @@ impl Words {
         self.own.symbols.push(Arc::clone(&text));
         self.own.symbol_words.insert(text, word);
         word
+    }
+
+    /// All symbols in the order of their words.
+    pub(super) fn symbols(&self) -> impl Iterator<Item = &Arc<str>> {
+        self.layers().flat_map(|layer| &layer.symbols)
+    }
+
+    /// All large numbers in the order of their words.
+    pub(super) fn numbers(&self) -> impl Iterator<Item = &i64> {
+        self.layers().flat_map(|layer| &layer.numbers)
     }
 
     fn layers(&self) -> impl Iterator<Item = &Layer> {

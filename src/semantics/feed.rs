@@ -89,7 +89,7 @@ impl Feed<'_> {
         for (&id, single) in &self.measured.singles {
             self.single(id, single, sink);
         }
-        for (&key, pair) in &self.measured.pairs {
+        for (&key, pair) in self.measured.pairs() {
             self.pair(key, pair, sink);
         }
     }

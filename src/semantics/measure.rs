@@ -7,6 +7,7 @@
 //! **Invariant:** after any [`Measurements::update`] the measurements equal those made from scratch.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
 
 use crate::geometry::contact::{
     Footprint, Gap, bounds_distance, escape, facing_overlap, gap, length_within, overlap_area,
@@ -18,6 +19,9 @@ use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, Point, ReplicaId};
 
 use super::body::{Block, Body, Kind};
 use super::grid::Grid;
+
+/// Fewer things than this are measured by one thread: starting more would take longer.
+const LEAST_SHARE: usize = 2_000;
 
 /// How far measuring looks, in tenths of a millimetre. The facts `reach(name, limit)` of the rule text set it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -208,24 +212,31 @@ pub(super) struct Room {
 pub struct Measurements {
     reach: Reach,
     kinds: BTreeMap<ObjectId, Kind>,
-    placements: BTreeMap<AreaId, (MapId, Frame)>,
+    pub(super) placements: BTreeMap<AreaId, (MapId, Frame)>,
     pub(super) rooms: BTreeMap<AreaId, Room>,
     room_grid: BTreeMap<MapId, Grid<AreaId>>,
     pub(super) bodies: BTreeMap<ReplicaId, Body>,
     grids: BTreeMap<MapId, Grid<ReplicaId>>,
     pub(super) singles: BTreeMap<ReplicaId, Single>,
-    pub(super) pairs: BTreeMap<(ReplicaId, ReplicaId), Pair>,
-    /// For each thing the pairs between which it stands.
-    stands_between: BTreeMap<ReplicaId, BTreeSet<(ReplicaId, ReplicaId)>>,
+    /// Measured when first asked for: a reopened store may answer without.
+    near: OnceLock<Near>,
 }
+
+/// What is measured of pairs.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Near {
+    pairs: BTreeMap<Key, Pair>,
+    /// For each thing the pairs between which it stands.
+    stands_between: BTreeMap<ReplicaId, BTreeSet<Key>>,
+}
+
+/// A pair of things, the lower id first.
+type Key = (ReplicaId, ReplicaId);
 
 /// The same measurements, whatever way they came about.
 impl PartialEq for Measurements {
     fn eq(&self, other: &Self) -> bool {
-        self.singles == other.singles
-            && self.pairs == other.pairs
-            && self.stands_between == other.stands_between
-            && self.bodies == other.bodies
+        self.singles == other.singles && self.near() == other.near() && self.bodies == other.bodies
     }
 }
 
@@ -233,6 +244,13 @@ impl Measurements {
     /// Measures all Maps of a world.
     #[must_use]
     pub fn of(world: &World, reach: Reach) -> Self {
+        let measured = Self::of_things(world, reach);
+        measured.near();
+        measured
+    }
+
+    /// Measures things and Areas; pairs when they are first asked for.
+    pub(super) fn of_things(world: &World, reach: Reach) -> Self {
         let placements = placements(world);
         let mut measured = Self {
             reach,
@@ -246,8 +264,7 @@ impl Measurements {
             bodies: BTreeMap::new(),
             grids: BTreeMap::new(),
             singles: BTreeMap::new(),
-            pairs: BTreeMap::new(),
-            stands_between: BTreeMap::new(),
+            near: OnceLock::new(),
             placements,
         };
         for room in measured.rooms.values() {
@@ -264,23 +281,69 @@ impl Measurements {
             measured.grids.entry(body.map).or_default().insert(body.id, &body.bounds);
         }
         measured.singles = measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
+        measured
+    }
+
+    fn near(&self) -> &Near {
+        self.near.get_or_init(|| self.measure_pairs())
+    }
+
+    fn near_mut(&mut self) -> &mut Near {
+        self.near();
+        self.near.get_mut().expect("measured in the line before")
+    }
+
+    /// All pairs that are near enough to say something of.
+    pub(super) fn pairs(&self) -> &BTreeMap<Key, Pair> {
+        &self.near().pairs
+    }
+
+    /// Measures all near pairs, on all cores where there are many things.
+    fn measure_pairs(&self) -> Near {
+        let bodies: Vec<&Body> = self.bodies.values().collect();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let share = bodies.len().div_ceil(cores).max(LEAST_SHARE);
+        let pairs: Vec<(Key, Pair)> = if bodies.len() <= share {
+            self.pairs_of(&bodies)
+        } else {
+            std::thread::scope(|scope| {
+                let parts: Vec<_> = bodies
+                    .chunks(share)
+                    .map(|part| scope.spawn(move || self.pairs_of(part)))
+                    .collect();
+                let joined = parts.into_iter().map(|part| match part.join() {
+                    Ok(pairs) => pairs,
+                    Err(panic) => std::panic::resume_unwind(panic),
+                });
+                joined.flatten().collect()
+            })
+        };
+        let mut near = Near::default();
+        for (key, pair) in &pairs {
+            near.note_between(*key, pair);
+        }
+        near.pairs = pairs.into_iter().collect();
+        near
+    }
+
+    /// The pairs of which these bodies are the first.
+    fn pairs_of(&self, bodies: &[&Body]) -> Vec<(Key, Pair)> {
         let mut pairs = Vec::new();
         let mut near = Vec::new();
-        for a in measured.bodies.values() {
-            measured.near(a, &mut near);
-            for b in near.iter().filter(|&&b| b > a.id).map(|b| &measured.bodies[b]) {
-                if let Some(pair) = measured.pair(a, b) {
-                    pairs.push(((a.id, b.id), pair));
+        for a in bodies {
+            self.around(a, &mut near);
+            for b in near.iter().filter(|&&b| b > a.id).map(|b| &self.bodies[b]) {
+                if let Some(mut pair) = self.pair(a, b) {
+                    let key = (a.id, b.id);
+                    if pair.beside.is_some() {
+                        let found = self.between(key, &pair);
+                        pair.beside.as_mut().expect("looked up above").between = found;
+                    }
+                    pairs.push((key, pair));
                 }
             }
         }
-        measured.pairs = pairs.into_iter().collect();
-        let keys: Vec<_> =
-            measured.pairs.iter().filter(|(_, p)| p.beside.is_some()).map(|(&k, _)| k).collect();
-        for key in keys {
-            measured.look_between(key);
-        }
-        measured
+        pairs
     }
 
     #[must_use]
@@ -315,10 +378,18 @@ impl Measurements {
         near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
     }
 
+    /// The Areas of a Map whose bounds may meet these, in the order of their ids.
+    pub(super) fn rooms_near(&self, map: MapId, bounds: &Bounds, found: &mut Vec<AreaId>) {
+        match self.room_grid.get(&map) {
+            Some(grid) => grid.near(bounds, found),
+            None => found.clear(),
+        }
+    }
+
     /// Number of pairs near enough to say something of.
     #[must_use]
     pub fn pair_count(&self) -> usize {
-        self.pairs.len()
+        self.pairs().len()
     }
 
     /// What is measured of a thing by itself.
@@ -330,11 +401,12 @@ impl Measurements {
     /// What is measured of two things, the lower id first; none when they are far apart.
     #[must_use]
     pub fn of_pair(&self, a: ReplicaId, b: ReplicaId) -> Option<&Pair> {
-        self.pairs.get(&(a.min(b), a.max(b)))
+        self.pairs().get(&(a.min(b), a.max(b)))
     }
 
     /// Measures one replica anew after it was moved, added or removed in `world`; Areas and Objects must be as they were.
     pub fn update(&mut self, world: &World, id: ReplicaId) -> Change {
+        self.near();
         let mut change = Change { single_before: self.singles.remove(&id), ..Change::default() };
         let mut near = Vec::new();
         if let Some(body) = self.bodies.remove(&id) {
@@ -352,16 +424,18 @@ impl Measurements {
         if let Some(grid) = self.grids.get_mut(&body.map) {
             grid.remove(id, &body.bounds);
         }
-        self.near(body, near);
+        self.around(body, near);
         for &other in near.iter() {
             let key = (id.min(other), id.max(other));
-            if let Some(pair) = self.pairs.remove(&key) {
-                self.clear_between(key, &pair);
+            let near = self.near_mut();
+            if let Some(pair) = near.pairs.remove(&key) {
+                near.clear_between(key, &pair);
                 change.removed.insert(key, pair);
             }
         }
-        for key in self.stands_between.remove(&id).unwrap_or_default() {
-            let Some(pair) = self.pairs.get_mut(&key) else { continue };
+        let near = self.near_mut();
+        for key in near.stands_between.remove(&id).unwrap_or_default() {
+            let Some(pair) = near.pairs.get_mut(&key) else { continue };
             change.removed.entry(key).or_insert_with(|| pair.clone());
             change.added.insert(key);
             if let Some(beside) = &mut pair.beside {
@@ -373,16 +447,18 @@ impl Measurements {
     fn enter(&mut self, body: Body, near: &mut Vec<ReplicaId>, change: &mut Change) {
         let id = body.id;
         self.grids.entry(body.map).or_default().insert(id, &body.bounds);
-        self.near(&body, near);
+        self.around(&body, near);
         self.singles.insert(id, self.single(&body));
+        let mut found = Vec::new();
         for &other in near.iter().filter(|&&b| b != id) {
             let other = &self.bodies[&other];
             let (a, b) = if id < other.id { (&body, other) } else { (other, &body) };
             if let Some(pair) = self.pair(a, b) {
                 change.added.insert((a.id, b.id));
-                self.pairs.insert((a.id, b.id), pair);
+                found.push(((a.id, b.id), pair));
             }
         }
+        self.near_mut().pairs.extend(found);
         // A way between two others that this thing now crosses has both its ends within reach of it.
         let reach = cm(self.reach.beside);
         near.retain(|&n| {
@@ -403,7 +479,7 @@ impl Measurements {
 
     /// Notes that `third` stands between two others, if it does.
     fn step_between(&mut self, key: (ReplicaId, ReplicaId), third: ReplicaId, change: &mut Change) {
-        let Some(pair) = self.pairs.get(&key) else { return };
+        let Some(pair) = self.pairs().get(&key) else { return };
         if pair.beside.is_none() {
             return;
         }
@@ -413,26 +489,14 @@ impl Measurements {
         }
         change.removed.entry(key).or_insert_with(|| pair.clone());
         change.added.insert(key);
-        let beside = self.pairs.get_mut(&key).and_then(|p| p.beside.as_mut());
+        let near = self.near_mut();
+        let beside = near.pairs.get_mut(&key).and_then(|p| p.beside.as_mut());
         beside.expect("looked up above").between.insert(Between::Replica(third), share);
-        self.stands_between.entry(third).or_default().insert(key);
-    }
-
-    fn clear_between(&mut self, key: (ReplicaId, ReplicaId), pair: &Pair) {
-        for thing in pair.beside.iter().flat_map(|b| b.between.keys()) {
-            if let Between::Replica(third) = thing
-                && let Some(keys) = self.stands_between.get_mut(third)
-            {
-                keys.remove(&key);
-                if keys.is_empty() {
-                    self.stands_between.remove(third);
-                }
-            }
-        }
+        near.stands_between.entry(third).or_default().insert(key);
     }
 
     /// All things that may be within reach of a body, itself among them if it is in the grid.
-    fn near(&self, body: &Body, found: &mut Vec<ReplicaId>) {
+    fn around(&self, body: &Body, found: &mut Vec<ReplicaId>) {
         let reach = cm(self.reach.distance.max(self.reach.beside).max(self.reach.sector));
         match self.grids.get(&body.map) {
             Some(grid) => grid.near(&body.bounds.grown(reach), found),
@@ -554,16 +618,14 @@ impl Measurements {
     }
 
     /// Everything that stands between a pair, from scratch.
-    fn look_between(&mut self, key: (ReplicaId, ReplicaId)) {
-        let Some(pair) = self.pairs.get(&key).filter(|p| p.beside.is_some()) else { return };
+    fn look_between(&mut self, key: Key) {
+        let Some(pair) = self.pairs().get(&key).filter(|p| p.beside.is_some()) else { return };
         let found = self.between(key, pair);
-        for thing in found.keys() {
-            if let Between::Replica(third) = thing {
-                self.stands_between.entry(*third).or_default().insert(key);
-            }
-        }
-        let beside = self.pairs.get_mut(&key).and_then(|p| p.beside.as_mut());
-        beside.expect("looked up above").between = found;
+        let near = self.near_mut();
+        let pair = near.pairs.get_mut(&key).expect("looked up above");
+        pair.beside.as_mut().expect("looked up above").between = found;
+        let pair = pair.clone();
+        near.note_between(key, &pair);
     }
 
     fn between(&self, key: (ReplicaId, ReplicaId), pair: &Pair) -> BTreeMap<Between, i64> {
@@ -650,6 +712,29 @@ impl Measurements {
             Located::Out { fragment: body.fragment, distance: tenths(distance) }
         } else {
             Located::Nowhere
+        }
+    }
+}
+
+impl Near {
+    fn note_between(&mut self, key: Key, pair: &Pair) {
+        for thing in pair.beside.iter().flat_map(|b| b.between.keys()) {
+            if let Between::Replica(third) = thing {
+                self.stands_between.entry(*third).or_default().insert(key);
+            }
+        }
+    }
+
+    fn clear_between(&mut self, key: Key, pair: &Pair) {
+        for thing in pair.beside.iter().flat_map(|b| b.between.keys()) {
+            if let Between::Replica(third) = thing
+                && let Some(keys) = self.stands_between.get_mut(third)
+            {
+                keys.remove(&key);
+                if keys.is_empty() {
+                    self.stands_between.remove(third);
+                }
+            }
         }
     }
 }

@@ -5,6 +5,8 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
+
 use crate::map::{Entity, World};
 use crate::units::{AreaId, DoorId, ObjectId, OrFrId, PlaceId, ReplicaId, name_key};
 
@@ -21,7 +23,7 @@ pub enum Subject {
 /// Symbols of everything in a world, both ways.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Symbols {
-    of: HashMap<Subject, Arc<str>>,
+    of: HashMap<Subject, Arc<str>, RandomState>,
     subjects: BTreeMap<Arc<str>, Subject>,
 }
 

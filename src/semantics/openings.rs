@@ -16,7 +16,7 @@ use crate::geometry::contact::Footprint;
 use crate::map::{Door, DoorKind, DoorState, DoorStatus, Permeability, SideRef, World};
 use crate::units::{AreaId, Cm, DoorId, Point, Vector};
 
-use super::measure::Room;
+use super::measure::{Measurements, Room};
 use super::names::Symbols;
 
 /// A step this long beyond a border stands on the floor behind it, in cm.
@@ -57,22 +57,22 @@ impl Opening {
 /// All openings of all Areas, in the order of Areas, items and sides.
 pub(super) fn openings(
     world: &World,
-    rooms: &BTreeMap<AreaId, Room>,
+    measured: &Measurements,
     reach: f64,
     symbols: &Symbols,
 ) -> Vec<Opening> {
-    let mut found = sides(world, rooms, reach);
+    let mut found = sides(world, measured, reach);
     name(world, &mut found, reach, symbols);
     found
 }
 
 /// Every open side of an Area by itself.
-fn sides(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64) -> Vec<Opening> {
+fn sides(world: &World, measured: &Measurements, reach: f64) -> Vec<Opening> {
     let links = links(world);
-    let placed: BTreeSet<AreaId> = rooms.keys().copied().collect();
+    let rooms = &measured.rooms;
     let mut found = Vec::new();
-    for area in world.areas.values().filter(|a| placed.contains(&a.id)) {
-        let Some((_, frame)) = world.placement(area.id) else { continue };
+    for area in world.areas.values() {
+        let Some((_, frame)) = measured.placements.get(&area.id) else { continue };
         for item in &area.items {
             let orthoframe = world.orthoframe_of(item);
             let place = frame.compose(&item.frame);
@@ -86,7 +86,7 @@ fn sides(world: &World, rooms: &BTreeMap<AreaId, Room>, reach: f64) -> Vec<Openi
                 let mount = area.doors.iter().find(|m| m.item == side.item && m.side == side.side);
                 let door = mount.and_then(|m| world.doors.get(&m.door));
                 let width = vector.length().get();
-                let step = |sign: f64| step_off(rooms, area.id, ends, sign, reach);
+                let step = |sign: f64| step_off(measured, area.id, ends, sign, reach);
                 found.push(Opening {
                     name: String::new(),
                     area: area.id,
@@ -188,22 +188,23 @@ pub(super) fn outward_normal(a: Point, b: Point) -> Option<Vector> {
 
 /// The first Area met when stepping off a side, out of the Area (`sign` 1) or into it (-1), at its middle or its quarters.
 fn step_off(
-    rooms: &BTreeMap<AreaId, Room>,
+    measured: &Measurements,
     from: AreaId,
     (a, b): (Point, Point),
     sign: f64,
     reach: f64,
 ) -> Option<(AreaId, f64)> {
     let way = outward_normal(a, b)? * sign;
-    let storey = &rooms[&from].parts;
+    let here = &measured.rooms[&from];
+    let mut near = Vec::new();
     [0.5, 0.25, 0.75].iter().find_map(|share| {
         let start = a + (b - a) * *share;
         let swept = Bounds::of([start, start + way * (reach + FOOTHOLD)]);
-        let others = rooms.values().filter(|r| {
-            r.map == rooms[&from].map
-                && (sign < 0.0 || r.id != from)
+        measured.rooms_near(here.map, &swept, &mut near);
+        let others = near.iter().map(|id| &measured.rooms[id]).filter(|r| {
+            (sign < 0.0 || r.id != from)
                 && r.bounds.meets(&swept)
-                && same_storey(storey, &r.parts)
+                && same_storey(&here.parts, &r.parts)
         });
         others
             .filter_map(|room| Some((room.id, first_floor(room, start, way, reach)?)))

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::path::Path;
 use std::sync::Arc;
 
+use foldhash::fast::RandomState;
 use miette::Diagnostic;
 use thiserror::Error;
 
@@ -243,7 +244,7 @@ pub fn derive_from(
     measured: Measurements,
 ) -> Result<Relations, RelationError> {
     let symbols = Symbols::of(world);
-    let openings = openings(world, &measured.rooms, rules.step as f64 / 100.0, &symbols);
+    let openings = openings(world, &measured, rules.step as f64 / 100.0, &symbols);
     let feed = Feed { world, symbols: &symbols, measured: &measured };
     let mut database = rules.program.database();
     let mut rows = Load::new(&rules.program, &mut database);
@@ -261,19 +262,61 @@ pub fn derive_from(
     if measured.pair_count() > MANY_PAIRS {
         live.prepare();
     }
-    let mut relations = Relations {
-        rules: rules.clone(),
-        profile,
-        symbols,
-        measured,
-        openings,
-        live,
-        areas: BTreeSet::new(),
-        supports: BTreeMap::new(),
-        bearing: BTreeSet::new(),
-    };
-    relations.index();
-    Ok(relations)
+    Ok(Relations::new(rules, profile, symbols, measured, openings, live))
+}
+
+impl Relations {
+    /// What was derived as bytes, for [`Relations::restore`].
+    #[must_use]
+    pub fn save(&self) -> Option<Vec<u8>> {
+        let mut bytes = saved_head(self.profile);
+        bytes.extend(self.live.save()?);
+        Some(bytes)
+    }
+
+    /// What [`Relations::save`] saved of the same world under the same rules, derived no more; none where the bytes are
+    /// of other rules, or broken. Whoever keeps the bytes knows of which state of the world they are.
+    #[must_use]
+    pub fn restore(
+        world: &World,
+        rules: &RelationRules,
+        profile: Profile,
+        bytes: &[u8],
+    ) -> Option<Self> {
+        let live = Live::restore(&rules.program, bytes.strip_prefix(&*saved_head(profile))?)?;
+        let symbols = Symbols::of(world);
+        let measured = Measurements::of_things(world, rules.reach);
+        let openings = openings(world, &measured, rules.step as f64 / 100.0, &symbols);
+        Some(Self::new(rules, profile, symbols, measured, openings, live))
+    }
+
+    fn new(
+        rules: &RelationRules,
+        profile: Profile,
+        symbols: Symbols,
+        measured: Measurements,
+        openings: Vec<Opening>,
+        live: Live,
+    ) -> Self {
+        let mut relations = Self {
+            rules: rules.clone(),
+            profile,
+            symbols,
+            measured,
+            openings,
+            live,
+            areas: BTreeSet::new(),
+            supports: BTreeMap::new(),
+            bearing: BTreeSet::new(),
+        };
+        relations.index();
+        relations
+    }
+}
+
+/// What stands before saved relations: another version of this crate may measure otherwise.
+fn saved_head(profile: Profile) -> Vec<u8> {
+    format!("{} {}\n", env!("CARGO_PKG_VERSION"), profile.name()).into_bytes()
 }
 
 fn tuple(cells: &[Cell<'_>]) -> Vec<Value> {
@@ -305,8 +348,8 @@ impl Rows {
 struct Load<'a> {
     program: &'a Program,
     loader: Loader<'a>,
-    relations: HashMap<(*const u8, usize), Option<RelationId>>,
-    names: HashMap<*const u8, Known>,
+    relations: HashMap<(*const u8, usize), Option<RelationId>, RandomState>,
+    names: HashMap<*const u8, Known, RandomState>,
     row: Vec<Known>,
     fault: Option<FactError>,
 }
@@ -316,8 +359,8 @@ impl<'a> Load<'a> {
         Self {
             program,
             loader: database.load(),
-            relations: HashMap::new(),
-            names: HashMap::new(),
+            relations: HashMap::default(),
+            names: HashMap::default(),
             row: Vec::new(),
             fault: None,
         }
@@ -386,7 +429,7 @@ impl Relations {
         };
         change.single_after.iter().for_each(|s| feed.single(moved, s, &mut put));
         for key in &change.added {
-            if let Some(pair) = self.measured.pairs.get(key) {
+            if let Some(pair) = self.measured.pairs().get(key) {
                 feed.pair(*key, pair, &mut put);
             }
         }

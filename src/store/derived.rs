@@ -24,7 +24,7 @@ impl Store {
     ///
     /// # Panics
     /// When `kind` is no plain word: it becomes a file's name.
-    pub fn put_derived(&mut self, kind: &str, revision: u64, bytes: &[u8]) -> Result<()> {
+    pub fn put_derived(&self, kind: &str, revision: u64, bytes: &[u8]) -> Result<()> {
         if let Some(reason) = self.read_only() {
             return Err(StoreError::ReadOnly { reason: reason.to_owned() });
         }
