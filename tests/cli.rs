@@ -165,6 +165,54 @@ fn the_papers_walk_is_planned() {
 }
 
 #[test]
+fn a_given_plan_is_checked_step_by_step() {
+    let place = Place::with_rb2();
+    let walk = walk();
+    place.run(&["plan", &walk, "--out", "plan.txt"]).is(0);
+    let sound = place.run(&["plan", &walk, "--check", "plan.txt"]).is(0).out;
+    assert!(sound.contains("План верен: шагов 5, действий 5, стоимость 5."), "{sound}");
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    // Without its third step the plan breaks at what was the fourth; without the last it misses the goal.
+    let without = |step: &str| -> String {
+        written
+            .lines()
+            .filter(|line| !line.starts_with(step))
+            .fold(String::new(), |text, line| text + line + "\n")
+    };
+    place.write("gap.txt", without("2:"));
+    let broken = place.run(&["plan", &walk, "--check", "gap.txt"]).is(1).out;
+    assert!(broken.contains("План обрывается на шаге 3:"), "{broken}");
+    assert!(broken.contains("gap.txt:3:4: действие невыполнимо: не выполнено"), "{broken}");
+    let view = place.json(&["plan", &walk, "--check", "gap.txt"], 1);
+    assert_eq!((&view["outcome"], &view["broken"]["step"]), (&"broken".into(), &3.into()));
+    assert_eq!(view["broken"]["faults"][0]["code"], "strips::plan_precondition");
+    assert_eq!(view["steps"].as_array().unwrap().len(), 2);
+    place.write("short.txt", without("4:"));
+    let missed = place.run(&["plan", &walk, "--check", "short.txt"]).is(1).out;
+    assert!(missed.contains("цели не достигает"), "{missed}");
+    place.write("no-plan.txt", "0: (Движение");
+    place.run(&["plan", &walk, "--check", "no-plan.txt"]).is(2);
+}
+
+#[test]
+fn a_plan_of_another_planner_is_checked_on_pddl() {
+    let place = Place::empty();
+    let case = |name: &str| {
+        project(&format!("tests/golden/planning/pddl_gripper/{name}")).display().to_string()
+    };
+    let (domain, problem) = (case("domain.pddl"), case("problem.pddl"));
+    let given = ["plan", "--domain", &domain, "--problem", &problem];
+    place.run(&[&given[..], &["--out", "plan.txt"]].concat()).is(0);
+    let sound = place.json(&[&given[..], &["--check", "plan.txt"]].concat(), 0);
+    assert_eq!((&sound["outcome"], &sound["broken"]), (&"sound".into(), &Value::Null));
+    // As sequential planners write: without numbers, in capitals.
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    let alone = |line: &str| line.split_once(": ").map(|(_, action)| action.to_uppercase() + "\n");
+    place.write("serial.txt", written.lines().filter_map(alone).collect::<String>());
+    place.run(&[&given[..], &["--check", "serial.txt"]].concat()).is(0);
+}
+
+#[test]
 #[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn no_plan_is_the_answer_no() {
     let folder = project("../shared/data/homebot");

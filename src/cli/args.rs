@@ -184,6 +184,9 @@ pub(super) struct PlanArgs {
     /// Write the plan here, in the format that plan validators read
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
+    /// Check this plan step by step instead of making one
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["out", "any", "time_limit"])]
+    pub check: Option<PathBuf>,
     /// A plan soon, not proven to be the shortest
     #[arg(long)]
     pub any: bool,

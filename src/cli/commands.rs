@@ -4,16 +4,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone};
-use crate::graphplan::Outcome;
+use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose};
 use crate::map::MapErrors;
-use crate::strips::Scenario;
 
-use super::args::{Common, PlanArgs, RouteMethod};
+use super::args::{Common, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
 
-const DEFAULT_STORE: &str = "ortho-store";
+pub(super) const DEFAULT_STORE: &str = "ortho-store";
 
 /// The store in force: the one named, or `./ortho-store`.
 pub(super) fn store_dir(common: &Common) -> PathBuf {
@@ -125,52 +123,6 @@ pub(super) fn relations(
         return say(common.lang.pick("Таких фактов нет.", "There are no such facts."));
     }
     say(&text::facts(&rows))
-}
-
-pub(super) fn plan(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
-    let answer = match (&args.scenario, &args.domain, &args.problem) {
-        (None, Some(domain), Some(problem)) => {
-            plan_alone(Scenario::read_pddl(domain, problem)?, &args.limits(), args.wanted())?
-        }
-        (Some(scenario), _, _) => plan_scenario(common, scenario, args)?,
-        _ => unreachable!("clap asks for a scenario or for both PDDL files"),
-    };
-    for warning in &answer.warnings {
-        note(drawn(warning).trim_end());
-    }
-    if let (Some(path), Outcome::Plan(plan)) = (&args.out, &answer.solved.outcome) {
-        let text = crate::strips::PlanText::write(&answer.solved.task, &plan.steps);
-        std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
-    }
-    if common.json {
-        say(&json::plan(&answer.solved).to_string())?;
-    } else {
-        say(&text::plan(&answer.solved, common.lang))?;
-    }
-    Ok(if matches!(answer.solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })
-}
-
-/// With the facts of the store that was named; else of the map that the scenario names; else of the default
-/// store, if there is one; else with the scenario's own facts alone.
-fn plan_scenario(
-    common: &Common,
-    path: &Path,
-    args: &PlanArgs,
-) -> Result<crate::engine::PlanAnswer, Failure> {
-    let (limits, wanted) = (&args.limits(), args.wanted());
-    let scenario = Scenario::read(path)?;
-    if common.store.is_some() {
-        return Ok(open(common)?.plan(scenario, limits, wanted)?);
-    }
-    if let Some(map) = scenario.map.clone() {
-        let (world, _) = check_map(&map)?;
-        return Ok(Engine::in_memory(world, rules_dir(common).as_deref())?
-            .plan(scenario, limits, wanted)?);
-    }
-    if Path::new(DEFAULT_STORE).is_dir() {
-        return Ok(open(common)?.plan(scenario, limits, wanted)?);
-    }
-    Ok(plan_alone(scenario, limits, wanted)?)
 }
 
 pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {

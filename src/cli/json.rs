@@ -13,6 +13,7 @@ use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
 use crate::semantics::Spot;
+use crate::strips::Replayed;
 use crate::units::{Point, Pose};
 
 #[derive(Debug, Serialize)]
@@ -64,6 +65,46 @@ pub(super) fn plan(solved: &Solved) -> Value {
         Outcome::Plan(_) => {}
     }
     view
+}
+
+/// A plan carried out, as far as it goes.
+pub(super) fn replayed(replayed: &Replayed) -> Value {
+    let steps: Vec<Value> = replayed
+        .steps
+        .iter()
+        .map(|(step, directives)| {
+            let actions: Vec<StepView> = directives
+                .iter()
+                .map(|d| StepView { action: d.action.clone(), args: d.args.clone() })
+                .collect();
+            json!({"step": step, "actions": actions})
+        })
+        .collect();
+    let broken = replayed.broken.as_ref().map(|broken| {
+        let faults: Vec<Value> = broken
+            .faults
+            .0
+            .iter()
+            .map(|fault| {
+                let code = miette::Diagnostic::code(fault).map(|code| code.to_string());
+                let place = fault.position();
+                json!({
+                    "code": code,
+                    "message": fault.error.to_string(),
+                    "line": place.map(|(_, line, _)| line),
+                    "column": place.map(|(_, _, column)| column),
+                })
+            })
+            .collect();
+        json!({"step": broken.step, "faults": faults})
+    });
+    json!({
+        "outcome": if broken.is_none() { "sound" } else { "broken" },
+        "parallel_steps": replayed.steps.len(),
+        "cost": replayed.cost,
+        "steps": steps,
+        "broken": broken,
+    })
 }
 
 fn outcome(outcome: &Outcome) -> &'static str {

@@ -11,6 +11,7 @@ mod draw;
 mod fault;
 mod import;
 mod json;
+mod plan;
 mod text;
 
 use std::io::Write;
@@ -53,7 +54,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
-        Command::Plan(plan) => commands::plan(common, plan),
+        Command::Plan(plan) => plan::run(common, plan),
         Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)

@@ -10,6 +10,7 @@ use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::map::Entity;
 use crate::robot::{Obstruction, Refusal, Surprise};
+use crate::strips::{Broken, Replayed, RuleFaults};
 
 use super::args::Lang;
 
@@ -102,6 +103,44 @@ pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
         text.push_str(&format!("\n{head}\n     {}", solved.assumptions.join("\n     ")));
     }
     text
+}
+
+/// A plan carried out: every step that could be, and where it breaks.
+pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
+    let mut text = String::new();
+    for (step, directives) in &replayed.steps {
+        for (i, directive) in directives.iter().enumerate() {
+            let label = if i == 0 { format!("{step}:") } else { String::new() };
+            text.push_str(&format!("{label:>5} {directive}\n"));
+        }
+    }
+    let actions: usize = replayed.steps.iter().map(|(_, directives)| directives.len()).sum();
+    let (steps, cost) = (replayed.steps.len(), replayed.cost);
+    let verdict = match (&replayed.broken, lang) {
+        (None, Lang::Ru) => {
+            format!("План верен: шагов {steps}, действий {actions}, стоимость {cost}.")
+        }
+        (None, Lang::En) => {
+            format!("The plan works: {steps} steps, {actions} actions, cost {cost}.")
+        }
+        (Some(Broken { step: Some(step), faults }), Lang::Ru) => {
+            format!("План обрывается на шаге {step}:{}", reasons(faults))
+        }
+        (Some(Broken { step: Some(step), faults }), Lang::En) => {
+            format!("The plan breaks at step {step}:{}", reasons(faults))
+        }
+        (Some(Broken { step: None, faults }), Lang::Ru) => {
+            format!("План выполним, но цели не достигает:{}", reasons(faults))
+        }
+        (Some(Broken { step: None, faults }), Lang::En) => {
+            format!("The plan can be carried out, but misses its goal:{}", reasons(faults))
+        }
+    };
+    text + &verdict
+}
+
+fn reasons(faults: &RuleFaults) -> String {
+    faults.0.iter().map(|fault| format!("\n      {fault}")).collect()
 }
 
 /// A way in words: through which rooms and doors, how long, and where it bends.

@@ -31,7 +31,7 @@ use std::path::Path;
 
 pub use drawing::{Drawing, Lens};
 pub use error::{Error, RequestError};
-pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
+pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;

@@ -2,7 +2,7 @@
 
 use crate::graphplan::{Limits, Outcome};
 use crate::robot::{Solved, Wanted, facts_of_map, solve, state};
-use crate::strips::{RuleFault, Scenario};
+use crate::strips::{PlanText, Replayed, RuleFault, Scenario};
 
 use super::{Engine, Error};
 
@@ -57,15 +57,25 @@ impl Engine {
         limits: &Limits,
         wanted: Wanted,
     ) -> Result<PlanAnswer, Error> {
-        let mut problem = scenario.problem;
+        plan_alone(self.supplemented(scenario)?, limits, wanted)
+    }
+
+    /// Carries a plan out on a scenario with the facts of the map that the engine holds, if it holds one.
+    ///
+    /// # Errors
+    /// All faults of the scenario.
+    pub fn check_plan(&self, scenario: Scenario, plan: &PlanText) -> Result<Replayed, Error> {
+        check_plan_alone(&self.supplemented(scenario)?, plan)
+    }
+
+    fn supplemented(&self, mut scenario: Scenario) -> Result<Scenario, Error> {
         if let Ok(world) = self.world() {
             for fact in facts_of_map(world, self.relations()?) {
-                state(&mut problem, &fact);
+                state(&mut scenario.problem, &fact);
             }
-            problem.check_supplied(&scenario.domain, &OF_MAP)?;
+            scenario.problem.check_supplied(&scenario.domain, &OF_MAP)?;
         }
-        let solved = solve(&scenario.domain, &problem, limits, wanted)?;
-        Ok(PlanAnswer { solved, warnings: scenario.warnings })
+        Ok(scenario)
     }
 }
 
@@ -80,4 +90,12 @@ pub fn plan_alone(
 ) -> Result<PlanAnswer, Error> {
     let solved = solve(&scenario.domain, &scenario.problem, limits, wanted)?;
     Ok(PlanAnswer { solved, warnings: scenario.warnings })
+}
+
+/// Carries a plan out on a scenario that needs no map.
+///
+/// # Errors
+/// All faults of the scenario; that the plan breaks is no error.
+pub fn check_plan_alone(scenario: &Scenario, plan: &PlanText) -> Result<Replayed, Error> {
+    Ok(plan.replay(&scenario.domain, &scenario.problem)?)
 }

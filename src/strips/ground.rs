@@ -411,7 +411,7 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
                 negative: known(&schema.negative_preconditions, instance),
                 add_effects: known(&schema.add_effects, instance),
                 del_effects: known(&schema.del_effects, instance),
-                cost: cost(schema, resolved, instance),
+                cost: cost(schema, resolved, &instance.args),
             }
         })
         .collect();
@@ -439,7 +439,8 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
     }
 }
 
-fn cost(schema: &Schema, resolved: &Resolved, instance: &Instance) -> u32 {
+/// What an action over these objects costs.
+pub(super) fn cost(schema: &Schema, resolved: &Resolved, objects: &[ThingId]) -> u32 {
     if schema.cost.is_empty() {
         return 1;
     }
@@ -448,7 +449,7 @@ fn cost(schema: &Schema, resolved: &Resolved, instance: &Instance) -> u32 {
         SchemaCost::Function { name, args } => {
             let value = |term: &SchemaTerm| match term {
                 SchemaTerm::Constant(name) => resolved.index[&name_key(name)],
-                SchemaTerm::Parameter(parameter) => instance.args[*parameter as usize],
+                SchemaTerm::Parameter(parameter) => objects[*parameter as usize],
             };
             let args: Vec<ThingId> = args.iter().map(value).collect();
             // A value that the problem does not give is nothing, as planners read it.

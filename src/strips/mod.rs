@@ -32,6 +32,7 @@ mod load;
 mod pddl;
 mod plan_text;
 mod problem;
+mod replay;
 mod rule_text;
 mod simplify;
 mod syntax;
@@ -48,6 +49,7 @@ pub use ground::ground;
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use plan_text::{Directive, PlanText};
 pub use problem::{Problem, Standing};
+pub use replay::{Broken, Replayed};
 pub use task::{Fact, FactId, Operator, OperatorId, Task};
 
 #[cfg(test)]
