@@ -59,7 +59,6 @@ pub(super) fn plan(solved: &Solved) -> Value {
                 Limit::Time => "time",
                 Limit::Memory => "memory",
                 Limit::Steps => "steps",
-                Limit::Effort => "effort",
             });
         }
         Outcome::Plan(_) => {}

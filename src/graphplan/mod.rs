@@ -69,8 +69,6 @@ pub enum Limit {
     Time,
     Memory,
     Steps,
-    /// A turn's share of effort; seen only within this module.
-    Effort,
 }
 
 /// How far the search may go.
@@ -102,7 +100,11 @@ impl Limits {
 /// Equal tasks give equal plans.
 #[must_use]
 pub fn solve(task: &Task, limits: &Limits) -> Outcome {
-    with_stack(|| search(task, limits, Turn::default()))
+    let answer = with_stack(|| {
+        let outcome = search(task, limits, Turn::default())?;
+        Ok(outcome.expect("turns without end come to an answer"))
+    });
+    answer.unwrap_or_else(Outcome::LimitReached)
 }
 
 /// Finds some plan soon, where the shortest is out of reach. The plan is rid of needless operators, but not
@@ -122,9 +124,8 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
             return Ok(outcome);
         }
         // Where forward search loses its way, the graph may see at once that there is none.
-        let brief =
-            with_stack(|| search(task, limits, Turn { turns: FEW_TURNS, ..Turn::default() }));
-        if !matches!(brief, Outcome::LimitReached(Limit::Effort)) {
+        let turn = Turn { turns: Some(FEW_TURNS), ..Turn::default() };
+        if let Some(brief) = with_stack(|| search(task, limits, turn))? {
             return Ok(brief);
         }
         Ok(found(any::search(task, limits, any::Effort::All)?)
@@ -133,15 +134,15 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     tries().unwrap_or_else(Outcome::LimitReached)
 }
 
-fn with_stack(search: impl FnOnce() -> Result<Outcome, Limit> + Send) -> Outcome {
-    // The search goes as deep as a plan has goals and steps; its stack must not depend on the caller's.
+/// Runs a search on a stack of its own: it goes as deep as a plan has goals and steps.
+fn with_stack<T: Send>(search: impl FnOnce() -> Result<T, Limit> + Send) -> Result<T, Limit> {
     const STACK_BYTES: usize = 1 << 29;
     std::thread::scope(|scope| {
         std::thread::Builder::new()
             .name("graphplan".to_owned())
             .stack_size(STACK_BYTES)
-            .spawn_scoped(scope, || search().unwrap_or_else(Outcome::LimitReached))
-            .map_or(Outcome::LimitReached(Limit::Memory), |search| {
+            .spawn_scoped(scope, search)
+            .map_or(Err(Limit::Memory), |search| {
                 search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
             })
     })
@@ -150,6 +151,12 @@ fn with_stack(search: impl FnOnce() -> Result<Outcome, Limit> + Send) -> Outcome
 /// What a conflict of the solver takes the time of, near enough.
 const CHOICES_A_CONFLICT: u64 = 100;
 
+/// Choices that the search may take for a level before the solver has its turn, after it decided the last level
+/// with so many: much more while they are few, later no more than twice as many.
+fn patience(spent: u64) -> u64 {
+    (8 * spent.min(1 << 14)).max(2 * spent)
+}
+
 /// What each way of extraction may spend in its first turn at a level.
 #[derive(Debug, Clone, Copy)]
 struct Turn {
@@ -157,17 +164,18 @@ struct Turn {
     choices: u64,
     /// Conflicts of the solver.
     conflicts: u64,
-    /// Turns at one level before giving up.
-    turns: u32,
+    /// Turns at one level before giving up, if ever.
+    turns: Option<u32>,
 }
 
 impl Default for Turn {
     fn default() -> Self {
-        Self { choices: 1 << 18, conflicts: 1 << 9, turns: 40 }
+        Self { choices: 1 << 13, conflicts: 1 << 9, turns: None }
     }
 }
 
-fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
+/// None when the turns at some level are used up.
+fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Option<Outcome>, Limit> {
     let mut graph = PlanningGraph::new(task);
     let mut extractor = Extractor {
         search: Search::new(task, *limits),
@@ -175,6 +183,7 @@ fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
         limits,
         turn,
         solver_leads: false,
+        spent: 0,
         refuted: 0,
     };
     loop {
@@ -183,18 +192,20 @@ fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Outcome, Limit> {
             match extractor.extract(&graph)? {
                 Extraction::Plan(mut plan) => {
                     any::drop_needless(task, &mut plan.steps);
-                    return Ok(Outcome::Plan(plan));
+                    return Ok(Some(Outcome::Plan(plan)));
                 }
-                Extraction::None | Extraction::Open => {}
+                Extraction::None => {}
+                Extraction::Open => return Ok(None),
                 Extraction::Never(goals) => {
                     let leveled_off_at =
                         graph.leveled_off_at().expect("never is said after level-off");
                     let reason = NoPlanReason::Together(goals);
-                    return Ok(Outcome::NoPlan { leveled_off_at, reason });
+                    return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
                 }
             }
         } else if let Some(leveled_off_at) = graph.leveled_off_at() {
-            return Ok(Outcome::NoPlan { leveled_off_at, reason: graph.conflict_of(&task.goal) });
+            let reason = graph.conflict_of(&task.goal);
+            return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
         }
         if graph.top() >= limits.parallel_steps {
             return Err(Limit::Steps);
@@ -214,6 +225,8 @@ struct Extractor<'a> {
     turn: Turn,
     /// Who decided the level before goes first.
     solver_leads: bool,
+    /// The choices with which the search decided the level before; none when the solver did.
+    spent: u64,
     /// The last number of steps that the search refuted.
     refuted: usize,
 }
@@ -229,27 +242,34 @@ impl Extractor<'_> {
         {
             return Ok(extraction);
         }
+        // While the search does well, the next level may take it somewhat longer than the last did.
+        let first = self.turn.choices.max(patience(self.spent));
+        let before = self.search.choices();
         let mut round = 0;
         loop {
+            // Long before a share could overflow, some limit or the answer ends the turns.
+            let doubled = round.min(30);
             if self.solver_leads || round > 0 {
-                match self.encoding.extract(graph, self.turn.conflicts << round, self.limits)? {
+                match self.encoding.extract(graph, self.turn.conflicts << doubled, self.limits)? {
                     Verdict::Plan(plan) => return Ok(Extraction::Plan(plan)),
                     Verdict::None => {
                         self.solver_leads = true;
+                        self.spent = 0;
                         return Ok(Extraction::None);
                     }
                     Verdict::Open => {}
                 }
             }
-            let extraction = self.search.extract(graph, graph.top(), self.turn.choices << round)?;
+            let extraction = self.search.extract(graph, graph.top(), first << doubled)?;
             if !matches!(extraction, Extraction::Open) {
                 self.solver_leads = false;
+                self.spent = self.search.choices() - before;
                 self.refuted = graph.top();
                 return Ok(extraction);
             }
             round += 1;
-            if round >= self.turn.turns {
-                return Err(Limit::Effort);
+            if self.turn.turns.is_some_and(|turns| round >= turns) {
+                return Ok(Extraction::Open);
             }
         }
     }

@@ -21,6 +21,10 @@ pub(super) struct Encoding<'a> {
     operators: Vec<Vec<Option<Literal>>>,
     /// Operators that need, and that delete, each fact.
     users: Vec<Users>,
+    /// The least number of steps before the end at which an operator can serve the goal.
+    relevant_from: Vec<u32>,
+    /// What is said of the length looked at; withdrawn with the next.
+    horizon: Option<(usize, Literal)>,
 }
 
 #[derive(Default, Clone)]
@@ -61,7 +65,29 @@ impl<'a> Encoding<'a> {
             facts: Vec::new(),
             operators: Vec::new(),
             users,
+            relevant_from: relevance(task),
+            horizon: None,
         }
+    }
+
+    /// An assumption under which no operator is carried out that comes too late to serve the goal.
+    fn horizon(&mut self, level: usize) -> Literal {
+        if let Some((length, literal)) = self.horizon {
+            if length == level {
+                return literal;
+            }
+            self.solver.add_clause(&[!literal]);
+        }
+        let literal = self.solver.new_variable();
+        for (step, operators) in self.operators[..level].iter().enumerate() {
+            for (operator, &from) in operators.iter().zip(&self.relevant_from) {
+                if let (Some(done), true) = (*operator, from as usize > level - step) {
+                    self.solver.add_clause(&[!literal, !done]);
+                }
+            }
+        }
+        self.horizon = Some((level, literal));
+        literal
     }
 
     /// Looks for a plan as long as the graph, with so many conflicts at most.
@@ -76,12 +102,10 @@ impl<'a> Encoding<'a> {
             limits.check(self.bytes() + graph.bytes())?;
         }
         let level = graph.top();
-        let goal: Vec<Literal> = self
-            .task
-            .goal
-            .iter()
-            .map(|goal| self.facts[level][goal.index()].expect("the goal is possible"))
-            .collect();
+        let mut goal = vec![self.horizon(level)];
+        let facts = &self.facts[level];
+        let wanted = self.task.goal.iter();
+        goal.extend(wanted.map(|goal| facts[goal.index()].expect("the goal is possible")));
         Ok(match self.solver.solve(&goal, conflicts) {
             Answer::Satisfiable => Verdict::Plan(self.plan(level)),
             Answer::Unsatisfiable => Verdict::None,
@@ -258,4 +282,35 @@ impl<'a> Encoding<'a> {
         steps.reverse();
         Plan { steps }
     }
+}
+
+/// How many steps before the end an operator must come at the latest: what adds a goal in the last, what adds a
+/// precondition of one of those in the last but one.
+fn relevance(task: &Task) -> Vec<u32> {
+    let mut achievers: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
+    for id in task.operator_ids() {
+        task.operator(id).add_effects.iter().for_each(|fact| achievers[fact.index()].push(id));
+    }
+    let mut from = vec![u32::MAX; task.operators.len()];
+    let mut asked = vec![false; task.facts.len()];
+    let mut wanted = task.goal.clone();
+    for distance in 1.. {
+        let mut next = Vec::new();
+        for fact in std::mem::take(&mut wanted) {
+            if std::mem::replace(&mut asked[fact.index()], true) {
+                continue;
+            }
+            for &id in &achievers[fact.index()] {
+                if from[id.index()] == u32::MAX {
+                    from[id.index()] = distance;
+                    next.extend(&task.operator(id).preconditions);
+                }
+            }
+        }
+        if next.is_empty() {
+            break;
+        }
+        wanted = next;
+    }
+    from
 }

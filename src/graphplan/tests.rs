@@ -135,7 +135,9 @@ fn compare(turn: Turn) {
             Outcome::Plan(plan) => assert_eq!(validate(&task, plan), Ok(()), "seed {seed}"),
             _ => assert_eq!(fewest, None, "seed {seed}"),
         }
-        match search(&task, &Limits::default(), turn).unwrap_or_else(Outcome::LimitReached) {
+        let outcome = search(&task, &Limits::default(), turn);
+        match outcome.map_or_else(Outcome::LimitReached, |found| found.expect("turns without end"))
+        {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
                 assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");

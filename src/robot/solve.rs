@@ -77,7 +77,6 @@ fn explain(
         }
         Outcome::LimitReached(Limit::Time) => "время вышло раньше, чем нашёлся план".to_owned(),
         Outcome::LimitReached(Limit::Memory) => "память вышла раньше, чем нашёлся план".to_owned(),
-        Outcome::LimitReached(Limit::Effort) => "силы вышли раньше, чем нашёлся план".to_owned(),
         Outcome::LimitReached(Limit::Steps) => {
             "плана нет в пределах наибольшего числа шагов".to_owned()
         }
