@@ -144,6 +144,10 @@ impl PlanningGraph {
         &self.mutex[level.min(self.mutex.len() - 1)]
     }
 
+    pub(super) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
+        self.mutex_at(level).contains(a, b)
+    }
+
     /// Facts that exclude `fact` at a level, as far as they may hold there at all.
     pub(super) fn exclusive_with(
         &self,

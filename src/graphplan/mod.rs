@@ -21,6 +21,7 @@
 
 mod any;
 mod extract;
+mod fewest;
 mod graph;
 mod no_good;
 mod plan;
@@ -77,12 +78,20 @@ pub struct Limits {
     pub deadline: Option<Instant>,
     pub memory_bytes: usize,
     pub parallel_steps: usize,
+    /// Conflicts of the solver that may be spent on fewer actions once the fewest steps are found; on less cost,
+    /// where actions have different costs.
+    pub fewer_actions: u64,
 }
 
 impl Default for Limits {
     /// No deadline, a gigabyte, and more steps than a robot takes in a day.
     fn default() -> Self {
-        Self { deadline: None, memory_bytes: 1 << 30, parallel_steps: 10_000 }
+        Self {
+            deadline: None,
+            memory_bytes: 1 << 30,
+            parallel_steps: 10_000,
+            fewer_actions: 1 << 10,
+        }
     }
 }
 
@@ -192,6 +201,8 @@ fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Option<Outcome>, L
             match extractor.extract(&graph)? {
                 Extraction::Plan(mut plan) => {
                     any::drop_needless(task, &mut plan.steps);
+                    let encoding = &mut extractor.encoding;
+                    let plan = fewest::fewest(task, &graph, encoding, plan, limits);
                     return Ok(Some(Outcome::Plan(plan)));
                 }
                 Extraction::None => {}

@@ -97,16 +97,25 @@ impl<'a> Encoding<'a> {
         conflicts: u64,
         limits: &Limits,
     ) -> Result<Verdict, Limit> {
-        while self.facts.len() <= graph.top() {
-            self.add_level(graph);
-            limits.check(self.bytes() + graph.bytes())?;
-        }
+        self.extract_within(graph, &[], conflicts, limits)
+    }
+
+    /// The same, under further assumptions.
+    pub(super) fn extract_within(
+        &mut self,
+        graph: &PlanningGraph,
+        assumptions: &[Literal],
+        conflicts: u64,
+        limits: &Limits,
+    ) -> Result<Verdict, Limit> {
+        self.reach(graph, limits)?;
         let level = graph.top();
-        let mut goal = vec![self.horizon(level)];
+        let mut assumed = vec![self.horizon(level)];
         let facts = &self.facts[level];
         let wanted = self.task.goal.iter();
-        goal.extend(wanted.map(|goal| facts[goal.index()].expect("the goal is possible")));
-        Ok(match self.solver.solve(&goal, conflicts) {
+        assumed.extend(wanted.map(|goal| facts[goal.index()].expect("the goal is possible")));
+        assumed.extend(assumptions);
+        Ok(match self.solver.solve(&assumed, conflicts) {
             Answer::Satisfiable => Verdict::Plan(self.plan(level)),
             Answer::Unsatisfiable => Verdict::None,
             Answer::Open => {
@@ -114,6 +123,30 @@ impl<'a> Encoding<'a> {
                 Verdict::Open
             }
         })
+    }
+
+    /// Adds the levels that the graph has and the formula has not.
+    pub(super) fn reach(&mut self, graph: &PlanningGraph, limits: &Limits) -> Result<(), Limit> {
+        while self.facts.len() <= graph.top() {
+            self.add_level(graph);
+            limits.check(self.bytes() + graph.bytes())?;
+        }
+        Ok(())
+    }
+
+    /// The variable of an operator in a step, if it may be carried out there to any purpose.
+    pub(super) fn operator(
+        &self,
+        graph: &PlanningGraph,
+        step: usize,
+        id: OperatorId,
+    ) -> Option<Literal> {
+        let serves = self.relevant_from[id.index()] as usize <= graph.top() - step;
+        self.operators[step][id.index()].filter(|_| serves)
+    }
+
+    pub(super) fn solver(&mut self) -> &mut Solver {
+        &mut self.solver
     }
 
     /// Conflicts met so far.

@@ -1,6 +1,6 @@
 //! The planner against breadth-first search over states on small random tasks.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 
 use super::*;
 use crate::strips::{Fact, Operator};
@@ -68,9 +68,42 @@ fn random_task(seed: u64) -> Task {
     task
 }
 
+/// Facts as bits.
+fn mask(facts: &[FactId]) -> u64 {
+    facts.iter().fold(0, |mask, fact| mask | 1 << fact.0)
+}
+
+/// Every set of operators that may be carried out at once in a state: the state after it, and what it costs.
+fn steps_from(task: &Task, state: u64) -> Vec<(u64, u64)> {
+    let applicable: Vec<&Operator> = task
+        .operators
+        .iter()
+        .filter(|o| state & mask(&o.preconditions) == mask(&o.preconditions))
+        .collect();
+    let mut steps = Vec::new();
+    for set in 0_u32..1 << applicable.len() {
+        let chosen: Vec<&Operator> = (0..applicable.len())
+            .filter(|at| set >> at & 1 == 1)
+            .map(|at| applicable[at])
+            .collect();
+        let free = chosen.iter().enumerate().all(|(x, a)| {
+            chosen.iter().enumerate().all(|(y, b)| {
+                let used = mask(&b.preconditions) | mask(&b.add_effects);
+                x == y || mask(&a.del_effects) & used == 0
+            })
+        });
+        if free {
+            let dels = chosen.iter().fold(0, |all, o| all | mask(&o.del_effects));
+            let adds = chosen.iter().fold(0, |all, o| all | mask(&o.add_effects));
+            let cost = chosen.iter().map(|o| u64::from(o.cost)).sum();
+            steps.push((state & !dels | adds, cost));
+        }
+    }
+    steps
+}
+
 /// Fewest parallel steps by trying every set of operators in every state.
 fn fewest_steps(task: &Task) -> Option<usize> {
-    let mask = |facts: &[FactId]| facts.iter().fold(0_u64, |mask, fact| mask | 1 << fact.0);
     let goal = mask(&task.goal);
     let mut seen = HashSet::from([mask(&task.init)]);
     let mut layer: Vec<u64> = seen.iter().copied().collect();
@@ -79,40 +112,49 @@ fn fewest_steps(task: &Task) -> Option<usize> {
         if layer.iter().any(|state| state & goal == goal) {
             return Some(steps);
         }
-        let mut next = Vec::new();
-        for state in layer {
-            let applicable: Vec<&Operator> = task
-                .operators
-                .iter()
-                .filter(|o| state & mask(&o.preconditions) == mask(&o.preconditions))
-                .collect();
-            for set in 0_u32..1 << applicable.len() {
-                let chosen: Vec<&Operator> = (0..applicable.len())
-                    .filter(|at| set >> at & 1 == 1)
-                    .map(|at| applicable[at])
-                    .collect();
-                let free = chosen.iter().enumerate().all(|(x, a)| {
-                    chosen.iter().enumerate().all(|(y, b)| {
-                        x == y
-                            || mask(&a.del_effects)
-                                & (mask(&b.preconditions) | mask(&b.add_effects))
-                                == 0
-                    })
-                });
-                if free {
-                    let dels = chosen.iter().fold(0, |all, o| all | mask(&o.del_effects));
-                    let adds = chosen.iter().fold(0, |all, o| all | mask(&o.add_effects));
-                    let after = state & !dels | adds;
-                    if seen.insert(after) {
-                        next.push(after);
-                    }
-                }
-            }
-        }
-        layer = next;
+        let after = layer.iter().flat_map(|&state| steps_from(task, state));
+        layer = after.map(|(state, _)| state).filter(|&state| seen.insert(state)).collect();
         steps += 1;
     }
     None
+}
+
+/// The least that a plan of so many parallel steps costs.
+fn least_cost(task: &Task, steps: usize) -> u64 {
+    let mut layer = HashMap::from([(mask(&task.init), 0)]);
+    for _ in 0..steps {
+        let mut next: HashMap<u64, u64> = HashMap::new();
+        for (state, spent) in layer {
+            for (after, cost) in steps_from(task, state) {
+                let least = next.entry(after).or_insert(u64::MAX);
+                *least = (spent + cost).min(*least);
+            }
+        }
+        layer = next;
+    }
+    let goal = mask(&task.goal);
+    layer.iter().filter(|(state, _)| **state & goal == goal).map(|(_, &cost)| cost).min().unwrap()
+}
+
+#[test]
+fn of_all_plans_with_the_fewest_steps_one_of_the_cheapest_is_found() {
+    let enough = Limits { fewer_actions: 1 << 20, ..Limits::default() };
+    let mut improved = 0;
+    for seed in 1..=3000 {
+        let mut task = random_task(seed);
+        if seed.is_multiple_of(3) {
+            let mut random = Random(seed);
+            task.operators.iter_mut().for_each(|operator| operator.cost = random.below(4) as u32);
+        }
+        let Outcome::Plan(plan) = solve(&task, &enough) else { continue };
+        assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+        assert_eq!(plan.cost(&task), least_cost(&task, plan.steps.len()), "seed {seed}");
+        let Outcome::Plan(first) = solve(&task, &Limits { fewer_actions: 0, ..enough }) else {
+            panic!("seed {seed}: the same steps")
+        };
+        improved += usize::from(first.cost(&task) > plan.cost(&task));
+    }
+    assert!(improved > 10, "{improved}");
 }
 
 #[test]
