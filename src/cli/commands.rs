@@ -9,6 +9,7 @@ use crate::engine::{
     Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone, ride_in_words,
 };
 use crate::graphplan::Outcome;
+use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose};
 use crate::map::MapErrors;
 
 use super::args::{Common, RouteMethod};
@@ -156,6 +157,9 @@ pub(super) fn perform(
         engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
     }
     let answer = super::demo::perform(common, &mut engine, task)?;
+pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let answer = super::demo::perform(common, &engine, task)?;
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;
     }
