@@ -11,6 +11,7 @@ mod floor_cases;
 mod floor_properties;
 mod floors;
 mod generated_worlds;
+mod map_editing;
 mod maps;
 mod planning;
 mod relations;

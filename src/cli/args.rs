@@ -10,6 +10,7 @@ use crate::graphplan::Limits;
 use crate::robot::Wanted;
 
 use super::draw::DrawArgs;
+use super::edit::EditArgs;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
@@ -76,6 +77,8 @@ pub(super) enum Command {
     Import(ImportArgs),
     /// Check a map file; all faults at once, with line and column
     Check { file: PathBuf },
+    /// Edit the map: one step, or a file of steps; checked as a whole, one transaction, can be undone
+    Edit(EditArgs),
     /// JSON Schema of the map file, for editors
     Schema,
     /// The relations derived from the map

@@ -8,6 +8,7 @@ mod commands;
 mod corridor;
 mod demo;
 mod draw;
+mod edit;
 mod fault;
 mod import;
 mod json;
@@ -49,6 +50,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Import(args) => import::run(common, args),
         Command::Check { file } => commands::check(common, file),
+        Command::Edit(edit) => edit::run(common, edit),
         Command::Schema => say(&crate::map::json_schema()),
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())

@@ -16,7 +16,9 @@
 //! derived anew when that map changes.
 
 mod drawing;
+mod edit;
 mod error;
+mod history;
 mod lexicon;
 mod plan;
 mod position;
@@ -30,7 +32,9 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use drawing::{Drawing, Lens};
+pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
+pub use history::When;
 pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
@@ -43,10 +47,10 @@ pub use crate::exchange::{
 };
 pub use crate::facts::Value;
 pub use crate::geometry::Method;
-pub use crate::map::World;
+pub use crate::map::{Format, World};
 pub use crate::robot::Solved;
 pub use crate::semantics::Relations;
-pub use crate::store::{Change, Timestamp};
+pub use crate::store::{Change, Difference, Revision, Timestamp};
 
 use crate::geometry::{DoorStates, FloorPlan};
 use crate::map::{Entity, MapErrors, read_file};
@@ -149,16 +153,14 @@ impl Engine {
         let report = match &mut self.store {
             Some(store) => {
                 let report = store.import(&world, change)?;
-                self.world = store.world()?;
+                self.reread()?;
                 report
             }
             None => {
-                self.world = Some(world);
+                self.follow(world)?;
                 ImportReport::default()
             }
         };
-        self.relations = OnceCell::new();
-        self.floors = OnceCell::new();
         Ok(Imported { report, reading, warnings })
     }
 

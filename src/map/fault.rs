@@ -74,6 +74,10 @@ pub enum MapError {
     #[error("{what} «{name}» не существует{}", perhaps(.nearest))]
     #[diagnostic(code(map::unknown_reference), help("исправьте имя или опишите: {what} «{name}»"))]
     UnknownReference { what: &'static str, name: String, nearest: Option<String> },
+    /// A name that several things bear, or that could be read in several ways.
+    #[error("имя «{name}» можно понять по-разному: {candidates}")]
+    #[diagnostic(code(map::ambiguous_name), help("назовите одно из них полностью"))]
+    AmbiguousName { name: String, candidates: String },
     /// "A.roof" and its like, misspelt.
     #[error("ссылка «{text}» непонятна")]
     #[diagnostic(code(map::bad_reference), help("запишите ссылку как {wanted}"))]
@@ -378,6 +382,44 @@ pub enum MapError {
         help("исправьте at или перенесите место в другое помещение")
     )]
     PlaceOutside { place: String, area: String },
+
+    /// An edit file that says nothing.
+    #[error("в файле правок ничего нет")]
+    #[diagnostic(
+        code(map::no_edits),
+        help("опишите новое, как в файле карты, или шаг: [[edit]] move = \"Стул-1\", to = [120, 80]")
+    )]
+    NoEdits,
+    /// A step of an edit file that does nothing that is known.
+    #[error("неизвестное действие «{found}»{}", perhaps(.nearest))]
+    #[diagnostic(code(map::unknown_verb), help("шаг правки начинается одним из слов: {expected}"))]
+    UnknownVerb { found: String, nearest: Option<String>, expected: String },
+    /// A new record under a name that is taken.
+    #[error("{what} «{name}» уже есть на карте")]
+    #[diagnostic(
+        code(map::already_there),
+        help("дайте новому другое имя; то, что есть, меняют шаги [[edit]]: move, turn, set, rename, remove")
+    )]
+    AlreadyThere { what: &'static str, name: String },
+    /// Something is to be removed that other things are made of, or stand by.
+    #[error("{what} «{name}» ещё нужен: {by}")]
+    #[diagnostic(code(map::still_used), help("сначала уберите то, что названо"))]
+    StillUsed { what: &'static str, name: String, by: String },
+    /// A door that hangs nowhere, or not there.
+    #[error("дверь «{door}» там не навешена")]
+    #[diagnostic(code(map::not_bound), help("уберите этот шаг или исправьте from"))]
+    NotBound { door: String },
+    /// A link that is not there.
+    #[error("связи {link} нет")]
+    #[diagnostic(code(map::not_linked), help("уберите этот шаг или исправьте концы связи"))]
+    NotLinked { link: String },
+    /// A link of a room that stands on no map.
+    #[error("помещение «{area}» ещё не стоит ни на одной карте")]
+    #[diagnostic(
+        code(map::area_nowhere_yet),
+        help("сначала поставьте его: [[edit]] stand = \"{area}\", map = …, at = [x, y]")
+    )]
+    AreaNowhereYet { area: String },
 
     /// More faults than anyone reads.
     #[error("и ещё ошибок: {count}")]

@@ -45,7 +45,7 @@ pub use check::check;
 pub(crate) use check::plane;
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
-pub use file::{Format, Reading, json_schema, read, read_file};
+pub use file::{EditReading, Format, NextIds, Reading, edit, json_schema, read, read_file};
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};
 pub use types::{Case, Forms, Gender, TypeEntry, TypeKind, TypeList, TypeLists};

@@ -168,6 +168,32 @@ pub struct World {
 }
 
 impl World {
+    /// A Domain without a single Map, from which one can be made by edits.
+    #[must_use]
+    pub fn empty() -> Self {
+        let name = "domain".to_owned();
+        Self {
+            domain: Domain {
+                id: DomainId(1),
+                key: name.clone(),
+                name,
+                name_en: String::new(),
+                description: String::new(),
+                maps: Vec::new(),
+                lifts: Vec::new(),
+            },
+            maps: BTreeMap::new(),
+            areas: BTreeMap::new(),
+            objects: BTreeMap::new(),
+            orthoframes: BTreeMap::new(),
+            doors: BTreeMap::new(),
+            replicas: BTreeMap::new(),
+            places: BTreeMap::new(),
+            types: TypeLists::default(),
+            robot: RobotProfile::default(),
+        }
+    }
+
     /// The Map in which an Area stands, and the Area's frame within it.
     #[must_use]
     pub fn placement(&self, area: AreaId) -> Option<(MapId, Frame)> {

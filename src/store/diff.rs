@@ -55,11 +55,33 @@ impl fmt::Display for Difference {
                 write!(f, "{}: ", self.subject)?;
                 for (n, field) in self.fields.iter().enumerate() {
                     let comma = if n == 0 { "" } else { ", " };
-                    write!(f, "{comma}{} {} → {}", field.column, field.old, field.new)?;
+                    write!(f, "{comma}{} {} → {}", word(field.column), field.old, field.new)?;
                 }
                 Ok(())
             }
         }
+    }
+}
+
+/// How people call a column.
+fn word(column: &'static str) -> &'static str {
+    match column {
+        "Name" => "имя",
+        "NameEn" => "английское имя",
+        "Desc" => "описание",
+        "X" => "x",
+        "Y" => "y",
+        "PosX" => "сдвиг x",
+        "PosY" => "сдвиг y",
+        "PosZ" => "сдвиг z",
+        "PosA" => "поворот",
+        "Ang" => "курс",
+        "Width" => "ширина",
+        "Height" | "Hieght" | "Roof" => "высота",
+        "SizeX" => "размер x",
+        "SizeY" => "размер y",
+        "SidePntr" | "BasePntr" | "RoofPntr" => "проницаемость",
+        other => other,
     }
 }
 
@@ -96,6 +118,15 @@ fn noun(table: Table) -> (&'static str, Option<Table>) {
         T::DomainMaps => ("карта домейна", Some(T::Domain)),
         T::Lifts | T::LiftStops => ("лифт домейна", Some(T::Domain)),
         T::Robot => ("робот домейна", Some(T::Domain)),
+        T::OrtFrmTypeList => ("тип ортофреймов", None),
+        T::OrtFrmShapeList => ("форма ортофреймов", None),
+        T::OrtFrmSideTypeList => ("тип граней", None),
+        T::ObjectTypeList => ("тип объектов", None),
+        T::AreaTypeList => ("тип помещений", None),
+        T::MapTypeList => ("тип карт", None),
+        T::DoorTypeList => ("тип дверей", None),
+        T::TypeWords => ("слово типа", None),
+        T::NameForms => ("словоформа имени", None),
         other => (other.name(), None),
     }
 }
@@ -288,6 +319,15 @@ fn words(table: Table, was: Option<&Row>, is: Option<&Row>, names: &Names) -> Op
             };
             Some(format!("{} → {}", door_words(&door(&old)), door_words(&door(&new))))
         }
+        Table::ObjectProperties
+        | Table::AreaProperties
+        | Table::DoorProperties
+        | Table::ReplicaProperties
+        | Table::OrtFrmProperties
+        | Table::OrtFrmSideProperties => match (was.and_then(|r| r.last()), is?.last()?) {
+            (None, new) => Some(new.to_string()),
+            (Some(old), new) => Some(format!("{old} → {new}")),
+        },
         _ => None,
     }
 }

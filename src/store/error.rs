@@ -126,6 +126,14 @@ pub enum StoreError {
     #[diagnostic(code(store::undo_conflict), help("сначала отмените правку {by}"))]
     UndoConflict { revision: u64, record: String, by: u64 },
 
+    /// Without what the revision made, the map would be faulty.
+    #[error("правку {revision} нельзя отменить: карта стала бы неверной: {what}")]
+    #[diagnostic(
+        code(store::undo_breaks),
+        help("сначала отмените правки, которые на неё опираются: ortho history")
+    )]
+    UndoBreaks { revision: u64, what: String },
+
     /// Nothing is left to undo or redo.
     #[error("нечего {what}")]
     #[diagnostic(code(store::nothing_to_undo), help("список правок: ortho history"))]

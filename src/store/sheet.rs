@@ -61,6 +61,12 @@ impl Sheet {
         self.tables.entry(table).or_default().insert(key, row);
     }
 
+    pub(crate) fn remove(&mut self, table: Table, key: &Key) {
+        if let Some(rows) = self.tables.get_mut(&table) {
+            rows.remove(key);
+        }
+    }
+
     /// Adds a row that came from elsewhere, a table of SQL for one.
     ///
     /// # Errors

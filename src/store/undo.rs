@@ -62,8 +62,32 @@ impl Store {
             let old = before.version(table, &key)?.filter(|v| !v.stamp.deleted).map(|v| v.row);
             edits.rows.insert((table, key), old);
         }
+        check_outcome(&now, target, &edits)?;
         self.write(&edits, change, kind, Some(target))
     }
+}
+
+/// Whatever was built on what the revision made, in records of its own, must do without it.
+fn check_outcome(now: &Reader, target: u64, edits: &Edits) -> Result<()> {
+    let mut sheet = now.sheet()?;
+    for ((table, key), row) in &edits.rows {
+        match row {
+            Some(row) => sheet.insert(*table, key.clone(), row.clone()),
+            None => sheet.remove(*table, key),
+        }
+    }
+    let fault = match sheet.world() {
+        Ok(None) => None,
+        Ok(Some(world)) => {
+            // What was wrong before is not the undoing's fault.
+            let known = now.world()?.map_or_else(Vec::new, |world| crate::map::check(&world));
+            let is_news = |f: &crate::map::Fault| !known.iter().any(|k| k.error == f.error);
+            let faults = crate::map::check(&world);
+            faults.into_iter().find(|f| !f.is_warning() && is_news(f)).map(|f| f.to_string())
+        }
+        Err(error) => Some(error.to_string()),
+    };
+    fault.map_or(Ok(()), |what| Err(StoreError::UndoBreaks { revision: target, what }))
 }
 
 /// The record must still be as the revision left it, whichever later revision wrote it.

@@ -4,6 +4,7 @@
 //! written reads as the same [`World`], ids included.
 
 mod decode;
+mod edit;
 mod misprint;
 mod node;
 mod read;
@@ -23,6 +24,7 @@ use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::Source;
 
+pub use edit::{EditReading, NextIds, edit};
 pub use schema::json_schema;
 
 /// A text larger than this is no map: forty thousand replicas take some five megabytes.

@@ -51,6 +51,11 @@ impl Node {
         self.entries().iter().find(|entry| entry.key == key)
     }
 
+    pub(super) fn entry_mut(&mut self, key: &str) -> Option<&mut Entry> {
+        let Value::Table(entries) = &mut self.value else { return None };
+        entries.iter_mut().find(|entry| entry.key == key)
+    }
+
     pub(super) fn elements(&self) -> &[Self] {
         if let Value::List(elements) = &self.value { elements } else { &[] }
     }

@@ -16,11 +16,19 @@ use crate::units::{AreaId, Cm, Deg, Frame, Point, TypeId};
 
 /// The types of the file, from which any notation can be written.
 pub(super) fn to_file(world: &World) -> MapFile {
-    Writer { world }.file()
+    Writer { world, every_id: false }.file()
 }
 
 pub(super) fn to_toml(world: &World) -> String {
-    let file = to_file(world);
+    as_toml(&to_file(world))
+}
+
+/// With the id of every record, so that what is put between them or taken out changes no other's.
+pub(super) fn to_numbered_toml(world: &World) -> String {
+    as_toml(&Writer { world, every_id: true }.file())
+}
+
+fn as_toml(file: &MapFile) -> String {
     let mut text = format!("format = {}\n", file.format);
     table(&mut text, "domain", &file.domain);
     table(&mut text, "robot", &file.robot);
@@ -80,16 +88,6 @@ fn frame_offset(frame: &Frame) -> At {
     offset(frame.x, frame.y, frame.z)
 }
 
-/// Ids to be written: those that reading would not give by itself. See `read::number`.
-fn ids(ids: impl IntoIterator<Item = u32>) -> impl Iterator<Item = Option<u32>> {
-    let mut last = 0;
-    ids.into_iter().map(move |id| {
-        let follows = id == last + 1;
-        last = id;
-        (!follows).then_some(id)
-    })
-}
-
 /// Whether each is the base, when reading would not take it so: the first one is by default.
 fn base_marks(marks: &[bool]) -> Vec<bool> {
     let first_alone =
@@ -99,16 +97,30 @@ fn base_marks(marks: &[bool]) -> Vec<bool> {
 
 struct Writer<'w> {
     world: &'w World,
+    every_id: bool,
 }
 
 impl Writer<'_> {
+    /// Ids to be written: those that reading would not give by itself. See `read::number`.
+    fn ids<I: IntoIterator<Item = u32>>(
+        &self,
+        ids: I,
+    ) -> impl Iterator<Item = Option<u32>> + use<'_, I> {
+        let (mut last, every_id) = (0, self.every_id);
+        ids.into_iter().map(move |id| {
+            let follows = id == last + 1;
+            last = id;
+            (every_id || !follows).then_some(id)
+        })
+    }
+
     fn file(&self) -> MapFile {
         let w = self.world;
         macro_rules! section {
             ($records:expr, $write:ident) => {
                 $records
                     .values()
-                    .zip(ids($records.keys().map(|id| id.0)))
+                    .zip(self.ids($records.keys().map(|id| id.0)))
                     .map(|(record, id)| (record.key.clone(), self.$write(record, id)))
                     .collect()
             };
@@ -179,7 +191,7 @@ impl Writer<'_> {
     fn types(&self) -> TypesFile {
         let list = |kind| {
             let entries = &self.world.types.list(kind).entries;
-            let ids = ids(entries.keys().map(|id| id.0));
+            let ids = self.ids(entries.keys().map(|id| id.0));
             entries.values().zip(ids).map(|(e, id)| type_file(e, id)).collect()
         };
         TypesFile {
@@ -331,11 +343,11 @@ impl Writer<'_> {
         let w = self.world;
         let mut replicas: Vec<_> = w.replicas.values().collect();
         replicas.sort_by_key(|r| (r.area, r.id));
-        let replica_ids = ids(replicas.iter().map(|r| r.id.0));
+        let replica_ids = self.ids(replicas.iter().map(|r| r.id.0));
         let replicas: Vec<_> = replicas.iter().zip(replica_ids).collect();
         let mut places: Vec<_> = w.places.values().collect();
         places.sort_by_key(|p| (p.area, p.id));
-        let place_ids = ids(places.iter().map(|p| p.id.0));
+        let place_ids = self.ids(places.iter().map(|p| p.id.0));
         let places: Vec<_> = places.iter().zip(place_ids).collect();
         let area = |(area, id): (&Area, Option<u32>)| {
             let within = replicas.iter().filter(|(r, _)| r.area == area.id);
@@ -356,7 +368,7 @@ impl Writer<'_> {
             };
             (area.key.clone(), file)
         };
-        w.areas.values().zip(ids(w.areas.keys().map(|id| id.0))).map(area).collect()
+        w.areas.values().zip(self.ids(w.areas.keys().map(|id| id.0))).map(area).collect()
     }
 
     fn place(&self, place: &Place, id: Option<u32>) -> PlaceFile {

@@ -1,0 +1,223 @@
+//! Edits of the map (M11): checked as a whole, one transaction each, with the relations and the free floor in step.
+//!
+//! **Invariant.** After an edit, relations and floors are those that deriving anew from the edited map would give.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
+use crate::store::{self, Change, Difference, ImportReport, Store, Table};
+use crate::units::{AreaId, ReplicaId, Source};
+
+use super::lexicon::form_index;
+use super::{Engine, Error};
+
+/// Whether an edit is made or only tried.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Mode {
+    Commit,
+    /// Everything is checked and the differences are told; nothing is written.
+    DryRun,
+}
+
+/// What an edit did, or would do.
+#[derive(Debug, Clone)]
+pub struct Edited {
+    /// In the words of a person: `Display` of each is a Russian sentence.
+    pub differences: Vec<Difference>,
+    /// Warnings that the map did not have before.
+    pub warnings: MapErrors,
+    /// The transaction; none for a trial, and without a store.
+    pub report: Option<ImportReport>,
+}
+
+/// Beyond so many moved things, deriving all relations anew costs less than following each move.
+const MOST_FOLLOWED: usize = 16;
+
+impl Engine {
+    /// Works a text of edits into the map, or into an empty one: see [`map::edit`]. A reason in the text counts where `change` has none.
+    ///
+    /// # Errors
+    /// All faults of the text and of the map that it would make; the map is then as it was.
+    pub fn edit(
+        &mut self,
+        source: &Source,
+        format: Format,
+        change: &Change,
+        mode: Mode,
+    ) -> Result<Edited, Error> {
+        let nothing = World::empty();
+        let world = self.world.as_ref().unwrap_or(&nothing);
+        let ids = self.next_ids(world)?;
+        let index = std::cell::OnceCell::new();
+        let names = |name: &str| {
+            let index = index.get_or_init(|| form_index(world));
+            index.find(name).into_iter().map(|hit| *hit.id).collect()
+        };
+        let EditReading { world, faults, reason } = map::edit(world, source, format, ids, &names);
+        let Some(world) = world else { return Err(faults.into()) };
+        let reason = reason.filter(|_| change.reason.is_empty());
+        let change = Change {
+            reason: reason.unwrap_or_else(|| change.reason.clone()),
+            ..change.clone()
+        };
+        self.become_world(world, faults, &change, mode)
+    }
+
+    /// Edits the map as a value: `alter` changes a copy, which is then checked as a whole. New records take their
+    /// ids from [`Engine::next_ids`].
+    ///
+    /// # Errors
+    /// All faults of the map that the edit would make; the map is then as it was.
+    pub fn edit_world(
+        &mut self,
+        change: &Change,
+        mode: Mode,
+        alter: impl FnOnce(&mut World),
+    ) -> Result<Edited, Error> {
+        let nothing = World::empty();
+        let before = self.world.as_ref().unwrap_or(&nothing);
+        let mut after = before.clone();
+        alter(&mut after);
+        let known = map::check(before);
+        let is_news = |f: &Fault| !known.iter().any(|k| k.error == f.error);
+        let faults = map::check(&after).into_iter().filter(is_news).collect();
+        let faults = MapErrors { source: None, faults };
+        if faults.has_errors() {
+            return Err(faults.into());
+        }
+        self.become_world(after, faults, change, mode)
+    }
+
+    /// The ids for new records: none is ever given twice, not even that of something gone.
+    ///
+    /// # Errors
+    /// The store cannot be read.
+    pub fn next_ids(&self, world: &World) -> Result<NextIds, Error> {
+        let mut ids = NextIds::after(world);
+        let Some(store) = &self.store else { return Ok(ids) };
+        for (id, table) in [
+            (&mut ids.orthoframe, Table::OrFr),
+            (&mut ids.object, Table::Object),
+            (&mut ids.area, Table::Area),
+            (&mut ids.map, Table::Map),
+            (&mut ids.door, Table::Door),
+            (&mut ids.replica, Table::AreaObjects),
+            (&mut ids.place, Table::Places),
+        ] {
+            *id = (*id).max(store.next_id(table)?);
+        }
+        for (kind, id) in &mut ids.types {
+            *id = (*id).max(store.next_id(type_table(*kind))?);
+        }
+        Ok(ids)
+    }
+
+    fn become_world(
+        &mut self,
+        after: World,
+        warnings: MapErrors,
+        change: &Change,
+        mode: Mode,
+    ) -> Result<Edited, Error> {
+        let nothing = World::empty();
+        let before = self.world.as_ref().unwrap_or(&nothing);
+        let differences = store::compare(before, &after)?;
+        if mode == Mode::DryRun {
+            return Ok(Edited { differences, warnings, report: None });
+        }
+        let report = match &mut self.store {
+            Some(store) => Some(store.commit(&after, change)?),
+            None => None,
+        };
+        self.follow(after)?;
+        Ok(Edited { differences, warnings, report })
+    }
+
+    /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
+    /// else it is derived anew when it is asked for.
+    pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
+        let Some(before) = self.world.replace(after) else {
+            self.forget_derived();
+            return Ok(());
+        };
+        let after = self.world.as_ref().expect("just put there");
+        let Some(changed) = only_replicas(&before, after) else {
+            self.forget_derived();
+            return Ok(());
+        };
+        if let Some(floors) = self.floors.get_mut() {
+            let areas: BTreeSet<AreaId> = changed
+                .iter()
+                .flat_map(|id| [before.replicas.get(id), after.replicas.get(id)])
+                .flatten()
+                .map(|r| r.area)
+                .collect();
+            for area in areas {
+                if let Some((map, _)) = after.placement(area)
+                    && let Some(floor) = floors.get_mut(&map)
+                {
+                    floor.rebuild(after, area);
+                }
+            }
+        }
+        let mut followed = changed.len() <= MOST_FOLLOWED;
+        if let Some(relations) = self.relations.get_mut() {
+            for id in changed {
+                // Properties are facts too, which a move does not touch.
+                let only_moved = before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(
+                    |(b, a)| map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a,
+                );
+                // A rule that fails now fails again, and is told, when they are derived anew.
+                followed = followed && only_moved && relations.update(after, id).unwrap_or(false);
+            }
+        }
+        if !followed {
+            self.relations.take();
+        }
+        Ok(())
+    }
+
+    pub(super) fn forget_derived(&mut self) {
+        self.relations.take();
+        self.floors.take();
+    }
+
+    pub(super) fn store_mut(&mut self) -> Option<&mut Store> {
+        self.store.as_mut()
+    }
+}
+
+/// The replicas that differ between two worlds that are else alike; none when they are not.
+fn only_replicas(before: &World, after: &World) -> Option<Vec<ReplicaId>> {
+    let alike = before.domain == after.domain
+        && before.maps == after.maps
+        && before.areas == after.areas
+        && before.objects == after.objects
+        && before.orthoframes == after.orthoframes
+        && before.doors == after.doors
+        && before.types == after.types
+        && before.places == after.places
+        && before.robot == after.robot;
+    let differ = |w: &BTreeMap<ReplicaId, map::Replica>, of: &BTreeMap<_, _>| -> Vec<ReplicaId> {
+        of.iter().filter(|(id, r)| w.get(id) != Some(*r)).map(|(id, _)| *id).collect()
+    };
+    alike.then(|| {
+        let mut changed = differ(&before.replicas, &after.replicas);
+        changed.extend(differ(&after.replicas, &before.replicas));
+        changed.sort_unstable();
+        changed.dedup();
+        changed
+    })
+}
+
+fn type_table(kind: TypeKind) -> Table {
+    match kind {
+        TypeKind::Orthoframe => Table::OrtFrmTypeList,
+        TypeKind::Shape => Table::OrtFrmShapeList,
+        TypeKind::Side => Table::OrtFrmSideTypeList,
+        TypeKind::Object => Table::ObjectTypeList,
+        TypeKind::Area => Table::AreaTypeList,
+        TypeKind::Map => Table::MapTypeList,
+        TypeKind::Door => Table::DoorTypeList,
+    }
+}

@@ -1,0 +1,163 @@
+//! Edits of a map written as a text (M11): the steps of the paper's MapUpdater, one transaction a file.
+//!
+//! An edit file has the sections of a map file for what is new (`[orthoframe.KEY]`, `[door.KEY]`, `[object.KEY]`,
+//! `[area.KEY]`, `[map.KEY]`, `[[type.object]]` and so on), and a list of steps, `[[edit]]`, for all else:
+//!
+//! ```toml
+//! reason = "перестановка"
+//! [[edit]]
+//! move = "Стул-1"
+//! to = [120, 80]
+//! [[edit]]
+//! state = "Дверь-ВZ"
+//! is = "locked"
+//! ```
+//!
+//! The map as it stands is written out as a tree, the text is worked into it, and the whole is read and checked
+//! as any map file is. So an edit can do what a file can say, is refused for what a file is refused for, and every
+//! fault has its place in the text of the edits.
+
+mod steps;
+mod tree;
+
+use std::collections::BTreeMap;
+
+use super::node::{self, Span, Value};
+use super::read::{self, Draft};
+use super::{Format, LIMIT, report, write};
+use crate::map::fault::{Fault, MapError};
+use crate::map::{Entity, MapErrors, TypeKind, World, check};
+use crate::units::Source;
+
+use steps::Steps;
+use tree::{Kind, Tree};
+
+/// The ids that new records get: ids are never given twice, so whoever keeps the history names them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct NextIds {
+    pub orthoframe: u32,
+    pub object: u32,
+    pub area: u32,
+    pub map: u32,
+    pub door: u32,
+    pub replica: u32,
+    pub place: u32,
+    pub types: BTreeMap<TypeKind, u32>,
+}
+
+impl NextIds {
+    /// The ids after the highest of a world, for one that has no history.
+    #[must_use]
+    pub fn after(world: &World) -> Self {
+        let next = |last: Option<u32>| last.map_or(1, |n| n.saturating_add(1));
+        let types = TypeKind::ALL.map(|kind| {
+            let entries = &world.types.list(kind).entries;
+            (kind, next(entries.keys().next_back().map(|id| id.0)))
+        });
+        Self {
+            orthoframe: next(world.orthoframes.keys().next_back().map(|id| id.0)),
+            object: next(world.objects.keys().next_back().map(|id| id.0)),
+            area: next(world.areas.keys().next_back().map(|id| id.0)),
+            map: next(world.maps.keys().next_back().map(|id| id.0)),
+            door: next(world.doors.keys().next_back().map(|id| id.0)),
+            replica: next(world.replicas.keys().next_back().map(|id| id.0)),
+            place: next(world.places.keys().next_back().map(|id| id.0)),
+            types: types.into(),
+        }
+    }
+
+    fn of(&mut self, kind: Kind) -> &mut u32 {
+        match kind {
+            Kind::Replica => &mut self.replica,
+            Kind::Area => &mut self.area,
+            Kind::Door => &mut self.door,
+            Kind::Place => &mut self.place,
+            Kind::Map => &mut self.map,
+            Kind::Object => &mut self.object,
+            Kind::Orthoframe => &mut self.orthoframe,
+        }
+    }
+}
+
+/// What an edit of a map came to.
+#[derive(Debug, Clone)]
+pub struct EditReading {
+    /// Absent when there are errors.
+    pub world: Option<World>,
+    /// Errors and the warnings that the map did not have before.
+    pub faults: MapErrors,
+    /// Why the edit is made, if the text says so.
+    pub reason: Option<String>,
+}
+
+/// Works edits into a checked world. `names` finds what a name means that the map does not spell so: another case
+/// form, for one; it may be a function that finds nothing.
+///
+/// ```
+/// use orthoframe::map::{Format, NextIds, World, edit};
+/// use orthoframe::units::Source;
+///
+/// let world = World::load("maps/rb2.toml").unwrap();
+/// let text = Source::new("edits.toml", "[[edit]]\nmove = \"Стул-1\"\nto = [9000, 0]\n");
+/// let done = edit(&world, &text, Format::Toml, NextIds::after(&world), &|_| Vec::new());
+/// assert!(done.world.is_none());
+/// let fault = &done.faults.faults[0]; // «Стул-1» стоит вне своего помещения …
+/// assert_eq!(done.faults.position(fault), Some((3, 6)));
+/// ```
+#[must_use]
+pub fn edit(
+    world: &World,
+    source: &Source,
+    format: Format,
+    ids: NextIds,
+    names: &dyn Fn(&str) -> Vec<Entity>,
+) -> EditReading {
+    let text = source.text();
+    let fail = |faults: Vec<Fault>| EditReading {
+        world: None,
+        faults: report(source, faults),
+        reason: None,
+    };
+    if text.len() as u64 > LIMIT {
+        let error = MapError::TooLarge { bytes: text.len() as u64, limit: LIMIT };
+        return fail(vec![Fault::new(error, Vec::new())]);
+    }
+    let edits = match node::parse(text, format) {
+        Ok(edits) => edits,
+        Err(misprints) => return fail(misprints.into_iter().map(Fault::from).collect()),
+    };
+    if !matches!(&edits.value, Value::Table(entries) if !entries.is_empty()) {
+        return fail(vec![Fault::new(MapError::NoEdits, Vec::new())]);
+    }
+    let base = node::parse(&write::to_numbered_toml(world), Format::Toml)
+        .expect("what is written can be parsed");
+    let mut steps = Steps::new(Tree::new(base, text.len()), world, ids, names);
+    steps.take(&edits);
+    let Steps { tree, misprints, reason, only, .. } = steps;
+    let root = tree.finish();
+    let Draft { world: edited, faults, origins, broken, left_out } = read::build(&root);
+    let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
+    all.extend(faults);
+    // What a step did not do is missed by others: its own fault is enough.
+    let is_whole = all.is_empty();
+    let known = check(world);
+    let news = super::super::check::check_except(&edited, &broken);
+    for mut fault in news.into_iter().filter(|f| !known.iter().any(|k| k.error == f.error)) {
+        fault.locate(&origins, &left_out);
+        all.push(fault);
+    }
+    for fault in &mut all {
+        fault.spans.retain(|span| span.offset() + span.len() <= text.len());
+        if let (true, Some(step)) = (fault.spans.is_empty(), &only) {
+            fault.spans.push(Span::clone(step).into());
+        }
+    }
+    if !is_whole {
+        all.retain(|fault| !fault.spans.is_empty());
+    }
+    // What is told at one place in the same words is told once.
+    all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
+    all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
+    let faults = report(source, all);
+    EditReading { world: (!faults.has_errors()).then_some(edited), faults, reason }
+}

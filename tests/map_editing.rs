@@ -1,0 +1,226 @@
+//! Edits of the map (M11): every step of the paper's list, refusals with their places, undo, and that what is derived
+//! from the map follows.
+
+use std::path::{Path, PathBuf};
+
+use expect_test::expect_file;
+use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
+use orthoframe::map::{NextIds, World, check, edit};
+use orthoframe::semantics::{Profile, derive};
+use orthoframe::units::{Frame, Source};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn change(reason: &str) -> Change {
+    Change::new("Мастер", Timestamp(1_790_000_000_000), reason)
+}
+
+/// A store with the rb2 map.
+fn rb2(dir: &Path) -> Engine {
+    let mut engine = Engine::open(dir, None).expect("a new store");
+    engine.import(&root().join("maps/rb2.toml"), &change("съёмка")).expect("rb2 is sound");
+    engine
+}
+
+fn toml(text: &str) -> Source {
+    Source::new("edits.toml", text)
+}
+
+fn told(outcome: Result<orthoframe::engine::Edited, Error>) -> String {
+    match outcome {
+        Ok(edited) => {
+            let warnings = edited.warnings.faults.iter().map(|f| format!("warning: {f}\n"));
+            edited.differences.iter().map(|d| format!("{d}\n")).chain(warnings).collect()
+        }
+        Err(Error::Map(faults)) => {
+            let one = |f: &orthoframe::map::Fault| match faults.position(f) {
+                Some((line, column)) => format!("{line}:{column}: {f}\n"),
+                None => format!("-: {f}\n"),
+            };
+            faults.faults.iter().map(one).collect()
+        }
+        Err(other) => format!("{other}\n"),
+    }
+}
+
+/// Each folder of tests/golden/edit is an edit file for the rb2 map («from-nothing»: for no map) and what comes of it.
+#[test]
+fn edit_files_do_what_they_say_or_are_refused_with_places() {
+    let folder = root().join("tests/golden/edit");
+    let mut cases = 0;
+    for case in std::fs::read_dir(folder).unwrap() {
+        let case = case.unwrap().path();
+        let name = case.file_name().unwrap().to_string_lossy().into_owned();
+        let file = ["edits.toml", "edits.yaml"].map(|f| case.join(f)).into_iter().find(|f| f.exists());
+        let file = file.expect("every case has its edits");
+        let scratch = tempfile::tempdir().unwrap();
+        let mut engine = if name == "from-nothing" {
+            Engine::open(scratch.path(), None).unwrap()
+        } else {
+            rb2(scratch.path())
+        };
+        let source = Source::new(file.file_name().unwrap().to_string_lossy(), std::fs::read_to_string(&file).unwrap());
+        let before = engine.world().ok().cloned();
+        let tried = told(engine.edit(&source, Format::of(&file), &change(""), Mode::DryRun));
+        assert_eq!(engine.world().ok(), before.as_ref(), "{name}: a dry run changes nothing");
+        let outcome = engine.edit(&source, Format::of(&file), &change(""), Mode::Commit);
+        let done = outcome.is_ok();
+        let told = told(outcome);
+        assert_eq!(tried, told, "{name}: a dry run says what the run says");
+        expect_file![case.join("expected.txt")].assert_eq(&told);
+        if done {
+            let world = engine.world().unwrap().clone();
+            assert!(check(&world).iter().all(|f| f.is_warning()), "{name}");
+            assert_eq!(engine.store().unwrap().world().unwrap().as_ref(), Some(&world), "{name}");
+            engine.undo(None, &change("назад")).unwrap();
+            assert_eq!(engine.world().ok(), before.as_ref(), "{name}: undone");
+            engine.redo(&change("вперёд")).unwrap();
+            assert_eq!(engine.world().unwrap(), &world, "{name}: redone");
+        } else {
+            assert_eq!(engine.world().ok(), before.as_ref(), "{name}: refused as a whole");
+        }
+        cases += 1;
+    }
+    assert!(cases >= 10);
+}
+
+/// What an engine holds after an edit against everything made anew from the same map.
+fn check_in_step(engine: &Engine, what: &str) {
+    let world = engine.world().unwrap();
+    let fresh = derive(world, &engine.rules().relations, Profile::Surveyed).unwrap();
+    let kept = engine.relations().unwrap();
+    for count in fresh.counts() {
+        let sorted = |r: &orthoframe::semantics::Relations| {
+            let mut tuples = r.tuples(&count.name).unwrap();
+            tuples.sort();
+            tuples
+        };
+        assert_eq!(sorted(kept), sorted(&fresh), "{what}: {}", count.name);
+    }
+    for (map, floor) in engine.floors().unwrap() {
+        let anew = orthoframe::geometry::FloorPlan::build(world, *map, &world.robot, &Default::default());
+        for fragment in anew.fragments() {
+            let area = fragment.area;
+            assert_eq!(floor.passframes(area), anew.passframes(area), "{what}: {area:?}");
+        }
+    }
+}
+
+#[test]
+fn relations_and_free_floor_follow_every_edit() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    check_in_step(&engine, "survey");
+    for text in [
+        "[[edit]]\nmove = \"Стул-1\"\nby = [5, 3]\n",
+        "[[edit]]\nmove = \"Стул-1\"\narea = \"Комната-Z\"\nto = [100, 100]\n",
+        "[[edit]]\nplace = \"Коробка-9\"\nobject = \"box\"\narea = \"Комната-Z\"\nat = [100, 200]\n",
+        "[[edit]]\nstate = \"Дверь-ВZ\"\nis = \"locked\"\n",
+        "[[edit]]\nset = \"Стул-3\"\nproperty = \"ЦВЕТ\"\nvalue = \"Чёрный\"\n",
+        "[[edit]]\nrename = \"Стул-3\"\nto = \"Стул хозяина\"\n",
+    ] {
+        engine.edit(&toml(text), Format::Toml, &change("правка"), Mode::Commit).unwrap();
+        check_in_step(&engine, text);
+    }
+    for _ in 0..2 {
+        engine.undo(None, &change("назад")).unwrap();
+        check_in_step(&engine, "undo");
+    }
+}
+
+#[test]
+fn an_edit_is_a_value_of_the_library_too() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    let id = engine.world().unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().id;
+    let done = engine.edit_world(&change("подвинул"), Mode::Commit, |world| {
+        let chair = world.replicas.get_mut(&id).unwrap();
+        chair.frame = Frame { x: chair.frame.x + orthoframe::units::Cm::of(5.0), ..chair.frame };
+    });
+    assert_eq!(told(done), "экземпляр «Стул-1»: передвинут на 5 см\n");
+    let refused = engine.edit_world(&change("вынес"), Mode::Commit, |world| {
+        let chair = world.replicas.get_mut(&id).unwrap();
+        chair.frame = Frame::new(9000.0, 0.0, 0.0, chair.frame.angle);
+    });
+    assert!(told(refused).starts_with("-: «Стул-1» стоит вне своего помещения «Комната-В»"));
+    check_in_step(&engine, "library");
+}
+
+#[test]
+fn the_history_says_who_and_why_and_the_past_can_be_asked() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    let text = "reason = \"к обеду\"\n[[edit]]\nmove = \"Стул-1\"\nby = [5, 0]\n";
+    engine.edit(&toml(text), Format::Toml, &change(""), Mode::Commit).unwrap();
+    let last = engine.revisions().unwrap().pop().unwrap();
+    assert_eq!((last.user.as_str(), last.reason.as_str()), ("Мастер", "к обеду"));
+    let diff = engine.diff(When::Revision(1), When::Revision(2)).unwrap();
+    assert_eq!(diff[0].to_string(), "экземпляр «Стул-1»: передвинут на 5 см");
+    let x = |e: &Engine| e.world().unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().frame.x.get();
+    let now = x(&engine);
+    assert!((x(&engine.as_of(When::Revision(1)).unwrap()) - (now - 5.0)).abs() < 1e-9);
+}
+
+#[test]
+fn what_others_stand_on_cannot_be_undone_from_under_them() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    let new = "[orthoframe.slab]\nrect = [20, 20]\nheight = 5\n[object.slab]\nitems = [{ id = \"A\", orthoframe = \"slab\" }]\n";
+    engine.edit(&toml(new), Format::Toml, &change("новый вид"), Mode::Commit).unwrap();
+    let placed = "[[edit]]\nplace = \"Плита-9\"\nobject = \"slab\"\narea = \"Комната-Z\"\nat = [100, 200]\n";
+    engine.edit(&toml(placed), Format::Toml, &change("поставил"), Mode::Commit).unwrap();
+    let refused = engine.undo(Some(2), &change("назад")).unwrap_err();
+    assert!(refused.to_string().starts_with("правку 2 нельзя отменить: карта стала бы неверной"), "{refused}");
+    engine.undo(Some(3), &change("назад")).unwrap();
+    engine.undo(Some(2), &change("и это")).unwrap();
+}
+
+/// Ids are never given twice: not that of a thing that was removed, nor one between two others.
+#[test]
+fn ids_of_what_is_gone_are_not_given_to_what_is_new() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    let place = |name: &str| {
+        format!("[[edit]]\nplace = \"{name}\"\nobject = \"box\"\narea = \"Комната-Z\"\nat = [100, 200]\n")
+    };
+    let id = |e: &Engine, name: &str| e.world().unwrap().replicas.values().find(|r| r.name == name).unwrap().id;
+    engine.edit(&toml(&place("Первая")), Format::Toml, &change("1"), Mode::Commit).unwrap();
+    let first = id(&engine, "Первая");
+    let text = "[[edit]]\nremove = \"Первая\"\n[[edit]]\nremove = \"Стул-2\"\n";
+    engine.edit(&toml(text), Format::Toml, &change("2"), Mode::Commit).unwrap();
+    let chair = id(&engine, "Стул-3");
+    engine.edit(&toml(&place("Вторая")), Format::Toml, &change("3"), Mode::Commit).unwrap();
+    assert!(id(&engine, "Вторая") > first);
+    assert_eq!(id(&engine, "Стул-3"), chair);
+}
+
+/// Whatever is written as edits, the answer is a world or faults, never a panic; and what is given is checked.
+#[test]
+fn no_edit_text_makes_the_reader_panic() {
+    let world = World::load(root().join("maps/rb2.toml")).unwrap();
+    let words = [
+        "move", "to", "by", "area", "place", "object", "at", "\"Стул-1\"", "\"Комната-В\"", "[1, 2]", "90", "=", "\n",
+        "[[edit]]", "\"A.roof\"", "link", "of", "bind", "side", "remove", "\"room-v\"", "[area.x]", "items", "[]", "{}",
+        "{ id = \"A\", orthoframe = \"room-v\" }", "set", "property", "value", "lift", "stops", "is", "state",
+        "\"Дверь-ВZ\"", "\"open\"", "[map.m]", "include", "stand", "rename", "\"\"",
+    ];
+    let mut dice = crate::store_world::Dice::new(5);
+    for _ in 0..400 {
+        let mut text = String::new();
+        for _ in 0..dice.roll(5) {
+            text.push_str("\n[[edit]]\n");
+            for _ in 0..dice.roll(4) + 1 {
+                let word = |d: &mut crate::store_world::Dice| words[d.roll(words.len() as u64) as usize];
+                text.push_str(&format!("{} = {}\n", word(&mut dice), word(&mut dice)));
+            }
+        }
+        let done = edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), &|_| Vec::new());
+        if let Some(edited) = done.world {
+            assert!(check(&edited).iter().all(|f| f.is_warning()), "{text}");
+        } else {
+            assert!(done.faults.has_errors(), "{text}");
+        }
+    }
+}
