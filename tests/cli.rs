@@ -212,11 +212,163 @@ fn a_task_is_carried_out() {
     assert!(directives.iter().any(|d| d["ru"] == AT_THE_DOOR), "{done}");
     assert!(directives.iter().all(|d| d["en"].is_string()));
     assert!(std::fs::read_to_string(place.path("way/plan.svg")).unwrap().contains("<svg"));
-    let text = place.run(&["do", "Bring the medicine", "--lang", "en"]).is(0).out;
+    let text = place.run(&["do", "Bring the medicine", "--lang", "en", "--reset"]).is(0).out;
     assert!(text.contains("Done:"), "{text}");
     assert!(text.contains("I am in Room V at the door leading from Room V to Room Z."), "{text}");
     let misheard = place.json(&["do", "Станцуй вальс"], 2);
     assert_eq!(misheard["outcome"], "error");
+}
+
+#[test]
+fn the_robot_goes_on_from_where_its_last_task_left_it() {
+    let place = Place::with_rb2();
+    let start = place.json(&["where"], 0);
+    assert_eq!(start["area"], "Комната-В");
+    let gone = place.json(&["do", "Поезжай в Комнату-Y"], 0);
+    let stands = place.json(&["where"], 0);
+    assert_eq!((&stands["area"], &stands["pose"]), (&"Комната-Y".into(), &gone["end"]));
+    // What it takes is off the map's places for it, and stays in its hand until it puts it down.
+    place.json(&["do", "Возьми лекарство"], 0);
+    assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], "");
+    assert_eq!(place.json(&["do", "Возьми лекарство"], 0)["outcome"], "already_true");
+    let put = place.json(&["do", "Положи лекарство на Тумбочку-1"], 0);
+    assert_eq!(put["start"], place.json(&["do", "Возьми лекарство", "--read-only"], 0)["start"]);
+    assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], Value::Null);
+    // The survey knows nothing of all that.
+    assert_eq!(place.json(&["history"], 0)["revisions"].as_array().unwrap().len(), 1);
+    let again = place.json(&["do", "Поезжай в Комнату-Y", "--reset"], 0);
+    assert_eq!(again["start"], start["pose"]);
+}
+
+#[test]
+fn the_map_is_edited_told_and_taken_back() {
+    let place = Place::with_rb2();
+    let tried = place.json(&["edit", "move", "стула-1", "--by", "10,0", "--dry-run"], 0);
+    assert_eq!((&tried["outcome"], &tried["revision"]), (&"tried".into(), &Value::Null));
+    assert_eq!(tried["differences"][0]["ru"], "экземпляр «Стул-1»: передвинут на 10 см");
+    let done = place
+        .json(&["edit", "move", "Стул-1", "--by", "10,0", "--user", "Анна", "--reason", "обед"], 0);
+    assert_eq!((&done["outcome"], &done["revision"]), (&"edited".into(), &2.into()));
+    let last = place.json(&["history", "--last", "1"], 0)["revisions"][0].clone();
+    assert_eq!((&last["user"], &last["reason"]), (&"Анна".into(), &"обед".into()));
+    let refused = place.json(&["edit", "move", "Стул-1", "--to", "9000,0"], 2);
+    assert_eq!(refused["errors"][0]["code"], "map::replica_outside");
+    assert_eq!(refused["errors"][0]["line"], 3);
+    // Every step that makes something, told in arguments.
+    for args in [
+        &["orthoframe", "slab", "--rect", "40,30", "--height", "5", "--property", "ЦВЕТ=Серый"][..],
+        &["orthoframe", "rod", "--regular", "6,3", "--height", "20"],
+        &[
+            "object",
+            "stand",
+            "--name",
+            "Подставка",
+            "--item",
+            "A=slab",
+            "--item",
+            "B=rod@20,15,5",
+            "--link",
+            "A.roof=B.base",
+        ],
+        &[
+            "place",
+            "Подставка-1",
+            "--object",
+            "Подставка",
+            "--area",
+            "Комнату-Z",
+            "--at",
+            "100,200",
+            "--move-prob",
+            "70",
+        ],
+        &["turn", "Подставка-1", "--by", "30"],
+        &["set", "Подставка-1", "МАТЕРИАЛ", "Дерево"],
+        &["move-prob", "Подставка-1", "90"],
+        &[
+            "point",
+            "Точка-П",
+            "--area",
+            "Комната-Z",
+            "--at",
+            "60,200",
+            "--heading",
+            "0",
+            "--serves",
+            "Подставка-1",
+        ],
+        &["state", "Дверь-ВZ", "open", "--opening", "80"],
+        &[
+            "orthoframe",
+            "attic",
+            "--points",
+            "0,0 300,0 300,300 0,300",
+            "--height",
+            "240",
+            "--side",
+            "B=permeable,Проход",
+        ],
+        &["area", "attic", "--name", "Чердак", "--item", "A=attic"],
+        &["rename", "Чердак", "Мансарда", "--en", "Attic"],
+    ] {
+        let all: Vec<&str> = ["edit"].iter().chain(args).copied().collect();
+        place.run(&all).is(0);
+    }
+    // A Map and its place in the Domain belong together: a file is one transaction.
+    let file = place.write(
+        "edits.toml",
+        "[map.second]\nname = \"Этаж-2\"\nitems = [{ area = \"attic\" }]\n[[edit]]\ninclude = \"second\"\nat = [0, 0, 300]\n",
+    );
+    place.run(&["edit", "--file", &file]).is(0);
+    place.run(&["edit", "lift", "Лестница", "--stops", "Коридор,Мансарда"]).is(0);
+    let revisions = place.json(&["history"], 0)["revisions"].as_array().unwrap().len();
+    for _ in 1..revisions {
+        place.run(&["undo"]).is(0);
+    }
+    assert_eq!(place.run(&["diff", "1"]).is(0).out.trim(), "Различий нет.");
+    place.run(&["undo"]).is(0);
+    place.run(&["undo"]).is(2);
+    place.run(&["redo"]).is(0);
+    place.run(&["edit", "--as-of", "1", "remove", "Стул-1"]).is(2);
+    place.run(&["edit", "--read-only", "remove", "Стул-1"]).is(2);
+}
+
+#[test]
+fn a_store_is_checked_copied_restored_and_asked_of_its_past() {
+    let place = Place::with_rb2();
+    place.run(&["edit", "move", "Стул-1", "--by", "10,0"]).is(0);
+    let chair = |args: &[&str]| {
+        let found = place.json(&[&["find", "Стул-1"], args].concat(), 0);
+        found["place"]["at"][0].as_f64().unwrap()
+    };
+    let now = chair(&[]);
+    assert_eq!(place.json(&["fsck"], 0)["outcome"], "sound");
+    place.run(&["backup", "copy"]).is(0);
+    place.run(&["--store", "second", "restore", "copy"]).is(0);
+    assert_eq!(place.json(&["--store", "second", "history"], 0), place.json(&["history"], 0));
+    place.run(&["restore", "copy"]).is(2);
+    let past = World::parse(
+        &orthoframe::units::Source::new("past", place.run(&["as-of", "1"]).is(0).out),
+        orthoframe::map::Format::Toml,
+    );
+    let past = past.unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().frame.x.get();
+    assert!((now - past - 10.0).abs() < 1e-9);
+    place.run(&["as-of", "1", "--restore"]).is(0);
+    assert!((chair(&[]) - past).abs() < 1e-9);
+    // Observations, corrections, and the story of a thing.
+    place.json(&["observe", "Стул-1", "--at", "300,300", "--sure", "0.8"], 0);
+    assert_eq!(place.json(&["proposals"], 0)["proposals"][0]["name"], "Стул-1");
+    place.run(&["reject", "Стул-1"]).is(0);
+    assert_eq!(place.json(&["proposals"], 0)["proposals"], serde_json::json!([]));
+    place.json(&["observe", "Стул-1", "--at", "310,300"], 0);
+    assert_eq!(place.json(&["confirm", "Стул-1"], 0)["revision"], 4);
+    assert!((chair(&[]) - 310.0).abs() < 1e-9);
+    let story = place.json(&["find", "Стул-1", "--story"], 0)["story"].as_array().unwrap().clone();
+    let sources: Vec<&str> = story.iter().map(|s| s["source"].as_str().unwrap()).collect();
+    assert_eq!(sources, ["map", "map", "map", "seen", "seen", "map"]);
+    place.run(&["gc", "--before", "3"]).is(0);
+    place.run(&["diff", "1", "4"]).is(2);
+    assert_eq!(place.json(&["fsck", "--read-only"], 0)["outcome"], "sound");
 }
 
 #[test]

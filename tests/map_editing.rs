@@ -53,7 +53,8 @@ fn edit_files_do_what_they_say_or_are_refused_with_places() {
     for case in std::fs::read_dir(folder).unwrap() {
         let case = case.unwrap().path();
         let name = case.file_name().unwrap().to_string_lossy().into_owned();
-        let file = ["edits.toml", "edits.yaml"].map(|f| case.join(f)).into_iter().find(|f| f.exists());
+        let file =
+            ["edits.toml", "edits.yaml"].map(|f| case.join(f)).into_iter().find(|f| f.exists());
         let file = file.expect("every case has its edits");
         let scratch = tempfile::tempdir().unwrap();
         let mut engine = if name == "from-nothing" {
@@ -61,7 +62,10 @@ fn edit_files_do_what_they_say_or_are_refused_with_places() {
         } else {
             rb2(scratch.path())
         };
-        let source = Source::new(file.file_name().unwrap().to_string_lossy(), std::fs::read_to_string(&file).unwrap());
+        let source = Source::new(
+            file.file_name().unwrap().to_string_lossy(),
+            std::fs::read_to_string(&file).unwrap(),
+        );
         let before = engine.world().ok().cloned();
         let tried = told(engine.edit(&source, Format::of(&file), &change(""), Mode::DryRun));
         assert_eq!(engine.world().ok(), before.as_ref(), "{name}: a dry run changes nothing");
@@ -100,7 +104,8 @@ fn check_in_step(engine: &Engine, what: &str) {
         assert_eq!(sorted(kept), sorted(&fresh), "{what}: {}", count.name);
     }
     for (map, floor) in engine.floors().unwrap() {
-        let anew = orthoframe::geometry::FloorPlan::build(world, *map, &world.robot, &Default::default());
+        let anew =
+            orthoframe::geometry::FloorPlan::build(world, *map, &world.robot, &Default::default());
         for fragment in anew.fragments() {
             let area = fragment.area;
             assert_eq!(floor.passframes(area), anew.passframes(area), "{what}: {area:?}");
@@ -158,7 +163,9 @@ fn the_history_says_who_and_why_and_the_past_can_be_asked() {
     assert_eq!((last.user.as_str(), last.reason.as_str()), ("Мастер", "к обеду"));
     let diff = engine.diff(When::Revision(1), When::Revision(2)).unwrap();
     assert_eq!(diff[0].to_string(), "экземпляр «Стул-1»: передвинут на 5 см");
-    let x = |e: &Engine| e.world().unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().frame.x.get();
+    let x = |e: &Engine| {
+        e.world().unwrap().replicas.values().find(|r| r.name == "Стул-1").unwrap().frame.x.get()
+    };
     let now = x(&engine);
     assert!((x(&engine.as_of(When::Revision(1)).unwrap()) - (now - 5.0)).abs() < 1e-9);
 }
@@ -169,10 +176,14 @@ fn what_others_stand_on_cannot_be_undone_from_under_them() {
     let mut engine = rb2(scratch.path());
     let new = "[orthoframe.slab]\nrect = [20, 20]\nheight = 5\n[object.slab]\nitems = [{ id = \"A\", orthoframe = \"slab\" }]\n";
     engine.edit(&toml(new), Format::Toml, &change("новый вид"), Mode::Commit).unwrap();
-    let placed = "[[edit]]\nplace = \"Плита-9\"\nobject = \"slab\"\narea = \"Комната-Z\"\nat = [100, 200]\n";
+    let placed =
+        "[[edit]]\nplace = \"Плита-9\"\nobject = \"slab\"\narea = \"Комната-Z\"\nat = [100, 200]\n";
     engine.edit(&toml(placed), Format::Toml, &change("поставил"), Mode::Commit).unwrap();
     let refused = engine.undo(Some(2), &change("назад")).unwrap_err();
-    assert!(refused.to_string().starts_with("правку 2 нельзя отменить: карта стала бы неверной"), "{refused}");
+    assert!(
+        refused.to_string().starts_with("правку 2 нельзя отменить: карта стала бы неверной"),
+        "{refused}"
+    );
     engine.undo(Some(3), &change("назад")).unwrap();
     engine.undo(Some(2), &change("и это")).unwrap();
 }
@@ -183,9 +194,13 @@ fn ids_of_what_is_gone_are_not_given_to_what_is_new() {
     let scratch = tempfile::tempdir().unwrap();
     let mut engine = rb2(scratch.path());
     let place = |name: &str| {
-        format!("[[edit]]\nplace = \"{name}\"\nobject = \"box\"\narea = \"Комната-Z\"\nat = [100, 200]\n")
+        format!(
+            "[[edit]]\nplace = \"{name}\"\nobject = \"box\"\narea = \"Комната-Z\"\nat = [100, 200]\n"
+        )
     };
-    let id = |e: &Engine, name: &str| e.world().unwrap().replicas.values().find(|r| r.name == name).unwrap().id;
+    let id = |e: &Engine, name: &str| {
+        e.world().unwrap().replicas.values().find(|r| r.name == name).unwrap().id
+    };
     engine.edit(&toml(&place("Первая")), Format::Toml, &change("1"), Mode::Commit).unwrap();
     let first = id(&engine, "Первая");
     let text = "[[edit]]\nremove = \"Первая\"\n[[edit]]\nremove = \"Стул-2\"\n";
@@ -201,10 +216,46 @@ fn ids_of_what_is_gone_are_not_given_to_what_is_new() {
 fn no_edit_text_makes_the_reader_panic() {
     let world = World::load(root().join("maps/rb2.toml")).unwrap();
     let words = [
-        "move", "to", "by", "area", "place", "object", "at", "\"Стул-1\"", "\"Комната-В\"", "[1, 2]", "90", "=", "\n",
-        "[[edit]]", "\"A.roof\"", "link", "of", "bind", "side", "remove", "\"room-v\"", "[area.x]", "items", "[]", "{}",
-        "{ id = \"A\", orthoframe = \"room-v\" }", "set", "property", "value", "lift", "stops", "is", "state",
-        "\"Дверь-ВZ\"", "\"open\"", "[map.m]", "include", "stand", "rename", "\"\"",
+        "move",
+        "to",
+        "by",
+        "area",
+        "place",
+        "object",
+        "at",
+        "\"Стул-1\"",
+        "\"Комната-В\"",
+        "[1, 2]",
+        "90",
+        "=",
+        "\n",
+        "[[edit]]",
+        "\"A.roof\"",
+        "link",
+        "of",
+        "bind",
+        "side",
+        "remove",
+        "\"room-v\"",
+        "[area.x]",
+        "items",
+        "[]",
+        "{}",
+        "{ id = \"A\", orthoframe = \"room-v\" }",
+        "set",
+        "property",
+        "value",
+        "lift",
+        "stops",
+        "is",
+        "state",
+        "\"Дверь-ВZ\"",
+        "\"open\"",
+        "[map.m]",
+        "include",
+        "stand",
+        "rename",
+        "\"\"",
     ];
     let mut dice = crate::store_world::Dice::new(5);
     for _ in 0..400 {
@@ -212,11 +263,13 @@ fn no_edit_text_makes_the_reader_panic() {
         for _ in 0..dice.roll(5) {
             text.push_str("\n[[edit]]\n");
             for _ in 0..dice.roll(4) + 1 {
-                let word = |d: &mut crate::store_world::Dice| words[d.roll(words.len() as u64) as usize];
+                let word =
+                    |d: &mut crate::store_world::Dice| words[d.roll(words.len() as u64) as usize];
                 text.push_str(&format!("{} = {}\n", word(&mut dice), word(&mut dice)));
             }
         }
-        let done = edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), &|_| Vec::new());
+        let done =
+            edit(&world, &toml(&text), Format::Toml, NextIds::after(&world), &|_| Vec::new());
         if let Some(edited) = done.world {
             assert!(check(&edited).iter().all(|f| f.is_warning()), "{text}");
         } else {

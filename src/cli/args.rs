@@ -6,11 +6,14 @@ use std::time::{Duration, Instant};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use crate::engine::ImportFormat;
+use crate::engine::When;
 use crate::graphplan::Limits;
 use crate::robot::Wanted;
 
 use super::draw::DrawArgs;
 use super::edit::EditArgs;
+use super::observe::ObserveCommand;
+use super::store::StoreCommand;
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
@@ -40,6 +43,12 @@ pub(super) struct Common {
     /// Language of reports and headings
     #[arg(long, global = true, value_enum, default_value_t = Lang::Ru)]
     pub lang: Lang,
+    /// Open the store for reading only, without touching it; another program may be writing it
+    #[arg(long, global = true)]
+    pub read_only: bool,
+    /// Answer from the map as it stood then: a revision or a moment (3, 2026-11-21, 2026-11-21T09:30)
+    #[arg(long, global = true, value_name = "WHEN")]
+    pub as_of: Option<When>,
     /// Who makes the change, for the history
     #[arg(
         long,
@@ -98,6 +107,9 @@ pub(super) enum Command {
         /// Write the plan drawing here, as SVG or PNG by the name's ending
         #[arg(long, value_name = "FILE")]
         draw: Option<PathBuf>,
+        /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
+        #[arg(long)]
+        reset: bool,
     },
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
@@ -124,15 +136,19 @@ pub(super) enum Command {
         #[arg(short = 'D', long, default_value = ".", value_name = "DIR")]
         output: PathBuf,
     },
-    /// Where a pose is, in words
+    /// Where the robot stands, or where a pose is, in words
     Where {
         /// The map; may be left out when the store has only one
         #[arg(long, value_name = "NAME")]
         map: Option<String>,
-        /// Pose on the map, cm and degrees
+        /// Pose on the map, cm and degrees; the robot's when left out
         #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
-        at: String,
+        at: Option<String>,
     },
+    #[command(flatten)]
+    Observe(ObserveCommand),
+    #[command(flatten)]
+    Store(StoreCommand),
     /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
     Draw(DrawArgs),
 }

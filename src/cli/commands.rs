@@ -26,9 +26,25 @@ pub(super) fn rules_dir(common: &Common) -> Option<PathBuf> {
 
 /// Opens a store that is there already.
 pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
-    let engine = Engine::open_existing(&store_dir(common), rules_dir(common).as_deref())?;
+    let (dir, rules) = (store_dir(common), rules_dir(common));
+    let engine = if common.read_only {
+        Engine::open_read_only(&dir, rules.as_deref())?
+    } else {
+        Engine::open_existing(&dir, rules.as_deref())?
+    };
     note_repairs(&engine);
-    Ok(engine)
+    Ok(match common.as_of {
+        Some(when) => engine.as_of(when)?,
+        None => engine,
+    })
+}
+
+/// Opens a store that is to be changed: as it is now.
+pub(super) fn open_to_write(common: &Common) -> Result<Engine, Failure> {
+    if common.as_of.is_some() {
+        return Err(crate::engine::RequestError::PastIsPast.into());
+    }
+    open(common)
 }
 
 #[expect(clippy::print_stderr, reason = "notes go to standard error")]
@@ -173,9 +189,17 @@ fn plan_scenario(
     Ok(plan_alone(scenario, limits, wanted)?)
 }
 
-pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {
-    let engine = open(common)?;
-    let answer = super::demo::perform(common, &engine, task)?;
+pub(super) fn perform(
+    common: &Common,
+    task: &str,
+    draw: Option<&Path>,
+    reset: bool,
+) -> Result<Answer, Failure> {
+    let mut engine = open(common)?;
+    if reset {
+        engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
+    }
+    let answer = super::demo::perform(common, &mut engine, task)?;
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;
     }
@@ -213,11 +237,19 @@ pub(super) fn route(
     Ok(if answer.route.is_ok() { Answer::Yes } else { Answer::No })
 }
 
-pub(super) fn locate(common: &Common, map: Option<&str>, at: &str) -> Result<Answer, Failure> {
+pub(super) fn locate(
+    common: &Common,
+    map: Option<&str>,
+    at: Option<&str>,
+) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let map = engine.map_named(map)?;
-    let pose = parse_pose(at)?;
-    let facing = at.split(',').count() == 3;
+    let (map, pose, facing) = match at {
+        Some(at) => (engine.map_named(map)?, parse_pose(at)?, at.split(',').count() == 3),
+        None => {
+            let now = engine.now(std::time::SystemTime::now().into())?;
+            (now.map, now.pose, true)
+        }
+    };
     let found = engine.locate(map, pose, facing)?;
     if common.json {
         return say(&json::whereabout(engine.world()?, &found).to_string());

@@ -43,7 +43,8 @@ pub(super) fn run(
         say(&text::counts(engine.relations()?, common.lang))?;
         say("")?;
     }
-    let answer = perform(common, &engine, task)?;
+    engine.reset_robot(&change_now(&common.user, "demo"))?;
+    let answer = perform(common, &mut engine, task)?;
     let drawing = out.join("plan.svg");
     super::draw::put_driven(common, &engine, &answer, &drawing)?;
     if !common.json {
@@ -55,8 +56,21 @@ pub(super) fn run(
     })
 }
 
-/// Carries out a task and tells of it.
-pub(super) fn perform(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnswer, Failure> {
+/// Carries out a task, tells of it, and notes how it left the robot.
+pub(super) fn perform(
+    common: &Common,
+    engine: &mut Engine,
+    task: &str,
+) -> Result<TaskAnswer, Failure> {
+    let answer = perform_told(common, engine, task)?;
+    // A store that is only read keeps nothing.
+    if !common.read_only && common.as_of.is_none() {
+        engine.remember(&answer, std::time::SystemTime::now().into())?;
+    }
+    Ok(answer)
+}
+
+fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnswer, Failure> {
     let world = engine.world()?;
     if common.json {
         let answer = engine.perform(task, &mut |_| {})?;

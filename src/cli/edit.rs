@@ -13,7 +13,7 @@ use crate::engine::{Difference, Edited, Format, Mode, change_now};
 use crate::units::Source;
 
 use super::args::{Common, Lang};
-use super::commands::{open, warn};
+use super::commands::{open_to_write, warn};
 use super::fault::Failure;
 use super::{Answer, say};
 
@@ -342,7 +342,7 @@ pub(super) struct Group {
 
 /// Numbers with commas.
 #[derive(Debug, Clone)]
-pub(super) struct Numbers(Vec<f64>);
+pub(super) struct Numbers(pub(super) Vec<f64>);
 
 impl std::str::FromStr for Numbers {
     type Err = String;
@@ -490,10 +490,9 @@ impl Step {
                 Text::step("turn", name).number("to", *to).number("by", *by)
             }
             Self::Remove { name, kind } => Text::step("remove", name).kind(kind),
-            Self::Rename { name, to, en, kind } => Text::step("rename", name)
-                .opt("to", to.as_ref())
-                .opt("en", en.as_ref())
-                .kind(kind),
+            Self::Rename { name, to, en, kind } => {
+                Text::step("rename", name).opt("to", to.as_ref()).opt("en", en.as_ref()).kind(kind)
+            }
             Self::Set { name, property, value, side, kind } => Text::step("set", name)
                 .text("property", property)
                 .text("value", value)
@@ -606,7 +605,7 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
         (None, Some(file)) => (read(file)?, Format::of(file)),
         (None, None) => (Source::new("аргументы", ""), Format::Toml),
     };
-    let mut engine = open(common)?;
+    let mut engine = open_to_write(common)?;
     let mode = if args.dry_run { Mode::DryRun } else { Mode::Commit };
     let change = change_now(&common.user, args.reason.as_deref().unwrap_or_default());
     let edited = engine.edit(&source, format, &change, mode)?;

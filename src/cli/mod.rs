@@ -12,6 +12,8 @@ mod edit;
 mod fault;
 mod import;
 mod json;
+mod observe;
+mod store;
 mod text;
 
 use std::io::Write;
@@ -56,7 +58,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => commands::plan(common, plan),
-        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
+        Command::Do { task, draw, reset } => {
+            commands::perform(common, task, draw.as_deref(), *reset)
+        }
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }
@@ -64,7 +68,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Datalog { program, facts, output } => {
             commands::datalog(common, program, facts, output)
         }
-        Command::Where { map, at } => commands::locate(common, map.as_deref(), at),
+        Command::Where { map, at } => commands::locate(common, map.as_deref(), at.as_deref()),
+        Command::Observe(command) => observe::run(common, command),
+        Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),
     }
 }

@@ -5,7 +5,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
-use crate::store::{self, Change, Difference, ImportReport, Store, Table};
+use crate::store::{self, Change, Difference, ImportReport, Table};
 use crate::units::{AreaId, ReplicaId, Source};
 
 use super::lexicon::form_index;
@@ -56,10 +56,8 @@ impl Engine {
         let EditReading { world, faults, reason } = map::edit(world, source, format, ids, &names);
         let Some(world) = world else { return Err(faults.into()) };
         let reason = reason.filter(|_| change.reason.is_empty());
-        let change = Change {
-            reason: reason.unwrap_or_else(|| change.reason.clone()),
-            ..change.clone()
-        };
+        let change =
+            Change { reason: reason.unwrap_or_else(|| change.reason.clone()), ..change.clone() };
         self.become_world(world, faults, &change, mode)
     }
 
@@ -164,9 +162,10 @@ impl Engine {
         if let Some(relations) = self.relations.get_mut() {
             for id in changed {
                 // Properties are facts too, which a move does not touch.
-                let only_moved = before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(
-                    |(b, a)| map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a,
-                );
+                let only_moved =
+                    before.replicas.get(&id).zip(after.replicas.get(&id)).is_some_and(|(b, a)| {
+                        map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
+                    });
                 // A rule that fails now fails again, and is told, when they are derived anew.
                 followed = followed && only_moved && relations.update(after, id).unwrap_or(false);
             }
@@ -180,10 +179,6 @@ impl Engine {
     pub(super) fn forget_derived(&mut self) {
         self.relations.take();
         self.floors.take();
-    }
-
-    pub(super) fn store_mut(&mut self) -> Option<&mut Store> {
-        self.store.as_mut()
     }
 }
 

@@ -147,6 +147,37 @@ pub enum RequestError {
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
     NotADoor { name: String },
 
+    /// A change of the map as it was.
+    #[error("прошлое карты нельзя править")]
+    #[diagnostic(
+        code(engine::past),
+        help("уберите --as-of; вернуть карту к прошлому: ortho as-of КОГДА --restore")
+    )]
+    PastIsPast,
+
+    /// Something that is asked after as a thing and is none.
+    #[error("«{name}» – не вещь")]
+    #[diagnostic(code(engine::not_a_thing), help("вещи карты: ortho relations --name СОДЕРЖИТ"))]
+    NotAThing { name: String },
+
+    /// Something that is asked after as a room and is none.
+    #[error("«{name}» – не помещение")]
+    #[diagnostic(code(engine::not_an_area), help("назовите помещение карты"))]
+    NotAnArea { name: String },
+
+    /// A thing at a moment when the map did not have it.
+    #[error("«{name}» тогда ещё не было на карте")]
+    #[diagnostic(
+        code(engine::not_yet),
+        help("назовите более позднее время; история вещи: ortho find ИМЯ --story")
+    )]
+    NotYet { name: String },
+
+    /// A thing of which nothing else is believed than the map says.
+    #[error("«{name}»: поправки нет, вещь стоит там, где на карте")]
+    #[diagnostic(code(engine::nothing_proposed), help("список поправок: ortho proposals"))]
+    NothingProposed { name: String },
+
     /// The Map does not say where the robot is.
     #[error("неизвестно, где робот")]
     #[diagnostic(

@@ -33,10 +33,6 @@ impl Engine {
         self.store.as_ref().ok_or_else(|| in_memory().into())
     }
 
-    fn writable(&mut self) -> Result<&mut Store, Error> {
-        self.store_mut().ok_or_else(|| in_memory().into())
-    }
-
     /// All revisions, the oldest first.
     ///
     /// # Errors
@@ -140,5 +136,7 @@ impl Engine {
 }
 
 fn in_memory() -> StoreError {
-    StoreError::ReadOnly { reason: "карта держится в памяти, без хранилища".to_owned() }
+    StoreError::ReadOnly {
+        reason: "карта держится в памяти, без хранилища".to_owned()
+    }
 }

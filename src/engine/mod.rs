@@ -20,11 +20,14 @@ mod edit;
 mod error;
 mod history;
 mod lexicon;
+mod memory;
+mod observe;
 mod plan;
 mod position;
 mod route;
 mod rules;
 mod task;
+mod upkeep;
 mod words;
 
 use std::cell::OnceCell;
@@ -35,11 +38,14 @@ pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
 pub use history::When;
+pub use memory::{After, Now, ROBOT};
+pub use observe::{Believed, Proposal, Source, Station};
 pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
+pub use upkeep::{check_store, restore_store};
 
 pub use crate::exchange::{
     Format as ImportFormat, Imported as ImportedFile, Options as ImportOptions,
@@ -50,7 +56,9 @@ pub use crate::geometry::Method;
 pub use crate::map::{Format, World};
 pub use crate::robot::Solved;
 pub use crate::semantics::Relations;
-pub use crate::store::{Change, Difference, Revision, Timestamp};
+pub use crate::store::{
+    Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,
+};
 
 use crate::geometry::{DoorStates, FloorPlan};
 use crate::map::{Entity, MapErrors, read_file};
@@ -98,6 +106,24 @@ impl Engine {
     pub fn open(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
         let rules = Rules::read(rules)?;
         let (store, opened) = Store::open(dir)?;
+        let world = store.world()?;
+        Ok(Self {
+            store: Some(store),
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            opened,
+        })
+    }
+
+    /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_read_only(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        let rules = Rules::read(rules)?;
+        let (store, opened) = Store::open_read_only(dir)?;
         let world = store.world()?;
         Ok(Self {
             store: Some(store),

@@ -6,12 +6,13 @@ use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
     Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station,
-    Surprise, starting_pose,
+    Surprise,
 };
 use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
 use super::lexicon::form_index;
+use super::memory::{After, Now};
 use super::position::describe;
 use super::{Engine, Error, RequestError};
 
@@ -71,10 +72,13 @@ pub struct TaskAnswer {
     pub replans: usize,
     pub seconds: f64,
     pub ending: TaskEnding,
+    /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
+    pub after: Option<After>,
 }
 
 impl Engine {
-    /// Carries out a command given in words, in the simulator, in a world that is as the Map says.
+    /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
+    /// Map says, and as the robot's last task left it. [`Engine::remember`] notes how this one leaves it.
     ///
     /// # Errors
     /// The command is not understood, or the Map lacks what it needs. That there is no plan is an answer.
@@ -83,7 +87,8 @@ impl Engine {
         command: &str,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        self.perform_in(command, self.world()?.clone(), tell)
+        let now = self.now(std::time::SystemTime::now().into())?;
+        self.perform_from(command, &now, now.world.clone(), tell)
     }
 
     /// Carries out a command in a world that may differ from the Map.
@@ -96,21 +101,34 @@ impl Engine {
         truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let world = self.world()?;
+        let now = self.now(std::time::SystemTime::now().into())?;
+        self.perform_from(command, &now, truth, tell)
+    }
+
+    fn perform_from(
+        &self,
+        command: &str,
+        now: &Now,
+        truth: World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
         let commands = self.understand(command)?;
-        let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
-        let floor = self.floor(map)?.clone();
-        let mut belief =
-            Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
+        let (map, start) = (now.map, now.pose);
+        let mut belief = Belief::new(now.world.clone(), self.floor_now(now)?, start)
+            .ok_or(RequestError::RobotNowhere)?;
+        belief.held.clone_from(&now.held);
+        belief.handed_over.clone_from(&now.handed_over);
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
         belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
+        let relations = self.relations_now(now)?;
+        let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
         let mut goal = Vec::new();
         for command in &commands {
-            goal.extend(self.goal_of(command, &here)?);
+            goal.extend(self.goal_of(command, &here, &now.world, relations)?);
         }
-        let mut drive = Simulator::new(truth, map, start);
+        let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
         let mut mission =
             Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
@@ -149,6 +167,7 @@ impl Engine {
             replans: plans - 1,
             seconds: last.time,
             ending,
+            after: Some(After::of(self.world()?, now, &mission)),
         })
     }
 
@@ -163,13 +182,19 @@ impl Engine {
     }
 
     /// What is to hold when a command is done. `here` is the place where it was given.
-    fn goal_of(&self, command: &Command<Entity>, here: &str) -> Result<Vec<GoalFact>, Error> {
+    fn goal_of(
+        &self,
+        command: &Command<Entity>,
+        here: &str,
+        now: &World,
+        relations: &Relations,
+    ) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
         let name = |e: Entity| world.name(e).to_owned();
         let fact =
             |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
         Ok(match command {
-            Command::GoTo { to, .. } => vec![self.being_at(to.anchor)?],
+            Command::GoTo { to, .. } => vec![self.being_at(to.anchor, now, relations)?],
             Command::ComeHere => vec![fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()])],
             Command::Bring { what, to: None } => {
                 vec![fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()])]
@@ -186,7 +211,7 @@ impl Engine {
                 }
             }
             Command::Take { what } => vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])],
-            Command::Find(what) => vec![self.being_near(what.id)?],
+            Command::Find(what) => vec![self.being_near(what.id, now, relations)?],
             Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
             Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
             Command::Lock(door) => self.door_facts(predicate::DOOR_LOCKED, door.id)?,
@@ -202,13 +227,18 @@ impl Engine {
         })
     }
 
-    fn being_at(&self, entity: Entity) -> Result<GoalFact, Error> {
+    fn being_at(
+        &self,
+        entity: Entity,
+        now: &World,
+        relations: &Relations,
+    ) -> Result<GoalFact, Error> {
         let world = self.world()?;
         let predicate = match entity {
             Entity::Area(_) => predicate::ROBOT_IN,
             Entity::Door(_) => predicate::ROBOT_AT_DOOR,
             Entity::Place(_) => predicate::ROBOT_AT_PLACE,
-            Entity::Replica(_) => return self.being_near(entity),
+            Entity::Replica(_) => return self.being_near(entity, now, relations),
             Entity::Map(_) => {
                 return Err(RequestError::NotAPlace { name: world.name(entity).to_owned() }.into());
             }
@@ -217,11 +247,14 @@ impl Engine {
     }
 
     /// At the place from which a thing is reached: the one that serves it or what it stands on.
-    fn being_near(&self, entity: Entity) -> Result<GoalFact, Error> {
-        let world = self.world()?;
-        let relations = self.relations()?;
-        let name = world.name(entity);
-        let facts = crate::robot::facts_of_map(world, relations);
+    fn being_near(
+        &self,
+        entity: Entity,
+        now: &World,
+        relations: &Relations,
+    ) -> Result<GoalFact, Error> {
+        let name = self.world()?.name(entity);
+        let facts = crate::robot::facts_of_map(now, relations);
         let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
             facts
                 .iter()

@@ -387,7 +387,9 @@ pub enum MapError {
     #[error("в файле правок ничего нет")]
     #[diagnostic(
         code(map::no_edits),
-        help("опишите новое, как в файле карты, или шаг: [[edit]] move = \"Стул-1\", to = [120, 80]")
+        help(
+            "опишите новое, как в файле карты, или шаг: [[edit]] move = \"Стул-1\", to = [120, 80]"
+        )
     )]
     NoEdits,
     /// A step of an edit file that does nothing that is known.
@@ -398,7 +400,9 @@ pub enum MapError {
     #[error("{what} «{name}» уже есть на карте")]
     #[diagnostic(
         code(map::already_there),
-        help("дайте новому другое имя; то, что есть, меняют шаги [[edit]]: move, turn, set, rename, remove")
+        help(
+            "дайте новому другое имя; то, что есть, меняют шаги [[edit]]: move, turn, set, rename, remove"
+        )
     )]
     AlreadyThere { what: &'static str, name: String },
     /// Something is to be removed that other things are made of, or stand by.

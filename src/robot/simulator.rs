@@ -73,6 +73,17 @@ impl Simulator {
         simulator
     }
 
+    /// The same robot with a thing in its hand, which then is not in its world.
+    #[must_use]
+    pub fn holding(mut self, thing: Option<Replica>) -> Self {
+        if let Some(thing) = &thing {
+            self.truth.replicas.remove(&thing.id);
+        }
+        self.held = thing;
+        self.rebuild();
+        self
+    }
+
     /// Every moment at which the motion changed.
     #[must_use]
     pub fn trace(&self) -> &[Moment] {

@@ -19,9 +19,10 @@ use super::edits::{Change, Draft, Edits, ImportReport};
 use super::error::{Result, StoreError};
 use super::keep::Store;
 use super::reader::Reader;
+use super::schema::Record;
 use super::tables::{self as t, Table};
 use super::time::Timestamp;
-use super::version::Stamp;
+use super::version::{Stamp, Version};
 use super::write::replica_record;
 
 /// Where something was seen.
@@ -131,6 +132,25 @@ impl Reader {
         Ok(records.into_iter().map(observation).collect())
     }
 
+    /// The replicas of which anything was ever seen, each once.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn observed(&self) -> Result<Vec<ReplicaId>> {
+        let records = self.records::<t::Observations>(&Key::new())?;
+        let mut ids: Vec<ReplicaId> = records.iter().map(|r| ReplicaId(r.repl_id)).collect();
+        ids.dedup();
+        Ok(ids)
+    }
+
+    /// Where a version of a replica's record puts it; none for a mark of deletion.
+    #[must_use]
+    pub fn place_of(&self, version: &Version) -> Option<Seen> {
+        let r = <t::AreaObjects as Record>::from_row(&version.row)?;
+        let frame = Frame::new(r.x, r.y, r.z, Deg::of(r.ang));
+        (!version.stamp.deleted).then_some(Seen { area: AreaId(r.area_id), frame })
+    }
+
     /// Where a replica of the map is, or was, believed to be at a moment: only what was known by then counts.
     ///
     /// # Errors
@@ -175,6 +195,16 @@ impl Reader {
     }
 }
 
+pub(super) fn pose_record(map: MapId, pose: &Pose) -> t::RobotPose {
+    t::RobotPose {
+        robot_id: ROBOT,
+        map_id: map.0,
+        x: pose.at.x,
+        y: pose.at.y,
+        ang: pose.heading.get(),
+    }
+}
+
 /// The robot of the Domain; the tables have room for more.
 const ROBOT: u32 = 1;
 
@@ -196,6 +226,15 @@ impl Store {
     /// [`StoreError::ReadOnly`], [`StoreError::Io`].
     pub fn observe(&mut self, observations: &[Observation]) -> Result<()> {
         let mut draft = Draft::default();
+        self.put_observations(observations, &mut draft)?;
+        self.commit_log(draft)
+    }
+
+    pub(super) fn put_observations(
+        &self,
+        observations: &[Observation],
+        draft: &mut Draft,
+    ) -> Result<()> {
         let mut taken = std::collections::BTreeMap::<(ReplicaId, Timestamp), u32>::new();
         for o in observations {
             let prefix = Key::new().id(o.replica.0).int(o.at.0);
@@ -217,9 +256,9 @@ impl Store {
                 observer: o.observer.clone(),
             };
             *no += 1;
-            self.put_log(&mut draft, &record, &self.stamp(&o.observer, o.at))?;
+            self.put_log(draft, &record, &self.stamp(&o.observer, o.at))?;
         }
-        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(draft.writes) }
+        Ok(())
     }
 
     /// Notes where the robot stands.
@@ -233,15 +272,8 @@ impl Store {
         user: &str,
         now: Timestamp,
     ) -> Result<()> {
-        let record = t::RobotPose {
-            robot_id: ROBOT,
-            map_id: map.0,
-            x: pose.at.x,
-            y: pose.at.y,
-            ang: pose.heading.get(),
-        };
         let mut draft = Draft::default();
-        self.put_log(&mut draft, &record, &self.stamp(user, now))?;
+        self.put_log(&mut draft, &pose_record(map, pose), &self.stamp(user, now))?;
         self.vault.commit(draft.writes)
     }
 
@@ -297,7 +329,7 @@ impl Store {
         self.vault.commit(draft.writes)
     }
 
-    fn stamp(&self, user: &str, at: Timestamp) -> Stamp {
+    pub(super) fn stamp(&self, user: &str, at: Timestamp) -> Stamp {
         Stamp { revision: self.revision(), at, user: user.to_owned(), deleted: false }
     }
 }

@@ -526,6 +526,17 @@ tables! {
         col verdict: String = "Verdict",
         col reason: String = "Reason",
     }
+    /// Doors that stand otherwise than the map says, as the robot saw or left them.
+    Log DoorStates = 65 {
+        key door_id: u32 = "DoorID",
+        col status: String = "Status",
+        col opening: f64 = "Opening",
+    }
+    /// What the robot took off the map: in its hand, where `Holder` is empty, or given to that person.
+    Log Carried = 66 {
+        key repl_id: u32 = "ReplID",
+        col holder: String = "Holder",
+    }
 }
 
 impl Table {
@@ -639,7 +650,7 @@ mod tests {
     #[test]
     fn codes_stay_what_they_are() {
         let codes: Vec<u8> = Table::ALL.iter().map(|t| t.code()).collect();
-        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=64).collect();
+        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=66).collect();
         assert_eq!(codes, expected);
         assert!(Table::ALL.iter().all(|t| Table::from_code(t.code()) == Some(*t)));
     }

@@ -153,13 +153,15 @@ impl<'a> Steps<'a> {
                     Ok(())
                 }
                 "edit" => Ok(()),
-                other => match Kind::ALL.into_iter().find(|k| k.lines().is_none() && k.word() == other) {
-                    Some(kind) => {
-                        self.section(kind, entry);
-                        Ok(())
+                other => {
+                    match Kind::ALL.into_iter().find(|k| k.lines().is_none() && k.word() == other) {
+                        Some(kind) => {
+                            self.section(kind, entry);
+                            Ok(())
+                        }
+                        None => Err(unknown_field(entry, &SECTIONS)),
                     }
-                    None => Err(unknown_field(entry, &SECTIONS)),
-                },
+                }
             };
             self.misprints.extend(done.err());
         }
@@ -172,7 +174,10 @@ impl<'a> Steps<'a> {
                 self.misprints.push(fault);
             }
         }
-        if let ([only], true) = (list.node.elements(), edits.entries().iter().all(|e| ["edit", "reason", "format"].contains(&e.key.as_str()))) {
+        if let ([only], true) = (
+            list.node.elements(),
+            edits.entries().iter().all(|e| ["edit", "reason", "format"].contains(&e.key.as_str())),
+        ) {
             let verb = only.entries().iter().find(|e| VERBS.iter().any(|(v, _)| *v == e.key));
             self.only = verb.map(|v| v.key_span.start..v.node.span.end.max(v.key_span.end));
         }
@@ -425,7 +430,8 @@ impl<'a> Steps<'a> {
             (None, Some(by)) => {
                 let by_how_much = numbers(by)?;
                 let sum = |i: usize| {
-                    before.get(i).copied().unwrap_or(0.0) + by_how_much.get(i).copied().unwrap_or(0.0)
+                    before.get(i).copied().unwrap_or(0.0)
+                        + by_how_much.get(i).copied().unwrap_or(0.0)
                 };
                 let count = before.len().max(by_how_much.len());
                 Some(((0..count).map(sum).collect(), by))
@@ -501,9 +507,14 @@ impl<'a> Steps<'a> {
             Kind::Replica => {
                 for area in self.tree.all(Kind::Area) {
                     let area = self.change(area);
-                    if let Some(Value::List(places)) = area.entry_mut("places").map(|e| &mut e.node.value) {
+                    if let Some(Value::List(places)) =
+                        area.entry_mut("places").map(|e| &mut e.node.value)
+                    {
                         let serving = is("serves", name.clone());
-                        places.iter_mut().filter(|p| serving(p)).for_each(|p| p.drop_entry("serves"));
+                        places
+                            .iter_mut()
+                            .filter(|p| serving(p))
+                            .for_each(|p| p.drop_entry("serves"));
                     }
                 }
             }
@@ -516,13 +527,17 @@ impl<'a> Steps<'a> {
             }
             Kind::Area => {
                 let of_area = |text: Option<&str>| {
-                    text.is_some_and(|t| t.strip_prefix(&name).is_some_and(|rest| rest.starts_with('.')))
+                    text.is_some_and(|t| {
+                        t.strip_prefix(&name).is_some_and(|rest| rest.starts_with('.'))
+                    })
                 };
                 for map in self.tree.all(Kind::Map) {
                     let map = self.change(map);
                     map.strike("items", is("area", name.clone()));
                     map.strike("links", |link| {
-                        ["from", "to"].iter().any(|f| of_area(link.entry(f).and_then(|e| e.node.text())))
+                        ["from", "to"]
+                            .iter()
+                            .any(|f| of_area(link.entry(f).and_then(|e| e.node.text())))
                     });
                 }
             }
@@ -538,9 +553,8 @@ impl<'a> Steps<'a> {
 
     /// What could not be without a record, and does not go with it.
     fn users(&self, at: Handle, name: &str) -> Vec<String> {
-        let is = |node: &Node, field: &str| {
-            node.entry(field).and_then(|e| e.node.text()) == Some(name)
-        };
+        let is =
+            |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(name);
         let lines = |owner: Handle, list: &str, field: &str| -> Vec<&Node> {
             let nodes = self.tree.get(owner).and_then(|n| n.entry(list));
             let nodes = nodes.map_or(&[][..], |e| e.node.elements());
@@ -561,7 +575,11 @@ impl<'a> Steps<'a> {
             Kind::Place => {
                 let robot = self.tree.section("robot").iter().find(|e| e.key == "start");
                 let starts = robot.is_some_and(|e| e.node.text() == Some(name));
-                if starts { vec!["робот начинает отсюда".to_owned()] } else { Vec::new() }
+                if starts {
+                    vec!["робот начинает отсюда".to_owned()]
+                } else {
+                    Vec::new()
+                }
             }
             _ => Vec::new(),
         }
@@ -578,14 +596,19 @@ impl<'a> Steps<'a> {
         if let Some(to) = step.field("to") {
             let new = text_of(to)?.to_owned();
             let record = self.change(at);
-            record.put(Entry { key: "name".to_owned(), key_span: to.span.clone(), node: to.clone() });
+            record.put(Entry {
+                key: "name".to_owned(),
+                key_span: to.span.clone(),
+                node: to.clone(),
+            });
             record.drop_entry("forms");
             self.tree.note(&new, at);
             self.follow_name(at.kind, &old, to);
         }
         if let Some(en) = step.field("en") {
             text_of(en)?;
-            let name = Entry { key: "name_en".to_owned(), key_span: en.span.clone(), node: en.clone() };
+            let name =
+                Entry { key: "name_en".to_owned(), key_span: en.span.clone(), node: en.clone() };
             self.change(at).put(name);
         }
         for forms in step.copies(&["forms"]) {
@@ -596,7 +619,8 @@ impl<'a> Steps<'a> {
 
     /// Lines are referred to by their names, not by keys.
     fn follow_name(&mut self, kind: Kind, old: &str, new: &Node) {
-        let named = |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(old);
+        let named =
+            |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(old);
         if kind == Kind::Place
             && let Some(robot) = self.tree.table_mut("robot")
             && named(robot, "start")
@@ -674,7 +698,8 @@ impl<'a> Steps<'a> {
     fn state(&mut self, step: &Step<'_>) -> Done {
         let door = self.find(&step.verb.node, &[Kind::Door])?;
         let is = step.required("is")?;
-        let mut state = vec![Entry { key: "state".into(), key_span: is.span.clone(), node: is.clone() }];
+        let mut state =
+            vec![Entry { key: "state".into(), key_span: is.span.clone(), node: is.clone() }];
         state.extend(step.copies(&["opening"]));
         let Some(on) = step.field("on") else {
             let record = self.change(door);
@@ -697,7 +722,8 @@ impl<'a> Steps<'a> {
         let door = self.reference(&step.verb.node, &[Kind::Door])?;
         let group = self.find(step.required("to")?, GROUPS)?;
         step.required("side")?;
-        let mut mount = vec![Entry { key: "door".into(), key_span: step.span().clone(), node: door }];
+        let mut mount =
+            vec![Entry { key: "door".into(), key_span: step.span().clone(), node: door }];
         mount.extend(step.copies(&["side", "opens"]));
         self.change(group).push("doors", table(&step.verb.key_span, mount));
         Ok(())
@@ -725,11 +751,7 @@ impl<'a> Steps<'a> {
         let reference = self.reference(orthoframe, &[Kind::Orthoframe])?;
         let mut item = vec![
             Entry { key: "id".into(), ..step.verb.clone() },
-            Entry {
-                key: "orthoframe".into(),
-                key_span: orthoframe.span.clone(),
-                node: reference,
-            },
+            Entry { key: "orthoframe".into(), key_span: orthoframe.span.clone(), node: reference },
         ];
         item.extend(step.copies(&["at", "angle", "base"]));
         self.change(group).push("items", table(&step.verb.key_span, item));
@@ -758,7 +780,8 @@ impl<'a> Steps<'a> {
         if any {
             return Ok(());
         }
-        let text = format!("{} - {}", from.text().unwrap_or_default(), to.text().unwrap_or_default());
+        let text =
+            format!("{} - {}", from.text().unwrap_or_default(), to.text().unwrap_or_default());
         Err(misprint(MapError::NotLinked { link: text }, step.span()))
     }
 
@@ -772,7 +795,8 @@ impl<'a> Steps<'a> {
                 return Ok((owner, from.clone(), to.clone()));
             }
         }
-        let ends = [(from, from_text), (to, to_text)].map(|(node, text)| self.side_of_area(node, text));
+        let ends =
+            [(from, from_text), (to, to_text)].map(|(node, text)| self.side_of_area(node, text));
         let [from, to] = ends;
         let ((area, from), (_, to)) = (from?, to?);
         let owner = match step.field("of") {
@@ -899,7 +923,8 @@ impl<'a> Steps<'a> {
             entry("stops", &stops.span, Value::List(areas)),
         ];
         let Some(domain) = self.tree.table_mut("domain") else { return Ok(()) };
-        domain.strike("lifts", |lift| lift.entry("name").and_then(|e| e.node.text()) == Some(&name));
+        domain
+            .strike("lifts", |lift| lift.entry("name").and_then(|e| e.node.text()) == Some(&name));
         domain.push("lifts", table(&step.verb.key_span, line));
         Ok(())
     }

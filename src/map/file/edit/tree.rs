@@ -179,7 +179,11 @@ impl Tree {
 
     fn names_of(&self, kind: Kind) -> Vec<(Handle, Vec<String>)> {
         let names = |node: &Node| -> Vec<String> {
-            ["name", "name_en"].iter().filter_map(|f| node.entry(f)?.node.text()).map(str::to_owned).collect()
+            ["name", "name_en"]
+                .iter()
+                .filter_map(|f| node.entry(f)?.node.text())
+                .map(str::to_owned)
+                .collect()
         };
         let mut found = Vec::new();
         let section = if kind.lines().is_some() { "area" } else { kind.word() };

@@ -1,0 +1,252 @@
+//! What was seen, what is believed, and corrections of the map (D5, M8).
+
+use clap::{Args, Subcommand};
+use serde_json::{Value, json};
+
+use crate::engine::{Believed, Engine, Source, Station, Timestamp, change_now};
+use crate::store::Seen;
+use crate::units::{Deg, Frame};
+
+use super::args::{Common, Lang};
+use super::commands::{open, open_to_write};
+use super::edit::Numbers;
+use super::fault::Failure;
+use super::store::moment;
+use super::{Answer, say};
+
+#[derive(Debug, Subcommand)]
+pub(super) enum ObserveCommand {
+    /// Where a thing is believed to be, how surely, and since when
+    Find {
+        name: String,
+        /// At this moment, by what was known then
+        #[arg(long, value_name = "MOMENT")]
+        at: Option<Timestamp>,
+        /// All that is known of where it stood
+        #[arg(long)]
+        story: bool,
+    },
+    /// Note that a thing was seen somewhere, or was not where it was expected
+    Observe(ObserveArgs),
+    /// Things that are believed to stand elsewhere than the map says
+    Proposals,
+    /// Correct the map: the thing does stand where it is believed to
+    Confirm {
+        name: String,
+        #[arg(long, value_name = "TEXT")]
+        reason: Option<String>,
+    },
+    /// The map is right: what was seen of the thing until now counts no more
+    Reject {
+        name: String,
+        #[arg(long, value_name = "TEXT")]
+        reason: Option<String>,
+    },
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ObserveArgs {
+    name: String,
+    /// Where it was seen, in the frame of the Area, cm
+    #[arg(
+        long,
+        value_name = "X,Y[,Z]",
+        allow_hyphen_values = true,
+        required_unless_present = "missing"
+    )]
+    at: Option<Numbers>,
+    /// The Area; the one in which the map has the thing when left out
+    #[arg(long, value_name = "NAME")]
+    area: Option<String>,
+    /// Degrees counter-clockwise; as the map has it when left out
+    #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
+    angle: Option<f64>,
+    /// It was not where it was expected
+    #[arg(long, conflicts_with = "at")]
+    missing: bool,
+    /// How sure, 0 to 1
+    #[arg(long, default_value_t = 0.9, value_name = "0..1", value_parser = share)]
+    sure: f64,
+    /// When; now when left out
+    #[arg(long, value_name = "MOMENT")]
+    when: Option<Timestamp>,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let share: f64 = text.parse().map_err(|e| format!("{e}"))?;
+    if (0.0..=1.0).contains(&share) { Ok(share) } else { Err("0 … 1".to_owned()) }
+}
+
+fn now() -> Timestamp {
+    std::time::SystemTime::now().into()
+}
+
+pub(super) fn run(common: &Common, command: &ObserveCommand) -> Result<Answer, Failure> {
+    match command {
+        ObserveCommand::Find { name, story: true, .. } => story(common, name),
+        ObserveCommand::Find { name, at, .. } => {
+            let engine = open(common)?;
+            let found = engine.where_is(name, at.unwrap_or_else(now))?;
+            if common.json {
+                say(&view(&engine, &found)?.to_string())
+            } else {
+                say(&told(&engine, &found, common.lang)?)
+            }
+        }
+        ObserveCommand::Observe(args) => observe(common, args),
+        ObserveCommand::Proposals => proposals(common),
+        ObserveCommand::Confirm { name, reason } => {
+            let change = change_now(&common.user, reason.as_deref().unwrap_or("подтверждено"));
+            let mut engine = open_to_write(common)?;
+            let report = engine.confirm(name, &change)?;
+            if common.json {
+                let view = json!({"outcome": "confirmed", "revision": report.revision});
+                return say(&view.to_string());
+            }
+            let written =
+                common.lang.pick("Карта исправлена, правка", "The map is corrected, revision");
+            say(&format!("{written} {}.", report.revision))
+        }
+        ObserveCommand::Reject { name, reason } => {
+            let change = change_now(&common.user, reason.as_deref().unwrap_or("отклонено"));
+            let mut engine = open_to_write(common)?;
+            engine.reject(name, &change)?;
+            if common.json {
+                return say(&json!({"outcome": "rejected"}).to_string());
+            }
+            say(common.lang.pick(
+                "Отклонено: считается, что вещь стоит там, где на карте.",
+                "Rejected: the thing is held to stand where the map has it.",
+            ))
+        }
+    }
+}
+
+fn observe(common: &Common, args: &ObserveArgs) -> Result<Answer, Failure> {
+    let mut engine = open_to_write(common)?;
+    let surveyed = engine.thing(&args.name)?.frame;
+    let seen = args.at.as_ref().map(|Numbers(at)| {
+        let number = |i: usize, default: f64| at.get(i).copied().unwrap_or(default);
+        let angle = args.angle.map_or(surveyed.angle, Deg::of);
+        let z = number(2, surveyed.z.get());
+        (args.area.as_deref(), Frame::new(number(0, 0.0), number(1, 0.0), z, angle))
+    });
+    let at = args.when.unwrap_or_else(now);
+    engine.observe(&args.name, seen, args.sure, &common.user, at)?;
+    let found = engine.where_is(&args.name, at)?;
+    if common.json {
+        say(&view(&engine, &found)?.to_string())
+    } else {
+        say(&told(&engine, &found, common.lang)?)
+    }
+}
+
+fn proposals(common: &Common) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let all = engine.proposals(now())?;
+    if common.json {
+        let views = all.iter().map(|p| view(&engine, p)).collect::<Result<Vec<_>, _>>()?;
+        return say(&json!({ "proposals": views }).to_string());
+    }
+    if all.is_empty() {
+        return say(common.lang.pick("Поправок нет.", "There are no proposals."));
+    }
+    let lines = all.iter().map(|p| told(&engine, p, common.lang)).collect::<Result<Vec<_>, _>>()?;
+    say(&lines.join("\n"))
+}
+
+fn place(engine: &Engine, seen: &Seen) -> Result<String, Failure> {
+    let area = engine.world()?.areas.get(&seen.area).map_or("?", |a| a.name.as_str());
+    let (x, y) = (seen.frame.x.get(), seen.frame.y.get());
+    Ok(format!("{area} ({x:.0}; {y:.0})"))
+}
+
+fn place_view(engine: &Engine, seen: &Seen) -> Result<Value, Failure> {
+    let f = &seen.frame;
+    Ok(json!({
+        "area": engine.world()?.areas.get(&seen.area).map(|a| a.name.as_str()),
+        "at": [f.x.get(), f.y.get(), f.z.get()],
+        "angle_deg": f.angle.get(),
+    }))
+}
+
+fn view(engine: &Engine, found: &Believed) -> Result<Value, Failure> {
+    let b = &found.belief;
+    Ok(json!({
+        "name": found.name,
+        "place": place_view(engine, &b.place)?,
+        "confidence": (b.confidence * 1000.0).round() / 1000.0,
+        "since": b.since.to_string(),
+        "last_seen": b.last_seen.map(|at| at.to_string()),
+        "is_surveyed": b.is_surveyed,
+        "surveyed": place_view(engine, &found.surveyed)?,
+        "carried": found.carried,
+    }))
+}
+
+fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure> {
+    let b = &found.belief;
+    match (found.carried.as_deref(), lang) {
+        (Some(""), Lang::Ru) => return Ok(format!("{}: в руке робота.", found.name)),
+        (Some(""), Lang::En) => return Ok(format!("{}: in the robot's hand.", found.name)),
+        (Some(who), Lang::Ru) => return Ok(format!("{}: у человека: {who}.", found.name)),
+        (Some(who), Lang::En) => return Ok(format!("{}: handed to {who}.", found.name)),
+        (None, _) => {}
+    }
+    let sure = (b.confidence * 100.0).round();
+    let here = place(engine, &b.place)?;
+    let since = moment(b.since);
+    let map = if b.is_surveyed {
+        lang.pick("как на карте", "as on the map").to_owned()
+    } else {
+        format!("{} {}", lang.pick("на карте:", "on the map:"), place(engine, &found.surveyed)?)
+    };
+    Ok(match lang {
+        Lang::Ru => format!("{}: {here}, с {since}, уверенность {sure} % – {map}.", found.name),
+        Lang::En => format!("{}: {here}, since {since}, {sure} % sure – {map}.", found.name),
+    })
+}
+
+fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let stations = engine.story_of(name)?;
+    if common.json {
+        let one = |s: &Station| -> Result<Value, Failure> {
+            let place = s.place.as_ref().map(|p| place_view(&engine, p)).transpose()?;
+            let at = s.at.to_string();
+            Ok(match &s.source {
+                Source::Map { revision, user } => {
+                    json!({"at": at, "place": place, "source": "map", "revision": revision, "user": user})
+                }
+                Source::Seen { observer, sure } => {
+                    json!({"at": at, "place": place, "source": "seen", "observer": observer, "sure": sure})
+                }
+            })
+        };
+        let all = stations.iter().map(one).collect::<Result<Vec<_>, _>>()?;
+        return say(&json!({ "story": all }).to_string());
+    }
+    let mut lines = Vec::new();
+    for station in &stations {
+        let here = match &station.place {
+            Some(seen) => place(&engine, seen)?,
+            None => common.lang.pick("нет на месте", "not there").to_owned(),
+        };
+        let source = match (&station.source, common.lang) {
+            (Source::Map { revision, user }, Lang::Ru) => {
+                format!("карта, правка {revision} ({user})")
+            }
+            (Source::Map { revision, user }, Lang::En) => {
+                format!("map, revision {revision} ({user})")
+            }
+            (Source::Seen { observer, sure }, Lang::Ru) => {
+                format!("видел: {observer}, уверенность {:.0} %", sure * 100.0)
+            }
+            (Source::Seen { observer, sure }, Lang::En) => {
+                format!("seen by {observer}, {:.0} % sure", sure * 100.0)
+            }
+        };
+        lines.push(format!("{}  {here} – {source}", moment(station.at)));
+    }
+    say(&lines.join("\n"))
+}

@@ -1,0 +1,295 @@
+//! The store itself: its history, undo and redo, check, backup, forgetting (D3).
+
+use std::path::Path;
+
+use clap::Subcommand;
+use serde_json::{Value, json};
+
+use crate::engine::{
+    Difference, Revision, RevisionKind, Severity, Timestamp, When, change_now, check_store,
+    restore_store,
+};
+use crate::store::ImportReport;
+
+use super::args::{Common, Lang};
+use super::commands::{note, open, open_to_write, store_dir};
+use super::edit::differences;
+use super::fault::Failure;
+use super::{Answer, say};
+
+#[derive(Debug, Subcommand)]
+pub(super) enum StoreCommand {
+    /// All changes of the map: when, by whom, why
+    History {
+        /// Only the last so many
+        #[arg(long, value_name = "N")]
+        last: Option<usize>,
+    },
+    /// What changed between two revisions, in words
+    Diff {
+        /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
+        from: When,
+        /// The last revision when left out
+        to: Option<When>,
+    },
+    /// Take back the last change, or a certain one
+    Undo {
+        revision: Option<u64>,
+        /// Why, for the history
+        #[arg(long, value_name = "TEXT")]
+        reason: Option<String>,
+    },
+    /// Bring back what the last undo took
+    Redo {
+        #[arg(long, value_name = "TEXT")]
+        reason: Option<String>,
+    },
+    /// The map as it stood then, as a map file; or make it so again
+    AsOf {
+        /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
+        when: When,
+        /// Make the map what it was then; a change that can be undone
+        #[arg(long)]
+        restore: bool,
+        /// Write the map file here; standard output when absent
+        #[arg(short, long, value_name = "FILE")]
+        out: Option<std::path::PathBuf>,
+    },
+    /// Check every byte of the store, mend nothing
+    Fsck,
+    /// Write the whole store, its history included, into one checksummed file
+    Backup { file: std::path::PathBuf },
+    /// Make a new store of a backup; --store names an empty or new directory
+    Restore { file: std::path::PathBuf },
+    /// Forget what only changes before this one can see
+    Gc {
+        /// Revision or moment: 3, 2026-11-21, 2026-11-21T09:30
+        #[arg(long, value_name = "WHEN")]
+        before: When,
+    },
+}
+
+pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Failure> {
+    match command {
+        StoreCommand::History { last } => history(common, *last),
+        StoreCommand::Diff { from, to } => diff(common, *from, *to),
+        StoreCommand::Undo { revision, reason } => {
+            let change = change_now(&common.user, reason.as_deref().unwrap_or_default());
+            let mut engine = open_to_write(common)?;
+            let report = engine.undo(*revision, &change)?;
+            done(common, "undone", &report)
+        }
+        StoreCommand::Redo { reason } => {
+            let change = change_now(&common.user, reason.as_deref().unwrap_or_default());
+            let mut engine = open_to_write(common)?;
+            let report = engine.redo(&change)?;
+            done(common, "redone", &report)
+        }
+        StoreCommand::AsOf { when, restore, out } => as_of(common, *when, *restore, out.as_deref()),
+        StoreCommand::Fsck => fsck(common),
+        StoreCommand::Backup { file } => {
+            open(common)?.backup(file)?;
+            if common.json {
+                return say(&json!({"outcome": "written", "file": file}).to_string());
+            }
+            let written = common.lang.pick("Копия записана и прочитана:", "Written and read back:");
+            say(&format!("{written} {}", file.display()))
+        }
+        StoreCommand::Restore { file } => restore(common, file),
+        StoreCommand::Gc { before } => {
+            let change = change_now(&common.user, "сборка мусора");
+            let dropped = open_to_write(common)?.forget_before(*before, &change)?;
+            if common.json {
+                return say(&json!({"outcome": "done", "versions": dropped}).to_string());
+            }
+            let forgotten = common.lang.pick("Забыто версий записей:", "Versions forgotten:");
+            say(&format!("{forgotten} {dropped}"))
+        }
+    }
+}
+
+/// `2026-11-21 09:30:00 UTC`
+pub(super) fn moment(at: Timestamp) -> String {
+    let text = at.to_string();
+    let (date, time) = text.split_once('T').unwrap_or((&text, ""));
+    format!("{date} {} UTC", time.get(..8).unwrap_or(time))
+}
+
+fn kind(kind: RevisionKind, lang: Lang) -> &'static str {
+    match kind {
+        RevisionKind::Import => lang.pick("импорт", "import"),
+        RevisionKind::Edit => lang.pick("правка", "edit"),
+        RevisionKind::Undo => lang.pick("отмена", "undo"),
+        RevisionKind::Redo => lang.pick("возврат", "redo"),
+    }
+}
+
+fn history(common: &Common, last: Option<usize>) -> Result<Answer, Failure> {
+    let mut revisions = open(common)?.revisions()?;
+    if let Some(last) = last {
+        revisions.drain(..revisions.len().saturating_sub(last));
+    }
+    if common.json {
+        let one = |r: &Revision| {
+            json!({
+                "revision": r.number,
+                "at": r.at.to_string(),
+                "user": r.user,
+                "reason": r.reason,
+                "kind": r.kind.word(),
+                "undoes": r.undoes,
+                "created": r.counts.created,
+                "changed": r.counts.changed,
+                "deleted": r.counts.deleted,
+            })
+        };
+        let all: Vec<Value> = revisions.iter().map(one).collect();
+        return say(&json!({ "revisions": all }).to_string());
+    }
+    if revisions.is_empty() {
+        return say(common.lang.pick("Правок ещё нет.", "There are no changes yet."));
+    }
+    let line = |r: &Revision| {
+        let of = r.undoes.map_or_else(String::new, |n| format!(" {n}"));
+        let reason = if r.reason.is_empty() { String::new() } else { format!(" – {}", r.reason) };
+        format!(
+            "{:>4}  {}  {:<12} {}{of}{reason}  (+{} ~{} -{})",
+            r.number,
+            moment(r.at),
+            r.user,
+            kind(r.kind, common.lang),
+            r.counts.created,
+            r.counts.changed,
+            r.counts.deleted,
+        )
+    };
+    say(&revisions.iter().map(line).collect::<Vec<_>>().join("\n"))
+}
+
+fn diff(common: &Common, from: When, to: Option<When>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let to = to.unwrap_or_else(|| When::Revision(engine.store().map_or(0, |s| s.revision())));
+    let (first, last) = (engine.revision_of(from)?, engine.revision_of(to)?);
+    let all = engine.diff(from, to)?;
+    if common.json {
+        let view = json!({"from": first, "to": last, "differences": differences(&all)});
+        return say(&view.to_string());
+    }
+    if all.is_empty() {
+        return say(common.lang.pick("Различий нет.", "There are no differences."));
+    }
+    say(&all.iter().map(Difference::to_string).collect::<Vec<_>>().join("\n"))
+}
+
+fn done(common: &Common, outcome: &str, report: &ImportReport) -> Result<Answer, Failure> {
+    let counts = report.counts;
+    if common.json {
+        let view = json!({
+            "outcome": outcome,
+            "revision": report.revision,
+            "created": counts.created,
+            "changed": counts.changed,
+            "deleted": counts.deleted,
+        });
+        return say(&view.to_string());
+    }
+    if counts.total() == 0 {
+        return say(common.lang.pick("Ничего не изменилось.", "Nothing changed."));
+    }
+    say(&match common.lang {
+        Lang::Ru => format!(
+            "Правка {}: записей создано {}, изменено {}, удалено {}.",
+            report.revision, counts.created, counts.changed, counts.deleted
+        ),
+        Lang::En => format!(
+            "Revision {}: {} records created, {} changed, {} deleted.",
+            report.revision, counts.created, counts.changed, counts.deleted
+        ),
+    })
+}
+
+fn as_of(
+    common: &Common,
+    when: When,
+    restore: bool,
+    out: Option<&Path>,
+) -> Result<Answer, Failure> {
+    if restore {
+        let mut engine = open_to_write(common)?;
+        let revision = engine.revision_of(when)?;
+        let change = change_now(&common.user, &format!("возврат к правке {revision}"));
+        let report = engine.return_to(when, &change)?;
+        return done(common, "restored", &report);
+    }
+    let engine = open(common)?.as_of(when)?;
+    let text = engine.world()?.to_toml();
+    match out {
+        Some(path) => {
+            std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
+            Ok(Answer::Yes)
+        }
+        None if common.json => say(&json!({ "map": text }).to_string()),
+        None => say(text.trim_end()),
+    }
+}
+
+fn fsck(common: &Common) -> Result<Answer, Failure> {
+    let report = check_store(&store_dir(common))?;
+    let word = |severity| match severity {
+        Severity::Note => ("note", common.lang.pick("заметка", "note")),
+        Severity::Mendable => ("mendable", common.lang.pick("исправимо", "mendable")),
+        Severity::Broken => ("broken", common.lang.pick("ПОВРЕЖДЕНО", "BROKEN")),
+    };
+    let answer = if report.is_sound() { Answer::Yes } else { Answer::No };
+    if common.json {
+        let one =
+            |f: &crate::store::Finding| json!({"severity": word(f.severity).0, "text": f.text});
+        let findings: Vec<Value> = report.findings.iter().map(one).collect();
+        say(&json!({
+            "outcome": if report.is_sound() { "sound" } else { "faulty" },
+            "transactions": report.lsn,
+            "revision": report.revision,
+            "records": report.records,
+            "snapshots": report.snapshots,
+            "findings": findings,
+        })
+        .to_string())?;
+        return Ok(answer);
+    }
+    for finding in &report.findings {
+        note(&format!("{}: {}", word(finding.severity).1, finding.text));
+    }
+    let verdict = if report.is_sound() {
+        common.lang.pick("Хранилище исправно", "The store is sound")
+    } else if report.findings.iter().any(|f| f.severity == Severity::Broken) {
+        common.lang.pick("Хранилище повреждено", "The store is broken")
+    } else {
+        common
+            .lang
+            .pick("Хранилище исправится при следующем открытии", "The next opening mends the store")
+    };
+    say(&match common.lang {
+        Lang::Ru => format!(
+            "{verdict}: транзакций {}, правок {}, записей {} (с историей), снимков {}.",
+            report.lsn, report.revision, report.records, report.snapshots
+        ),
+        Lang::En => format!(
+            "{verdict}: {} transactions, {} revisions, {} records (with history), {} snapshots.",
+            report.lsn, report.revision, report.records, report.snapshots
+        ),
+    })?;
+    Ok(answer)
+}
+
+fn restore(common: &Common, file: &Path) -> Result<Answer, Failure> {
+    let dir = store_dir(common);
+    let revision = restore_store(file, &dir)?;
+    if common.json {
+        let view = json!({"outcome": "restored", "store": dir, "revision": revision});
+        return say(&view.to_string());
+    }
+    say(&match common.lang {
+        Lang::Ru => format!("Хранилище «{}» восстановлено, правка {revision}.", dir.display()),
+        Lang::En => format!("The store {} is restored, revision {revision}.", dir.display()),
+    })
+}

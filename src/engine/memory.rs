@@ -1,0 +1,195 @@
+//! From one task to the next: the robot stays where it is, doors stay as it left them, things stay where it put them.
+//!
+//! **Invariant.** The map is never changed by this: what the robot did and saw stands beside the survey (D5), and the
+//! world of a task is the map with that applied.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::{DoorStates, FloorPlan};
+use crate::map::{Replica, World};
+use crate::robot::{Belief, Mission, starting_pose};
+use crate::semantics::{Profile, Relations, derive};
+use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
+use crate::units::{MapId, Pose, ReplicaId};
+
+use super::task::TaskAnswer;
+use super::{Engine, Error, RequestError};
+
+/// Who notes what the robot saw.
+pub const ROBOT: &str = "робот";
+/// How sure the robot is of what it did or touched.
+const SURE_OF_OWN_DEED: f64 = 0.95;
+
+/// The world as it is believed to be now, and the robot in it.
+#[derive(Debug, Clone)]
+pub struct Now {
+    /// Without what is carried or was handed over.
+    pub world: World,
+    pub map: MapId,
+    pub pose: Pose,
+    pub held: Option<Replica>,
+    /// With the people's names.
+    pub handed_over: Vec<(Replica, String)>,
+    /// Whether the robot stands where its last task left it; else it stands at the map's start.
+    pub goes_on: bool,
+}
+
+impl Engine {
+    /// The map with all that the robot remembers, at this moment.
+    ///
+    /// # Errors
+    /// There is no map, or it does not say where the robot starts.
+    pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
+        let mut world = self.world()?.clone();
+        let memory = self.memory()?;
+        for (door, state) in &memory.doors {
+            if let Some(door) = world.doors.get_mut(door) {
+                door.state = *state;
+            }
+        }
+        if let Some(store) = &self.store {
+            let reader = store.reader();
+            for id in reader.observed()? {
+                let Some(replica) = world.replicas.get_mut(&id) else { continue };
+                let belief = reader.belief(replica, at)?;
+                if !belief.is_surveyed && self.world()?.areas.contains_key(&belief.place.area) {
+                    (replica.area, replica.frame) = (belief.place.area, belief.place.frame);
+                }
+            }
+        }
+        let (mut held, mut handed_over) = (None, Vec::new());
+        for (thing, holder) in memory.carried {
+            match world.replicas.remove(&thing) {
+                Some(replica) if holder.is_empty() => held = Some(replica),
+                Some(replica) => handed_over.push((replica, holder)),
+                None => {}
+            }
+        }
+        // A map that was replaced since may not have this place any more.
+        let stands = |(map, pose): &(MapId, Pose)| {
+            world.maps.contains_key(map)
+                && self.floor(*map).is_ok_and(|floor| floor.locate(pose.at).is_some())
+        };
+        let last = memory.pose.filter(stands);
+        let goes_on = last.is_some();
+        let start = last.or_else(|| starting_pose(&world));
+        let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
+        Ok(Now { world, map, pose, held, handed_over, goes_on })
+    }
+
+    fn memory(&self) -> Result<RobotMemory, Error> {
+        Ok(match &self.store {
+            Some(store) => store.reader().robot_memory()?,
+            None => RobotMemory::default(),
+        })
+    }
+
+    /// The free floor of the world as it is now: that of the map, with what differs rebuilt.
+    pub(super) fn floor_now(&self, now: &Now) -> Result<FloorPlan, Error> {
+        let before = self.world()?;
+        let mut floor = self.floor(now.map)?.clone();
+        let mut areas = std::collections::BTreeSet::new();
+        for (id, replica) in &before.replicas {
+            let is = now.world.replicas.get(id);
+            if is != Some(replica) {
+                areas.insert(replica.area);
+                areas.extend(is.map(|r| r.area));
+            }
+        }
+        for area in areas {
+            floor.rebuild(&now.world, area);
+        }
+        let doors: DoorStates = now
+            .world
+            .doors
+            .iter()
+            .filter(|(id, door)| before.doors.get(id).is_none_or(|d| d.state != door.state))
+            .map(|(id, door)| (*id, door.state))
+            .collect();
+        Ok(if doors.is_empty() { floor } else { floor.with_doors(before, &doors) })
+    }
+
+    /// The relations of the world as it is now; those of the map where nothing differs.
+    pub(super) fn relations_now(&self, now: &Now) -> Result<Option<Relations>, Error> {
+        if *self.world()? == now.world {
+            return Ok(None);
+        }
+        Ok(Some(derive(&now.world, &self.rules.relations, Profile::Surveyed)?))
+    }
+
+    /// Notes in the store how a task left the robot and its world. The map stays as it was.
+    ///
+    /// # Errors
+    /// The disk refused.
+    pub fn remember(&mut self, answer: &TaskAnswer, at: Timestamp) -> Result<(), Error> {
+        let Some(after) = &answer.after else { return Ok(()) };
+        let Some(store) = &mut self.store else { return Ok(()) };
+        let seen: Vec<Observation> = after
+            .moved
+            .iter()
+            .map(|(replica, seen)| Observation {
+                replica: *replica,
+                at,
+                seen: *seen,
+                sure: SURE_OF_OWN_DEED,
+                observer: ROBOT.to_owned(),
+            })
+            .collect();
+        Ok(store.remember(&after.memory, &seen, ROBOT, at)?)
+    }
+
+    /// The robot is put back to the map's start, into a map as it was surveyed: what it saw and did counts no more.
+    ///
+    /// # Errors
+    /// The disk refused.
+    pub fn reset_robot(&mut self, change: &Change) -> Result<(), Error> {
+        let Some(store) = &mut self.store else { return Ok(()) };
+        let reader = store.reader();
+        if !reader.robot_memory()?.is_empty() {
+            store.remember(&RobotMemory::default(), &[], ROBOT, change.at)?;
+        }
+        for id in reader.observed()? {
+            if reader.observations(id)?.iter().any(|o| o.observer == ROBOT) {
+                store.reject(id, change)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// How a task left the robot and its world.
+#[derive(Debug, Clone, Default)]
+pub struct After {
+    pub memory: RobotMemory,
+    /// Things that are not where they were when the task began: where they are, or that they are gone.
+    pub moved: BTreeMap<ReplicaId, Option<Seen>>,
+}
+
+impl After {
+    /// What a mission holds to be so, against the map and against what was so when it began.
+    pub(super) fn of(surveyed: &World, before: &Now, mission: &Mission<'_>) -> Self {
+        let belief: &Belief = &mission.belief;
+        let doors = belief
+            .world
+            .doors
+            .iter()
+            .filter(|(id, door)| surveyed.doors.get(id).is_some_and(|d| d.state != door.state))
+            .map(|(id, door)| (*id, door.state))
+            .collect();
+        let mut carried: BTreeMap<ReplicaId, String> =
+            belief.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).collect();
+        carried.extend(belief.held.iter().map(|thing| (thing.id, String::new())));
+        let mut moved = BTreeMap::new();
+        for (id, is) in &belief.world.replicas {
+            let was = before.world.replicas.get(id);
+            if was.is_none_or(|was| (was.area, was.frame) != (is.area, is.frame)) {
+                moved.insert(*id, Some(Seen { area: is.area, frame: is.frame }));
+            }
+        }
+        for id in before.world.replicas.keys().filter(|id| carried.contains_key(id)) {
+            moved.insert(*id, None);
+        }
+        let memory = RobotMemory { pose: Some((belief.map, belief.pose)), doors, carried };
+        Self { memory, moved }
+    }
+}

@@ -1,0 +1,190 @@
+//! Where a thing is, was, and since when; what people and the robot saw of it; corrections of the map (D5, M8).
+
+use crate::map::{Entity, Replica};
+use crate::store::{Belief, Change, ImportReport, Observation, Seen, Store, StoreError, Timestamp};
+use crate::units::{AreaId, Frame, ReplicaId};
+
+use super::{Engine, Error, RequestError};
+
+/// Where a thing is believed to be, or was.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Believed {
+    pub replica: ReplicaId,
+    pub name: String,
+    pub belief: Belief,
+    /// Where the map has it at that time.
+    pub surveyed: Seen,
+    /// Taken off the map by the robot: the person who has it, or an empty name for its own hand.
+    pub carried: Option<String>,
+}
+
+/// How something came to be known of a thing's place.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Source {
+    /// The map said so from this revision on.
+    Map { revision: u64, user: String },
+    /// It was seen there, or seen to be gone.
+    Seen { observer: String, sure: f64 },
+}
+
+/// One entry of the story of a thing, in the order of time.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Station {
+    pub at: Timestamp,
+    /// None: it was not where it was expected, or was taken off the map.
+    pub place: Option<Seen>,
+    pub source: Source,
+}
+
+/// A correction of the map that observations speak for.
+pub type Proposal = Believed;
+
+impl Engine {
+    /// The thing of this name, in any of its forms.
+    ///
+    /// # Errors
+    /// Nothing bears the name, several things do, or it is no thing.
+    pub fn thing(&self, name: &str) -> Result<&Replica, Error> {
+        let entity = self.find(name)?;
+        let Entity::Replica(id) = entity else {
+            return Err(
+                RequestError::NotAThing { name: self.world()?.name(entity).to_owned() }.into()
+            );
+        };
+        Ok(&self.world()?.replicas[&id])
+    }
+
+    /// Where a thing is believed to be at a moment, by what was known then.
+    ///
+    /// # Errors
+    /// As [`Engine::thing`]; [`RequestError::NotYet`] when it was not on the map at that moment.
+    pub fn where_is(&self, name: &str, at: Timestamp) -> Result<Believed, Error> {
+        let replica = self.thing(name)?.clone();
+        let store = self.store()?;
+        let reader = store.reader_at(store.revision_at(at)?)?;
+        let then = reader.replica(replica.id)?;
+        let then = then.ok_or_else(|| RequestError::NotYet { name: replica.name.clone() })?;
+        let belief = reader.belief(&then, at)?;
+        let surveyed = Seen { area: then.area, frame: then.frame };
+        // What is carried now says nothing of an earlier moment.
+        let is_latest = reader.observations(replica.id)?.iter().all(|o| o.at <= at);
+        let carried = reader.robot_memory()?.carried.remove(&replica.id).filter(|_| is_latest);
+        Ok(Believed { replica: replica.id, name: replica.name, belief, surveyed, carried })
+    }
+
+    /// Everything that is known of where a thing stood, by the map and by what was seen, the oldest first.
+    ///
+    /// # Errors
+    /// As [`Engine::thing`].
+    pub fn story_of(&self, name: &str) -> Result<Vec<Station>, Error> {
+        let id = self.thing(name)?.id;
+        let reader = self.store()?.reader();
+        let mut story = Vec::new();
+        let mut last = None;
+        for version in reader.replica_history(id)? {
+            let place = reader.place_of(&version);
+            // A change of its name, say, is no news of its place.
+            if last != Some(place) {
+                let (revision, user) = (version.stamp.revision, version.stamp.user);
+                let source = Source::Map { revision, user };
+                story.push(Station { at: version.stamp.at, place, source });
+            }
+            last = Some(place);
+        }
+        for seen in reader.observations(id)? {
+            let source = Source::Seen { observer: seen.observer, sure: seen.sure };
+            story.push(Station { at: seen.at, place: seen.seen, source });
+        }
+        story.sort_by_key(|s| s.at);
+        Ok(story)
+    }
+
+    /// Notes that a thing was seen at a place of an Area (of the map's Area for it, where none is named), or
+    /// that it was not where it was expected. The map stays as it was.
+    ///
+    /// # Errors
+    /// As [`Engine::thing`]; the disk refused.
+    pub fn observe(
+        &mut self,
+        name: &str,
+        seen: Option<(Option<&str>, Frame)>,
+        sure: f64,
+        observer: &str,
+        at: Timestamp,
+    ) -> Result<(), Error> {
+        let replica = self.thing(name)?;
+        let (id, home) = (replica.id, replica.area);
+        let seen = match seen {
+            None => None,
+            Some((area, frame)) => {
+                let area = area.map_or(Ok(home), |name| self.area(name))?;
+                Some(Seen { area, frame })
+            }
+        };
+        let observation =
+            Observation { replica: id, at, seen, sure, observer: observer.to_owned() };
+        Ok(self.writable()?.observe(&[observation])?)
+    }
+
+    fn area(&self, name: &str) -> Result<AreaId, Error> {
+        match self.find(name)? {
+            Entity::Area(id) => Ok(id),
+            other => {
+                Err(RequestError::NotAnArea { name: self.world()?.name(other).to_owned() }.into())
+            }
+        }
+    }
+
+    /// The things that are believed to stand elsewhere than the map says.
+    ///
+    /// # Errors
+    /// The store cannot be read.
+    pub fn proposals(&self, now: Timestamp) -> Result<Vec<Proposal>, Error> {
+        let world = self.world()?;
+        let carried = self.store()?.reader().robot_memory()?.carried;
+        let all = self.store()?.proposals(now)?.into_iter();
+        Ok(all
+            .map(|p| Believed {
+                replica: p.replica,
+                name: world.replicas[&p.replica].name.clone(),
+                belief: p.believed,
+                surveyed: p.surveyed,
+                carried: carried.get(&p.replica).cloned(),
+            })
+            .collect())
+    }
+
+    /// A person says that a thing does stand where it is believed to: an edit of the map, checked as any.
+    ///
+    /// # Errors
+    /// As [`Engine::thing`]; the map would be faulty.
+    pub fn confirm(&mut self, name: &str, change: &Change) -> Result<ImportReport, Error> {
+        let id = self.thing(name)?.id;
+        let believed = self.where_is(name, change.at)?.belief;
+        if believed.is_surveyed {
+            return Err(RequestError::NothingProposed { name: name.to_owned() }.into());
+        }
+        let edited = self.edit_world(change, super::Mode::Commit, |world| {
+            if let Some(replica) = world.replicas.get_mut(&id) {
+                (replica.area, replica.frame) = (believed.place.area, believed.place.frame);
+            }
+        })?;
+        Ok(edited.report.unwrap_or_default())
+    }
+
+    /// A person says that a thing stands where the map says: what was seen until now counts no more.
+    ///
+    /// # Errors
+    /// As [`Engine::thing`]; the disk refused.
+    pub fn reject(&mut self, name: &str, change: &Change) -> Result<(), Error> {
+        let id = self.thing(name)?.id;
+        Ok(self.writable()?.reject(id, change)?)
+    }
+
+    pub(super) fn writable(&mut self) -> Result<&mut Store, Error> {
+        self.store.as_mut().ok_or_else(|| {
+            let reason = "карта держится в памяти, без хранилища".to_owned();
+            StoreError::ReadOnly { reason }.into()
+        })
+    }
+}

@@ -1,0 +1,133 @@
+//! What the robot keeps in mind from one task to the next: where it stands, how doors stand, what it carries.
+//!
+//! None of it is of the map: a survey is a survey, and what the robot did since is noted beside it (D5).
+
+use std::collections::BTreeMap;
+
+use crate::map::{DoorState, DoorStatus};
+use crate::units::{DoorId, MapId, Pose, ReplicaId};
+
+use super::cell::Key;
+use super::edits::Draft;
+use super::error::Result;
+use super::keep::Store;
+use super::observe::Observation;
+use super::reader::Reader;
+use super::schema::Record;
+use super::tables::{self as t, Table};
+use super::time::Timestamp;
+use super::version::{Stamp, Version};
+use super::write::STATUSES;
+
+/// Where the robot is, and what it left otherwise than the map has it.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct RobotMemory {
+    /// None before its first task: it stands where the map says that it starts.
+    pub pose: Option<(MapId, Pose)>,
+    /// Doors that it saw standing otherwise than the map says, or left so.
+    pub doors: BTreeMap<DoorId, DoorState>,
+    /// What is not on the map any more, with the person to whom it was given; an empty name is the robot's hand.
+    pub carried: BTreeMap<ReplicaId, String>,
+}
+
+impl Reader {
+    /// What the robot keeps in mind.
+    ///
+    /// # Errors
+    /// [`BadRecord`](super::StoreError::BadRecord) when a record is broken.
+    pub fn robot_memory(&self) -> Result<RobotMemory> {
+        let state = |r: t::DoorStates| {
+            let word = STATUSES.iter().find(|(_, word)| *word == r.status);
+            let status = word.map_or(DoorStatus::Closed, |(status, _)| *status);
+            (DoorId(r.door_id), DoorState { status, opening: r.opening })
+        };
+        let doors = self.records::<t::DoorStates>(&Key::new())?;
+        let carried = self.records::<t::Carried>(&Key::new())?;
+        Ok(RobotMemory {
+            pose: self.robot_pose()?.map(|(map, pose, _)| (map, pose)),
+            doors: doors.into_iter().map(state).collect(),
+            carried: carried.into_iter().map(|r| (ReplicaId(r.repl_id), r.holder)).collect(),
+        })
+    }
+}
+
+impl Store {
+    /// Puts what the robot keeps in mind in the place of what it kept before, together with what it saw, in one
+    /// transaction. The map and its revision stay as they are.
+    ///
+    /// # Errors
+    /// [`ReadOnly`](super::StoreError::ReadOnly), [`Io`](super::StoreError::Io).
+    pub fn remember(
+        &mut self,
+        memory: &RobotMemory,
+        seen: &[Observation],
+        user: &str,
+        now: Timestamp,
+    ) -> Result<()> {
+        let stamp = self.stamp(user, now);
+        let mut draft = Draft::default();
+        match &memory.pose {
+            Some((map, pose)) => {
+                self.put_log(&mut draft, &super::observe::pose_record(*map, pose), &stamp)?;
+            }
+            None => self.drop_all(Table::RobotPose, |_| true, &mut draft, &stamp)?,
+        }
+        for (door, state) in &memory.doors {
+            let word = STATUSES.iter().find(|(status, _)| *status == state.status);
+            let record = t::DoorStates {
+                door_id: door.0,
+                status: word.map_or_else(String::new, |(_, word)| (*word).to_owned()),
+                opening: state.opening,
+            };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::DoorStates::from_row(row)
+                .is_none_or(|r| !memory.doors.contains_key(&DoorId(r.door_id)))
+        };
+        self.drop_all(Table::DoorStates, stale, &mut draft, &stamp)?;
+        for (thing, holder) in &memory.carried {
+            let record = t::Carried { repl_id: thing.0, holder: holder.clone() };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::Carried::from_row(row)
+                .is_none_or(|r| !memory.carried.contains_key(&ReplicaId(r.repl_id)))
+        };
+        self.drop_all(Table::Carried, stale, &mut draft, &stamp)?;
+        self.put_observations(seen, &mut draft)?;
+        self.commit_log(draft)
+    }
+
+    /// Marks the live records of a table of notes as deleted, where `stale` holds of their rows.
+    fn drop_all(
+        &self,
+        table: Table,
+        stale: impl Fn(&[super::Cell]) -> bool,
+        draft: &mut Draft,
+        stamp: &Stamp,
+    ) -> Result<()> {
+        for (key, version) in self.reader().versions(table, &Key::new())? {
+            if stale(&version.row) {
+                let key = key.as_bytes().to_vec();
+                let old = self.vault.get(table.code(), &key)?;
+                let gone = Version { stamp: Stamp { deleted: true, ..stamp.clone() }, ..version };
+                let bytes = gone.encode(table, &key);
+                draft.put(table.code(), key, bytes, old);
+            }
+        }
+        Ok(())
+    }
+
+    pub(super) fn commit_log(&mut self, draft: Draft) -> Result<()> {
+        if draft.writes.is_empty() { Ok(()) } else { self.vault.commit(draft.writes) }
+    }
+}
+
+impl RobotMemory {
+    /// Nothing is remembered: the robot stands at the map's start, in a map as it was surveyed.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        *self == Self::default()
+    }
+}
