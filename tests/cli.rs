@@ -232,7 +232,7 @@ fn the_robot_goes_on_from_where_its_last_task_left_it() {
     assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], "");
     assert_eq!(place.json(&["do", "Возьми лекарство"], 0)["outcome"], "already_true");
     let put = place.json(&["do", "Положи лекарство на Тумбочку-1"], 0);
-    assert_eq!(put["start"], place.json(&["do", "Возьми лекарство", "--read-only"], 0)["start"]);
+    assert_eq!(put["end"], place.json(&["do", "Возьми лекарство", "--read-only"], 0)["start"]);
     assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], Value::Null);
     // The survey knows nothing of all that.
     assert_eq!(place.json(&["history"], 0)["revisions"].as_array().unwrap().len(), 1);
@@ -266,7 +266,7 @@ fn the_map_is_edited_told_and_taken_back() {
             "--item",
             "A=slab",
             "--item",
-            "B=rod@20,15,5",
+            "B=rod@0,0,5",
             "--link",
             "A.roof=B.base",
         ],

@@ -40,7 +40,9 @@ pub(crate) trait Disk: Send + Sync {
         file.sync()?;
         drop(file);
         self.rename(&aside, path)?;
-        self.sync_dir(path.parent().unwrap_or_else(|| Path::new(".")))
+        // A bare file name lies in the working directory.
+        let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
+        self.sync_dir(parent.unwrap_or_else(|| Path::new(".")))
     }
 }
 
