@@ -41,7 +41,9 @@ const PROPERTIED: &[Kind] =
     &[Kind::Replica, Kind::Area, Kind::Door, Kind::Object, Kind::Orthoframe];
 const GROUPS: &[Kind] = &[Kind::Area, Kind::Object];
 
-type Done = Result<(), Misprint>;
+/// A step's work, or its fault.
+type Outcome<T> = Result<T, Box<Misprint>>;
+type Done = Outcome<()>;
 
 pub(super) struct Steps<'a> {
     pub(super) tree: Tree,
@@ -60,13 +62,13 @@ struct Step<'n> {
     verb: &'n Entry,
 }
 
-fn misprint(error: MapError, span: &Span) -> Misprint {
-    Misprint { error, span: Some(span.clone()) }
+fn misprint(error: MapError, span: &Span) -> Box<Misprint> {
+    Box::new(Misprint { error, span: Some(span.clone()) })
 }
 
 impl<'n> Step<'n> {
     /// What the verb is done to.
-    fn what(&self) -> Result<&'n str, Misprint> {
+    fn what(&self) -> Outcome<&'n str> {
         text_of(&self.verb.node)
     }
 
@@ -74,7 +76,7 @@ impl<'n> Step<'n> {
         self.node.entry(name).map(|e| &e.node)
     }
 
-    fn required(&self, name: &'static str) -> Result<&'n Node, Misprint> {
+    fn required(&self, name: &'static str) -> Outcome<&'n Node> {
         self.field(name)
             .ok_or_else(|| misprint(MapError::MissingField { field: name }, &self.verb.key_span))
     }
@@ -89,11 +91,11 @@ impl<'n> Step<'n> {
     }
 }
 
-fn text_of(node: &Node) -> Result<&str, Misprint> {
+fn text_of(node: &Node) -> Outcome<&str> {
     node.text().ok_or_else(|| wrong_kind(node, "текст"))
 }
 
-fn wrong_kind(node: &Node, expected: &str) -> Misprint {
+fn wrong_kind(node: &Node, expected: &str) -> Box<Misprint> {
     let found = match &node.value {
         Value::Nothing => "пустое значение".to_owned(),
         Value::Bool(b) => format!("«{b}»"),
@@ -106,7 +108,7 @@ fn wrong_kind(node: &Node, expected: &str) -> Misprint {
     misprint(MapError::WrongKind { found, expected: expected.to_owned() }, &node.span)
 }
 
-fn number(node: &Node) -> Result<f64, Misprint> {
+fn number(node: &Node) -> Outcome<f64> {
     match node.value {
         Value::Integer(n) => Ok(n as f64),
         Value::Float(x) => Ok(x),
@@ -114,7 +116,7 @@ fn number(node: &Node) -> Result<f64, Misprint> {
     }
 }
 
-fn numbers(node: &Node) -> Result<Vec<f64>, Misprint> {
+fn numbers(node: &Node) -> Outcome<Vec<f64>> {
     let list: Vec<f64> = node.elements().iter().map(number).collect::<Result<_, _>>()?;
     if (2..=3).contains(&list.len()) {
         Ok(list)
@@ -163,15 +165,15 @@ impl<'a> Steps<'a> {
                     }
                 }
             };
-            self.misprints.extend(done.err());
+            self.misprints.extend(done.err().map(|fault| *fault));
         }
         let Some(list) = edits.entry("edit") else { return };
         if !matches!(list.node.value, Value::List(_)) {
-            self.misprints.push(wrong_kind(&list.node, "список шагов [[edit]]"));
+            self.misprints.push(*wrong_kind(&list.node, "список шагов [[edit]]"));
         }
         for node in list.node.elements() {
             if let Err(fault) = self.step(node) {
-                self.misprints.push(fault);
+                self.misprints.push(*fault);
             }
         }
         if let ([only], true) = (
@@ -196,7 +198,7 @@ impl<'a> Steps<'a> {
             let known = self.tree.find(&record.key, &[kind]);
             if known.iter().any(|h| self.tree.key(*h) == record.key) {
                 let error = MapError::AlreadyThere { what: kind.title(), name: record.key.clone() };
-                self.misprints.push(misprint(error, &record.key_span));
+                self.misprints.push(*misprint(error, &record.key_span));
                 continue;
             }
             if kind == Kind::Map {
@@ -244,7 +246,7 @@ impl<'a> Steps<'a> {
     fn types(&mut self, section: &Node) {
         for list in section.entries() {
             let Some(kind) = TypeKind::ALL.into_iter().find(|k| k.field() == list.key) else {
-                self.misprints.push(unknown_field(list, &TypeKind::ALL.map(TypeKind::field)));
+                self.misprints.push(*unknown_field(list, &TypeKind::ALL.map(TypeKind::field)));
                 continue;
             };
             for line in list.node.elements() {
@@ -253,7 +255,7 @@ impl<'a> Steps<'a> {
                     && self.world.types.list(kind).named(name).is_some()
                 {
                     let error = MapError::AlreadyThere { what: "Тип", name: shortened(name) };
-                    self.misprints.push(misprint(error, &line.span));
+                    self.misprints.push(*misprint(error, &line.span));
                     continue;
                 }
                 let next = self.ids.types.entry(kind).or_insert(1);
@@ -286,7 +288,7 @@ impl<'a> Steps<'a> {
         let mut whole = true;
         for entry in node.entries().iter().filter(|e| e.key != verb.key) {
             if !fields.contains(&entry.key.as_str()) {
-                self.misprints.push(unknown_field(entry, fields));
+                self.misprints.push(*unknown_field(entry, fields));
                 whole = false;
             }
         }
@@ -316,7 +318,7 @@ impl<'a> Steps<'a> {
     }
 
     /// What a name means among some kinds: as the map or this file spells it, else in another form.
-    fn find(&self, node: &Node, kinds: &[Kind]) -> Result<Handle, Misprint> {
+    fn find(&self, node: &Node, kinds: &[Kind]) -> Outcome<Handle> {
         let name = text_of(node)?;
         let mut found = self.tree.find(name, kinds);
         if found.is_empty() {
@@ -359,13 +361,13 @@ impl<'a> Steps<'a> {
     }
 
     /// A reference to what a field names, in the words of the map.
-    fn reference(&self, node: &Node, kinds: &[Kind]) -> Result<Node, Misprint> {
+    fn reference(&self, node: &Node, kinds: &[Kind]) -> Outcome<Node> {
         let text = self.tree.reference(self.find(node, kinds)?);
         Ok(Node { span: node.span.clone(), value: Value::Text(text) })
     }
 
     /// The kinds that a step may speak of: all of these, or the one that it names.
-    fn kinds(&self, step: &Step<'_>, all: &[Kind]) -> Result<Vec<Kind>, Misprint> {
+    fn kinds(&self, step: &Step<'_>, all: &[Kind]) -> Outcome<Vec<Kind>> {
         let Some(node) = step.field("kind") else { return Ok(all.to_vec()) };
         let word = text_of(node)?;
         let words: Vec<&str> = all.iter().map(|k| k.word()).collect();
@@ -673,7 +675,7 @@ impl<'a> Steps<'a> {
     }
 
     /// The table of properties of what a step speaks of, or of one of its sides.
-    fn properties(&mut self, step: &Step<'_>) -> Result<&mut Node, Misprint> {
+    fn properties(&mut self, step: &Step<'_>) -> Outcome<&mut Node> {
         let kinds = if step.field("side").is_some() {
             vec![Kind::Orthoframe]
         } else {
@@ -786,7 +788,7 @@ impl<'a> Steps<'a> {
     }
 
     /// Where a link stands, and its ends in the words of the map.
-    fn ends(&self, step: &Step<'_>) -> Result<(Handle, Node, Node), Misprint> {
+    fn ends(&self, step: &Step<'_>) -> Outcome<(Handle, Node, Node)> {
         let (from, to) = (&step.verb.node, step.required("to")?);
         let (from_text, to_text) = (text_of(from)?, text_of(to)?);
         if let Some(of) = step.field("of") {
@@ -810,7 +812,7 @@ impl<'a> Steps<'a> {
     }
 
     /// «Комната-В.F» with the Area's key in place of its name.
-    fn side_of_area(&self, node: &Node, text: &str) -> Result<(Handle, Node), Misprint> {
+    fn side_of_area(&self, node: &Node, text: &str) -> Outcome<(Handle, Node)> {
         let dots = text.match_indices('.').map(|(at, _)| at).collect::<Vec<_>>();
         for at in dots.into_iter().rev() {
             let name = Node { span: node.span.clone(), value: Value::Text(text[..at].to_owned()) };
@@ -853,7 +855,7 @@ impl<'a> Steps<'a> {
         self.put_down("items", "area", area, map, step)
     }
 
-    fn only_map(&self, step: &Step<'_>) -> Result<Handle, Misprint> {
+    fn only_map(&self, step: &Step<'_>) -> Outcome<Handle> {
         match self.tree.all(Kind::Map)[..] {
             [only] => Ok(only),
             _ => Err(misprint(MapError::MissingField { field: "map" }, &step.verb.key_span)),
@@ -955,7 +957,7 @@ fn check_format(node: &Node) -> Done {
     }
 }
 
-fn unknown_field(entry: &Entry, known: &[&str]) -> Misprint {
+fn unknown_field(entry: &Entry, known: &[&str]) -> Box<Misprint> {
     let error = MapError::UnknownField {
         field: shortened(&entry.key),
         nearest: likely(&entry.key, known),
