@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone};
+use crate::engine::{
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, plan_alone,
+};
 use crate::graphplan::Outcome;
 use crate::map::MapErrors;
 use crate::strips::Scenario;
