@@ -72,7 +72,9 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Plan(plan) => commands::plan(common, plan),
-        Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
+        Command::Do { task, draw, reset } => {
+            commands::perform(common, task, draw.as_deref(), *reset)
+        }
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

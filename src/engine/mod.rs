@@ -155,6 +155,24 @@ impl Engine {
         })
     }
 
+    /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
+    ///
+    /// # Errors
+    /// There is no store, or as [`Engine::open`].
+    pub fn open_read_only(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
+        let rules = Rules::read(rules)?;
+        let (store, opened) = Store::open_read_only(dir)?;
+        let world = store.world()?;
+        Ok(Self {
+            store: Some(store),
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            opened,
+        })
+    }
+
     /// Opens a store that is there already.
     ///
     /// # Errors

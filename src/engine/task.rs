@@ -11,6 +11,7 @@ use crate::robot::{
 use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
+use super::lexicon::form_index;
 use super::memory::{After, Now};
 use super::position::describe;
 use super::{Engine, Error, RequestError};

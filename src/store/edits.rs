@@ -6,7 +6,7 @@ use super::cell::{Cell, Key, Row};
 use super::error::{Result, StoreError};
 use super::frame::Op;
 use super::ids;
-use super::reader::{encode_touched, key_of_record};
+use super::reader::{encode_touched, key_of_record, key_of_row};
 use super::schema::Record;
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
@@ -70,7 +70,8 @@ impl Edits {
     /// Creates the record, or changes the one with its key.
     #[must_use]
     pub fn put<T: Record>(mut self, record: &T) -> Self {
-        self.rows.insert((T::TABLE, key_of_record(record)), Some(record.to_row()));
+        let row = record.to_row();
+        self.rows.insert((T::TABLE, key_of_row::<T>(&row)), Some(row));
         self
     }
 

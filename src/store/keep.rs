@@ -284,6 +284,7 @@ impl Store {
     ) -> Result<ImportReport> {
         let revision = self.revision + 1;
         let stamp = |deleted| Stamp { revision, at: change.at, user: change.user.clone(), deleted };
+        let stamps = [stamp(false), stamp(true)];
         let mut draft = Draft::default();
         for ((table, key), row) in &edits.rows {
             if !table.is_stored() {
@@ -318,8 +319,8 @@ impl Store {
                 }
             };
             draft.raise_id(*table, row);
-            let version = Version { stamp: stamp(is_deletion), row: row.clone() };
-            let bytes = version.encode(*table, key.as_bytes());
+            let stamp = &stamps[usize::from(is_deletion)];
+            let bytes = super::version::encode(*table, key.as_bytes(), stamp, row);
             if let (Some(old), Some(was)) = (&old, &was) {
                 let key = history_key(*table, key.as_bytes(), was.stamp.revision);
                 draft.put(HISTORY, key, old.clone(), None);

@@ -21,6 +21,7 @@
 //!
 //! [`World`]: crate::map::World
 
+mod behind;
 mod cell;
 mod check;
 mod derived;
@@ -33,6 +34,7 @@ mod gc;
 mod ids;
 mod journal;
 mod keep;
+mod memory;
 mod observe;
 mod open;
 mod read;

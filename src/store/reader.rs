@@ -14,7 +14,7 @@ use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
 use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
-use super::version::Version;
+use super::version::{Version, VersionHead};
 
 /// The store at one revision. Cheap to clone, and safe to use in another thread than the writer's.
 #[derive(Clone)]
@@ -91,7 +91,21 @@ impl Reader {
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
     pub fn records<T: Record>(&self, prefix: &Key) -> Result<Vec<T>> {
-        self.versions(T::TABLE, prefix)?.into_iter().map(|(_, v)| record(&v.row)).collect()
+        let mut found = Vec::new();
+        self.trees.scan(T::TABLE.code(), prefix.as_bytes(), &mut |key, bytes| {
+            let head = VersionHead::decode(T::TABLE, key, bytes)?;
+            // Most are as old as this reader; then who wrote them, and when, need not be read.
+            let row = if head.revision <= self.revision || !T::TABLE.is_map() {
+                if head.deleted { None } else { Some(head.row(T::TABLE, key)?) }
+            } else {
+                self.valid(T::TABLE, key, bytes)?.filter(|v| !v.stamp.deleted).map(|v| v.row)
+            };
+            if let Some(row) = row {
+                found.push(record(&row)?);
+            }
+            Ok(true)
+        })?;
+        Ok(found)
     }
 
     /// One live record.
@@ -293,5 +307,10 @@ fn decode_touched(bytes: &[u8]) -> Option<Vec<(Table, Key)>> {
 
 /// The key of a record.
 pub(crate) fn key_of_record<T: Record>(record: &T) -> Key {
-    key_of(T::TABLE.columns(), &record.to_row()).expect("a record's key fields are ids and texts")
+    key_of_row::<T>(&record.to_row())
+}
+
+/// The key of a record by its row.
+pub(crate) fn key_of_row<T: Record>(row: &Row) -> Key {
+    key_of(T::TABLE.columns(), row).expect("a record's key fields are ids and texts")
 }

@@ -37,14 +37,14 @@ pub(super) fn load_snapshot(disk: &dyn Disk, path: &Path, trees: &dyn Trees) -> 
         return Err(bad("файл записан не до конца"));
     }
     for chunk in chunks {
-        trees.apply(&payload(chunk)?.ops, &State::default())?;
+        trees.apply(payload(chunk)?.ops, &State::default())?;
     }
-    trees.apply(&[], &State { lsn: found.lsn, digests: end.digests })
+    trees.apply(Vec::new(), &State { lsn: found.lsn, digests: end.digests })
 }
 
 /// Whether a snapshot file is whole, without putting it anywhere.
 pub(super) fn check_snapshot(disk: &dyn Disk, path: &Path) -> Result<State> {
-    let trees = super::trees::MemoryTrees::default();
+    let trees = super::memory::MemoryTrees::default();
     load_snapshot(disk, path, &trees)?;
     let state = trees.state()?;
     if digests(&trees)? == state.digests {

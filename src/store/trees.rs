@@ -1,7 +1,7 @@
-//! Where records are looked up: sled's trees, or a map in memory for a store that is only read.
+//! Where records stand on the disk by table and key: sled's trees.
 //!
-//! sled is the index of the store, not its memory: what it forgets or breaks comes back from journal and
-//! snapshot. Its `flush` does not reach the disk on Linux (0.34.7 asks for `sync_file_range`), it panics on
+//! Readers read memory (see `memory`); sled keeps the same records for the next opening, and follows the journal
+//! (see `behind`). What it forgets or breaks comes back from journal and snapshot. Its `flush` does not reach the disk on Linux (0.34.7 asks for `sync_file_range`), it panics on
 //! broken pages, and it notices few flipped bits; so every call is guarded, every record bears a checksum of
 //! its own, and the whole is compared with the journal's digests when the store is opened.
 //!
@@ -10,7 +10,6 @@
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::{PoisonError, RwLock};
 
 use super::cell::Bytes;
 use super::error::{Result, StoreError};
@@ -58,7 +57,7 @@ pub(crate) trait Trees: Send + Sync {
     /// The last record of a tree whose key begins with `prefix` and is not beyond `limit`.
     fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>>;
     /// Applies the operations and notes the state, all or nothing.
-    fn apply(&self, ops: &[Op], state: &State) -> Result<()>;
+    fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()>;
     fn state(&self) -> Result<State>;
     fn flush(&self) -> Result<()>;
 }
@@ -127,7 +126,7 @@ impl SledTrees {
             // No flushing in the background: the journal keeps what sled has yet in memory.
             let db = sled::Config::new()
                 .path(dir)
-                .cache_capacity(256 << 20)
+                .cache_capacity(64 << 20)
                 .flush_every_ms(None)
                 .open()?;
             let trees = tree_names()
@@ -219,11 +218,11 @@ impl Trees for SledTrees {
         })
     }
 
-    fn apply(&self, ops: &[Op], state: &State) -> Result<()> {
+    fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
         use sled::transaction::{TransactionError, Transactional};
 
         let mut touched = BTreeMap::<u8, Vec<&Op>>::new();
-        for op in ops {
+        for op in &ops {
             touched.entry(op.tree).or_default().push(op);
         }
         let mut trees = touched.keys().map(|t| self.tree(*t)).collect::<Result<Vec<_>>>()?;
@@ -266,58 +265,5 @@ impl Trees for SledTrees {
 
     fn flush(&self) -> Result<()> {
         guarded(|| self.open_trees().db.flush().map(|_| ()))
-    }
-}
-
-/// Values by tree and key.
-type Records = BTreeMap<(u8, Vec<u8>), Vec<u8>>;
-
-/// Trees in memory.
-#[derive(Default)]
-pub(crate) struct MemoryTrees {
-    inner: RwLock<(Records, State)>,
-}
-
-impl Trees for MemoryTrees {
-    fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
-        let inner = self.inner.read().unwrap_or_else(PoisonError::into_inner);
-        Ok(inner.0.get(&(tree, key.to_vec())).cloned())
-    }
-
-    fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
-        let inner = self.inner.read().unwrap_or_else(PoisonError::into_inner);
-        for ((at, key), value) in inner.0.range((tree, prefix.to_vec())..) {
-            if *at != tree || !key.starts_with(prefix) || !visit(key, value)? {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
-        let inner = self.inner.read().unwrap_or_else(PoisonError::into_inner);
-        let range = (tree, prefix.to_vec())..=(tree, limit.to_vec());
-        Ok(inner.0.range(range).next_back().map(|((_, key), value)| (key.clone(), value.clone())))
-    }
-
-    fn apply(&self, ops: &[Op], state: &State) -> Result<()> {
-        let mut inner = self.inner.write().unwrap_or_else(PoisonError::into_inner);
-        for op in ops {
-            let key = (op.tree, op.key.clone());
-            match &op.value {
-                Some(value) => inner.0.insert(key, value.clone()),
-                None => inner.0.remove(&key),
-            };
-        }
-        inner.1 = state.clone();
-        Ok(())
-    }
-
-    fn state(&self) -> Result<State> {
-        Ok(self.inner.read().unwrap_or_else(PoisonError::into_inner).1.clone())
-    }
-
-    fn flush(&self) -> Result<()> {
-        Ok(())
     }
 }

@@ -1,8 +1,9 @@
 //! The vault: journal, snapshots and trees as one thing that never loses what it acknowledged.
 //!
 //! A transaction is one frame of the journal, on the disk before it is acknowledged; then it is applied to the
-//! trees. Truth is the newest whole snapshot and the frames after it; the trees are an index of it. Opening
-//! brings the two together:
+//! records in memory, which readers read, and sled's trees follow (see `behind`). Truth is the newest whole snapshot
+//! and the frames after it; the trees are an index of it, read and verified as a whole at each opening, which brings
+//! the two together:
 //!
 //! | journal | trees | what is done |
 //! |---|---|---|
@@ -17,13 +18,15 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use super::behind::Behind;
 use super::disk::Disk;
 use super::error::{Result, StoreError};
-use super::frame::{Digests, Op, encode_frame};
+use super::frame::{Digest, Digests, Op, encode_frame};
 use super::journal::{
     Journal, Log, begin_journal, journal_dir, numbered, numbered_files, snapshot_dir,
     snapshot_files,
 };
+use super::memory::MemoryTrees;
 use super::snapshot::{load_snapshot, write_snapshot};
 use super::trees::{State, Trees, digests};
 
@@ -44,6 +47,14 @@ pub struct OpenReport {
     pub journal_renewed: Option<String>,
 }
 
+impl OpenReport {
+    fn fill(&mut self, state: &State, frames: u64) {
+        self.lsn = state.lsn;
+        self.replayed = frames;
+        self.records = state.digests.values().map(|d| d.records).sum();
+    }
+}
+
 /// One record's change within a transaction, with what stood there before.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Change {
@@ -54,6 +65,10 @@ pub(crate) struct Change {
 /// Where the trees live.
 pub(crate) trait Shelf: Send {
     fn open(&mut self) -> Result<Arc<dyn Trees>>;
+    /// Whether a thread of their own brings them into step.
+    fn has_thread(&self) -> bool {
+        true
+    }
     /// Whether there are trees already, whole or broken.
     fn exists(&self) -> bool;
     /// Puts broken trees away, so that [`Shelf::open`] then gives empty ones.
@@ -63,7 +78,10 @@ pub(crate) trait Shelf: Send {
 pub(crate) struct Vault {
     disk: Arc<dyn Disk>,
     dir: PathBuf,
+    /// The records in memory.
     trees: Arc<dyn Trees>,
+    /// sled, following memory; none in a store that is only read.
+    behind: Option<Behind>,
     state: State,
     journal: Option<Journal>,
     read_only: Option<String>,
@@ -74,12 +92,22 @@ pub(crate) struct Vault {
 }
 
 /// A snapshot is taken when the journal outgrows this, or twice the last snapshot if that is more.
-const CHECKPOINT_BYTES: u64 = 16 << 20;
+const CHECKPOINT_BYTES: u64 = 64 << 20;
 const SNAPSHOTS_KEPT: usize = 3;
 
-/// Applies the frames after the trees' own state, and checks what comes out of it.
-fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
-    let mut state = trees.state()?;
+/// Records brought to the end of the journal.
+struct Brought {
+    memory: MemoryTrees,
+    state: State,
+    /// Keys that the frames touched.
+    touched: Vec<(u8, Vec<u8>)>,
+    frames: u64,
+}
+
+/// Applies the frames after the records' own state, and checks what comes out of it against the digests. `counted`
+/// is what the records hold before, by their own bytes.
+fn replay(log: &Log, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
+    let mut state = memory.state()?;
     let broken = |what: &str| StoreError::Tables { what: what.to_owned() };
     if !log.reaches(state.lsn, last) {
         let empty = state.lsn == 0;
@@ -90,16 +118,29 @@ fn replay(log: &Log, trees: &dyn Trees, last: u64) -> Result<(State, u64)> {
         }));
     }
     let before = state.lsn;
+    let mut touched = Vec::new();
     for lsn in before + 1..=last {
         let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
         state.advance(lsn, payload.digests);
-        trees.apply(&payload.ops, &state)?;
+        for op in &payload.ops {
+            let digest = counted.entry(op.tree).or_default();
+            if let Some(old) = memory.get(op.tree, &op.key)? {
+                digest.remove(&op.key, &old);
+            }
+            if let Some(new) = &op.value {
+                digest.add(&op.key, new);
+            }
+            touched.push((op.tree, op.key.clone()));
+        }
+        memory.apply(payload.ops, &state)?;
     }
-    if digests(trees)? != state.digests {
+    counted.retain(|_, digest| *digest != Digest::default());
+    if counted != state.digests {
         return Err(broken("записи не совпадают с контрольной суммой"));
     }
-    Ok((state.clone(), state.lsn - before))
+    Ok(Brought { memory, frames: state.lsn - before, state, touched })
 }
+
 impl Vault {
     /// Opens what is there, or makes it; see the module's table.
     pub(crate) fn open(
@@ -124,12 +165,13 @@ impl Vault {
             let synced = disk.appender(path).and_then(|mut file| file.sync());
             synced.map_err(StoreError::io("записать", path))?;
         }
-        let (trees, state, mut report) = Self::recover(&*disk, dir, &log, shelf)?;
+        let (trees, behind, state, mut report) = Self::recover(&*disk, dir, &log, shelf)?;
         let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
         let mut vault = Self {
             disk,
             dir: dir.to_owned(),
             trees,
+            behind: Some(behind),
             state,
             journal: None,
             read_only: None,
@@ -142,27 +184,24 @@ impl Vault {
 
     /// Reads a store without touching it: snapshot and journal into memory.
     pub(crate) fn open_read_only(disk: Arc<dyn Disk>, dir: &Path) -> Result<(Self, OpenReport)> {
-        struct InMemory;
-        impl Shelf for InMemory {
-            fn open(&mut self) -> Result<Arc<dyn Trees>> {
-                Ok(Arc::new(super::trees::MemoryTrees::default()))
-            }
-            fn exists(&self) -> bool {
-                false
-            }
-            fn set_aside(&mut self) -> Result<()> {
-                Ok(())
-            }
-        }
         let log = Log::read(&*disk, dir)?;
-        let (trees, state, mut report) = Self::recover(&*disk, dir, &log, &mut InMemory)?;
-        report.tables_rebuilt = None;
-        report.torn_bytes = log.torn;
+        let snapshots = snapshot_files(&*disk, dir)?;
+        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
+        let last = log.last().max(newest_snapshot);
+        let nothing = StoreError::Tables { what: "таблиц нет".to_owned() };
+        if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) {
+            return Err(both_corrupt(dir, &log, &nothing, &nothing));
+        }
+        let brought = Self::from_files(&*disk, &snapshots, &log, last)
+            .map_err(|error| both_corrupt(dir, &log, &error, &nothing))?;
+        let mut report = OpenReport { torn_bytes: log.torn, ..OpenReport::default() };
+        report.fill(&brought.state, brought.frames);
         let vault = Self {
             disk,
             dir: dir.to_owned(),
-            trees,
-            state,
+            trees: Arc::new(brought.memory),
+            behind: None,
+            state: brought.state,
             journal: None,
             read_only: Some("так его открыли".into()),
             checkpoint_at: u64::MAX,
@@ -176,7 +215,7 @@ impl Vault {
         dir: &Path,
         log: &Log,
         shelf: &mut dyn Shelf,
-    ) -> Result<(Arc<dyn Trees>, State, OpenReport)> {
+    ) -> Result<(Arc<dyn Trees>, Behind, State, OpenReport)> {
         let snapshots = snapshot_files(disk, dir)?;
         let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
         let last = log.last().max(newest_snapshot);
@@ -184,36 +223,43 @@ impl Vault {
 
         let opened = shelf.open().and_then(|trees| {
             let seen = trees.state()?.lsn;
-            let found = replay(log, &*trees, last.max(seen))?;
-            Ok((trees, found))
+            let (memory, counted) = MemoryTrees::copy_of(&*trees)?;
+            Ok((trees, replay(log, memory, counted, last.max(seen))?))
         });
-        let (trees, (state, replayed)) = match opened {
-            Ok(whole) => whole,
+        let (trees, brought, dirty) = match opened {
+            Ok((trees, mut brought)) => {
+                let dirty = std::mem::take(&mut brought.touched);
+                (trees, brought, dirty)
+            }
             Err(why) => {
                 // With neither snapshot nor journal, empty trees would be a silent loss of everything.
                 if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) {
                     return Err(both_corrupt(dir, log, &why, &why));
                 }
-                let rebuilt = Self::rebuild(disk, &snapshots, log, last, shelf)
+                // Only what can be replaced is put away.
+                let brought = Self::from_files(disk, &snapshots, log, last)
                     .map_err(|also| both_corrupt(dir, log, &also, &why))?;
+                shelf.set_aside()?;
+                let trees = shelf.open()?;
                 report.tables_rebuilt = Some(why.to_string());
-                rebuilt
+                let dirty = brought.memory.keys();
+                (trees, brought, dirty)
             }
         };
-        report.lsn = state.lsn;
-        report.replayed = replayed;
-        report.records = state.digests.values().map(|d| d.records).sum();
-        Ok((trees, state, report))
+        let Brought { memory, state, frames, .. } = brought;
+        report.fill(&state, frames);
+        let memory = Arc::new(memory);
+        let behind = Behind::new(Arc::clone(&memory), trees, dirty, shelf.has_thread())?;
+        Ok((memory, behind, state, report))
     }
 
-    /// New trees from the newest snapshot that is whole and from which the journal leads on.
-    fn rebuild(
+    /// The records of the newest snapshot that is whole and from which the journal leads on.
+    fn from_files(
         disk: &dyn Disk,
         snapshots: &[(u64, PathBuf)],
         log: &Log,
         last: u64,
-        shelf: &mut dyn Shelf,
-    ) -> Result<(Arc<dyn Trees>, (State, u64))> {
+    ) -> Result<Brought> {
         let mut why = StoreError::Tables {
             what: "нет снимка, от которого ведёт журнал".to_owned(),
         };
@@ -222,11 +268,11 @@ impl Vault {
             if !log.reaches(*lsn, last) {
                 continue;
             }
-            shelf.set_aside()?;
-            let trees = shelf.open()?;
-            let loaded = if *lsn == 0 { Ok(()) } else { load_snapshot(disk, path, &*trees) };
-            match loaded.and_then(|()| replay(log, &*trees, last)) {
-                Ok(found) => return Ok((trees, found)),
+            let memory = MemoryTrees::default();
+            let loaded = if *lsn == 0 { Ok(()) } else { load_snapshot(disk, path, &memory) };
+            let counted = loaded.and_then(|()| digests(&memory));
+            match counted.and_then(|counted| replay(log, memory, counted, last)) {
+                Ok(found) => return Ok(found),
                 Err(error) => why = error,
             }
         }
@@ -291,6 +337,12 @@ impl Vault {
         &self.trees
     }
 
+    /// Brings sled into step now.
+    #[cfg(test)]
+    pub(crate) fn catch_up(&self) -> Result<()> {
+        self.behind.as_ref().map_or(Ok(()), Behind::catch_up)
+    }
+
     /// A record as it stands; does not ask a tree that is empty.
     pub(crate) fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
         if self.state.digests.contains_key(&tree) { self.trees.get(tree, key) } else { Ok(None) }
@@ -314,16 +366,19 @@ impl Vault {
         if let Some(reason) = &self.read_only {
             return Err(StoreError::ReadOnly { reason: reason.clone() });
         }
+        if let Some(reason) = self.behind.as_ref().and_then(Behind::failure) {
+            // Nothing is lost: the journal has it all. But what cannot follow should not fall farther behind.
+            self.read_only = Some(reason.clone());
+            return Err(StoreError::ReadOnly { reason });
+        }
         let touched = self.digests_after(&changes);
         let ops: Vec<Op> = changes.into_iter().map(|c| c.op).collect();
         let lsn = self.state.lsn + 1;
         let frame = encode_frame(lsn, &ops, &touched);
         self.append(&frame)?;
         self.state.advance(lsn, touched);
-        if let Err(error) = self.trees.apply(&ops, &self.state) {
-            // The frame is safe, the trees are not: opening the store anew applies it.
-            self.read_only = Some(error.to_string());
-            return Err(error);
+        if let Some(behind) = &self.behind {
+            behind.apply(ops, &self.state)?;
         }
         self.checkpoint_if_due();
         Ok(())
@@ -375,7 +430,10 @@ impl Vault {
         if let Some(reason) = &self.read_only {
             return Err(StoreError::ReadOnly { reason: reason.clone() });
         }
-        self.trees.flush()?;
+        // What a snapshot makes superfluous in the journal, sled must not miss.
+        if let Some(behind) = &self.behind {
+            behind.flush()?;
+        }
         let size = self.write_snapshot()?;
         let empty = self.journal.as_ref().is_some_and(|j| {
             j.path == numbered(&journal_dir(&self.dir), self.state.lsn + 1, "journal")

@@ -25,24 +25,67 @@ pub struct Version {
     pub row: Row,
 }
 
+/// What of a version says whether it counts; its checksum was right. The row is read when it is wanted.
+pub(crate) struct VersionHead<'b> {
+    pub(crate) revision: u64,
+    pub(crate) deleted: bool,
+    rest: Bytes<'b>,
+}
+
+impl<'b> VersionHead<'b> {
+    pub(crate) fn decode(table: Table, key: &[u8], bytes: &'b [u8]) -> Result<Self> {
+        Self::try_decode(table, key, bytes).ok_or_else(|| bad(table, key))
+    }
+
+    fn try_decode(table: Table, key: &[u8], bytes: &'b [u8]) -> Option<Self> {
+        let (crc, body) = bytes.split_first_chunk::<4>()?;
+        if checksum(table, key, body) != u32::from_be_bytes(*crc) {
+            return None;
+        }
+        let mut rest = Bytes(body);
+        let revision = rest.varint()?;
+        let deleted = rest.byte()? != 0;
+        Some(Self { revision, deleted, rest })
+    }
+
+    pub(crate) fn row(mut self, table: Table, key: &[u8]) -> Result<Row> {
+        let mut read = || {
+            self.rest.signed()?;
+            self.rest.slice()?;
+            decode_row(&mut self.rest)
+        };
+        read().ok_or_else(|| bad(table, key))
+    }
+}
+
+fn bad(table: Table, key: &[u8]) -> StoreError {
+    StoreError::BadRecord { table: table.name(), key: hex(key) }
+}
+
+/// A version's bytes: `crc32 revision flags date user row`; the checksum covers table and key too, so that a value
+/// that strayed to another key is found out.
+pub(crate) fn encode(table: Table, key: &[u8], stamp: &Stamp, row: &Row) -> Vec<u8> {
+    let mut out = Vec::with_capacity(64 + 24 * row.len());
+    out.extend([0; 4]);
+    put_varint(&mut out, stamp.revision);
+    out.push(u8::from(stamp.deleted));
+    put_signed(&mut out, stamp.at.0);
+    put_bytes(&mut out, stamp.user.as_bytes());
+    encode_row(&mut out, row);
+    let crc = checksum(table, key, &out[4..]);
+    out[..4].copy_from_slice(&crc.to_be_bytes());
+    // It stays in memory as it is.
+    out.shrink_to_fit();
+    out
+}
+
 impl Version {
-    /// `crc32 revision flags date user row`; the checksum covers table and key too, so that a value that strayed
-    /// to another key is found out.
     pub(crate) fn encode(&self, table: Table, key: &[u8]) -> Vec<u8> {
-        let mut out = vec![0; 4];
-        put_varint(&mut out, self.stamp.revision);
-        out.push(u8::from(self.stamp.deleted));
-        put_signed(&mut out, self.stamp.at.0);
-        put_bytes(&mut out, self.stamp.user.as_bytes());
-        encode_row(&mut out, &self.row);
-        let crc = checksum(table, key, &out[4..]);
-        out[..4].copy_from_slice(&crc.to_be_bytes());
-        out
+        encode(table, key, &self.stamp, &self.row)
     }
 
     pub(crate) fn decode(table: Table, key: &[u8], bytes: &[u8]) -> Result<Self> {
-        Self::try_decode(table, key, bytes)
-            .ok_or_else(|| StoreError::BadRecord { table: table.name(), key: hex(key) })
+        Self::try_decode(table, key, bytes).ok_or_else(|| bad(table, key))
     }
 
     fn try_decode(table: Table, key: &[u8], bytes: &[u8]) -> Option<Self> {
