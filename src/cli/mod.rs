@@ -12,6 +12,7 @@ mod draw;
 mod fault;
 mod import;
 mod json;
+mod talk;
 mod text;
 
 use std::io::Write;
@@ -60,6 +61,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Plan(plan) => commands::plan(common, plan),
         Command::Do { task, draw } => commands::perform(common, task, draw.as_deref()),
         Command::Ask(ask) => ask::run(common, ask),
+        Command::Talk => talk::run(common),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

@@ -2,6 +2,7 @@
 
 use crate::graphplan::Limits;
 use crate::language::command::{Command, Listener, Relation};
+use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
@@ -95,8 +96,21 @@ impl Engine {
         truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let world = self.world()?;
         let commands = self.understand(command)?;
+        self.carry_out(&commands, truth, tell)
+    }
+
+    /// Carries out commands that were understood already, in a world that may differ from the Map.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`].
+    pub fn carry_out(
+        &self,
+        commands: &[Command<Entity>],
+        truth: World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        let world = self.world()?;
         let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
         let floor = self.floor(map)?.clone();
         let mut belief =
@@ -106,7 +120,7 @@ impl Engine {
         };
         belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
         let mut goal = Vec::new();
-        for command in &commands {
+        for command in commands {
             goal.extend(self.goal_of(command, &here)?);
         }
         let mut drive = Simulator::new(truth, map, start);
@@ -156,7 +170,31 @@ impl Engine {
     /// # Errors
     /// What was not understood, which candidates there are, or what the map lacks.
     pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
-        Ok(Listener::new(self.forms()?).hear(sentence)?)
+        let settled = self.settle(sentence, &Memory::default())?;
+        Ok(Listener::new(self.forms()?).hear(&settled)?)
+    }
+
+    /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
+    ///
+    /// # Errors
+    /// As [`Engine::understand`].
+    pub fn understand_in(
+        &self,
+        sentence: &str,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        let settled = self.settle(sentence, memory)?;
+        let last = match memory.last_thing() {
+            Some(Thing::Entity(entity)) => Some(entity),
+            _ => None,
+        };
+        let commands = Listener::new(self.forms()?).remembering(last).hear(&settled)?;
+        for command in &commands {
+            if let Some(entity) = thing_of(command) {
+                memory.mention(Thing::Entity(entity));
+            }
+        }
+        Ok(commands)
     }
 
     /// What is to hold when a command is done. `here` is the place where it was given.
@@ -276,5 +314,23 @@ impl Engine {
             points,
             seconds: leg.seconds,
         }
+    }
+}
+
+/// What a command is about.
+fn thing_of(command: &Command<Entity>) -> Option<Entity> {
+    match command {
+        Command::Bring { what, .. } | Command::Take { what } | Command::Put { what, .. } => {
+            Some(what.id)
+        }
+        Command::Open(what)
+        | Command::Close(what)
+        | Command::Lock(what)
+        | Command::Unlock(what)
+        | Command::SwitchOn(what)
+        | Command::SwitchOff(what)
+        | Command::Find(what) => Some(what.id),
+        Command::GoTo { to, .. } => Some(to.anchor),
+        _ => None,
     }
 }
