@@ -123,6 +123,8 @@ pub(super) enum Command {
     },
     /// Answer a question in words: ortho ask "Где лекарство?"
     Ask(AskArgs),
+    /// A dialogue: questions and commands, a line each, with what was said before kept in mind
+    Talk,
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
         #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]

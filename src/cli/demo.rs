@@ -85,6 +85,21 @@ fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnsw
     Ok(answer)
 }
 
+/// Carries out commands of a dialogue in the language that was spoken.
+pub(super) fn carry_out(
+    engine: &Engine,
+    commands: &[crate::language::command::Command<crate::map::Entity>],
+    lang: Lang,
+) -> Result<TaskAnswer, Failure> {
+    let world = engine.world()?;
+    let mut teller = Teller::new(world, lang);
+    let answer =
+        engine.carry_out(commands, world.clone(), &mut |progress| teller.tell(progress))?;
+    teller.bar.finish_and_clear();
+    say(&ending(world, &answer, lang))?;
+    Ok(answer)
+}
+
 /// Tells a run as it happens: reports on standard output, a bar on the terminal.
 struct Teller<'w> {
     world: &'w World,

@@ -37,6 +37,14 @@ impl Failure {
         Self::Output(error.to_string())
     }
 
+    /// The fault in a sentence; none where there is nobody left to tell.
+    pub(super) fn message(&self) -> Option<String> {
+        match self {
+            Self::Engine(error) => Some(error.to_string()),
+            Self::Output(_) => None,
+        }
+    }
+
     pub(super) fn file(path: &std::path::Path, error: &std::io::Error) -> Self {
         RequestError::File { path: path.display().to_string(), reason: error.to_string() }.into()
     }

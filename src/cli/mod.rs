@@ -17,6 +17,7 @@ mod json;
 mod observe;
 mod plan;
 mod store;
+mod talk;
 mod text;
 mod why;
 
@@ -75,6 +76,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Do { task, draw, reset } => {
             commands::perform(common, task, draw.as_deref(), *reset)
         }
+        Command::Talk => talk::run(common),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
         }

@@ -51,6 +51,22 @@ impl Engine {
         Ok(self.asker(&senses)?.proof(fact, language))
     }
 
+    /// A command with its descriptions replaced by names: see [`Asker::settle`].
+    pub(super) fn settle(&self, sentence: &str, memory: &Memory) -> Result<String, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.settle(sentence, memory))
+    }
+
+    /// Whether a text asks or commands, by how it begins.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn is_command(&self, text: &str) -> Result<bool, Error> {
+        let senses = RobotSenses { engine: self };
+        let asks = self.asker(&senses)?.begins_as_question(text);
+        Ok(!asks && crate::language::command::is_command(text))
+    }
+
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
         Ok(Asker { world: self.world()?, relations: self.relations()?, mind: self.mind()?, senses })
     }

@@ -2,6 +2,7 @@
 
 use crate::graphplan::Limits;
 use crate::language::command::{Command, Listener, Relation};
+use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
@@ -118,6 +119,20 @@ impl Engine {
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
         belief.handed_over.clone_from(&now.handed_over);
+        self.carry_out(&commands, truth, tell)
+    }
+
+    /// Carries out commands that were understood already, in a world that may differ from the Map.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`].
+    pub fn carry_out(
+        commands: &[Command<Entity>],
+        let world = self.world()?;
+        let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
+        let floor = self.floor(map)?.clone();
+        let mut belief =
+            Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
@@ -127,6 +142,8 @@ impl Engine {
         let mut goal = Vec::new();
         for command in &commands {
             goal.extend(self.goal_of(command, &here, &now.world, relations)?);
+        for command in commands {
+            goal.extend(self.goal_of(command, &here)?);
         }
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
         let mut mission =
@@ -176,7 +193,31 @@ impl Engine {
     /// # Errors
     /// What was not understood, which candidates there are, or what the map lacks.
     pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
-        Ok(Listener::new(self.forms()?).hear(sentence)?)
+        let settled = self.settle(sentence, &Memory::default())?;
+        Ok(Listener::new(self.forms()?).hear(&settled)?)
+    }
+
+    /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
+    ///
+    /// # Errors
+    /// As [`Engine::understand`].
+    pub fn understand_in(
+        &self,
+        sentence: &str,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        let settled = self.settle(sentence, memory)?;
+        let last = match memory.last_thing() {
+            Some(Thing::Entity(entity)) => Some(entity),
+            _ => None,
+        };
+        let commands = Listener::new(self.forms()?).remembering(last).hear(&settled)?;
+        for command in &commands {
+            if let Some(entity) = thing_of(command) {
+                memory.mention(Thing::Entity(entity));
+            }
+        }
+        Ok(commands)
     }
 
     /// What is to hold when a command is done. `here` is the place where it was given.
@@ -310,5 +351,23 @@ impl Engine {
             points,
             seconds: leg.seconds,
         }
+    }
+}
+
+/// What a command is about.
+fn thing_of(command: &Command<Entity>) -> Option<Entity> {
+    match command {
+        Command::Bring { what, .. } | Command::Take { what } | Command::Put { what, .. } => {
+            Some(what.id)
+        }
+        Command::Open(what)
+        | Command::Close(what)
+        | Command::Lock(what)
+        | Command::Unlock(what)
+        | Command::SwitchOn(what)
+        | Command::SwitchOff(what)
+        | Command::Find(what) => Some(what.id),
+        Command::GoTo { to, .. } => Some(to.anchor),
+        _ => None,
     }
 }

@@ -231,6 +231,28 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     }
 }
 
+/// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
+#[must_use]
+pub fn is_command(text: &str) -> bool {
+    let keys: Vec<String> = super::words::word_ranges(text)
+        .into_iter()
+        .take(12)
+        .map(|range| crate::units::name_key(&text[range]))
+        .collect();
+    let mut at = 0;
+    while at < keys.len() {
+        let words = keys[at..].iter().map(String::as_str);
+        match vocabulary::longest(&words) {
+            Some((taken, vocabulary::Meaning::Filler | vocabulary::Meaning::Me)) => at += taken,
+            Some((_, vocabulary::Meaning::Verb(verb))) => {
+                return verb != vocabulary::Verb::Report;
+            }
+            _ => return false,
+        }
+    }
+    false
+}
+
 fn sentences(first: &str, second: &str) -> String {
     let mut text = String::new();
     for part in [first, second].into_iter().filter(|part| !part.is_empty()) {

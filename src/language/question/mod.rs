@@ -322,6 +322,39 @@ impl Asker<'_> {
         self.knowledge(language, &Memory::default()).proof_lines(fact)
     }
 
+    /// A command with its descriptions replaced by names, where what was said leaves one thing only:
+    /// «Принеси красную чашку со стола» is «Принеси Чашку-2 со Стола-1». What stays ambiguous stays as it was said.
+    #[must_use]
+    pub fn settle(&self, text: &str, memory: &Memory) -> String {
+        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+            return text.to_owned();
+        }
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
+        let mut settled = text.to_owned();
+        // From the end, so that the places before stay where they are.
+        for (words, name) in knowledge.settled(&sentence.items()).into_iter().rev() {
+            let (Some(first), Some(last)) =
+                (sentence.words.get(words.start), sentence.words.get(words.end.saturating_sub(1)))
+            else {
+                continue;
+            };
+            settled.replace_range(first.start..last.end, &name);
+        }
+        settled
+    }
+
+    /// Whether a text begins as a question of this grammar does, whatever follows.
+    #[must_use]
+    pub fn begins_as_question(&self, text: &str) -> bool {
+        let words: Vec<String> = crate::language::words::word_ranges(text)
+            .into_iter()
+            .take(8)
+            .map(|range| crate::units::name_key(&text[range]))
+            .collect();
+        vocabulary::begins_question(&words)
+    }
+
     fn knowledge<'k>(&'k self, language: Language, memory: &'k Memory) -> Knowledge<'k> {
         Knowledge {
             world: self.world,
@@ -379,6 +412,56 @@ impl Asker<'_> {
 }
 
 impl Knowledge<'_> {
+    /// Places of descriptions in a command, with the names that they come to.
+    fn settled(&self, items: &[grammar::Item]) -> Vec<(std::ops::Range<usize>, String)> {
+        use crate::language::words::Case;
+        use grammar::Item;
+        let mut names = Vec::new();
+        for (at, item) in items.iter().enumerate() {
+            let (phrases, rel) = match item {
+                Item::Noun(phrase) => (std::slice::from_ref(phrase), None),
+                Item::Place { rel, nouns, .. } => (&nouns[..], Some(*rel)),
+                _ => continue,
+            };
+            for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
+                let described = !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
+                let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
+                let after = items[at + 1..].iter().map_while(|next| match next {
+                    Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
+                    _ => None,
+                });
+                let mut narrowed = described;
+                for (rel, nouns) in after {
+                    if found.len() < 2 {
+                        break;
+                    }
+                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok()) else { continue };
+                    let fits = |t: &Thing| {
+                        anchors.iter().any(|a| match rel {
+                            Rel::From => self.holds(Rel::On, *t, *a) || self.holds(Rel::In, *t, *a),
+                            rel => self.holds(rel, *t, *a),
+                        })
+                    };
+                    let fewer: Vec<Thing> = found.iter().copied().filter(fits).collect();
+                    if !fewer.is_empty() {
+                        narrowed = true;
+                        found = fewer;
+                    }
+                }
+                let ([only], true) = (&found[..], narrowed) else { continue };
+                let case = match rel {
+                    None => Case::Accusative,
+                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => Case::Genitive,
+                    Some(Rel::To) => Case::Dative,
+                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => Case::Instrumental,
+                    Some(_) => Case::Accusative,
+                };
+                names.push((phrase.words.clone(), self.form(*only, case)));
+            }
+        }
+        names
+    }
+
     /// What a pronoun means: the last thing spoken of that agrees with it.
     fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
         let last = &self.memory.last;

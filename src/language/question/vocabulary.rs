@@ -440,6 +440,20 @@ const WORDS: &[(Mark, &str)] = &[
     ),
 ];
 
+/// Whether these words begin a question: after small words, one that asks.
+pub(super) fn begins_question(words: &[String]) -> bool {
+    let mut at = 0;
+    while let Some((taken, mark)) = longest(&words[at..]) {
+        match mark {
+            Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
+            Mark::Can | Mark::Link(_) | Mark::Not => return false,
+            Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => return false,
+            _ => return true,
+        }
+    }
+    false
+}
+
 type Phrases = Vec<(Vec<String>, Mark)>;
 
 fn table() -> &'static HashMap<String, Phrases> {

@@ -1,0 +1,197 @@
+//! `ortho talk`: a dialogue on the terminal, or over lines from a pipe.
+//!
+//! A line that begins with a verb of command is a task; every other line is a question. `.rule` before a line shows
+//! the query behind it; an empty line, `выход`, `exit` or the end of input ends the dialogue.
+
+use std::io::{BufRead, IsTerminal};
+
+use rustyline::completion::Completer;
+use rustyline::error::ReadlineError;
+use rustyline::highlight::Highlighter;
+use rustyline::hint::Hinter;
+use rustyline::history::MemHistory;
+use rustyline::validate::Validator;
+use rustyline::{Config, Context, Editor, Helper};
+use serde_json::json;
+
+use crate::engine::{Engine, Error, Memory};
+use crate::language::Language;
+use crate::language::command::Command;
+use crate::units::name_key;
+
+use super::args::{Common, Lang};
+use super::ask::{doubt, explained, view};
+use super::commands::open;
+use super::fault::Failure;
+use super::{Answer, demo, say};
+
+pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let mut dialogue = Dialogue { engine: &engine, memory: Memory::default(), json: common.json };
+    if std::io::stdin().is_terminal() {
+        return on_terminal(common, &mut dialogue);
+    }
+    for line in std::io::stdin().lock().split(b'\n') {
+        let Ok(line) = line else { break };
+        let line = String::from_utf8_lossy(&line);
+        if !dialogue.hear(line.trim())? {
+            break;
+        }
+    }
+    Ok(Answer::Yes)
+}
+
+fn on_terminal(common: &Common, dialogue: &mut Dialogue<'_>) -> Result<Answer, Failure> {
+    let config = Config::builder().auto_add_history(true).build();
+    let terminal = |e: &ReadlineError| Failure::output(&std::io::Error::other(e.to_string()));
+    let mut editor: Editor<Names, MemHistory> =
+        Editor::with_history(config, MemHistory::new()).map_err(|e| terminal(&e))?;
+    let names = dialogue.engine.names()?;
+    editor.set_helper(Some(Names { names }));
+    say(common.lang.pick(
+        "Спрашивайте или приказывайте; Tab дополняет имена, пустая строка – конец.",
+        "Ask or command; Tab completes names, an empty line ends.",
+    ))?;
+    loop {
+        match editor.readline("> ") {
+            Ok(line) if line.trim().is_empty() => break,
+            Ok(line) => {
+                if !dialogue.hear(line.trim())? {
+                    break;
+                }
+            }
+            Err(ReadlineError::Eof | ReadlineError::Interrupted) => break,
+            Err(e) => return Err(terminal(&e)),
+        }
+    }
+    Ok(Answer::Yes)
+}
+
+/// One dialogue and what was said in it.
+struct Dialogue<'e> {
+    engine: &'e Engine,
+    memory: Memory,
+    json: bool,
+}
+
+impl Dialogue<'_> {
+    /// Answers a line; false when it ends the dialogue.
+    fn hear(&mut self, line: &str) -> Result<bool, Failure> {
+        let (line, shows) = match line.strip_prefix(".rule") {
+            Some(rest) => (rest.trim(), true),
+            None => (line, false),
+        };
+        match line {
+            "" => return Ok(true),
+            "выход" | "exit" | "quit" | "конец" => return Ok(false),
+            _ => {}
+        }
+        if self.engine.is_command(line)? {
+            return self.command(line).map(|()| true);
+        }
+        match self.engine.ask(line, &mut self.memory)? {
+            Ok(answer) if self.json => {
+                say(&view(self.engine, &answer)?.to_string())?;
+            }
+            Ok(answer) => {
+                say(&answer.text)?;
+                if shows {
+                    say(&explained(self.engine, &answer)?)?;
+                }
+            }
+            Err(unanswered) => {
+                // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
+                let not_understood = unanswered.doubt.kind() == "not_understood";
+                if not_understood && self.engine.understand_in(line, &mut self.memory.clone()).is_ok() {
+                    return self.command(line).map(|()| true);
+                }
+                say(&match self.json {
+                    true => doubt(&unanswered).to_string(),
+                    false => unanswered.text,
+                })?;
+            }
+        }
+        Ok(true)
+    }
+
+    fn command(&mut self, line: &str) -> Result<(), Failure> {
+        let language = Language::of(line);
+        let lang = if language == Language::Russian { Lang::Ru } else { Lang::En };
+        let commands = match self.engine.understand_in(line, &mut self.memory) {
+            Ok(commands) => commands,
+            Err(Error::Misheard(misheard)) => return self.put("misheard", &misheard.say(language)),
+            Err(other) => return self.put("refused", &other.to_string()),
+        };
+        match &commands[..] {
+            [Command::Stop] => return self.put("stopped", lang.pick("Стою.", "I have stopped.")),
+            [Command::Report] => {
+                let asked = lang.pick("Где ты?", "Where are you?");
+                let text = match self.engine.ask(asked, &mut self.memory)? {
+                    Ok(answer) => answer.text,
+                    Err(unanswered) => unanswered.text,
+                };
+                return self.put("reported", &text);
+            }
+            _ => {}
+        }
+        // A task that cannot be done is an answer within a dialogue, not its end.
+        if self.json {
+            let world = self.engine.world()?.clone();
+            return match self.engine.carry_out(&commands, world, &mut |_| {}) {
+                Ok(answer) => {
+                    say(&super::json::task(self.engine.world()?, &answer).to_string()).map(|_| ())
+                }
+                Err(e) => self.put("refused", &e.to_string()),
+            };
+        }
+        match demo::carry_out(self.engine, &commands, lang) {
+            Ok(_) => Ok(()),
+            Err(failure) => match failure.message() {
+                Some(text) => self.put("refused", &text),
+                None => Err(failure),
+            },
+        }
+    }
+
+    fn put(&self, outcome: &str, text: &str) -> Result<(), Failure> {
+        match self.json {
+            true => say(&json!({ "outcome": outcome, "text": text }).to_string()),
+            false => say(text),
+        }
+        .map(|_| ())
+    }
+}
+
+/// Completes names of the map.
+struct Names {
+    names: Vec<String>,
+}
+
+impl Completer for Names {
+    type Candidate = String;
+
+    fn complete(
+        &self,
+        line: &str,
+        pos: usize,
+        _: &Context<'_>,
+    ) -> rustyline::Result<(usize, Vec<String>)> {
+        let before = &line[..pos];
+        let start = before.rfind([' ', '«', '"', ',']).map_or(0, |at| {
+            at + before[at..].chars().next().map_or(1, char::len_utf8)
+        });
+        let typed = name_key(&before[start..]);
+        if typed.is_empty() {
+            return Ok((pos, Vec::new()));
+        }
+        let fits = |name: &&String| name_key(name).starts_with(&typed);
+        Ok((start, self.names.iter().filter(fits).take(40).cloned().collect()))
+    }
+}
+
+impl Hinter for Names {
+    type Hint = String;
+}
+impl Highlighter for Names {}
+impl Validator for Names {}
+impl Helper for Names {}
