@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use orthoframe::engine::Engine;
 use orthoframe::exchange::{Deed, ImportError, Imported, Options, What, read};
-use orthoframe::map::{LiftStop, World, check};
+use orthoframe::map::{World, check};
 use orthoframe::units::{AreaId, Cm};
 
 fn data(name: &str) -> Option<PathBuf> {

@@ -4,13 +4,9 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::engine::{Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose};
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, check_map, parse_pose, plan_alone, ride_in_words,
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, plan_alone,
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, ride_in_words,
 };
-use crate::graphplan::Outcome;
-use crate::engine::{Engine, Method, Rules, TaskEnding, World, check_map, parse_pose};
 use crate::map::MapErrors;
 
 use super::args::{Common, RouteMethod};
@@ -158,30 +154,6 @@ pub(super) fn perform(
         engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
     }
     let answer = super::demo::perform(common, &mut engine, task)?;
-pub(super) fn perform(common: &Common, task: &str, draw: Option<&Path>) -> Result<Answer, Failure> {
-    let engine = open(common)?;
-    let answer = super::demo::perform(common, &engine, task)?;
-    if let Some(map) = scenario.map.clone() {
-        let (world, _) = check_map(&map)?;
-        return Ok(Engine::in_memory(world, rules_dir(common).as_deref())?
-            .plan(scenario, limits, wanted)?);
-    }
-    if Path::new(DEFAULT_STORE).is_dir() {
-        return Ok(open(common)?.plan(scenario, limits, wanted)?);
-    }
-    Ok(plan_alone(scenario, limits, wanted)?)
-}
-
-pub(super) fn perform(
-    common: &Common,
-    task: &str,
-    draw: Option<&Path>,
-    reset: bool,
-) -> Result<Answer, Failure> {
-    let mut engine = open(common)?;
-    if reset {
-        engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
-    }
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;
     }

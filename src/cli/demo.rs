@@ -93,8 +93,7 @@ pub(super) fn carry_out(
 ) -> Result<TaskAnswer, Failure> {
     let world = engine.world()?;
     let mut teller = Teller::new(world, lang);
-    let answer =
-        engine.carry_out(commands, world.clone(), &mut |progress| teller.tell(progress))?;
+    let answer = engine.carry_out(commands, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
     say(&ending(world, &answer, lang))?;
     Ok(answer)

@@ -72,10 +72,6 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::perform(common, task, draw.as_deref(), *reset)
         }
         Command::Why { fact, not } => why::run(common, fact, *not),
-        Command::Plan(plan) => commands::plan(common, plan),
-        Command::Do { task, draw, reset } => {
-            commands::perform(common, task, draw.as_deref(), *reset)
-        }
         Command::Talk => talk::run(common),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)

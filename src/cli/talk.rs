@@ -14,7 +14,7 @@ use rustyline::validate::Validator;
 use rustyline::{Config, Context, Editor, Helper};
 use serde_json::json;
 
-use crate::engine::{Engine, Error, Memory};
+use crate::engine::{Engine, Error, Memory, TaskAnswer};
 use crate::language::Language;
 use crate::language::command::Command;
 use crate::units::name_key;
@@ -27,7 +27,8 @@ use super::{Answer, demo, say};
 
 pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     let engine = open(common)?;
-    let mut dialogue = Dialogue { engine: &engine, memory: Memory::default(), json: common.json };
+    let keeps = !common.read_only && common.as_of.is_none();
+    let mut dialogue = Dialogue { engine, memory: Memory::default(), json: common.json, keeps };
     if std::io::stdin().is_terminal() {
         return on_terminal(common, &mut dialogue);
     }
@@ -41,7 +42,7 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     Ok(Answer::Yes)
 }
 
-fn on_terminal(common: &Common, dialogue: &mut Dialogue<'_>) -> Result<Answer, Failure> {
+fn on_terminal(common: &Common, dialogue: &mut Dialogue) -> Result<Answer, Failure> {
     let config = Config::builder().auto_add_history(true).build();
     let terminal = |e: &ReadlineError| Failure::output(&std::io::Error::other(e.to_string()));
     let mut editor: Editor<Names, MemHistory> =
@@ -68,13 +69,15 @@ fn on_terminal(common: &Common, dialogue: &mut Dialogue<'_>) -> Result<Answer, F
 }
 
 /// One dialogue and what was said in it.
-struct Dialogue<'e> {
-    engine: &'e Engine,
+struct Dialogue {
+    engine: Engine,
     memory: Memory,
     json: bool,
+    /// A store that is only read keeps nothing.
+    keeps: bool,
 }
 
-impl Dialogue<'_> {
+impl Dialogue {
     /// Answers a line; false when it ends the dialogue.
     fn hear(&mut self, line: &str) -> Result<bool, Failure> {
         let (line, shows) = match line.strip_prefix(".rule") {
@@ -91,18 +94,20 @@ impl Dialogue<'_> {
         }
         match self.engine.ask(line, &mut self.memory)? {
             Ok(answer) if self.json => {
-                say(&view(self.engine, &answer)?.to_string())?;
+                say(&view(&self.engine, &answer)?.to_string())?;
             }
             Ok(answer) => {
                 say(&answer.text)?;
                 if shows {
-                    say(&explained(self.engine, &answer)?)?;
+                    say(&explained(&self.engine, &answer)?)?;
                 }
             }
             Err(unanswered) => {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
                 let not_understood = unanswered.doubt.kind() == "not_understood";
-                if not_understood && self.engine.understand_in(line, &mut self.memory.clone()).is_ok() {
+                if not_understood
+                    && self.engine.understand_in(line, &mut self.memory.clone()).is_ok()
+                {
                     return self.command(line).map(|()| true);
                 }
                 say(&match self.json {
@@ -136,21 +141,28 @@ impl Dialogue<'_> {
         }
         // A task that cannot be done is an answer within a dialogue, not its end.
         if self.json {
-            let world = self.engine.world()?.clone();
-            return match self.engine.carry_out(&commands, world, &mut |_| {}) {
+            return match self.engine.carry_out(&commands, &mut |_| {}) {
                 Ok(answer) => {
+                    self.remember(&answer)?;
                     say(&super::json::task(self.engine.world()?, &answer).to_string()).map(|_| ())
                 }
                 Err(e) => self.put("refused", &e.to_string()),
             };
         }
-        match demo::carry_out(self.engine, &commands, lang) {
-            Ok(_) => Ok(()),
+        match demo::carry_out(&self.engine, &commands, lang) {
+            Ok(answer) => self.remember(&answer),
             Err(failure) => match failure.message() {
                 Some(text) => self.put("refused", &text),
                 None => Err(failure),
             },
         }
+    }
+
+    fn remember(&mut self, answer: &TaskAnswer) -> Result<(), Failure> {
+        if self.keeps {
+            self.engine.remember(answer, std::time::SystemTime::now().into())?;
+        }
+        Ok(())
     }
 
     fn put(&self, outcome: &str, text: &str) -> Result<(), Failure> {
@@ -177,9 +189,9 @@ impl Completer for Names {
         _: &Context<'_>,
     ) -> rustyline::Result<(usize, Vec<String>)> {
         let before = &line[..pos];
-        let start = before.rfind([' ', '«', '"', ',']).map_or(0, |at| {
-            at + before[at..].chars().next().map_or(1, char::len_utf8)
-        });
+        let start = before
+            .rfind([' ', '«', '"', ','])
+            .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
         let typed = name_key(&before[start..]);
         if typed.is_empty() {
             return Ok((pos, Vec::new()));

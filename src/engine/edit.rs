@@ -134,6 +134,8 @@ impl Engine {
     /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
     /// else it is derived anew when it is asked for.
     pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
+        self.mind.take();
+        self.forms.take();
         let Some(before) = self.world.replace(after) else {
             self.forget_derived();
             return Ok(());
@@ -179,6 +181,8 @@ impl Engine {
     pub(super) fn forget_derived(&mut self) {
         self.relations.take();
         self.floors.take();
+        self.mind.take();
+        self.forms.take();
     }
 }
 

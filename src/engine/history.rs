@@ -65,6 +65,8 @@ impl Engine {
             world,
             relations: Default::default(),
             floors: Default::default(),
+            mind: Default::default(),
+            forms: Default::default(),
             opened: self.opened,
         })
     }

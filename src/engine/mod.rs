@@ -41,11 +41,10 @@ pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
 pub use history::When;
+pub use journey::{Advice, Journey, ride_in_words};
 pub use memory::{After, Now, ROBOT};
 pub use observe::{Believed, Proposal, Source, Station};
 pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};
-pub use journey::{Advice, Journey, ride_in_words};
-pub use plan::{PlanAnswer, PlanStep, plan_alone, steps};
 pub use position::Whereabout;
 pub use route::{Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
@@ -151,24 +150,6 @@ impl Engine {
             floors: OnceCell::new(),
             mind: OnceCell::new(),
             forms: OnceCell::new(),
-            opened,
-        })
-    }
-
-    /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
-    ///
-    /// # Errors
-    /// There is no store, or as [`Engine::open`].
-    pub fn open_read_only(dir: &Path, rules: Option<&Path>) -> Result<Self, Error> {
-        let rules = Rules::read(rules)?;
-        let (store, opened) = Store::open_read_only(dir)?;
-        let world = store.world()?;
-        Ok(Self {
-            store: Some(store),
-            rules,
-            world,
-            relations: OnceCell::new(),
-            floors: OnceCell::new(),
             opened,
         })
     }

@@ -12,7 +12,6 @@ use crate::robot::{
 use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
-use super::lexicon::form_index;
 use super::memory::{After, Now};
 use super::position::describe;
 use super::{Engine, Error, RequestError};
@@ -113,26 +112,34 @@ impl Engine {
         truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let commands = self.understand(command)?;
+        self.carry_out_from(&self.understand(command)?, now, truth, tell)
+    }
+
+    /// Carries out commands that were understood already, in a world that is as it is believed to be.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`].
+    pub fn carry_out(
+        &self,
+        commands: &[Command<Entity>],
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        let now = self.now(std::time::SystemTime::now().into())?;
+        self.carry_out_from(commands, &now, now.world.clone(), tell)
+    }
+
+    fn carry_out_from(
+        &self,
+        commands: &[Command<Entity>],
+        now: &Now,
+        truth: World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
         let (map, start) = (now.map, now.pose);
         let mut belief = Belief::new(now.world.clone(), self.floor_now(now)?, start)
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
         belief.handed_over.clone_from(&now.handed_over);
-        self.carry_out(&commands, truth, tell)
-    }
-
-    /// Carries out commands that were understood already, in a world that may differ from the Map.
-    ///
-    /// # Errors
-    /// As [`Engine::perform`].
-    pub fn carry_out(
-        commands: &[Command<Entity>],
-        let world = self.world()?;
-        let (map, start) = starting_pose(world).ok_or(RequestError::RobotNowhere)?;
-        let floor = self.floor(map)?.clone();
-        let mut belief =
-            Belief::new(world.clone(), floor, start).ok_or(RequestError::RobotNowhere)?;
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
@@ -140,10 +147,8 @@ impl Engine {
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
         let mut goal = Vec::new();
-        for command in &commands {
-            goal.extend(self.goal_of(command, &here, &now.world, relations)?);
         for command in commands {
-            goal.extend(self.goal_of(command, &here)?);
+            goal.extend(self.goal_of(command, &here, &now.world, relations)?);
         }
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
         let mut mission =

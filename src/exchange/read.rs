@@ -7,8 +7,10 @@ use crate::units::Source;
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
-use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, input, osmag, rmf};
-use super::{ImportError, ReadError, Report, Survey, Synonyms, assemble, geojson, ifc, input, ros};
+use super::{
+    ImportError, ReadError, Report, Survey, Synonyms, assemble, geojson, ifc, input, osmag, rmf,
+    ros,
+};
 
 /// A format that is read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

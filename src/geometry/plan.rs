@@ -318,25 +318,10 @@ impl FloorPlan {
         self.portals[number as usize].iter().any(|p| p.doorway == doorway)
     }
 
-    /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
-    pub(super) fn doorways_at(&self, number: u32) -> &[(usize, usize)] {
-        self.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
-    }
-
-    /// The pieces of centre space by the region they belong to: Fragment, component.
-    pub(super) fn pieces(&self) -> BTreeMap<u32, Vec<(u32, u32)>> {
-        let mut pieces: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
-        for (number, regions) in (0..).zip(&self.regions) {
-            for (component, &region) in (0..).zip(regions) {
-                pieces.entry(region).or_default().push((number, component));
-            }
-        }
-        pieces
-    }
-
-    /// The region of a piece.
-    pub(super) fn region_of(&self, (number, component): (u32, u32)) -> u32 {
-        self.regions[number as usize][component as usize]
+    /// The doorways that the robot can pass as they stand.
+    #[must_use]
+    pub fn open_doorways(&self) -> BTreeSet<usize> {
+        self.portals.iter().flatten().map(|p| p.doorway).collect()
     }
 
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.

@@ -15,11 +15,11 @@ use super::frame::Op;
 use super::memory::MemoryTrees;
 use super::trees::{State, Trees};
 
-/// Operations that are worth a turn of their own at once.
-const TURN: usize = 16 << 10;
+/// Operations that sled takes though more are being written: replaying them takes less than a second.
+const TURN: usize = 512 << 10;
 /// Operations beyond which the writer waits for sled.
-const MOST_BEHIND: usize = 1 << 20;
-/// How long fewer operations than a turn wait for more.
+const MOST_BEHIND: usize = 2 << 20;
+/// Sled follows when nothing was written for so long, so that it does not take the processor from who writes.
 const PATIENCE: Duration = Duration::from_millis(300);
 
 #[derive(Default)]
@@ -82,9 +82,10 @@ impl Shared {
                 continue;
             }
             if queue.dirty.len() < TURN && !queue.is_wanted && !queue.ends {
+                let before = queue.dirty.len();
                 let waited = self.news.wait_timeout(queue, PATIENCE);
                 queue = waited.unwrap_or_else(PoisonError::into_inner).0;
-                if queue.dirty.is_empty() {
+                if queue.dirty.len() != before {
                     continue;
                 }
             }

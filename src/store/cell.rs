@@ -298,18 +298,18 @@ pub(crate) fn decode_row(bytes: &mut Bytes) -> Option<Row> {
     if count > bytes.0.len() {
         return None;
     }
-    (0..count)
-        .map(|_| {
-            Some(match bytes.byte()? {
-                NULL => Cell::Null,
-                INT => Cell::Int(bytes.signed()?),
-                REAL => Cell::Real(f64::from_be_bytes(bytes.fixed()?)),
-                TEXT => Cell::Text(bytes.text()?.to_owned()),
-                WHOLE_REAL => Cell::Real(bytes.signed()? as f64),
-                _ => return None,
-            })
-        })
-        .collect()
+    let mut row = Vec::with_capacity(count.min(32));
+    for _ in 0..count {
+        row.push(match bytes.byte()? {
+            NULL => Cell::Null,
+            INT => Cell::Int(bytes.signed()?),
+            REAL => Cell::Real(f64::from_be_bytes(bytes.fixed()?)),
+            TEXT => Cell::Text(bytes.text()?.to_owned()),
+            WHOLE_REAL => Cell::Real(bytes.signed()? as f64),
+            _ => return None,
+        });
+    }
+    Some(row)
 }
 
 #[cfg(test)]

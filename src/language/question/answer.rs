@@ -169,7 +169,7 @@ impl Knowledge<'_> {
     }
 
     /// «на Столе-1 в Комнате-В»
-    fn short_place(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
+    pub(super) fn short_place(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
         let mut parts: Vec<String> = Vec::new();
         if let Some(id) = thing.replica()
             && let Some(support) = self.relations.support_of(id)
@@ -314,18 +314,15 @@ impl Knowledge<'_> {
             .iter()
             .filter_map(|g| {
                 let other = g.areas.iter().find(|a| **a != id)?;
-                let other = self.name(Thing::Entity(Entity::Area(*other)));
+                let other = self.place(Rel::To, &[Thing::Entity(Entity::Area(*other))]);
                 Some(format!("{other} ({})", self.name(g.thing)))
             })
             .collect();
         let mut text = match (map, self.is_russian()) {
             (Some(map), true) => {
                 let floor = self.form(map, Case::Genitive);
-                if several {
-                    format!("{name} – помещение карты {floor}")
-                } else {
-                    format!("{name} – одно из помещений: {floor}")
-                }
+                let _ = several;
+                format!("{name} – помещение {floor}")
             }
             (Some(map), false) => format!("{name} is a room of {}", self.name(map)),
             (None, true) => format!("{name} – помещение"),
@@ -334,8 +331,8 @@ impl Knowledge<'_> {
         if !next.is_empty() {
             let list = enumerate(&next, self.language);
             text = match self.is_russian() {
-                true => format!("{text}; за дверями и проходами – {list}"),
-                false => format!("{text}; through its doors and passages one gets to {list}"),
+                true => format!("{text}; оттуда можно попасть {list}"),
+                false => format!("{text}; from there one gets {list}"),
             };
         }
         text
@@ -462,6 +459,9 @@ impl Knowledge<'_> {
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
         }
+        if let Some(text) = self.neighbours(noun, &found) {
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
         let place = self.restrictions(noun);
         let anchors = self.anchor_things(noun);
         let frame = self.frame_of(noun);
@@ -480,10 +480,19 @@ impl Knowledge<'_> {
                 }
                 (true, false) if self.is_leading(noun) => {
                     let leads = if found.len() > 1 { "ведут" } else { "ведёт" };
+                    let list = if self.leads_both(noun) { self.list(&found) } else { list };
                     format!("{place} {leads} {list}")
                 }
                 (false, false) if self.is_leading(noun) => {
-                    format!("{list} {} {place}", if found.len() > 1 { "lead" } else { "leads" })
+                    let leads = if found.len() > 1 { "lead" } else { "leads" };
+                    match self.leads_both(noun) {
+                        true => format!(
+                            "{} {leads} {}",
+                            self.list(&found),
+                            place.replace("out of", "from")
+                        ),
+                        false => format!("{list} {leads} {place}"),
+                    }
                 }
                 (true, false) => format!("{place}{frame} {} {list}", self.is(&found)),
                 (false, true) => {
@@ -504,8 +513,27 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&anchors))
     }
 
+    /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
+    fn neighbours(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let near = noun.restrictions.iter().find(|r| r.rel == Rel::Near)?;
+        let from = self.find(near.anchors.first()?, true).ok()?;
+        let rooms = !found.is_empty() && found.iter().chain(&from).all(|t| t.area().is_some());
+        let list: Vec<String> = found.iter().map(|t| self.place(Rel::To, &[*t])).collect();
+        let list = enumerate(&list, self.language);
+        rooms.then(|| match self.is_russian() {
+            true => format!("{} можно попасть {list}", self.place(Rel::From, &from)),
+            false => format!("from {} one can get {list}", self.list(&from)),
+        })
+    }
+
     fn is_leading(&self, noun: &Noun) -> bool {
         noun.restrictions.iter().any(|r| matches!(r.rel, Rel::From | Rel::To))
+    }
+
+    /// From one room to another.
+    fn leads_both(&self, noun: &Noun) -> bool {
+        let has = |rel| noun.restrictions.iter().any(|r| r.rel == rel);
+        has(Rel::From) && has(Rel::To)
     }
 
     fn is_having(&self, noun: &Noun) -> bool {
@@ -529,7 +557,9 @@ impl Knowledge<'_> {
             noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
         let of_area =
             noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
-        let Some(restriction) = of_area.filter(|_| doors && noun.filters.is_empty()) else {
+        let Some(restriction) =
+            of_area.filter(|_| doors && noun.filters.is_empty() && !self.leads_both(noun))
+        else {
             return String::new();
         };
         let Some(anchor) = restriction.anchors.first() else { return String::new() };
@@ -883,7 +913,10 @@ impl Knowledge<'_> {
         let Some(noun) = restriction.anchors.first() else {
             return Ok((false, Vec::new(), Vec::new()));
         };
-        let anchors = self.find(noun, true)?;
+        let mut anchors = Vec::new();
+        for noun in &restriction.anchors {
+            anchors.extend(self.find(noun, true)?);
+        }
         if anchors.is_empty() {
             return Err(self.none_such(noun));
         }
@@ -906,6 +939,13 @@ impl Knowledge<'_> {
 
     fn say_holds(&self, subject: &Noun, claims: &[Claim], negated: bool) -> Result<Draft, Doubt> {
         let found = self.subject(subject)?;
+        if let (&[thing], [Claim::Value(filter)]) = (&found[..], claims)
+            && self.own_value(thing, filter.value).is_none()
+        {
+            let property = self.lexicon().values.entry(filter.value).property.clone();
+            let text = self.no_property(&property, thing);
+            return Ok(Draft::new(Said::Unknown, text).with(found));
+        }
         let mut facts = Vec::new();
         let mut topic = Vec::new();
         let mut failed: Vec<Thing> = Vec::new();
@@ -982,10 +1022,20 @@ impl Knowledge<'_> {
             (true, _, true) => format!("ни одно из них: {}", self.list(found)),
             (true, _, false) => format!("none of them: {}", self.list(found)),
             (false, false, true) => {
-                format!("не все: {} – да, {} – нет", self.list(&fit), self.list(failed))
+                format!(
+                    "не все: {} {}, а {} – нет",
+                    words(&fit),
+                    self.list(&fit),
+                    self.list(failed)
+                )
             }
             (false, false, false) => {
-                format!("not all: {} yes, {} no", self.list(&fit), self.list(failed))
+                format!(
+                    "not all: {} {}, but not {}",
+                    self.list(&fit),
+                    words(&fit),
+                    self.list(failed)
+                )
             }
         }
     }
@@ -1023,11 +1073,10 @@ impl Knowledge<'_> {
                     .unwrap_or_default();
                 match (holds, self.is_russian()) {
                     (true, _) => format!("{verb} {place}{frame}"),
-                    (false, true) => format!(
-                        "{} {verb} {place}{frame}{}",
-                        "не",
-                        self.instead(thing, restriction.rel)
-                    ),
+                    (false, true) => match self.instead(thing, restriction.rel) {
+                        instead if instead.is_empty() => format!("не {verb} {place}{frame}"),
+                        instead => format!("{verb} не {place}{instead}"),
+                    },
                     (false, false) if restriction.rel == Rel::To => {
                         format!("does not lead {place}")
                     }
@@ -1542,8 +1591,13 @@ impl Knowledge<'_> {
         let to = self.one(to)?;
         let start = from.unwrap_or(Thing::Robot);
         let straight = self.distance(start, to);
-        let same_room = self.area_of(start).is_some() && self.area_of(start) == self.area_of(to);
-        let things = start.replica().is_some() && to.replica().is_some();
+        let areas = |t: Thing| match self.gate(t) {
+            Some(gate) => gate.areas.clone(),
+            None => self.area_of(t).into_iter().collect(),
+        };
+        let own = areas(start);
+        let same_room = areas(to).iter().any(|a| own.contains(a));
+        let things = start.area().is_none() && to.area().is_none() && start != Thing::Robot;
         let way = match same_room && things {
             true => None,
             false => self.senses.way(from, to, self.language).ok().map(|w| w.length),
@@ -1784,10 +1838,8 @@ impl Knowledge<'_> {
         let on_it = self.related(Rel::On, thing);
         let (free_words, place) = (area(free, self.language), self.place(Rel::On, &[thing]));
         let mut text = match (share >= 5.0, self.is_russian()) {
-            (true, true) => format!("да, {place} свободно {share:.0} % поверхности ({free_words})"),
-            (true, false) => {
-                format!("yes, {share:.0} % of the surface {place} is free ({free_words})")
-            }
+            (true, true) => format!("{place} свободно {share:.0} % поверхности ({free_words})"),
+            (true, false) => format!("{share:.0} % of the surface {place} is free ({free_words})"),
             (false, true) => format!("нет, {place} почти нет свободного места"),
             (false, false) => format!("no, there is hardly any free space {place}"),
         };
@@ -1992,6 +2044,8 @@ impl Knowledge<'_> {
         let values: Vec<String> = self
             .values(thing)
             .iter()
+            // The id that a foreign file gave is nothing to tell.
+            .filter(|(_, value, text)| value.is_some() && !text.contains('|'))
             .map(|(property, value, text)| match value {
                 Some(value) => self.value_of(property, *value, thing),
                 None => format!("{} – {text}", property.noun(self.language)),

@@ -74,12 +74,16 @@ impl Spot {
                 negated: self.negated,
             }];
         }
-        let one = |noun: &Noun| Restriction {
+        // «в спальне и коридоре»: in either of them.
+        vec![Restriction { rel: self.rel, anchors: self.nouns.clone(), negated: self.negated }]
+    }
+
+    fn each(&self) -> impl Iterator<Item = Restriction> + '_ {
+        self.nouns.iter().map(|noun| Restriction {
             rel: self.rel,
             anchors: vec![noun.clone()],
             negated: self.negated,
-        };
-        self.nouns.iter().map(one).collect()
+        })
     }
 }
 
@@ -98,6 +102,8 @@ struct Frame<'s, 't> {
     /// «там», "there"
     there: Option<Noun>,
     negated: bool,
+    /// «кроме лампы»
+    except: Vec<Noun>,
 }
 
 fn things(things: Vec<Thing>, text: &str) -> Noun {
@@ -125,8 +131,10 @@ impl<'s, 't> Frame<'s, 't> {
             you: false,
             there: None,
             negated: false,
+            except: Vec::new(),
         };
         let mut not = false;
+        let mut without = false;
         for (at, item) in items.iter().enumerate() {
             match item {
                 Item::Mark(Mark::Not) => {
@@ -134,9 +142,14 @@ impl<'s, 't> Frame<'s, 't> {
                     frame.negated = true;
                     frame.marks.push((Mark::Not, at));
                 }
+                Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
                 Item::Noun(phrase) => {
                     let Some(noun) = frame.noun(phrase, referent)? else { continue };
+                    if std::mem::take(&mut without) {
+                        frame.except.push(noun);
+                        continue;
+                    }
                     let first = frame.nouns.is_empty();
                     let negated = not && !first && std::mem::take(&mut not);
                     let nominative = phrase.nominative;
@@ -181,9 +194,25 @@ impl<'s, 't> Frame<'s, 't> {
 
     /// Words that nothing knows: a name that the map lacks, or no word at all.
     fn unknown(&self, words: &std::ops::Range<usize>, next: Option<&Item>) -> Doubt {
-        let said = self.sentence.said(words);
+        // «Комната-X»: the noun before the hyphen belongs to the name that is not there.
+        let mut words = words.clone();
+        while words.start > 0 {
+            let gap =
+                self.sentence.words[words.start - 1].end..self.sentence.words[words.start].start;
+            if !self.sentence.text[gap].chars().all(crate::language::words::is_hyphen) {
+                break;
+            }
+            words.start -= 1;
+        }
+        let said = self.sentence.said(&words);
         let near: Vec<String> =
             self.lexicon.nouns.near(said, 3).into_iter().map(str::to_owned).collect();
+        let near: Vec<String> = near.into_iter().fold(Vec::new(), |mut kept, name| {
+            if !kept.contains(&name) {
+                kept.push(name);
+            }
+            kept
+        });
         let before_noun = matches!(next, Some(Item::Noun(_)));
         if near.is_empty() && (before_noun || !super::may_be_noun(said)) {
             return Doubt::not_understood(said);
@@ -262,7 +291,13 @@ impl<'s, 't> Frame<'s, 't> {
 
     fn is_doors(&self, noun: &Noun) -> bool {
         let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Door(_));
+        let meant = |things: &Vec<Thing>| {
+            things.iter().any(|t| {
+                matches!(t, Thing::Opening(_) | Thing::Entity(crate::map::Entity::Door(_)))
+            })
+        };
         noun.head.named.iter().any(named)
+            || noun.head.things.as_ref().is_some_and(meant)
             || self.is_kind(noun, |e| {
                 matches!(e, Extension::Doors | Extension::Passages | Extension::DoorType(_))
             })
@@ -289,6 +324,7 @@ impl<'s, 't> Frame<'s, 't> {
         for (value, _, negated) in &self.values {
             noun.filters.push(Filter { value: *value, negated: *negated });
         }
+        noun.except.extend(self.except.iter().cloned());
         if let Some(there) = &self.there {
             noun.restrictions.push(Restriction {
                 rel: Rel::In,
@@ -302,6 +338,22 @@ impl<'s, 't> Frame<'s, 't> {
     /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
     fn attach(&self, noun: &mut Noun, spot: &Spot) {
         if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
+            return;
+        }
+        // «в комнате с диваном», «стол с лампой»
+        if spot.rel == Rel::Has {
+            let area = self.is_area(noun);
+            let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
+            match last {
+                Some(anchor) if self.is_area(anchor) => {
+                    anchor.restrictions.extend(spot.restrictions())
+                }
+                _ if area => noun.restrictions.extend(spot.restrictions()),
+                _ => {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    noun.restrictions.extend(spot.restrictions());
+                }
+            }
             return;
         }
         let is_room =
@@ -321,6 +373,7 @@ impl<'s, 't> Frame<'s, 't> {
             Some(anchor)
                 if !is_room
                     && !self.is_area(anchor)
+                    && !self.is_kind(anchor, |e| *e == Extension::Floor)
                     && anchor.head.things.is_none()
                     && spot.at > 0
                     && self.spots.iter().any(|s| s.at + 1 == spot.at)
@@ -380,6 +433,7 @@ impl<'s, 't> Frame<'s, 't> {
             .or_else(|| self.which())
             .or_else(|| self.listed())
             .or_else(|| self.exists())
+            .or_else(|| self.superlative())
             .or_else(|| self.holds())
     }
 
@@ -415,6 +469,9 @@ impl<'s, 't> Frame<'s, 't> {
 
     fn way(&self) -> Option<Query> {
         let far = self.has(Mark::HowFar);
+        if self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet) {
+            return None;
+        }
         let how = self.has(Mark::HowGet)
             || (self.has(Mark::How) && (self.has(Mark::Move) || self.has(Mark::Lead)));
         let can = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
@@ -533,7 +590,7 @@ impl<'s, 't> Frame<'s, 't> {
                     to: Some(placed(near)),
                 });
             }
-            let [first, second] = &self.nouns[..] else { return None };
+            let [.., first, second] = &self.nouns[..] else { return None };
             let to = anchors.first().map(|s| placed(s.nouns[0].clone()));
             return Some(Query::WhichMore {
                 of: [placed(first.noun.clone()), placed(second.noun.clone())],
@@ -550,7 +607,7 @@ impl<'s, 't> Frame<'s, 't> {
             return Some(Query::Same { property: property.clone(), of: [first, second] });
         }
         let extreme = more?;
-        let [first, second] = &self.nouns[..] else { return None };
+        let [.., first, second] = &self.nouns[..] else { return None };
         let (what, other) = (first.noun.clone(), second.noun.clone());
         if self.asks() || (self.has(Mark::Or) && than.is_none()) {
             return Some(Query::WhichMore { of: [what, other], extreme, to: None });
@@ -724,14 +781,15 @@ impl<'s, 't> Frame<'s, 't> {
         let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
         let rooms = self.nouns.iter().any(|s| self.is_rooms(&s.noun) || self.is_area(&s.noun));
-        if !self.has(Mark::Lead) {
+        if !self.has(Mark::Lead) && !(self.has(Mark::Move) && self.asks()) {
             return None;
         }
         if let Some(door) = door
             && (asks_where || (self.asks() && (rooms || self.has(Mark::What))))
         {
-            let which =
-                self.nouns.iter().any(|s| self.is_doors(&s.noun) && self.follows_which(s.at));
+            let which = self.nouns.iter().any(|s| {
+                self.is_doors(&s.noun) && s.noun.head.named.is_empty() && self.follows_which(s.at)
+            });
             if !which {
                 return Some(Query::Leads(self.with_rest(door.noun.clone(), &[])));
             }
@@ -742,6 +800,20 @@ impl<'s, 't> Frame<'s, 't> {
             let mut noun = doors.noun.clone();
             noun.plural = true;
             noun.head.named.clear();
+            let rooms: Vec<Noun> = self
+                .nouns
+                .iter()
+                .filter(|s| s.at != doors.at && self.is_area(&s.noun))
+                .map(|s| s.noun.clone())
+                .collect();
+            if rooms.len() == 2 {
+                noun.restrictions.push(Restriction {
+                    rel: Rel::Between,
+                    anchors: rooms,
+                    negated: false,
+                });
+                return Some(Query::Find(noun));
+            }
             for other in self.nouns.iter().filter(|s| s.at != doors.at && self.is_area(&s.noun)) {
                 let anchors = vec![other.noun.clone()];
                 noun.restrictions.push(Restriction { rel: Rel::Of, anchors, negated: false });
@@ -890,7 +962,11 @@ impl<'s, 't> Frame<'s, 't> {
                 && self.values.is_empty()
                 && !self.has(Mark::Exists)
                 && !self.has(Mark::Have);
-            if described {
+            let named =
+                !noun.head.named.is_empty() && noun.head.kinds.is_empty() && others.is_empty();
+            if described
+                || (named && self.spots.is_empty() && self.values.is_empty() && link.is_none())
+            {
                 return Some(Query::Describe(self.with_rest(noun, &[])));
             }
             if !noun.head.kinds.is_empty() && self.follows_which(asked.at) {
@@ -909,7 +985,7 @@ impl<'s, 't> Frame<'s, 't> {
     /// "What is the table on?": the noun after "what is" is the subject, not what is asked for.
     fn nominal_subject(&self, subject: &Subject, link: Option<Rel>) -> bool {
         let what = self.has(Mark::What) && !self.has(Mark::Which);
-        link.is_some() && what && !self.follows_what_directly(subject.at)
+        link.is_some() && what && (self.nouns.len() == 1 || !self.follows_what_directly(subject.at))
     }
 
     /// "What objects …": no verb between.
@@ -1007,6 +1083,18 @@ impl<'s, 't> Frame<'s, 't> {
         Some(Query::Exists { what, either, negated: none && !self.has(Mark::Exists) })
     }
 
+    /// «Самая большая комната?»
+    fn superlative(&self) -> Option<Query> {
+        let [only] = &self.nouns[..] else { return None };
+        let alone = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)));
+        if only.noun.best.is_none() && !alone {
+            return None;
+        }
+        let mut noun = only.noun.clone();
+        noun.head.named.clear();
+        Some(Query::Find(Noun { indefinite: true, ..self.with_rest(noun, &[]) }))
+    }
+
     fn holds(&self) -> Option<Query> {
         if self.has(Mark::Anything) && self.nouns.is_empty() && !self.spots.is_empty() {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
@@ -1041,7 +1129,7 @@ impl<'s, 't> Frame<'s, 't> {
         let mut holder = Noun::default();
         for spot in &spots {
             if spot.either {
-                chained.extend(spot.restrictions());
+                chained.extend(spot.each());
             } else {
                 self.attach(&mut holder, spot);
             }
@@ -1076,6 +1164,21 @@ impl<'s, 't> Frame<'s, 't> {
         }
         if claims.is_empty() {
             return None;
+        }
+        // «Лежит ли на комоде книга?» asks for any book; «Книга на комоде?» for the one.
+        let places = claims.iter().all(|c| matches!(c, Claim::Related(_)));
+        let later = self.spots.iter().all(|s| s.at < first.at) && !self.spots.is_empty();
+        let general = subject.head.named.is_empty() && subject.head.things.is_none();
+        if self.sentence.language == crate::language::Language::Russian
+            && places
+            && later
+            && general
+            && !self.negated
+        {
+            let mut noun = first.noun.clone();
+            noun.indefinite = true;
+            let what = vec![self.with_rest(noun, &[])];
+            return Some(Query::Exists { what, either: false, negated: false });
         }
         let either = self.has(Mark::Or) || self.spots.iter().any(|s| s.either);
         let values = self.values.len() > 1 || (self.values.len() == 1 && claims.len() > 1);

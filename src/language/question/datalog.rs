@@ -210,6 +210,10 @@ impl Rule<'_, '_> {
         for filter in &noun.filters {
             self.filter(&term, filter);
         }
+        for except in &noun.except {
+            let other = self.noun(except);
+            self.atoms.push(format!("{term} != {other}"));
+        }
         for restriction in &noun.restrictions {
             self.restriction(&term, restriction);
         }

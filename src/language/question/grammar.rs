@@ -96,6 +96,8 @@ pub(super) struct Phrase {
     pub(super) person: Option<Mark>,
     /// May it be the subject of a Russian sentence.
     pub(super) nominative: bool,
+    /// As a nominative it can only be a plural: «лампы».
+    only_plural_nominative: bool,
 }
 
 /// Tokens that are still to be read; the input of the parsers.
@@ -190,7 +192,7 @@ impl<'t> Sentence<'t> {
         let keys = &self.keys[at..];
         let mark = vocabulary::longest(keys);
         let value = lexicon.values.longest(keys);
-        let named = lexicon.nouns.length_at(self.text, &self.words, at);
+        let named = self.name_length(at, lexicon);
         let property = lexicon.values.property(&keys[0]).cloned();
         let marked = mark.map_or(0, |(n, _)| n);
         let valued = value.map_or(0, |(n, _)| n);
@@ -257,8 +259,28 @@ impl<'t> Sentence<'t> {
         (ends && !(asks && self.keys[at] == "on")).then(|| lexicon.values.meaning(word)).flatten()
     }
 
+    /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В.
+    fn name_length(&self, at: usize, lexicon: &Lexicon) -> usize {
+        let gap = |n: usize| &self.text[self.words[n - 1].end..self.words[n].start];
+        let cut = |n: &usize| gap(*n).contains([',', ';', ':', '?', '!']);
+        let mut end = (at + 1..self.words.len()).find(cut).unwrap_or(self.words.len());
+        loop {
+            let taken = lexicon.nouns.length_at(self.text, &self.words[..end], at);
+            let last = (at + taken).saturating_sub(1);
+            let small = taken > 1
+                && ["в", "к", "с", "о", "у", "a", "и"]
+                    .contains(&&self.text[self.words[last].clone()])
+                && gap(last) == " "
+                && last + 1 < self.words.len();
+            if !small {
+                return taken;
+            }
+            end = last;
+        }
+    }
+
     fn begins_noun(&self, at: usize, lexicon: &Lexicon) -> bool {
-        at < self.keys.len() && lexicon.nouns.length_at(self.text, &self.words, at) > 0
+        at < self.keys.len() && self.name_length(at, lexicon) > 0
     }
 
     fn asks_property(&self) -> bool {
@@ -305,7 +327,7 @@ impl<'t> Sentence<'t> {
     fn item<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         alt((
             |i| self.place(i),
-            map(|i| self.phrase(i), Item::Noun),
+            map(|i| self.free_phrase(i), Item::Noun),
             |i| self.single(i),
             |i| self.unknown(i),
         ))
@@ -334,6 +356,35 @@ impl<'t> Sentence<'t> {
         Ok((rest, Item::Place { rel, nouns, either }))
     }
 
+    /// A noun that no preposition governs. Then «лампы» are several: as a genitive it would follow a noun or «нет».
+    fn free_phrase<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let (rest, mut phrase) = self.phrase(input)?;
+        let before =
+            self.tokens.iter().rev().find(|t| input.0.first().is_some_and(|f| t.to <= f.from));
+        let governed = matches!(
+            before.map(|t| t.kind),
+            Some(
+                Tok::Property(_)
+                    | Tok::Noun(_)
+                    | Tok::Mark(
+                        Mark::HowBig(_)
+                            | Mark::Parts
+                            | Mark::Describe
+                            | Mark::Not
+                            | Mark::HowFar
+                            | Mark::HowGet
+                            | Mark::Except
+                            | Mark::Than
+                            | Mark::More(_)
+                    )
+            )
+        );
+        if self.language == Language::Russian && phrase.only_plural_nominative && !governed {
+            phrase.noun.plural = true;
+        }
+        Ok((rest, phrase))
+    }
+
     /// A noun with what belongs to it.
     fn phrase<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
         alt((|i| self.person(i), |i| self.described(i))).parse(input)
@@ -349,7 +400,11 @@ impl<'t> Sentence<'t> {
             _ => None,
         };
         let person = pronoun.is_none().then_some(mark);
-        Ok((rest, Phrase { noun, words, pronoun, person, nominative: true }))
+        let only_plural_nominative = false;
+        Ok((
+            rest,
+            Phrase { noun, words, pronoun, person, nominative: true, only_plural_nominative },
+        ))
     }
 
     fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
@@ -359,6 +414,7 @@ impl<'t> Sentence<'t> {
         let words = input.0[0].from as usize..input.0[taken - 1].to as usize;
         let mut noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
         let mut nominative = true;
+        let mut only_plural_nominative = false;
         match head {
             Some(found) => {
                 noun.head = Head {
@@ -372,6 +428,11 @@ impl<'t> Sentence<'t> {
                     r.has(Number::Singular, Case::Nominative)
                         || r.has(Number::Plural, Case::Nominative)
                 });
+                only_plural_nominative = found
+                    .readings
+                    .iter()
+                    .any(|r| r.has(Number::Plural, Case::Nominative))
+                    && found.readings.iter().all(|r| !r.has(Number::Singular, Case::Nominative));
                 if noun.plural && !noun.head.kinds.is_empty() {
                     noun.head.named.clear();
                 }
@@ -392,7 +453,8 @@ impl<'t> Sentence<'t> {
         if let Some((rel, owner)) = owner {
             noun.restrictions.push(Restriction { rel, anchors: vec![owner], negated: false });
         }
-        Ok((rest, Phrase { noun, words, pronoun: None, person: None, nominative }))
+        let (pronoun, person) = (None, None);
+        Ok((rest, Phrase { noun, words, pronoun, person, nominative, only_plural_nominative }))
     }
 
     fn modifier<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Modifier> {
@@ -456,7 +518,11 @@ impl<'t> Sentence<'t> {
             ..Noun::default()
         };
         match self.language {
-            Language::Russian if next.readings.iter().any(|r| r.has_case(Case::Genitive)) => {
+            // «в Комнате-В книг»: a room is not owned by things.
+            Language::Russian
+                if (!found.is_area || next.is_area)
+                    && next.readings.iter().any(|r| r.has_case(Case::Genitive)) =>
+            {
                 let owner = noun_of(next, *from as usize..*to as usize);
                 Ok((after, Some(found), Some((Rel::Of, owner))))
             }

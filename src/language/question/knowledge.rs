@@ -353,6 +353,10 @@ impl Knowledge<'_> {
         for filter in &noun.filters {
             found.retain(|t| self.has_value(*t, filter.value) != filter.negated);
         }
+        for except in &noun.except {
+            let without = self.find(except, true)?;
+            found.retain(|t| !without.contains(t));
+        }
         match &noun.best {
             Some(best) => self.best(best, found, noun.count.unwrap_or(1), noun.plural, loose),
             None => Ok(found),
@@ -410,8 +414,10 @@ impl Knowledge<'_> {
             return Ok(found);
         }
         let mut found = HashSet::new();
-        for anchor in self.anchors(restriction, noun, loose)? {
-            found.extend(self.related(restriction.rel, anchor));
+        for noun in &restriction.anchors {
+            for anchor in self.anchors(restriction, noun, loose)? {
+                found.extend(self.related(restriction.rel, anchor));
+            }
         }
         Ok(found)
     }

@@ -182,9 +182,15 @@ impl Lexicon {
         if self.kinds.len() >= usize::from(u16::MAX) {
             return;
         }
-        let id = self.push(extension, phrase.clone(), english_name);
+        let id = self.push(extension.clone(), phrase.clone(), english_name);
         if Language::of(phrase.name()) == Language::English {
             self.nouns.insert_english(phrase.name(), Meaning::Kind(id));
+            // A map of others knows no Russian: the language's own words for the thing serve.
+            for word in english::russian_of(phrase.name()) {
+                let russian = NounPhrase::parse(word, &WordHints::default());
+                let id = self.push(extension.clone(), russian.clone(), phrase.name());
+                self.nouns.insert(&russian, Meaning::Kind(id));
+            }
         } else {
             self.nouns.insert(&phrase, Meaning::Kind(id));
         }
@@ -238,6 +244,9 @@ impl Lexicon {
     /// The kind itself and those that its word covers too.
     pub(super) fn with_narrower(&self, id: KindId, language: Language) -> Vec<KindId> {
         let kind = self.kind(id);
+        if !matches!(kind.extension, Extension::ObjectType(_) | Extension::Object(_)) {
+            return vec![id];
+        }
         let key = match language {
             Language::Russian => (true, name_key(kind.phrase.name())),
             Language::English => (false, name_key(&kind.english)),

@@ -89,6 +89,8 @@ pub struct Memory {
     /// The things of the last answer.
     last: Vec<Thing>,
     facts: Vec<Fact>,
+    /// What was asked last, for «А чайник?»
+    query: Option<Query>,
     /// A question that waits for the person to say which thing was meant.
     pending: Option<Pending>,
 }
@@ -113,6 +115,7 @@ impl Memory {
         self.pending = None;
         if !matches!(answer.query, Query::Why { .. }) {
             self.facts.clone_from(&answer.facts);
+            self.query = Some(answer.query.clone());
         }
         if answer.topic.is_empty() {
             return;
@@ -377,9 +380,35 @@ impl Asker<'_> {
             let knowledge = self.knowledge(language, memory);
             return knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)));
         }
-        let query = self.read(text, memory).map_err(|doubt| (doubt, None))?;
+        let query = match self.continued(text, memory) {
+            Some(query) => query,
+            None => self.read(text, memory).map_err(|doubt| (doubt, None))?,
+        };
         let knowledge = self.knowledge(language, memory);
         knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)))
+    }
+
+    /// «А чайник?» after a question about something else: the same question about the kettle.
+    fn continued(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let last = memory.query.as_ref()?;
+        let key = crate::units::name_key(text);
+        let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
+        if !begins.iter().any(|b| key.starts_with(b)) {
+            return None;
+        }
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
+        if noun.head == Head::default() {
+            return None;
+        }
+        let mut query = last.clone();
+        let mut first = true;
+        query.each_noun(&mut |old| {
+            if std::mem::take(&mut first) {
+                *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
+            }
+        });
+        (!first).then_some(query)
     }
 
     /// «Красная» after «Какая чашка – белая или красная?»: the question that waited, with the thing that is meant.
@@ -424,7 +453,8 @@ impl Knowledge<'_> {
                 _ => continue,
             };
             for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
-                let described = !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
+                let described =
+                    !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
                 let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
                 let after = items[at + 1..].iter().map_while(|next| match next {
                     Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
@@ -435,7 +465,10 @@ impl Knowledge<'_> {
                     if found.len() < 2 {
                         break;
                     }
-                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok()) else { continue };
+                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok())
+                    else {
+                        continue;
+                    };
                     let fits = |t: &Thing| {
                         anchors.iter().any(|a| match rel {
                             Rel::From => self.holds(Rel::On, *t, *a) || self.holds(Rel::In, *t, *a),
@@ -451,9 +484,13 @@ impl Knowledge<'_> {
                 let ([only], true) = (&found[..], narrowed) else { continue };
                 let case = match rel {
                     None => Case::Accusative,
-                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => Case::Genitive,
+                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => {
+                        Case::Genitive
+                    }
                     Some(Rel::To) => Case::Dative,
-                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => Case::Instrumental,
+                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => {
+                        Case::Instrumental
+                    }
                     Some(_) => Case::Accusative,
                 };
                 names.push((phrase.words.clone(), self.form(*only, case)));

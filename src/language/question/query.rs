@@ -146,6 +146,8 @@ pub struct Noun {
     pub filters: Vec<Filter>,
     pub restrictions: Vec<Restriction>,
     pub best: Option<Best>,
+    /// «кроме лампы»
+    pub except: Vec<Noun>,
 }
 
 /// «ближайший к столу», "the three biggest"

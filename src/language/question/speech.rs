@@ -38,7 +38,11 @@ impl Knowledge<'_> {
                     let english = format!("the window of {}", area.english());
                     return Named::new(&russian, &WordHints::default(), Some(&english));
                 }
-                Named::plain(&window.name)
+                let area = self.named(Thing::Entity(Entity::Area(window.area)));
+                let english = format!("the window of {}", area.english());
+                let english =
+                    Some(english).filter(|_| Language::of(&window.name) == Language::Russian);
+                Named::new(&window.name, &WordHints::default(), english.as_deref())
             }
             Thing::Robot => Named::new("робот", &WordHints::default(), Some("robot")),
         }
@@ -193,7 +197,7 @@ impl Knowledge<'_> {
             let entry = self.lexicon().values.entry(filter.value);
             let adjective =
                 russian::agreeing(&entry.russian, Case::Nominative, base.number(), base.gender());
-            let not = if filter.negated { self.pick("не ", "non-") } else { "" };
+            let not = if filter.negated { self.pick("не", "non-") } else { "" };
             russian_name = format!("{not}{adjective} {russian_name}");
             english_name = format!("{not}{} {english_name}", entry.english);
         }
@@ -247,10 +251,6 @@ impl Knowledge<'_> {
             for anchor in &restriction.anchors {
                 if self.is_floor(anchor) {
                     text = self.pick("на полу", "on the floor").to_owned();
-                    let inner = self.restrictions(anchor);
-                    if !inner.is_empty() {
-                        text = format!("{text} {inner}");
-                    }
                     continue;
                 }
                 match self.find(anchor, true) {

@@ -79,8 +79,10 @@ pub(super) enum Mark {
     Or,
     Than,
     All,
-    /// «кроме», "except", «ещё», "other"
+    /// «другой», "other"
     Other,
+    /// «кроме», "except"
+    Except,
     Link(Rel),
     Nearer(Closeness),
     Best(Extreme),
@@ -120,7 +122,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::What,
-        "что|чего|чему|чём|что такое|что за|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
+        "что|чего|чему|чём|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
     ),
     (
         Mark::Anything,
@@ -136,7 +138,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Which,
         "какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
-        которую|которых|каков|какова|каково|каковы|which|what kind of|what type of|what sort of|which of|which of the",
+        которую|которых|каков|какова|каково|каковы|какие из|какой из|какая из|какое из|какую из|каких из|which|what kind of|what type of|what sort of|which of|which of the",
     ),
     (
         Mark::HowMany,
@@ -147,7 +149,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::HowFar,
         "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
-        how far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres|how many meters|how many centimetres",
+        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres|how many meters|how many centimetres",
     ),
     (
         Mark::HowGet,
@@ -198,14 +200,14 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Exists,
         "есть|есть ли|имеется|имеются|имеется ли|имеются ли|существует|существуют|существует ли|найдётся|найдётся ли|нет ли|не найдётся ли|бывает|is there|is there a|are there|are there any|is there any|\
         is there anything|is there something|there is|there are|there s|exist|exists|do we have|do you have|have we got|have you got|is there some|isn t there|aren t there|does there exist|do there exist|\
-        can you see|do you see|do you see any|can you see any|can i find|can i find any|can we find|would i find|will i find",
+        can you see|do you see|do you see any|can you see any|can i find any",
     ),
     (
         Mark::Be,
-        "is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        "ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висит|висят|висел|висела|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
-        stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
+        stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
         я оставил|я оставила|я положил|я положила|я поставил|оставил|оставила|мы оставили|делся|девался|девалась",
     ),
     (
@@ -228,13 +230,16 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|what about|information about|а что с|что насчёт|give me information about|what is known about",
+        "расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
     ),
     (
         Mark::List,
         "перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
     ),
-    (Mark::See, "видишь|видно|видите|see|seeing|look at|looking at|visible"),
+    (
+        Mark::See,
+        "what do you see|what can you see|what are you looking at|что ты видишь|видишь|видно|видите|see|seeing|look at|looking at|visible",
+    ),
     (
         Mark::LastSeen,
         "видел в последний раз|видели в последний раз|ты видел в последний раз|в последний раз видел|в последний раз видели|последний раз видел|последний раз видели|последний раз|в последний раз|видел|видела|видели|видел ли|замечен|замечена|замечали|наблюдали|\
@@ -256,10 +261,7 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::LieDown,
         "лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep",
     ),
-    (
-        Mark::PutDown,
-        "положить|поставить|разместить|куда положить|куда поставить|куда можно положить|куда можно поставить|куда мне положить|куда мне поставить|put|place|set down|put down|lay down|leave",
-    ),
+    (Mark::PutDown, "положить|поставить|разместить|put|place|set down|put down|lay down|leave"),
     (
         Mark::Can,
         "можно|можно ли|можешь|могу|могу ли|могу ли я|сможешь|можешь ли|можно мне|могли бы|мог бы|получится|смогу|can i|can one|could i|can we|may i|is it possible to|should i|can you|can|could|could one|might i|able|possible",
@@ -288,9 +290,10 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::All,
         "все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole|any",
     ),
+    (Mark::Except, "кроме|помимо|не считая|except|except for|apart from|other than|aside from"),
     (
         Mark::Other,
-        "кроме|другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|except|besides|apart from|other than|the other|remaining|the rest of",
+        "другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|the other|remaining|the rest of",
     ),
     (
         Mark::Link(Rel::In),
@@ -302,9 +305,9 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::Under),
-        "под|подо|снизу|снизу под|ниже|внизу под|under|below|beneath|underneath|under neath|bellow|at the bottom of|directly below|directly under|right under",
+        "под|подо|снизу|снизу под|внизу под|under|below|beneath|underneath|under neath|bellow|at the bottom of|directly below|directly under|right under",
     ),
-    (Mark::Link(Rel::Above), "над|надо|сверху над|выше|above|over|directly above|right above"),
+    (Mark::Link(Rel::Above), "над|надо|сверху над|above|over|directly above|right above"),
     (
         Mark::Link(Rel::NextTo),
         "рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
@@ -404,8 +407,8 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Best(Extreme::Most), "больше всего всего|the most|most"),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
-    (Mark::More(Extreme::Tallest), "выше чем|taller|higher"),
-    (Mark::More(Extreme::Lowest), "ниже чем|shorter|lower"),
+    (Mark::More(Extreme::Tallest), "выше|taller|higher"),
+    (Mark::More(Extreme::Lowest), "ниже|shorter|lower"),
     (Mark::More(Extreme::Widest), "шире|wider|broader"),
     (Mark::More(Extreme::Narrowest), "уже чем|narrower|thinner"),
     (Mark::More(Extreme::Longest), "длиннее|longer"),
@@ -430,9 +433,9 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
-        ли|же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
+        же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
         please|tell me|tell us|show me|show us|say|could you|could you please|would you|would you please|will you|can you tell me|could you tell me|would you tell me|can you say|do you know|do you know if|do you know whether|i want to know|i would like to know|i d like to know|i wonder|i am wondering|wondering|i need to know|let me know|\
         hey|hello|hi|ok|okay|well|so|now|right now|at the moment|currently located|actually|exactly|precisely|really|just|also|too|if|whether|that is|which is|which are|that are|do|does|did|do i|do you|d|am|will|would|shall|should|must|thanks|thank you|kindly|here|in total|altogether|total|in all|all together|overall|it is true that|is it true that|is it true|true|is it the case that|\
@@ -447,7 +450,9 @@ pub(super) fn begins_question(words: &[String]) -> bool {
         match mark {
             Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
             Mark::Can | Mark::Link(_) | Mark::Not => return false,
-            Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => return false,
+            Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => {
+                return false;
+            }
             _ => return true,
         }
     }

@@ -1,7 +1,7 @@
 //! «Почему?»: the proof of a fact in words, down to what was measured; «Почему нет?»: what it lacks.
 
 use crate::facts::{Because, Premise, Proof, Value, WhyNot};
-use crate::language::words::{Language, enumerate};
+use crate::language::words::{Case, Language, enumerate};
 
 use super::answer::Draft;
 use super::knowledge::Knowledge;
@@ -55,6 +55,9 @@ impl Knowledge<'_> {
             lines.truncate(SAID);
             return lines;
         }
+        if let Some(instead) = self.elsewhere(fact) {
+            return vec![instead];
+        }
         match self.relations.why_not(&fact.relation, &args) {
             Ok(WhyNot::Nearest(failed)) => {
                 let mut lines: Vec<String> =
@@ -65,6 +68,20 @@ impl Knowledge<'_> {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// What a thing stands on instead, or how far the two are apart.
+    fn elsewhere(&self, fact: &Fact) -> Option<String> {
+        let (a, b) = (self.thing(fact.args.first()?)?, self.thing(fact.args.get(1)?)?);
+        if matches!(fact.relation.as_str(), "ON_TOP_OF" | "INSIDE") {
+            let place = self.short_place(a, &mut Vec::new());
+            return Some(format!("{} {} {place}", self.name(a), self.is(&[a])));
+        }
+        let apart = length(self.distance(a, b)?, self.language);
+        Some(match self.is_russian() {
+            true => format!("между ними {apart}"),
+            false => format!("they are {apart} apart"),
+        })
     }
 
     /// All steps of a proof, or all premises of the rule that came closest.
@@ -115,6 +132,13 @@ impl Knowledge<'_> {
             Some(Value::Number(number)) => number.to_string(),
             None => String::new(),
         };
+        let genitive = |n: usize| match values.get(n) {
+            Some(Value::Symbol(text)) => match self.thing(text) {
+                Some(thing) => self.form(thing, Case::Genitive),
+                None => format!("«{text}»"),
+            },
+            _ => String::new(),
+        };
         let number = |n: usize| match values.get(n) {
             Some(Value::Number(number)) => *number as f64 / 100.0,
             _ => 0.0,
@@ -131,11 +155,14 @@ impl Knowledge<'_> {
             false => length(number(n), self.language),
         };
         let percent = |n: usize| number(n) * 10.0;
-        let (a, b) = (word(0), word(1));
+        let (a, b) = match self.is_russian() {
+            true => (genitive(0), genitive(1)),
+            false => (word(0), word(1)),
+        };
         let russian = self.is_russian();
         Some(match (name, russian) {
             ("over", true) => format!(
-                "низ «{a}» отстоит от верха «{b}» на {}, и над ним {:.0} % опоры",
+                "низ {a} отстоит от верха {b} на {} и лежит над ним на {:.0} %",
                 cm(4),
                 percent(5)
             ),
@@ -145,25 +172,21 @@ impl Knowledge<'_> {
                 percent(5)
             ),
             ("below", true) => {
-                format!("«{a}» ниже «{b}» на {} и перекрыто им на {:.0} %", cm(4), percent(5))
+                format!("верх {a} ниже {b} на {} и перекрыт сверху на {:.0} %", cm(4), percent(5))
             }
             ("below", false) => {
                 format!("{a} is {} below {b} and {:.0} % of it is covered", cm(4), percent(5))
             }
-            ("within", true) => format!(
-                "«{a}» выступает за пределы «{b}» не больше чем на {} и лежит внутри на {:.0} %",
-                cm(4),
-                percent(8)
-            ),
+            ("within", true) => format!("объём {a} на {:.0} % лежит внутри {b}", percent(8)),
             ("within", false) => format!(
                 "{a} sticks out of {b} by {} at most, and {:.0} % of it is inside",
                 cm(4),
                 percent(8)
             ),
-            ("distance" | "beside", true) => format!("расстояние между «{a}» и «{b}» – {}", cm(2)),
+            ("distance" | "beside", true) => format!("от {a} до {b} {}", cm(2)),
             ("distance" | "beside", false) => format!("{a} and {b} are {} apart", cm(2)),
             ("sector", true) => format!(
-                "«{a}» видно под углом {:.0}° от лицевой стороны «{b}», расстояние {}",
+                "направление от лицевой стороны {b} – {:.0}°, расстояние {}",
                 number(2),
                 cm(3)
             ),
@@ -171,25 +194,17 @@ impl Knowledge<'_> {
                 format!("{a} is at {:.0}° from the front of {b}, {} away", number(2), cm(3))
             }
             ("standing_in", true) => {
-                format!("«{a}» стоит в границах «{b}», на высоте {} от пола", cm(2))
+                format!("середина {a} лежит в границах {b}, на высоте {} от пола", cm(2))
             }
             ("standing_in", false) => {
                 format!("{a} stands within the bounds of {b}, {} above its floor", cm(2))
             }
-            ("off_area", true) => format!("«{a}» в стене, в {} от «{b}»", cm(2)),
+            ("off_area", true) => format!("от {a} до стены {b} {}", cm(2)),
             ("off_area", false) => format!("{a} is in the wall, {} from {b}", cm(2)),
-            ("links", true) => format!("карта связывает «{}» и «{}» через «{a}»", word(1), word(2)),
+            ("links", true) => format!("карта связывает «{}» и «{}»", word(1), word(2)),
             ("links", false) => format!("the map links {} and {} through {a}", word(1), word(2)),
-            ("step", true) => format!("шаг через «{a}» ведёт в «{}»", word(2)),
+            ("step", true) => format!("шаг с порога {a} ведёт в «{}»", word(2)),
             ("step", false) => format!("a step through {a} leads to {}", word(2)),
-            ("door_state", true) => {
-                format!("на карте дверь «{a}» {}", door_word(&b, Language::Russian))
-            }
-            ("door_state", false) => format!("the map says that {a} is {b}"),
-            ("property", true) => format!("на карте у «{a}» указано: {b} – {}", word(2)),
-            ("property", false) => format!("the map gives {b} of {a}: {}", word(2)),
-            ("kind_trait", true) => format!("«{a}» по типу – {b}"),
-            ("kind_trait", false) => format!("{a} is a {b} by its type"),
             _ => return None,
         })
     }

@@ -200,6 +200,15 @@ pub fn words_of(noun: &str) -> &'static [String] {
     lexicon::find(&noun.to_lowercase()).map_or(&[], |entry| &entry.english)
 }
 
+/// Russian nouns of the word list that this English word stands for: "bed" – «кровать».
+pub(crate) fn russian_of(english_name: &str) -> Vec<&'static str> {
+    let lower = english_name.to_lowercase();
+    let means = |entry: &&(&'static str, lexicon::Entry)| {
+        entry.1.english.iter().take(1).any(|word| *word == lower)
+    };
+    lexicon::all().filter(|entry| means(&entry)).map(|(word, _)| word).take(2).collect()
+}
+
 fn word_of(word: &str) -> Option<String> {
     if !word.chars().any(is_cyrillic) {
         return Some(word.to_owned());

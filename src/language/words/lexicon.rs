@@ -93,8 +93,7 @@ fn read_line(line: &'static str) -> Option<(&'static str, Entry)> {
     Some((word, entry))
 }
 
-/// All words of the list, for the tests that hold it against the rules and the dictionary.
-#[cfg(all(test, feature = "rumorph"))]
+/// All words of the list.
 pub(crate) fn all() -> impl Iterator<Item = (&'static str, Entry)> {
     TEXT.lines().filter_map(read_line)
 }
