@@ -206,6 +206,61 @@ fn a_reader_keeps_its_revision_while_the_writer_goes_on() {
     assert!(watching.join().unwrap());
 }
 
+/// Each revision writes all replicas with its own number as their place: a reader that sees two numbers saw half of
+/// a transaction.
+#[test]
+fn many_readers_see_one_revision_each_while_one_writes() {
+    const REPLICAS: u32 = 300;
+    const REVISIONS: u64 = 120;
+    let dir = scratch();
+    let mut store = open(dir.path());
+    let write = |store: &mut Store| {
+        let number = store.revision() + 1;
+        let edits = (0..REPLICAS).fold(Edits::new(), |edits, n| {
+            let (area_id, x) = (n % 7, number as f64);
+            edits.put(&records::AreaObjects { area_id, repl_id: n, x, ..Default::default() })
+        });
+        store.apply(&edits, &change("ещё")).unwrap();
+    };
+    write(&mut store);
+    let latest = std::sync::Mutex::new(store.reader());
+    let is_done = std::sync::atomic::AtomicBool::new(false);
+    let seen: Vec<u64> = std::thread::scope(|scope| {
+        let look = |reader: &orthoframe::store::Reader| {
+            let all: Vec<records::AreaObjects> = reader.records(&Key::new()).unwrap();
+            assert_eq!(all.len(), REPLICAS as usize);
+            let own = reader.revision() as f64;
+            let astray = all.iter().find(|r| (r.x - own).abs() > 0.0);
+            assert!(astray.is_none(), "revision {own}: {astray:?}");
+        };
+        let readers: Vec<_> = (0..4)
+            .map(|_| {
+                scope.spawn(|| {
+                    let mut seen = Vec::new();
+                    while !is_done.load(std::sync::atomic::Ordering::Acquire) {
+                        let reader = latest.lock().unwrap().clone();
+                        look(&reader);
+                        // The same one again, when the writer has gone on.
+                        std::thread::yield_now();
+                        look(&reader);
+                        seen.push(reader.revision());
+                    }
+                    seen
+                })
+            })
+            .collect();
+        for _ in 1..REVISIONS {
+            write(&mut store);
+            *latest.lock().unwrap() = store.reader();
+        }
+        is_done.store(true, std::sync::atomic::Ordering::Release);
+        readers.into_iter().flat_map(|r| r.join().unwrap()).collect()
+    });
+    let different: std::collections::BTreeSet<u64> = seen.iter().copied().collect();
+    assert!(different.len() > 5, "the readers read while the writer wrote: {different:?}");
+    assert_eq!(store.revision(), REVISIONS);
+}
+
 #[test]
 fn derived_tables_are_computed_and_cannot_be_edited() {
     let map = world(9, 6);
