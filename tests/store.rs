@@ -225,14 +225,14 @@ fn many_readers_see_one_revision_each_while_one_writes() {
     write(&mut store);
     let latest = std::sync::Mutex::new(store.reader());
     let is_done = std::sync::atomic::AtomicBool::new(false);
+    let look = |reader: &orthoframe::store::Reader| {
+        let all: Vec<records::AreaObjects> = reader.records(&Key::new()).unwrap();
+        assert_eq!(all.len(), REPLICAS as usize);
+        let own = reader.revision() as f64;
+        let astray = all.iter().find(|r| (r.x - own).abs() > 0.0);
+        assert!(astray.is_none(), "revision {own}: {astray:?}");
+    };
     let seen: Vec<u64> = std::thread::scope(|scope| {
-        let look = |reader: &orthoframe::store::Reader| {
-            let all: Vec<records::AreaObjects> = reader.records(&Key::new()).unwrap();
-            assert_eq!(all.len(), REPLICAS as usize);
-            let own = reader.revision() as f64;
-            let astray = all.iter().find(|r| (r.x - own).abs() > 0.0);
-            assert!(astray.is_none(), "revision {own}: {astray:?}");
-        };
         let readers: Vec<_> = (0..4)
             .map(|_| {
                 scope.spawn(|| {

@@ -1,4 +1,6 @@
 //! The records in memory, sorted: what every reader reads.
+//!
+//! **Invariant**: no lock is held while a caller's code runs.
 
 use std::collections::BTreeMap;
 use std::ops::Bound;
@@ -14,6 +16,40 @@ struct Inner {
     /// By the tree's code.
     trees: Vec<Tree>,
     state: State,
+}
+
+/// Some records copied out, one after the other: whoever visits them may ask for others, which with the lock held
+/// would wait for a writer that waits for the lock.
+#[derive(Default)]
+struct Piece {
+    bytes: Vec<u8>,
+    /// Where each key and its value end.
+    ends: Vec<(usize, usize)>,
+}
+
+/// Records copied at once: a Fragment's, then as many as make the copying of the first ones forgotten.
+const FIRST_PIECE: usize = 32;
+const LATER_PIECE: usize = 1024;
+
+impl Piece {
+    fn take(&mut self, tree: &Tree, prefix: &[u8], from: Bound<&[u8]>, most: usize) {
+        self.bytes.clear();
+        self.ends.clear();
+        let records = tree.range::<[u8], _>((from, Bound::Unbounded));
+        for (key, value) in records.take_while(|(key, _)| key.starts_with(prefix)).take(most) {
+            self.bytes.extend_from_slice(key);
+            let key_end = self.bytes.len();
+            self.bytes.extend_from_slice(value);
+            self.ends.push((key_end, self.bytes.len()));
+        }
+    }
+
+    fn records(&self) -> impl Iterator<Item = (&[u8], &[u8])> + '_ {
+        let starts = std::iter::once(0).chain(self.ends.iter().map(|(_, end)| *end));
+        starts.zip(&self.ends).map(|(start, &(key_end, end))| {
+            (&self.bytes[start..key_end], &self.bytes[key_end..end])
+        })
+    }
 }
 
 /// Trees in memory.
@@ -85,14 +121,26 @@ impl Trees for MemoryTrees {
     }
 
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
-        let inner = self.read();
-        let from = (Bound::Included(prefix), Bound::Unbounded);
-        for (key, value) in inner.trees[usize::from(tree)].range::<[u8], _>(from) {
-            if !key.starts_with(prefix) || !visit(key, value)? {
-                break;
+        let mut piece = Piece::default();
+        let mut most = FIRST_PIECE;
+        let mut after: Option<Vec<u8>> = None;
+        loop {
+            let from = match &after {
+                None => Bound::Included(prefix),
+                Some(key) => Bound::Excluded(key.as_slice()),
+            };
+            piece.take(&self.read().trees[usize::from(tree)], prefix, from, most);
+            for (key, value) in piece.records() {
+                if !visit(key, value)? {
+                    return Ok(());
+                }
             }
+            if piece.ends.len() < most {
+                return Ok(());
+            }
+            after = piece.records().last().map(|(key, _)| key.to_vec());
+            most = LATER_PIECE;
         }
-        Ok(())
     }
 
     fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
