@@ -140,7 +140,7 @@ impl Advice {
             let name = named(world, entity);
             match language {
                 Language::Russian => name.phrase().case(Case::Accusative),
-                Language::English => name.english().to_owned(),
+                Language::English => name.english(),
             }
         };
         match (self, language) {
