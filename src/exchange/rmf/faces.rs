@@ -39,7 +39,11 @@ pub(super) struct Face {
 /// The tag of an edge that nothing stands on: see [`Plan::open`].
 const OPEN: usize = usize::MAX;
 /// The farthest that an open edge reaches, cm.
-const REACH: f64 = 1_000.0;
+const REACH: f64 = 600.0;
+/// Levels with more walls than this keep doors that lead from a room into itself, to be left out later.
+const MOST_EDGES: usize = 20_000;
+/// Open edges tried on one level; the shortest come first.
+const MOST_LEADS: usize = 150;
 
 /// What a graph encloses.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -64,24 +68,8 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.lead_loose_ends();
     graph.split();
     graph.dedup();
-    if graph.part_doors() {
-        graph.split();
-        graph.dedup();
-    }
-    let mut loose = graph.prune();
-    let mut cycles = graph.cycles();
-    // An edge with one face on both sides bounds nothing: an arm, or a bridge to an inner ring.
-    loop {
-        let bridges = bridges(&cycles);
-        if bridges.is_empty() {
-            break;
-        }
-        let is_bridge = |e: &(usize, usize, usize)| bridges.contains(&(e.0.min(e.1), e.0.max(e.1)));
-        loose.extend(graph.edges.iter().filter(|e| is_bridge(e)).copied());
-        graph.edges.retain(|e| !is_bridge(e));
-        loose.extend(graph.prune());
-        cycles = graph.cycles();
-    }
+    graph.part_doors();
+    let (loose, cycles) = graph.settle();
     let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
     let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
     let loose = loose
@@ -92,7 +80,10 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     Plan { faces: graph.faces(&cycles), loose, open }
 }
 
-#[derive(Default)]
+/// The nodes round a face, each with the tag of the edge that follows.
+type Cycle = Vec<(usize, usize)>;
+
+#[derive(Default, Clone)]
 struct Graph {
     points: Vec<Point>,
     cells: HashMap<(i64, i64), Vec<usize>>,
@@ -216,54 +207,76 @@ impl Graph {
         }
     }
 
-    /// Leads the free ends of walls with a door in them, which bound nothing, on to the nearest other wall.
-    fn part_doors(&mut self) -> bool {
-        let mut rest = Self { points: self.points.clone(), ..Self::default() };
-        rest.edges.clone_from(&self.edges);
-        let loose = rest.prune();
-        let mut group: BTreeMap<usize, usize> = BTreeMap::new();
-        let mut is_changed = true;
-        while is_changed {
-            is_changed = false;
-            for &(a, b, _) in &loose {
-                let of = |n: usize| group.get(&n).copied().unwrap_or(n);
-                let least = of(a).min(of(b));
-                for n in [a, b] {
-                    is_changed |= group.insert(n, least) != Some(least);
+    /// Takes away all that bounds nothing: arms, and bridges to inner rings. What is left has a face on either side.
+    fn settle(&mut self) -> (Vec<(usize, usize, usize)>, Vec<Cycle>) {
+        let mut loose = self.prune();
+        let mut cycles = self.cycles();
+        loop {
+            let bridges = bridges(&cycles);
+            if bridges.is_empty() {
+                return (loose, cycles);
+            }
+            let is_bridge =
+                |e: &(usize, usize, usize)| bridges.contains(&(e.0.min(e.1), e.0.max(e.1)));
+            loose.extend(self.edges.iter().filter(|e| is_bridge(e)).copied());
+            self.edges.retain(|e| !is_bridge(e));
+            loose.extend(self.prune());
+            cycles = self.cycles();
+        }
+    }
+
+    /// The doors that have one face on both sides, and everything else that bounds nothing.
+    fn one_sided(&self) -> (BTreeSet<usize>, Vec<(usize, usize, usize)>) {
+        let (loose, _) = self.clone().settle();
+        (loose.iter().map(|e| e.2).filter(|&tag| tag > 0 && tag != OPEN).collect(), loose)
+    }
+
+    /// Leads free ends of walls across to the next wall, as few as give every door two sides.
+    fn part_doors(&mut self) {
+        let (doors, loose) = self.one_sided();
+        if doors.is_empty() || self.edges.len() > MOST_EDGES {
+            return;
+        }
+        let group = groups(&loose);
+        let degrees = self.degrees();
+        let own: BTreeSet<(usize, usize, usize)> = loose.into_iter().collect();
+        let mut leads: Vec<(f64, usize, Point)> = Vec::new();
+        for (&end, of) in group.iter().filter(|(n, _)| degrees[**n] == 1) {
+            let p = self.points[end];
+            let is_own =
+                |edge: &(usize, usize, usize)| own.contains(edge) && group.get(&edge.0) == Some(of);
+            let feet = self.edges.iter().filter(|e| !is_own(e)).map(|&e| foot(p, self.ends(e)));
+            let nearest = feet.min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()));
+            leads.extend(nearest.map(|foot| ((foot - p).norm(), end, foot)));
+        }
+        leads.retain(|lead| lead.0 <= REACH);
+        leads.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        leads.truncate(MOST_LEADS);
+        let led = |leads: &[(f64, usize, Point)]| {
+            let mut graph = self.clone();
+            for &(_, end, foot) in leads {
+                let to = graph.node(foot);
+                if to != end {
+                    graph.edges.push((end, to, OPEN));
                 }
             }
-        }
-        let with_door: BTreeSet<usize> =
-            loose.iter().filter(|e| e.2 > 0).map(|e| group[&e.0]).collect();
-        let degrees = self.degrees();
-        let ends: Vec<usize> = group
-            .iter()
-            .filter(|(n, g)| degrees[**n] == 1 && with_door.contains(g))
-            .map(|(&n, _)| n)
-            .collect();
-        let loose: BTreeSet<(usize, usize, usize)> = loose.into_iter().collect();
-        let is_own = |edge: &(usize, usize, usize), of: usize| {
-            loose.contains(edge) && group.get(&edge.0) == Some(&of)
+            graph.split();
+            graph.dedup();
+            graph
         };
-        let mut added = Vec::new();
-        for end in ends {
-            let p = self.points[end];
-            let nearest = self
-                .edges
-                .iter()
-                .filter(|edge| !is_own(edge, group[&end]))
-                .map(|&edge| foot(p, self.ends(edge)))
-                .min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()))
-                .filter(|foot| (foot - p).norm() <= REACH);
-            added.extend(nearest.map(|foot| (end, foot)));
+        let left = led(&leads).one_sided().0.len();
+        if left == doors.len() {
+            return;
         }
-        for &(end, foot) in &added {
-            let to = self.node(foot);
-            if to != end {
-                self.edges.push((end, to, OPEN));
+        // The longest go first, as long as no door loses its second side.
+        for i in (0..leads.len()).rev() {
+            let mut fewer = leads.clone();
+            fewer.remove(i);
+            if led(&fewer).one_sided().0.len() <= left {
+                leads = fewer;
             }
         }
-        !added.is_empty()
+        *self = led(&leads);
     }
 
     /// One edge between two nodes: a door before a wall, a wall before nothing.
@@ -282,26 +295,32 @@ impl Graph {
     /// Takes away edges with a free end until none is left.
     fn prune(&mut self) -> Vec<(usize, usize, usize)> {
         let mut degrees = self.degrees();
-        let mut loose = Vec::new();
-        loop {
-            let before = loose.len();
-            self.edges.retain(|&(a, b, tag)| {
-                let is_kept = degrees[a] > 1 && degrees[b] > 1;
-                if !is_kept {
-                    degrees[a] -= 1;
-                    degrees[b] -= 1;
-                    loose.push((a, b, tag));
+        let mut at: Vec<Vec<usize>> = vec![Vec::new(); self.points.len()];
+        for (i, &(a, b, _)) in self.edges.iter().enumerate() {
+            at[a].push(i);
+            at[b].push(i);
+        }
+        let mut is_loose = vec![false; self.edges.len()];
+        let mut ends: Vec<usize> = (0..degrees.len()).filter(|&n| degrees[n] == 1).collect();
+        while let Some(end) = ends.pop() {
+            let Some(&edge) = at[end].iter().find(|&&e| !is_loose[e]) else { continue };
+            is_loose[edge] = true;
+            for node in [self.edges[edge].0, self.edges[edge].1] {
+                degrees[node] -= 1;
+                if degrees[node] == 1 {
+                    ends.push(node);
                 }
-                is_kept
-            });
-            if loose.len() == before {
-                return loose;
             }
         }
+        let all = std::mem::take(&mut self.edges);
+        let (loose, kept): (Vec<_>, Vec<_>) =
+            all.into_iter().zip(is_loose).partition(|(_, is_loose)| *is_loose);
+        self.edges = kept.into_iter().map(|(edge, _)| edge).collect();
+        loose.into_iter().map(|(edge, _)| edge).collect()
     }
 
     /// Every face as the chain of its nodes, the face to the left; with the tag of each edge.
-    fn cycles(&self) -> Vec<Vec<(usize, usize)>> {
+    fn cycles(&self) -> Vec<Cycle> {
         let mut out: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         for &(a, b, tag) in &self.edges {
             out.entry(a).or_default().push((b, tag));
@@ -337,10 +356,9 @@ impl Graph {
         cycles
     }
 
-    fn faces(&self, cycles: &[Vec<(usize, usize)>]) -> Vec<Face> {
-        let ring = |cycle: &Vec<(usize, usize)>| -> Vec<Point> {
-            cycle.iter().map(|&(n, _)| self.points[n]).collect()
-        };
+    fn faces(&self, cycles: &[Cycle]) -> Vec<Face> {
+        let ring =
+            |cycle: &Cycle| -> Vec<Point> { cycle.iter().map(|&(n, _)| self.points[n]).collect() };
         let rings: Vec<(Vec<Point>, f64)> = cycles
             .iter()
             .map(|cycle| {
@@ -379,8 +397,30 @@ impl Graph {
     }
 }
 
+/// The nodes of edges that hang together, each with the least node of its group.
+fn groups(edges: &[(usize, usize, usize)]) -> BTreeMap<usize, usize> {
+    let mut parent: BTreeMap<usize, usize> =
+        edges.iter().flat_map(|e| [(e.0, e.0), (e.1, e.1)]).collect();
+    fn root(parent: &mut BTreeMap<usize, usize>, node: usize) -> usize {
+        let (mut top, mut n) = (node, node);
+        while parent[&top] != top {
+            top = parent[&top];
+        }
+        while parent[&n] != top {
+            n = parent.insert(n, top).unwrap_or(top);
+        }
+        top
+    }
+    for &(a, b, _) in edges {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        parent.insert(a.max(b), a.min(b));
+    }
+    let nodes: Vec<usize> = parent.keys().copied().collect();
+    nodes.into_iter().map(|n| (n, root(&mut parent, n))).collect()
+}
+
 /// Edges that one face has on both sides.
-fn bridges(cycles: &[Vec<(usize, usize)>]) -> BTreeSet<(usize, usize)> {
+fn bridges(cycles: &[Cycle]) -> BTreeSet<(usize, usize)> {
     let mut bridges = BTreeSet::new();
     for cycle in cycles {
         let mut seen = BTreeSet::new();
