@@ -40,6 +40,8 @@ pub(super) struct Face {
 const OPEN: usize = usize::MAX;
 /// The farthest that an open edge reaches, cm.
 const REACH: f64 = 600.0;
+/// A part of a face smaller than this is not parted from it, cm².
+const LEAST_PART: f64 = 40_000.0;
 /// Levels with more walls than this keep doors that lead from a room into itself, to be left out later.
 const MOST_EDGES: usize = 20_000;
 /// Open edges tried on one level; the shortest come first.
@@ -69,6 +71,7 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.split();
     graph.dedup();
     graph.part_doors();
+    graph.span_doors();
     let (loose, cycles) = graph.settle();
     let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
     let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
@@ -229,6 +232,73 @@ impl Graph {
     fn one_sided(&self) -> (BTreeSet<usize>, Vec<(usize, usize, usize)>) {
         let (loose, _) = self.clone().settle();
         (loose.iter().map(|e| e.2).filter(|&tag| tag > 0 && tag != OPEN).collect(), loose)
+    }
+
+    /// Parts a face that has a door on both sides by the shortest line, from corner to corner, that parts the two
+    /// sides of the door: the open side of a bay of rooms.
+    fn span_doors(&mut self) {
+        let limit = if self.edges.len() > MOST_EDGES { 0 } else { MOST_LEADS };
+        for _ in 0..limit {
+            let mut pruned = self.clone();
+            pruned.prune();
+            let cycles = pruned.cycles();
+            let Some(chord) = cycles.iter().find_map(|cycle| pruned.chord(cycle)) else { return };
+            self.edges.push((chord.0, chord.1, OPEN));
+        }
+    }
+
+    fn chord(&self, cycle: &Cycle) -> Option<(usize, usize)> {
+        let n = cycle.len();
+        let mut first: BTreeMap<usize, usize> = BTreeMap::new();
+        let mut doors = Vec::new();
+        for (i, &(node, tag)) in cycle.iter().enumerate() {
+            if tag > 0 && tag != OPEN {
+                // The same edge the other way round, not another piece of the same door.
+                match first.get(&tag) {
+                    Some(&j) if cycle[(j + 1) % n].0 == node => doors.push((j, i)),
+                    _ => {
+                        first.insert(tag, i);
+                    }
+                }
+            }
+        }
+        let at = |i: usize| self.points[cycle[i % n].0];
+        let mut sums = vec![0.0; 2 * n + 1];
+        for i in 0..2 * n {
+            sums[i + 1] = sums[i] + at(i).coords.perp(&at(i + 1).coords);
+        }
+        let total = sums[n] / 2.0;
+        doors.into_iter().find_map(|(i, j)| {
+            let mut chords: Vec<(f64, usize, usize)> = Vec::new();
+            for p in i + 1..=j {
+                for q in j + 1..=i + n {
+                    let length = (at(p) - at(q)).norm();
+                    if length > REACH || length < WELD {
+                        continue;
+                    }
+                    let part = (sums[q] - sums[p] + at(q).coords.perp(&at(p).coords)) / 2.0;
+                    let rest = total - part;
+                    // Of the border of all walls one part lies outside.
+                    let is_floor = |area: f64| area >= LEAST_PART;
+                    if is_floor(part) && is_floor(rest) || total < 0.0 && is_floor(part.max(rest)) {
+                        chords.push((length, cycle[p % n].0, cycle[q % n].0));
+                    }
+                }
+            }
+            chords.sort_by(|a, b| a.0.total_cmp(&b.0));
+            chords.into_iter().map(|(_, a, b)| (a, b)).find(|&(a, b)| self.is_clear(a, b))
+        })
+    }
+
+    /// Whether a line between two nodes meets no edge on its way.
+    fn is_clear(&self, a: usize, b: usize) -> bool {
+        let line = (self.points[a], self.points[b]);
+        self.edges.iter().all(|&edge| {
+            [edge.0, edge.1].iter().any(|n| *n == a || *n == b)
+                && !(edge.0 == a && edge.1 == b)
+                && !(edge.0 == b && edge.1 == a)
+                || meeting(line, self.ends(edge)).is_none()
+        })
     }
 
     /// Leads free ends of walls across to the next wall, as few as give every door two sides.
