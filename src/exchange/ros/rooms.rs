@@ -8,7 +8,7 @@
 //!
 //! **Invariant**: equal grids give equal rooms in equal order: by their lowest, leftmost cell.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::exchange::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
 use crate::map::{Permeability, Properties};
@@ -32,8 +32,13 @@ const SMALLEST_PIECE: f64 = 10_000.0;
 const LARGEST_THING: f64 = 60_000.0;
 /// cm². Smaller islands are noise of the sensor.
 const SMALLEST_THING: f64 = 150.0;
+/// Cells. A smaller piece beside a cut is a pocket of it.
+const POCKET: usize = 40;
 /// cm. Niches shallower than this are levelled.
 const SHALLOW: f64 = 30.0;
+/// cm. What is this long and this thin may be a wall.
+const LONG: f64 = 180.0;
+const THICK: f64 = 30.0;
 /// A thing of a grid is known by its print only.
 const THING_HEIGHT: f64 = 75.0;
 const MOST_THINGS: usize = 5_000;
@@ -76,7 +81,8 @@ pub(super) fn furnish(
     kinds
 }
 
-/// Groups of cells that are not free and touch neither the border nor a wall; they become free. With their cells.
+/// Groups of cells that are not free and touch neither the border nor an outer wall, with their cells. They become
+/// free, but for those that may be walls between doorways: long and thin.
 fn islands(grid: &Grid, free: &mut [bool], cell_area: f64) -> Vec<Vec<usize>> {
     let (label, sizes) = grid.components(|c| !free[c]);
     let most = (LARGEST_THING / cell_area) as usize;
@@ -91,12 +97,27 @@ fn islands(grid: &Grid, free: &mut [bool], cell_area: f64) -> Vec<Vec<usize>> {
     let mut found = BTreeMap::<u32, Vec<usize>>::new();
     for cell in 0..free.len() {
         if label[cell] != u32::MAX && is_island[label[cell] as usize] {
-            free[cell] = true;
             found.entry(label[cell]).or_default().push(cell);
         }
     }
+    let size = cell_area.sqrt();
+    for cells in found.values().filter(|cells| !is_wall(grid, cells, size)) {
+        cells.iter().for_each(|cell| free[*cell] = true);
+    }
     let least = (SMALLEST_THING / cell_area).ceil() as usize;
     found.into_values().filter(|cells| cells.len() >= least.max(2)).collect()
+}
+
+/// Longer than [`LONG`] and, by its area over half of its border, no thicker than [`THICK`].
+fn is_wall(grid: &Grid, cells: &[usize], size: f64) -> bool {
+    let own: HashSet<usize> = cells.iter().copied().collect();
+    let border: usize =
+        cells.iter().map(|c| 4 - grid.beside(*c).filter(|n| own.contains(n)).count()).sum();
+    let places: Vec<Point> =
+        cells.iter().map(|c| grid.xy(*c)).map(|(x, y)| Point::new(x as f64, y as f64)).collect();
+    let (low, high) = outline::bounds(&places);
+    let thick = cells.len() as f64 * 2.0 / border.max(1) as f64;
+    (high - low).amax() * size >= LONG && thick * size <= THICK
 }
 
 /// Pieces of floor smaller than this are no floor. How many there were.
@@ -274,7 +295,7 @@ fn cut(
     // Each round takes back at least one cut of every piece that is too small.
     for _ in 0..8 {
         let (label, sizes) = pieces(grid, free, &cuts);
-        let mut back = std::collections::BTreeSet::new();
+        let mut back = BTreeSet::new();
         for (piece, _) in sizes.iter().enumerate().filter(|(_, s)| **s < least) {
             let beside = cuts.iter().enumerate().filter(|(_, cut)| {
                 cut.cells.iter().flat_map(|c| grid.beside(*c)).any(|n| label[n] == piece as u32)
@@ -291,26 +312,39 @@ fn cut(
     (label, sizes, cuts)
 }
 
-/// Pieces of the floor between the cuts. A cut that separates nothing is no border.
+/// Pieces of the floor between the cuts, numbered by their lowest, leftmost cell, and their sizes.
+///
+/// The cells of a cut, and the pockets that a slanting cut leaves along a wall, go to a piece beside them, so that the
+/// rooms meet in the doorway.
 fn pieces(grid: &Grid, free: &[bool], cuts: &[Cut]) -> (Vec<u32>, Vec<usize>) {
     let mut is_cut = vec![false; free.len()];
     for cell in cuts.iter().flat_map(|c| &c.cells) {
         is_cut[*cell] = true;
     }
-    let (mut label, mut sizes) = grid.components(|c| free[c] && !is_cut[c]);
-    // The cells of a cut go to a room beside it, so that the rooms meet in the doorway.
-    let mut open: Vec<usize> = cuts.iter().flat_map(|c| c.cells.iter().copied()).collect();
-    open.sort_unstable();
-    for cell in open {
-        let (x, y) = grid.xy(cell);
-        let beside = [(-1, 0), (0, -1), (1, 0), (0, 1)];
-        let beside = beside.iter().filter_map(|(dx, dy)| grid.at(x + dx, y + dy));
-        let lowest =
-            beside.filter(|n| !is_cut[*n]).map(|n| label[n]).filter(|l| *l != u32::MAX).min();
-        if let Some(room) = lowest {
+    let (raw, raw_sizes) = grid.components(|c| free[c] && !is_cut[c]);
+    let mut number = vec![u32::MAX; raw_sizes.len()];
+    let mut sizes = Vec::new();
+    for (piece, size) in raw_sizes.iter().enumerate().filter(|(_, size)| **size >= POCKET) {
+        number[piece] = sizes.len() as u32;
+        sizes.push(*size);
+    }
+    let named = |piece: u32| number.get(piece as usize).copied().unwrap_or(u32::MAX);
+    let mut label: Vec<u32> = raw.into_iter().map(named).collect();
+    // Outwards from what has a number, ring by ring.
+    let lost = |label: &[u32], c: usize| free[c] && label[c] == u32::MAX;
+    let mut open: Vec<usize> = (0..free.len()).filter(|c| lost(&label, *c)).collect();
+    while !open.is_empty() {
+        let beside = |c: usize| grid.beside(c).map(|n| label[n]).filter(|l| *l != u32::MAX).min();
+        let found: Vec<(usize, u32)> =
+            open.iter().filter_map(|c| Some((*c, beside(*c)?))).collect();
+        if found.is_empty() {
+            break;
+        }
+        for (cell, room) in found {
             label[cell] = room;
             sizes[room as usize] += 1;
         }
+        open.retain(|c| lost(&label, *c));
     }
     (label, sizes)
 }
@@ -402,7 +436,10 @@ fn things(
 ) -> (Vec<Kind>, usize) {
     let mut kinds = Vec::new();
     for island in islands.iter().take(MOST_THINGS) {
-        let Some(room) = Some(label[island[0]]).filter(|l| *l != u32::MAX) else { continue };
+        // Of a wall between rooms, several rooms are around it.
+        let around = island.iter().flat_map(|c| grid.beside(*c).chain([*c])).map(|c| label[c]);
+        let around: BTreeSet<u32> = around.filter(|l| *l != u32::MAX).collect();
+        let (Some(&room), 1) = (around.first(), around.len()) else { continue };
         let corners = island.iter().flat_map(|cell| {
             let (x, y) = grid.xy(*cell);
             [(0, 0), (1, 0), (0, 1), (1, 1)]
@@ -593,6 +630,33 @@ mod tests {
         check(&level, 2, 1);
         let jambs = level.openings[0].jambs;
         assert!((jambs[1] - jambs[0]).norm() < 95.0, "{jambs:?}");
+    }
+
+    #[test]
+    fn a_slanting_cut_leaves_no_pockets() {
+        // The jambs stand two cells apart from one another along the wall.
+        let mut plan = Plan::new(9.0, 5.0);
+        plan.fill([0.5, 0.5, 8.5, 4.5], Cell::Free);
+        plan.fill([4.0, 0.5, 4.05, 2.0], Cell::Occupied);
+        plan.fill([4.1, 2.9, 4.15, 4.5], Cell::Occupied);
+        check(&plan.read().0, 2, 1);
+    }
+
+    #[test]
+    fn a_wall_between_doorways_is_no_thing() {
+        // Four rooms around a cross of thin walls that touches no outer wall.
+        let mut plan = Plan::new(9.0, 9.0);
+        plan.fill([0.5, 0.5, 8.5, 8.5], Cell::Free);
+        plan.fill([4.4, 1.5, 4.5, 7.5], Cell::Occupied);
+        plan.fill([1.5, 4.4, 7.5, 4.5], Cell::Occupied);
+        let (level, kinds) = plan.read();
+        check(&level, 4, 4);
+        assert!(kinds.is_empty());
+        // A bench in the middle of a room is one.
+        plan.fill([1.5, 2.0, 3.0, 2.2], Cell::Occupied);
+        let (level, kinds) = plan.read();
+        check(&level, 4, 4);
+        assert_eq!((level.things.len(), kinds.len()), (1, 1));
     }
 
     #[test]
