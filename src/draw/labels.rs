@@ -147,13 +147,14 @@ impl Labels {
         self.put(canvas, text, &name);
     }
 
-    /// The name of a thing: on it where it fits, else near it with a thin line to it.
+    /// The name of a thing: on it where it fits, else near it with a thin line to it where `strays`.
     pub(super) fn on_thing(
         &mut self,
         canvas: &mut Canvas,
         thing: Bounds,
         text: &str,
         style: Lettering,
+        strays: bool,
     ) {
         let center = nalgebra::center(&thing.min, &thing.max);
         for share in [1.0, 0.85, 0.72] {
@@ -176,6 +177,9 @@ impl Labels {
                     }
                 }
             }
+        }
+        if !strays {
+            return;
         }
         let lettering = Lettering { size: style.size * 0.85, ..style };
         let (width, height) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);

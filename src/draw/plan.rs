@@ -134,6 +134,8 @@ const ROUTE: Style = Style::line("#1f5fbf", 4.0);
 const SIGHT: Style = Style::fill("#ffd766").faint(0.35);
 const SEEN: Style = Style::line("#e07b00", 3.4);
 const STAIRS: Style = Style::line("#b9b2a2", 1.2);
+/// From this pen on a sheet shows a large building: some twenty metres.
+const LARGE: f64 = 1.5;
 const INK: &str = "#2b2a27";
 const PLACE: &str = "#b3261e";
 
@@ -376,7 +378,9 @@ impl PlanDrawing<'_> {
         for thing in things {
             let replica = &self.world.replicas[&thing.id];
             let name = self.named(&replica.name, &replica.name_en);
-            labels.on_thing(canvas, thing.bounds, name, Lettering::plain(8.5 * pen, "#5b5647"));
+            // On the sheet of a large building names beside small things would hide the things.
+            let lettering = Lettering::plain(8.5 * pen, "#5b5647");
+            labels.on_thing(canvas, thing.bounds, name, lettering, pen < LARGE);
         }
     }
 
