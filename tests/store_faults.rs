@@ -107,8 +107,9 @@ fn what_was_acknowledged_outlives_the_writer() {
     let (mut known, mut replayed, mut torn) = (0, 0, 0);
     for round in 0..rounds("STORE_KILLS", 4) {
         let mut child = spawn(dir.path());
-        // Some are killed while they still recover from the last time.
-        std::thread::sleep(Duration::from_millis(dice.roll(160)));
+        // Some are killed while they still recover from the last time, some when sled has begun to follow.
+        let most = if dice.roll(6) == 0 { 900 } else { 160 };
+        std::thread::sleep(Duration::from_millis(dice.roll(most)));
         child.kill().expect("the writer can be killed");
         known = acknowledged(&mut child).max(known);
         child.wait().expect("the writer ends");

@@ -5,7 +5,7 @@ Each round, an ext4 file system on a loop device is shut down by ioctl while the
 synced is gone, as when the power goes), mounted again, and the store on it is opened and compared with what the
 writer said was done. Every fifth round begins with a new store, the others go on with the old one.
 
-Usage: sudo tests/faults/power-cut.py [ROUNDS]
+Usage: sudo tests/faults/power-cut.py [ROUNDS]. STORE_TEST_BINARY names a test binary that is built already.
 """
 import fcntl, os, random, shutil, struct, subprocess, sys, tempfile, threading, time
 
@@ -35,7 +35,7 @@ def listen(writer, done):
 def main():
     rounds = int(sys.argv[1]) if len(sys.argv) > 1 else 50
     root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..")
-    binary = test_binary(root)
+    binary = os.environ.get("STORE_TEST_BINARY") or test_binary(root)
     work = tempfile.mkdtemp()
     # A copy, since a build meanwhile would put another in its place.
     binary = shutil.copy(binary, os.path.join(work, "writer"))
