@@ -173,6 +173,9 @@ impl Feed<'_> {
                 sink, "within", a, to, hold, opening, w.escape, w.beneath, w.above, w.bulk, w.held
             );
         }
+        if let Some(apart) = found.apart {
+            row!(sink, "apart", a, to, apart);
+        }
         if let Some(bearing) = found.bearing {
             row!(sink, "sector", a, to, bearing, pair.distance, pair.level);
         }

@@ -38,6 +38,8 @@ pub struct Reach {
     pub escape: i64,
     /// How far from its Fragment a thing that is in no Area may be.
     pub outside: i64,
+    /// From the middle of one thing to what surrounds another, up to this; the standard rules do without it.
+    pub apart: i64,
 }
 
 impl Default for Reach {
@@ -49,6 +51,7 @@ impl Default for Reach {
             sink: 1_000,
             escape: 1_000,
             outside: 5_000,
+            apart: 0,
         }
     }
 }
@@ -116,6 +119,8 @@ pub struct Directed {
     pub within: Vec<Within>,
     /// Hundredths of a degree from the front of the other, counter-clockwise positive.
     pub bearing: Option<i64>,
+    /// From the middle of this thing to the hull of the other, from its bottom to its top.
+    pub apart: Option<i64>,
 }
 
 /// What stands between two things that are beside each other.
@@ -497,7 +502,8 @@ impl Measurements {
 
     /// All things that may be within reach of a body, itself among them if it is in the grid.
     fn around(&self, body: &Body, found: &mut Vec<ReplicaId>) {
-        let reach = cm(self.reach.distance.max(self.reach.beside).max(self.reach.sector));
+        let Reach { distance, beside, sector, apart, .. } = self.reach;
+        let reach = cm(distance.max(beside).max(sector).max(apart));
         match self.grids.get(&body.map) {
             Some(grid) => grid.near(&body.bounds.grown(reach), found),
             None => found.clear(),
@@ -517,7 +523,8 @@ impl Measurements {
                 && self.singles[&a.id].area() == self.singles[&b.id].area()
         };
         let least = sideways.hypot(upright.max(0.0));
-        if !(crossing || least <= cm(self.reach.distance) || in_sector(least)) {
+        let reach = cm(self.reach.distance.max(self.reach.apart));
+        if !(crossing || least <= reach || in_sector(least)) {
             return None;
         }
         let (distance, way) = surface_distance(a, b);
@@ -538,6 +545,11 @@ impl Measurements {
                 |seen: &Body, anchor: &Body| anchor.bearing_of(seen.centre).map(hundredths);
             pair.first.bearing = bearing(a, b);
             pair.second.bearing = bearing(b, a);
+        }
+        if self.reach.apart > 0 {
+            let near = |d: &i64| *d <= self.reach.apart;
+            pair.first.apart = Some(tenths(apart(a, b))).filter(near);
+            pair.second.apart = Some(tenths(apart(b, a))).filter(near);
         }
         if level.is_some() && pair.distance <= self.reach.beside {
             pair.beside = Some(Box::new(Beside {
@@ -826,6 +838,13 @@ pub(super) fn surface_distance(a: &Body, b: &Body) -> (f64, Gap) {
         }
     }
     best.expect("a body has at least one Orthoframe")
+}
+
+/// From the middle of `a` to the box round `b`: its hull, from its bottom to its top.
+fn apart(a: &Body, b: &Body) -> f64 {
+    let middle = f64::midpoint(a.bottom, a.top);
+    let upright = (b.bottom - middle).max(middle - b.top).max(0.0);
+    b.hull.distance_to(a.centre).hypot(upright)
 }
 
 pub(super) fn tenths(length: f64) -> i64 {

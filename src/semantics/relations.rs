@@ -166,6 +166,7 @@ impl RelationRules {
                 "sink" => rules.reach.sink = limit,
                 "escape" => rules.reach.escape = limit,
                 "outside" => rules.reach.outside = limit,
+                "apart" => rules.reach.apart = limit,
                 "step" => rules.step = limit,
                 _ => {}
             }

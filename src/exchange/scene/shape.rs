@@ -30,6 +30,8 @@ const LEG: f64 = 6.0;
 const SAME_LEVEL: f64 = 5.0;
 /// A foot this near to a roof stands on it, cm: the widest of the gaps by which the rules know support.
 const STANDS: f64 = 8.0;
+/// A foot deeper than this below a roof stands on something else, cm: as exact as a surveyed box is.
+const SUNK: f64 = 2.0;
 /// Height of a seat for people where nothing tells it, cm, and its greatest share of the whole.
 const SEAT: f64 = 45.0;
 const SEAT_SHARE: f64 = 0.6;
@@ -109,12 +111,13 @@ const WORDS: &[(Build, &[&str])] = &[
             "garbagecan",
             "laundryhamper",
             "pot",
-            "sink",
             "trashcan",
             "trash",
             "wastebasket",
         ],
     ),
+    // A rim with a basin in it: what stands on the rim and what lies in the basin.
+    (Build::Envelope, &["sink"]),
     (
         Build::Hung,
         &[
@@ -206,14 +209,15 @@ pub(super) fn levels(things: &[Crate]) -> Vec<Vec<f64>> {
         };
         let around: Vec<usize> = near.at(thing.at).filter(under).copied().collect();
         let carried = around.iter().any(|&i| {
-            (thing.bottom - things[i].top).abs() <= STANDS && things[i].build != Build::Hung
+            let gap = thing.bottom - things[i].top;
+            (-SUNK..=STANDS).contains(&gap) && things[i].build != Build::Hung
         });
         let holds = |&i: &usize| {
             let other = &things[i];
             other.build != Build::Hung
                 && other.volume() > thing.volume()
                 && thing.bottom >= other.bottom - STANDS
-                && thing.bottom < other.top - STANDS
+                && thing.bottom < other.top - SUNK
         };
         let holder = around.iter().copied().filter(holds);
         let smallest = holder.min_by(|&i, &j| things[i].volume().total_cmp(&things[j].volume()));

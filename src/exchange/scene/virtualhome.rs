@@ -226,7 +226,27 @@ fn floors(graph: &Value, nodes: &[Node<'_>]) -> BTreeMap<String, Vec<Vec<Point>>
             floors.entry(to).or_default().push(tile.outline());
         }
     }
+    flush(&mut floors);
     floors
+}
+
+/// Makes the edges of tiles meet that miss each other by the rounding of their places, or by the thickness of a panel.
+fn flush(floors: &mut BTreeMap<String, Vec<Vec<Point>>>) {
+    /// Edges nearer than this are one edge, cm.
+    const JOINT: f64 = 3.0;
+    let edges = |along: fn(&Point) -> f64| {
+        let mut all: Vec<f64> = floors.values().flatten().flatten().map(along).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|next, kept| *next - *kept < JOINT);
+        all
+    };
+    let (x, y) = (edges(|p| p.x), edges(|p| p.y));
+    let edge = |all: &[f64], v: f64| {
+        all.get(all.partition_point(|kept| *kept <= v).wrapping_sub(1)).copied().unwrap_or(v)
+    };
+    for p in floors.values_mut().flatten().flatten() {
+        *p = Point::new(edge(&x, p.x), edge(&y, p.y));
+    }
 }
 
 fn rooms(nodes: &[Node<'_>], floors: &BTreeMap<String, Vec<Vec<Point>>>) -> Vec<Room> {
