@@ -137,6 +137,9 @@ fn passages_of_osmag_join_the_areas_that_they_name() {
     assert_eq!(lost, ["-175029"]);
 
     let world = &school.world;
+    for area in world.areas.values() {
+        assert_eq!(world.find(&area.name).len(), 1, "{}: one room bears the name", area.name);
+    }
     let joined: BTreeMap<&str, BTreeSet<&str>> = world
         .doors
         .values()

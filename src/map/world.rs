@@ -222,7 +222,11 @@ impl World {
     #[must_use]
     pub fn find(&self, name: &str) -> Vec<Entity> {
         let key = name_key(name);
-        self.names().filter(|(_, n)| name_key(n) == key).map(|(e, _)| e).collect()
+        let mut found: Vec<Entity> =
+            self.names().filter(|(_, n)| name_key(n) == key).map(|(e, _)| e).collect();
+        // A name that is the same in both languages is still one entity's.
+        found.dedup();
+        found
     }
 
     /// Every name of every entity that a person can speak of, Russian and English.
