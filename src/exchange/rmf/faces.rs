@@ -273,7 +273,7 @@ impl Graph {
             for p in i + 1..=j {
                 for q in j + 1..=i + n {
                     let length = (at(p) - at(q)).norm();
-                    if length > REACH || length < WELD {
+                    if !(WELD..=REACH).contains(&length) {
                         continue;
                     }
                     let part = (sums[q] - sums[p] + at(q).coords.perp(&at(p).coords)) / 2.0;
