@@ -340,9 +340,9 @@ impl Measurements {
             for b in near.iter().filter(|&&b| b > a.id).map(|b| &self.bodies[b]) {
                 if let Some(mut pair) = self.pair(a, b) {
                     let key = (a.id, b.id);
-                    if pair.beside.is_some() {
-                        let found = self.between(key, &pair);
-                        pair.beside.as_mut().expect("looked up above").between = found;
+                    let between = pair.beside.as_ref().map(|_| self.between(key, &pair));
+                    if let Some((beside, between)) = pair.beside.as_mut().zip(between) {
+                        beside.between = between;
                     }
                     pairs.push((key, pair));
                 }
