@@ -366,7 +366,10 @@ fn comparison(input: Input<'_>) -> Read<'_, Body> {
 }
 
 fn expression(input: Input<'_>) -> Read<'_, Expr> {
-    let (rest, value) = bits(input)?;
+    let (mut rest, mut value) = sum(input)?;
+    if bit_word(rest).is_some() {
+        (rest, value) = bits(rest, value)?;
+    }
     if depth(&value) > MAX_CHAIN {
         let at = value.at().into();
         return input.refuse(RuleError::TooLarge {
@@ -386,17 +389,52 @@ fn depth(expr: &Expr) -> usize {
     }
 }
 
-// a bor b bxor c band d bshl 1: Soufflé's words between operands, the loosest first.
-fn bits(input: Input<'_>) -> Read<'_, Expr> {
-    let shift =
-        |input| chain(sum, &[("bshl", Functor::ShiftLeft), ("bshr", Functor::ShiftRight)], input);
-    let and = |input| chain(shift, &[("band", Functor::BitAnd)], input);
-    let xor = |input| chain(and, &[("bxor", Functor::BitXor)], input);
-    chain(xor, &[("bor", Functor::BitOr)], input)
+/// Soufflé's words between operands, the loosest first; the two shifts bind equally.
+const BITS: [(&str, Functor, u8); 5] = [
+    ("bor", Functor::BitOr, 0),
+    ("bxor", Functor::BitXor, 1),
+    ("band", Functor::BitAnd, 2),
+    ("bshl", Functor::ShiftLeft, 3),
+    ("bshr", Functor::ShiftRight, 3),
+];
+
+fn bit_word(input: Input<'_>) -> Option<(Input<'_>, Functor, u8)> {
+    BITS.iter().find_map(|(word, functor, binds)| Some((operator(word, input)?, *functor, *binds)))
 }
 
+/// What stands behind the first operand of a word. One level for all words: brackets within brackets are deep enough.
+fn bits(input: Input<'_>, first: Expr) -> Read<'_, Expr> {
+    let (mut rest, mut value) = (input, first);
+    let mut waiting: Vec<(Expr, Functor, u8)> = Vec::new();
+    while let Some((behind, functor, binds)) = bit_word(rest) {
+        if waiting.len() > MAX_CHAIN {
+            let at = rest.at().into();
+            return rest.refuse(RuleError::TooLarge {
+                what: "действий подряд",
+                limit: MAX_CHAIN,
+                at,
+            });
+        }
+        while let Some((left, before, _)) = waiting.pop_if(|(_, _, before)| *before >= binds) {
+            value = joined(left, before, value);
+        }
+        waiting.push((value, functor, binds));
+        (rest, value) = sum(behind)?;
+    }
+    while let Some((left, functor, _)) = waiting.pop() {
+        value = joined(left, functor, value);
+    }
+    Ok((rest, value))
+}
+
+#[inline]
 fn sum(input: Input<'_>) -> Read<'_, Expr> {
     chain(product, &[("+", Functor::Add), ("-", Functor::Subtract)], input)
+}
+
+fn joined(left: Expr, functor: Functor, right: Expr) -> Expr {
+    let at = left.at().to(right.at());
+    Expr::Call { functor, args: vec![left, right], at }
 }
 
 fn product(input: Input<'_>) -> Read<'_, Expr> {
