@@ -103,6 +103,39 @@ impl Buckets {
             found.dedup();
         }
     }
+    /// The boxes that a segment may meet, written into `found`.
+    pub(super) fn along(&self, a: Point, b: Point, found: &mut Vec<u32>) {
+        const TOUCH: f64 = 1e-6;
+        let reach = Bounds::of([a, b]).grown(TOUCH);
+        found.clear();
+        if self.columns == 0 || !self.bounds.meets(&reach) {
+            return;
+        }
+        let (low, high) = if a.y <= b.y { (a, b) } else { (b, a) };
+        let ((_, bottom), (_, top)) = (self.column_row(reach.min), self.column_row(reach.max));
+        for row in bottom..=top {
+            // Where the segment enters and leaves the row; the outermost rows go on for ever.
+            let floor = self.bounds.min.y + row as f64 * self.size;
+            let at = |y: f64| {
+                let rise = high.y - low.y;
+                let share = if rise > TOUCH { ((y - low.y) / rise).clamp(0.0, 1.0) } else { 0.0 };
+                low.x + (high.x - low.x) * share
+            };
+            let (from, to) = if high.y - low.y > TOUCH {
+                (at(floor - TOUCH), at(floor + self.size + TOUCH))
+            } else {
+                (low.x, high.x)
+            };
+            let y = floor + self.size / 2.0;
+            let (left, _) = self.column_row(Point::new(from.min(to) - TOUCH, y));
+            let (right, _) = self.column_row(Point::new(from.max(to) + TOUCH, y));
+            for column in left..=right {
+                found.extend_from_slice(self.bucket(row * self.columns + column));
+            }
+        }
+        found.sort_unstable();
+        found.dedup();
+    }
 }
 
 #[cfg(test)]
@@ -126,6 +159,15 @@ mod tests {
                 assert!(!wanted.meets(other) || found.contains(&(k as u32)), "{i} {k}");
             }
             assert!(buckets.near(wanted.min).contains(&(i as u32)));
+            // Every point of a segment lies in boxes that are found along it.
+            let (a, b) = (wanted.min, boxes[(i * 71 + 5) % boxes.len()].max);
+            buckets.along(a, b, &mut found);
+            for step in 0..=50 {
+                let p = a + (b - a) * (f64::from(step) / 50.0);
+                for (k, other) in boxes.iter().enumerate() {
+                    assert!(!other.contains(p) || found.contains(&(k as u32)), "{i} {k}");
+                }
+            }
         }
     }
 

@@ -33,6 +33,9 @@ pub(super) struct Mesh {
     across: Vec<u32>,
     /// Which cells hang together.
     pub(super) component: Vec<u32>,
+    /// The cell that a branch of cells hangs on: a way enters the branch over it alone, and leaves it there again.
+    /// [`NONE`] for cells in a ring, and for the last of a tree.
+    pub(super) trunk: Vec<u32>,
     buckets: Buckets,
 }
 
@@ -61,6 +64,7 @@ impl Mesh {
         }
         mesh.is_corner = edges.corners();
         mesh.component = mesh.components();
+        mesh.trunk = mesh.trunks();
         mesh.buckets = Buckets::of(&mesh.boxes());
         mesh
     }
@@ -171,10 +175,10 @@ impl Mesh {
         (from <= to).then_some((from, to))
     }
 
-    /// The cells whose boxes meet that of segment `a`-`b`.
+    /// The cells whose boxes come near segment `a`-`b`.
     pub(super) fn near_segment(&self, a: Point, b: Point) -> Vec<u32> {
         let mut found = Vec::new();
-        self.buckets.meeting(&Bounds::of([a, b]).grown(1e-6), &mut found);
+        self.buckets.along(a, b, &mut found);
         found
     }
 
@@ -198,6 +202,28 @@ impl Mesh {
     pub(super) fn sees(&self, a: Point, b: Point) -> bool {
         let close = 1e-3 / (b - a).norm().max(1e-3);
         matches!(self.stretches(a, b)[..], [(from, to)] if from <= close && to >= 1.0 - close)
+    }
+
+    /// Cuts cells off that hang on one border, again and again.
+    fn trunks(&self) -> Vec<u32> {
+        let borders = |c: u32| self.across(c).iter().copied().filter(|&o| o != NONE);
+        let mut left: Vec<usize> = self.cells().map(|c| borders(c).count()).collect();
+        let mut trunk = vec![NONE; self.len()];
+        let mut leaves: Vec<u32> = self.cells().filter(|&c| left[c as usize] == 1).collect();
+        while let Some(leaf) = leaves.pop() {
+            if left[leaf as usize] != 1 {
+                continue;
+            }
+            left[leaf as usize] = 0;
+            if let Some(on) = borders(leaf).find(|&o| left[o as usize] > 0) {
+                trunk[leaf as usize] = on;
+                left[on as usize] -= 1;
+                if left[on as usize] == 1 {
+                    leaves.push(on);
+                }
+            }
+        }
+        trunk
     }
 
     fn components(&self) -> Vec<u32> {

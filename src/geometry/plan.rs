@@ -529,11 +529,34 @@ impl Branches {
     }
 }
 
-/// The cells of a plan as a search may use them.
+/// The cells of a plan as a search for one goal may use them.
 pub(super) struct Walkable<'a> {
-    pub(super) plan: &'a FloorPlan,
-    /// Fragments to stay in, sorted; all if none are named.
-    pub(super) within: Option<Vec<u32>>,
+    plan: &'a FloorPlan,
+    /// Fragments to stay in, sorted.
+    within: &'a [u32],
+    /// The cells of branches that lead to the goal or to a Fragment that may be passed, sorted: a way never enters
+    /// the other branches, since it would have to come back over the same border.
+    branches: Vec<CellKey>,
+}
+
+impl<'a> Walkable<'a> {
+    pub(super) fn toward(plan: &'a FloorPlan, within: &'a [u32], goal: CellKey) -> Self {
+        let admitted = |p: &&Portal| within.binary_search(&p.to.0).is_ok();
+        let exits = within.iter().flat_map(|&n| plan.portals[n as usize].iter().filter(admitted));
+        let mut branches: Vec<CellKey> = Vec::new();
+        for (number, cell) in exits.map(|p| p.from).chain([goal]) {
+            let trunk = &plan.floor(number).cells.trunk;
+            let mut at = cell;
+            while trunk[at as usize] != super::mesh::NONE && branches.last() != Some(&(number, at))
+            {
+                branches.push((number, at));
+                at = trunk[at as usize];
+            }
+        }
+        branches.sort_unstable();
+        branches.dedup();
+        Self { plan, within, branches }
+    }
 }
 
 impl Cells for Walkable<'_> {
@@ -541,7 +564,10 @@ impl Cells for Walkable<'_> {
         let mesh = &self.plan.floor(cell.0).cells;
         let ring = mesh.ring(cell.1);
         for (i, &across) in mesh.across(cell.1).iter().enumerate() {
-            if across == super::mesh::NONE {
+            if across == super::mesh::NONE
+                || (mesh.trunk[across as usize] == cell.1
+                    && self.branches.binary_search(&(cell.0, across)).is_err())
+            {
                 continue;
             }
             let (u, v) = (ring[i] as usize, ring[(i + 1) % ring.len()] as usize);
@@ -554,7 +580,7 @@ impl Cells for Walkable<'_> {
             });
         }
         for portal in self.plan.portals_of(cell) {
-            if self.within.as_ref().is_none_or(|w| w.binary_search(&portal.to.0).is_ok()) {
+            if self.within.binary_search(&portal.to.0).is_ok() {
                 let Portal { right, left, to, .. } = *portal;
                 visit(Edge { right, left, right_bends: true, left_bends: true, to });
             }

@@ -131,10 +131,9 @@ impl FloorPlan {
             let useful = self.between(start.cell.0, goal.anchor.cell.0);
             let admitted = |n: &u32| within.as_ref().is_none_or(|w| w.contains(n));
             let useful: Vec<u32> = useful.into_iter().filter(admitted).collect();
-            let walkable = Walkable { plan: self, within: Some(useful.clone()) };
             let points = match method {
-                Method::Shortest => self.shortest_points(&walkable, &start, &goal.anchor),
-                Method::Paper => self.paper_points(&walkable, &start, &goal.anchor),
+                Method::Shortest => self.shortest_points(&useful, &start, &goal.anchor),
+                Method::Paper => self.paper_points(&useful, &start, &goal.anchor),
             };
             let Some(points) = points else { continue };
             let length = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
@@ -428,23 +427,14 @@ impl FloorPlan {
             .all(|(u, v)| super::doors::segment_distance(a, stop, u, v) > 0.0)
     }
 
-    fn shortest_points(
-        &self,
-        walkable: &Walkable<'_>,
-        start: &Anchor,
-        goal: &Anchor,
-    ) -> Option<Vec<Point>> {
-        shortest(walkable, start.at, start.cell, goal.at, goal.cell).map(|way| way.points)
+    fn shortest_points(&self, within: &[u32], start: &Anchor, goal: &Anchor) -> Option<Vec<Point>> {
+        let walkable = Walkable::toward(self, within, goal.cell);
+        shortest(&walkable, start.at, start.cell, goal.at, goal.cell).map(|way| way.points)
     }
 
     /// The paper's way: a chain found depth-first, then the middles of the borders crossed. Where the straight
     /// line between two of them would bring the robot too near to something, it is bent round that.
-    fn paper_points(
-        &self,
-        walkable: &Walkable<'_>,
-        start: &Anchor,
-        goal: &Anchor,
-    ) -> Option<Vec<Point>> {
+    fn paper_points(&self, within: &[u32], start: &Anchor, goal: &Anchor) -> Option<Vec<Point>> {
         let frame = |a: &Anchor| {
             let floor = self.floor(a.cell.0);
             let cell = floor.frames.locate(a.at, 1e-3);
@@ -454,7 +444,7 @@ impl FloorPlan {
         let (from, to) = (frame(start)?, frame(goal)?);
         let mut visited = HashSet::from([from]);
         let mut chain: Vec<(CellKey, Vec<(Point, CellKey)>)> =
-            vec![(from, self.next_frames(walkable, from, goal.at))];
+            vec![(from, self.next_frames(within, from, goal.at))];
         let mut middles: Vec<Point> = Vec::new();
         while let Some((frame, untried)) = chain.last_mut() {
             if *frame == to {
@@ -464,7 +454,7 @@ impl FloorPlan {
             match untried.pop() {
                 Some((middle, next)) if visited.insert(next) => {
                     middles.push(middle);
-                    let further = self.next_frames(walkable, next, goal.at);
+                    let further = self.next_frames(within, next, goal.at);
                     chain.push((next, further));
                 }
                 Some(_) => {}
@@ -487,8 +477,8 @@ impl FloorPlan {
                 points.push(next);
             } else {
                 let (a, b) = (self.anchor(from, None, None)?, self.anchor(next, None, None)?);
-                let way = shortest(walkable, a.at, a.cell, b.at, b.cell)?;
-                points.extend(way.points.into_iter().skip(1));
+                let way = self.shortest_points(within, &a, &b)?;
+                points.extend(way.into_iter().skip(1));
             }
         }
         if points.len() == 1 {
@@ -498,12 +488,7 @@ impl FloorPlan {
     }
 
     /// The Passframes that can be entered from one, each over the middle of the border, the nearest to the goal last.
-    fn next_frames(
-        &self,
-        walkable: &Walkable<'_>,
-        key: CellKey,
-        goal: Point,
-    ) -> Vec<(Point, CellKey)> {
+    fn next_frames(&self, within: &[u32], key: CellKey, goal: Point) -> Vec<(Point, CellKey)> {
         let floor = self.floor(key.0);
         let mut next = Vec::new();
         for border in &floor.passframes[key.1 as usize].borders {
@@ -513,7 +498,7 @@ impl FloorPlan {
                 Beyond::Passframe(_) => next.push((middle, (key.0, border.across))),
                 Beyond::Doorway { area, .. } => {
                     let Some(number) = self.number(area).map(|n| n as u32) else { continue };
-                    let admitted = walkable.within.as_ref().is_none_or(|w| w.contains(&number));
+                    let admitted = within.binary_search(&number).is_ok();
                     let cell = self.floor(number).frames.locate(middle, 0.01);
                     let crosses = self.floor(number).cells.locate(middle, 0.01).is_some();
                     if let (true, true, Some(cell)) = (admitted, crosses, cell) {
@@ -532,8 +517,14 @@ impl FloorPlan {
         let mut chain: Vec<(AreaId, PassframeId)> = Vec::new();
         let mut doorways = Vec::new();
         let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.floor(n)).collect();
-        let near: BTreeSet<usize> =
-            fragments.iter().flat_map(|f| f.exits.iter().map(|e| e.doorway)).collect();
+        let is_among = |&a: &AreaId| fragments.binary_search_by_key(&a, |f| f.area).is_ok();
+        let mut near: Vec<usize> = fragments
+            .iter()
+            .flat_map(|f| f.exits.iter().map(|e| e.doorway))
+            .filter(|&d| self.doorways()[d].areas.iter().all(is_among))
+            .collect();
+        near.sort_unstable();
+        near.dedup();
         for leg in points.windows(2) {
             let length = (leg[1] - leg[0]).norm();
             let reach = super::Bounds::of([leg[0], leg[1]]).grown(1.0);
