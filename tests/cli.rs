@@ -832,3 +832,43 @@ fn relations_are_kept_in_the_store_for_its_map_and_rules() {
     assert_eq!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
     assert_eq!(std::fs::read(&kept).unwrap(), bytes);
 }
+
+#[test]
+fn a_question_is_answered_with_its_rule_and_proof() {
+    let place = Place::with_rb2();
+    let run = place.run(&["ask", "Что на Столе-1?", "--explain"]);
+    assert_eq!(run.code, 0, "{}", run.err);
+    assert!(run.out.starts_with("На Столе-1 находятся Книга-4 и Чашка-1.\n"), "{}", run.out);
+    assert!(
+        run.out.contains("ответ(X) :- ") && run.out.contains("НАХОДИТСЯ_СВЕРХУ_НА"),
+        "{}",
+        run.out
+    );
+    let run = place.run(&["--json", "ask", "How many chairs are in Room Z?"]);
+    let view: Value = serde_json::from_str(&run.out).unwrap();
+    assert_eq!((&view["outcome"], &view["number"]), (&Value::from("found"), &Value::from(4.0)));
+    assert_eq!(view["bindings"].as_array().unwrap().len(), 4);
+    let codes = ["Стул-1 белый?", "Где чашка?"].map(|question| place.run(&["ask", question]).code);
+    assert_eq!(codes, [1, 2]);
+}
+
+#[test]
+fn a_dialogue_from_a_pipe_keeps_what_was_said() {
+    use std::io::Write as _;
+    let place = Place::with_rb2();
+    let mut child =
+        place.command(&["talk"]).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let lines = "Где чашка?\nкрасная\nКакого она цвета?\nОткрой Дверь-ВZ\nвыход\n";
+    child.stdin.take().unwrap().write_all(lines.as_bytes()).unwrap();
+    let output = child.wait_with_output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}");
+    for said in [
+        "это Чашка-1 (белая) или Чашка-2 (красная)?",
+        "Чашка-2 находится на Тумбе-3 в Комнате-Z.",
+        "Чашка-2 красная.",
+    ] {
+        assert!(text.contains(said), "{text}");
+    }
+    assert!(text.lines().count() > 3, "the command was answered too: {text}");
+}

@@ -30,5 +30,6 @@ mod store;
 mod store_faults;
 mod store_world;
 mod story;
+mod talk;
 mod words;
 mod worlds;

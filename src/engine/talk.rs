@@ -144,7 +144,16 @@ impl Senses for RobotSenses<'_> {
         let answer = self.engine.route(&from, &to, Method::Shortest).map_err(|e| e.to_string())?;
         let sentences = self.engine.route_in_words(&answer, language);
         match answer.route {
-            Ok(route) => Ok(Way { length: route.length, sentences: sentences.unwrap_or_default() }),
+            Ok(route) => {
+                let mut sentences = sentences.unwrap_or_default();
+                // The last one names the goal, which the question has named already.
+                let names_goal =
+                    |s: &String| s.starts_with("Цель: ") || s.starts_with("The goal: ");
+                if sentences.len() > 1 && sentences.last().is_some_and(names_goal) {
+                    sentences.pop();
+                }
+                Ok(Way { length: route.length, sentences })
+            }
             Err(why) => Err(why.to_string()),
         }
     }

@@ -13,6 +13,8 @@ struct Rule<'k, 'a> {
     knowledge: &'k Knowledge<'a>,
     atoms: Vec<String>,
     variables: usize,
+    /// Rules of relations that a negation needs.
+    helpers: Vec<String>,
 }
 
 const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
@@ -20,18 +22,21 @@ const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
 impl Knowledge<'_> {
     /// `ответ(X) :- …`, or a remark where a question is one of geometry or history, which no rule answers.
     pub(super) fn rule(&self, query: &Query) -> String {
-        let mut rule = Rule { knowledge: self, atoms: Vec::new(), variables: 0 };
+        let mut rule =
+            Rule { knowledge: self, atoms: Vec::new(), variables: 0, helpers: Vec::new() };
         let head = match self.language {
             Language::Russian => "ответ",
             Language::English => "answer",
         };
         let (arguments, remark) = rule.read(query);
         let remark = if remark.is_empty() { String::new() } else { format!("   // {remark}") };
-        match rule.atoms.is_empty() {
+        let text = match rule.atoms.is_empty() {
             true if arguments.is_empty() => format!("// {}", query.kind()),
             true => format!("{head}({arguments}).{remark}"),
             false => format!("{head}({arguments}) :- {}.{remark}", rule.atoms.join(", ")),
-        }
+        };
+        rule.helpers.push(text);
+        rule.helpers.join("\n")
     }
 }
 
@@ -326,8 +331,22 @@ impl Rule<'_, '_> {
             self.atoms.push(format!("stands_on_floor({term}, _)"));
             return;
         }
+        if !restriction.negated {
+            let other = self.noun(anchor);
+            return self.related(restriction.rel, term, &other, false);
+        }
+        // "no wardrobe" speaks of all wardrobes: a relation of its own says which rooms have one.
+        let before = std::mem::take(&mut self.atoms);
         let other = self.noun(anchor);
-        self.related(restriction.rel, term, &other, restriction.negated);
+        if self.atoms.is_empty() {
+            self.atoms = before;
+            return self.related(restriction.rel, term, &other, true);
+        }
+        self.related(restriction.rel, term, &other, false);
+        let body = std::mem::replace(&mut self.atoms, before).join(", ");
+        let name = self.knowledge.pick("есть", "has_one");
+        self.helpers.push(format!(".decl {name}(x: Any)\n{name}({term}) :- {body}."));
+        self.atoms.push(format!("!{name}({term})"));
     }
 
     fn related(&mut self, rel: Rel, term: &str, other: &str, negated: bool) {

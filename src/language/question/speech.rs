@@ -35,11 +35,11 @@ impl Knowledge<'_> {
                 let area = self.named(Thing::Entity(Entity::Area(window.area)));
                 if window.name.is_empty() {
                     let russian = format!("окно {}", area.phrase().case(Case::Genitive));
-                    let english = format!("the window of {}", area.english());
+                    let english = window_of(&area.english());
                     return Named::new(&russian, &WordHints::default(), Some(&english));
                 }
                 let area = self.named(Thing::Entity(Entity::Area(window.area)));
-                let english = format!("the window of {}", area.english());
+                let english = window_of(&area.english());
                 let english =
                     Some(english).filter(|_| Language::of(&window.name) == Language::Russian);
                 Named::new(&window.name, &WordHints::default(), english.as_deref())
@@ -343,6 +343,12 @@ impl Knowledge<'_> {
             (Frame::Viewer, false) => " (as seen from where I stand)".to_owned(),
         }
     }
+}
+
+/// "the window of Room V"; without its article where one is put before a common name.
+fn window_of(area: &str) -> String {
+    let article = if area.starts_with("the ") { "" } else { "the " };
+    format!("{article}window of {area}")
 }
 
 /// «40 см», «1,5 м», "1.5 m"

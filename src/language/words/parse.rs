@@ -402,7 +402,10 @@ pub(crate) fn may_be_noun(said: &str) -> bool {
     };
     let lower = to_cyrillic(word).to_lowercase();
     let readings = dictionary::readings(&lower);
-    readings.noun || !readings.known
+    // A form that the dictionary knows is a noun's oblique case, unless it ends as verbs do.
+    const VERBAL: [&str; 14] =
+        ["ет", "ёт", "ит", "ют", "ут", "ат", "ят", "ть", "л", "ла", "ло", "ли", "ся", "шь"];
+    readings.noun || !readings.known || !VERBAL.iter().any(|ending| lower.ends_with(ending))
 }
 
 /// Whether the word can be the nominative of a noun, as far as anything here knows it.
