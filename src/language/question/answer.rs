@@ -446,7 +446,7 @@ impl Knowledge<'_> {
                 }
             }
         }
-        let text = parts.join(if self.is_russian() { "; " } else { "; " });
+        let text = parts.join("; ");
         let said = if rooms.is_empty() { Said::Unknown } else { Said::Found };
         Ok(Draft { facts, ..Draft::new(said, text).with(rooms) }.about(&found))
     }
@@ -2038,7 +2038,7 @@ impl Knowledge<'_> {
         parts.push(match (kind, self.is_russian()) {
             (Some(kind), true) => format!("{name} – {kind}"),
             (Some(kind), false) => format!("{name} is {}", crate::language::english::a(&kind)),
-            (None, _) => name.clone(),
+            (None, _) => name,
         });
         parts.push(self.where_one(thing, &mut facts));
         let values: Vec<String> = self

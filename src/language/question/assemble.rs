@@ -781,7 +781,8 @@ impl<'s, 't> Frame<'s, 't> {
         let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
         let rooms = self.nouns.iter().any(|s| self.is_rooms(&s.noun) || self.is_area(&s.noun));
-        if !self.has(Mark::Lead) && !(self.has(Mark::Move) && self.asks()) {
+        let leads = self.has(Mark::Lead) || (self.has(Mark::Move) && self.asks());
+        if !leads {
             return None;
         }
         if let Some(door) = door

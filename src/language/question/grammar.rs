@@ -67,6 +67,7 @@ pub(super) struct Sentence<'t> {
 }
 
 /// One part of a question.
+#[expect(clippy::large_enum_variant, reason = "a sentence has a dozen of them, read once")]
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Item {
     Mark(Mark),
@@ -147,6 +148,10 @@ impl<'a> Input for Tokens<'a> {
         if count <= self.0.len() { Ok(count) } else { Err(Needed::new(count - self.0.len())) }
     }
 }
+
+/// What a noun's head was, with its owner and how it belongs to that.
+type HeadParsed<'a, 's> =
+    Result<(Tokens<'a>, Option<&'s Found>, Option<(Rel, Noun)>), nom::Err<Error<Tokens<'a>>>>;
 
 type Parsed<'a, O> = IResult<Tokens<'a>, O>;
 
@@ -487,11 +492,7 @@ impl<'t> Sentence<'t> {
     }
 
     /// The head, and its owner with the relation to it.
-    fn head<'a>(
-        &self,
-        input: Tokens<'a>,
-    ) -> Result<(Tokens<'a>, Option<&Found>, Option<(Rel, Noun)>), nom::Err<Error<Tokens<'a>>>>
-    {
+    fn head<'a>(&self, input: Tokens<'a>) -> HeadParsed<'a, '_> {
         let (rest, found) = match input.split_first() {
             Some((Token { kind: Tok::Noun(n), .. }, rest)) => (rest, &self.nouns[*n as usize]),
             Some((Token { kind: Tok::Mark(Mark::One), .. }, rest)) => {
