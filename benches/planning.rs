@@ -1,40 +1,46 @@
 //! How long the planner takes, on the families that planners are measured on and on a home robot's tasks.
 //!
-//! `cargo bench --bench planning [-- NAME]` prints a line an instance: size, grounding, planning (processor time is
-//! what counts on a busy machine; these are seconds of the clock), the answer, and the same for a plan soon.
-//! Home-robot instances are read from the folder named by `HOMEBOT`, if it is set. `SECONDS` limits each instance.
+//! `cargo bench --bench planning [-- NAME]` prints a row of a table an instance, each measured in a process of its
+//! own: processor time from the texts to the answer, and the most memory held. `SECONDS` limits each (60).
+//! `-- --replan NAME …` withdraws one initial fact after the other and compares planning anew with planning with
+//! what was learned. Home-robot instances are read from the folder named by `HOMEBOT`, if it is set.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-use orthoframe::graphplan::{Limits, Outcome, solve, solve_any, validate};
+use cpu_time::ProcessTime;
+use orthoframe::graphplan::{Limits, Outcome, solve, solve_any, solve_learning, validate};
 use orthoframe::strips::{RuleFaults, Scenario, Task};
 use orthoframe::units::Source;
 
 #[path = "planning/families.rs"]
 mod families;
 
+/// Least seconds in which a peer proves the fewest steps of a home robot's task.
+const HOME_ROBOT: [(&str, f64); 3] = [("h2", 0.007), ("h3", 0.029), ("h4", 1.39)];
+
 fn main() {
-    let wanted = std::env::args().skip(1).find(|arg| !arg.starts_with('-')).unwrap_or_default();
-    println!(
-        "{:24} {:>6} {:>7} {:>7} {:>8}  answer; soon",
-        "instance", "facts", "actions", "ground", "plan"
-    );
-    for instance in families::all().into_iter().filter(|instance| instance.name.contains(&wanted)) {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
+    match arguments.as_slice() {
+        [flag, name] if flag == "--alone" => alone(name),
+        [flag, names @ ..] if flag == "--replan" => names.iter().for_each(|name| replan(name)),
+        _ => table(arguments.first().map_or("", String::as_str)),
+    }
+}
+
+/// What is measured by name: an instance of the families, a home robot's task, or the paper's walk.
+fn scenario(name: &str) -> Result<Scenario, RuleFaults> {
+    let drawn = families::all().into_iter().map(|measured| measured.instance);
+    if let Some(instance) = drawn.into_iter().find(|instance| instance.name == name) {
         let domain = Source::new("domain", &instance.domain);
-        let problem = Source::new("problem", &instance.problem);
-        measure(&instance.name, || Scenario::parse_pddl(&domain, &problem));
+        return Scenario::parse_pddl(&domain, &Source::new("problem", &instance.problem));
     }
-    for problem in home_robot().into_iter().filter(|path| path.to_string_lossy().contains(&wanted))
-    {
-        let name = problem.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let domain = problem.with_file_name("domain.pddl");
-        measure(&name, || Scenario::read_pddl(&domain, &problem));
-    }
-    let walk = Path::new(env!("CARGO_MANIFEST_DIR")).join("rules/scenarios/medicine-walk.strips");
-    if "medicine-walk".contains(&wanted) {
-        measure("medicine-walk", || Scenario::read(&walk));
+    match home_robot().into_iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)) {
+        Some(problem) => Scenario::read_pddl(&problem.with_file_name("domain.pddl"), &problem),
+        None => Scenario::read(
+            &Path::new(env!("CARGO_MANIFEST_DIR")).join("rules/scenarios/medicine-walk.strips"),
+        ),
     }
 }
 
@@ -48,37 +54,113 @@ fn home_robot() -> Vec<PathBuf> {
     problems
 }
 
-fn measure(name: &str, read: impl Fn() -> Result<Scenario, RuleFaults>) {
-    let started = Instant::now();
-    let task = match read().and_then(|scenario| scenario.ground()) {
-        Ok(task) => task,
-        Err(faults) => return println!("{name:24} {faults}"),
-    };
-    let ground = started.elapsed();
-    let seconds = std::env::var("SECONDS").ok().and_then(|text| text.parse().ok()).unwrap_or(60);
-    let timed = |solver: fn(&Task, &Limits) -> Outcome| {
-        let started = Instant::now();
-        let deadline = Some(started + Duration::from_secs(seconds));
-        let outcome = solver(&task, &Limits { deadline, ..Limits::default() });
-        (started.elapsed().as_secs_f64(), answer(&task, &outcome))
-    };
-    let (best, best_answer) = timed(solve);
-    let (soon, soon_answer) = timed(solve_any);
+fn table(wanted: &str) {
     println!(
-        "{name:24} {:6} {:7} {:7.3} {best:8.3}  {best_answer}; {soon:.3} {soon_answer}",
+        "| instance | facts | operators | steps | actions | seconds | MB | best peer, s | any: seconds | steps, actions |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    let mut names: Vec<(String, Option<f64>)> = families::all()
+        .into_iter()
+        .map(|measured| (measured.instance.name, measured.best_peer))
+        .collect();
+    for problem in home_robot() {
+        let name = problem.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let peer = HOME_ROBOT.iter().find(|(peer, _)| *peer == name).map(|(_, seconds)| *seconds);
+        names.push((name, peer));
+    }
+    names.push(("medicine-walk".to_owned(), None));
+    let (mut ours, mut theirs) = (0.0, 0.0);
+    for (name, peer) in names.into_iter().filter(|(name, _)| name.contains(wanted)) {
+        let program = std::env::current_exe().expect("a program knows its place");
+        let run = std::process::Command::new(program).args(["--alone", &name]).output();
+        let told = String::from_utf8(run.expect("it runs once more").stdout).unwrap_or_default();
+        let mut cells: Vec<&str> = told.trim().split('\t').collect();
+        let shown = peer.map_or("–".to_owned(), |seconds| seconds.to_string());
+        if let (Some(peer), Some(Ok(seconds))) =
+            (peer, cells.get(4).map(|cell| cell.parse::<f64>()))
+        {
+            ours += seconds;
+            theirs += peer;
+        }
+        cells.insert(cells.len().min(6), &shown);
+        println!("| {name} | {} |", cells.join(" | "));
+    }
+    println!("\nWhere a peer solves the size: {ours:.2} s against {theirs:.2} s.");
+}
+
+/// One instance measured; cells of its row, with tabs between them.
+fn alone(name: &str) {
+    let start = ProcessTime::now();
+    let task = match scenario(name).and_then(|scenario| scenario.ground()) {
+        Ok(task) => task,
+        Err(faults) => return println!("{faults}"),
+    };
+    let ground = start.elapsed();
+    let seconds = std::env::var("SECONDS").ok().and_then(|text| text.parse().ok()).unwrap_or(60);
+    let limits = || Limits {
+        deadline: Some(Instant::now() + Duration::from_secs(seconds)),
+        ..Limits::default()
+    };
+    let best = solve(&task, &limits());
+    let (spent, peak) = (start.elapsed(), peak_megabytes());
+    let start = ProcessTime::now();
+    let soon = solve_any(&task, &Limits { shorten: 0, ..limits() });
+    let (steps, actions) = answer(&task, &best);
+    let (soon_steps, soon_actions) = answer(&task, &soon);
+    println!(
+        "{}\t{}\t{steps}\t{actions}\t{:.3}\t{peak}\t{:.3}\t{soon_steps}, {soon_actions}",
         task.facts.len(),
         task.operators.len(),
-        ground.as_secs_f64(),
+        spent.as_secs_f64(),
+        (ground + start.elapsed()).as_secs_f64(),
     );
 }
 
-fn answer(task: &Task, outcome: &Outcome) -> String {
+/// Each initial fact withdrawn in its turn: processor time of planning anew, and with what was learned.
+fn replan(name: &str) {
+    let task = match scenario(name).and_then(|scenario| scenario.ground()) {
+        Ok(task) => task,
+        Err(faults) => return println!("{faults}"),
+    };
+    // What is measured is the proof of the fewest steps, not the polish after it.
+    let limits = Limits { fewer_actions: 0, ..Limits::default() };
+    let (_, learned) = solve_learning(&task, None, &limits);
+    let (mut anew, mut again, mut plans) = (0.0, 0.0, 0);
+    for lost in &task.init {
+        let mut rest = task.clone();
+        rest.init.retain(|fact| fact != lost);
+        let start = ProcessTime::now();
+        let first = solve(&rest, &limits);
+        let spent = start.elapsed().as_secs_f64();
+        let start = ProcessTime::now();
+        let (second, _) = solve_learning(&rest, learned.as_ref(), &limits);
+        assert_eq!(answer(&rest, &first).0, answer(&rest, &second).0, "the same number of steps");
+        if matches!(first, Outcome::Plan(_)) {
+            anew += spent;
+            again += start.elapsed().as_secs_f64();
+            plans += 1;
+        }
+    }
+    println!("{name}: {plans} withdrawals, {anew:.3} s anew, {again:.3} s with what was learned");
+}
+
+fn answer(task: &Task, outcome: &Outcome) -> (String, String) {
     match outcome {
         Outcome::Plan(plan) => {
             assert_eq!(validate(task, plan), Ok(()), "a plan is replayed before it is counted");
-            format!("{} steps, {} actions", plan.steps.len(), plan.action_count())
+            (plan.steps.len().to_string(), plan.action_count().to_string())
         }
-        Outcome::NoPlan { leveled_off_at, .. } => format!("no plan (level {leveled_off_at})"),
-        Outcome::LimitReached(limit) => format!("limit {limit:?}"),
+        Outcome::NoPlan { leveled_off_at, .. } => {
+            ("no plan".to_owned(), format!("level {leveled_off_at}"))
+        }
+        Outcome::LimitReached(limit) => (format!("limit {limit:?}"), "–".to_owned()),
     }
+}
+
+/// The most memory that this process has held, as the system counts it.
+fn peak_megabytes() -> String {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"));
+    let kilobytes = peak.and_then(|text| text.trim().split(' ').next()?.parse::<u64>().ok());
+    kilobytes.map_or("?".to_owned(), |kilobytes| (kilobytes / 1024).to_string())
 }

@@ -359,7 +359,7 @@ fn without(
 }
 
 /// Each operator in the first step after all that it depends on or interferes with.
-fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorId>) -> Plan {
+pub(super) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorId>) -> Plan {
     let mut placed: Vec<(OperatorId, usize)> = Vec::new();
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
     for id in operators {

@@ -34,6 +34,8 @@ pub(super) struct Search<'a> {
     ticks: u64,
     /// Ticks at which the search gives up for now.
     allowed: u64,
+    /// The highest level of a no-good that was not derived here.
+    inherited_up_to: u32,
 }
 
 /// The choices made at one level.
@@ -94,7 +96,21 @@ impl<'a> Search<'a> {
             no_goods: NoGoods::new(Symmetry::of(task), task.facts.len()),
             ticks: 0,
             allowed: 0,
+            inherited_up_to: 0,
         }
+    }
+
+    /// Takes over no-goods that are true of this task, however they were derived.
+    pub(super) fn inherit(&mut self, no_goods: impl Iterator<Item = (Vec<FactId>, u32)>) {
+        for (facts, level) in no_goods {
+            self.no_goods.insert(&facts, level);
+            self.inherited_up_to = self.inherited_up_to.max(level);
+        }
+    }
+
+    /// All no-goods, the search being over.
+    pub(super) fn into_no_goods(self) -> Vec<(Vec<FactId>, u32)> {
+        self.no_goods.all().collect()
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -271,11 +287,34 @@ impl<'a> Search<'a> {
                     }
                 }
             }
-            if all_pushed {
+            if all_pushed && self.is_closed(graph, level)? {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Whether every no-good of the level above follows from those of this one. Those derived here do; what was
+    /// inherited is true, but the no-goods that it once followed from may not have come along.
+    fn is_closed(&mut self, graph: &PlanningGraph, level: usize) -> Result<bool, Stop> {
+        if level as u32 >= self.inherited_up_to {
+            return Ok(true);
+        }
+        let above: Vec<Vec<FactId>> = self
+            .no_goods
+            .all()
+            .filter(|(_, at)| *at as usize > level)
+            .map(|(set, _)| set)
+            .collect();
+        for set in above {
+            let mut choice = Level::new(graph, level + 1, &set, false);
+            match self.assign(&mut choice, 0, &mut Steps::new()) {
+                Ok(()) => return Ok(false),
+                Err(Failure::Stop(stop)) => return Err(stop),
+                Err(Failure::Goals(_)) => {}
+            }
+        }
+        Ok(true)
     }
 
     fn tick(&mut self, graph: &PlanningGraph) -> Result<(), Stop> {

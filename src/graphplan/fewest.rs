@@ -168,10 +168,7 @@ fn groups(task: &Task, graph: &PlanningGraph) -> Vec<usize> {
             *own = number.min(*own);
         }
     }
-    let mut next = cliques.len();
-    for own in group.iter_mut().filter(|own| **own == usize::MAX) {
-        *own = next;
-        next += 1;
-    }
+    let alone = group.iter_mut().filter(|own| **own == usize::MAX);
+    alone.zip(cliques.len()..).for_each(|(own, next)| *own = next);
     group
 }

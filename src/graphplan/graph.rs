@@ -5,6 +5,7 @@
 //! is kept for each level, as a bit matrix, until the graph levels off. Mutexes of actions follow from those of
 //! their preconditions and are computed when asked for.
 
+use super::replan::Inherited;
 use super::{Limit, Limits, NoPlanReason};
 use crate::strips::{FactId, Task};
 
@@ -58,6 +59,7 @@ impl Pairs {
     }
 }
 
+#[derive(Debug)]
 pub(super) struct PlanningGraph {
     pub(super) actions: Vec<Action>,
     /// Operators come first, then one no-op a fact.
@@ -208,15 +210,19 @@ impl PlanningGraph {
         a.preconditions.iter().any(|&p| b.preconditions.iter().any(|&q| mutex.contains(p, q)))
     }
 
-    /// Adds a level of actions and a level of facts.
-    pub(super) fn expand(&mut self, limits: &Limits) -> Result<(), Limit> {
+    /// Adds a level of actions and a level of facts. What is inherited need not be found out again.
+    pub(super) fn expand(
+        &mut self,
+        inherited: Option<&Inherited<'_>>,
+        limits: &Limits,
+    ) -> Result<(), Limit> {
         if self.leveled_off_at.is_some() {
             self.top += 1;
             return Ok(());
         }
         let new_actions = self.add_actions();
         let new_facts = self.add_facts();
-        let next = self.next_mutex(limits)?;
+        let next = self.next_mutex(inherited, limits)?;
         if !new_actions && !new_facts && next == self.mutex[self.top] {
             self.leveled_off_at = Some(self.top);
         } else {
@@ -265,8 +271,13 @@ impl PlanningGraph {
 
     /// Facts exclude each other at the next level when all ways to have the one exclude all ways to have the
     /// other. A pair free at this level stays free: two no-ops carry it over.
-    fn next_mutex(&self, limits: &Limits) -> Result<Pairs, Limit> {
+    fn next_mutex(
+        &self,
+        inherited: Option<&Inherited<'_>>,
+        limits: &Limits,
+    ) -> Result<Pairs, Limit> {
         let level = self.top as u32;
+        let known = |a, b| inherited.is_some_and(|old| old.is_exclusive(self.top + 1, a, b));
         let old = &self.mutex[self.top];
         let mut next = Pairs::new(self.fact_level.len());
         let words = old.words;
@@ -295,7 +306,7 @@ impl PlanningGraph {
                 while open != 0 {
                     let b = FactId((word * 64) as u32 + open.trailing_zeros());
                     open &= open - 1;
-                    if b < a && !self.jointly_achievable(old, a, b) {
+                    if b < a && (known(a, b) || !self.jointly_achievable(old, a, b)) {
                         next.insert(a, b);
                     }
                 }

@@ -25,17 +25,21 @@ mod fewest;
 mod graph;
 mod no_good;
 mod plan;
+mod replan;
 mod sat;
+mod shorten;
 mod solver;
 mod symmetry;
 
 use std::time::Instant;
 
 pub use plan::{Flaw, Plan, validate};
+pub use replan::Learned;
 
 use crate::strips::{FactId, Task};
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
+use replan::Inherited;
 use sat::{Encoding, Verdict};
 
 /// What the search for a plan came to.
@@ -81,6 +85,8 @@ pub struct Limits {
     /// Conflicts of the solver that may be spent on fewer actions once the fewest steps are found; on less cost,
     /// where actions have different costs.
     pub fewer_actions: u64,
+    /// Pieces of a plan found soon that may be planned anew to shorten it.
+    pub shorten: u64,
 }
 
 impl Default for Limits {
@@ -91,6 +97,7 @@ impl Default for Limits {
             memory_bytes: 1 << 30,
             parallel_steps: 10_000,
             fewer_actions: 1 << 10,
+            shorten: 300,
         }
     }
 }
@@ -109,21 +116,35 @@ impl Limits {
 /// Equal tasks give equal plans.
 #[must_use]
 pub fn solve(task: &Task, limits: &Limits) -> Outcome {
-    let answer = with_stack(|| {
-        let outcome = search(task, limits, Turn::default())?;
-        Ok(outcome.expect("turns without end come to an answer"))
-    });
-    answer.unwrap_or_else(Outcome::LimitReached)
+    solve_learning(task, None, limits).0
 }
 
-/// Finds some plan soon, where the shortest is out of reach. The plan is rid of needless operators, but not
-/// proven to be the shortest; that there is no plan is proven all the same.
+/// As [`solve`], and keeps what was learned on the way, for planning anew after an assumption was withdrawn; what
+/// was learned before serves as far as it is sound. The answer is as good as that of [`solve`], though of several
+/// plans with the fewest steps another may be found.
+#[must_use]
+pub fn solve_learning(
+    task: &Task,
+    learned: Option<&Learned>,
+    limits: &Limits,
+) -> (Outcome, Option<Learned>) {
+    let inherited = learned.and_then(|learned| learned.about(task));
+    match with_stack(|| search(task, limits, Turn::default(), inherited.as_ref())) {
+        Ok((outcome, learned)) => {
+            (outcome.expect("turns without end come to an answer"), Some(learned))
+        }
+        Err(limit) => (Outcome::LimitReached(limit), None),
+    }
+}
+
+/// Finds some plan soon, where the shortest is out of reach. The plan is then shortened piece by piece within
+/// [`Limits::shorten`], but not proven to be the shortest; that there is no plan is proven all the same.
 #[must_use]
 pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     /// Turns of the graph's extraction at one level, when forward search is stuck.
     const FEW_TURNS: u32 = 3;
     let found = |found| match found {
-        any::Found::Plan(plan) => Some(Outcome::Plan(plan)),
+        any::Found::Plan(plan) => Some(Outcome::Plan(shorten::shorten(task, plan, limits))),
         // The planning graph tells why.
         any::Found::Exhausted => Some(solve(task, limits)),
         any::Found::Open => None,
@@ -134,7 +155,7 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         }
         // Where forward search loses its way, the graph may see at once that there is none.
         let turn = Turn { turns: Some(FEW_TURNS), ..Turn::default() };
-        if let Some(brief) = with_stack(|| search(task, limits, turn))? {
+        if let (Some(brief), _) = with_stack(|| search(task, limits, turn, None))? {
             return Ok(brief);
         }
         Ok(found(any::search(task, limits, any::Effort::All)?)
@@ -183,46 +204,52 @@ impl Default for Turn {
     }
 }
 
-/// None when the turns at some level are used up.
-fn search(task: &Task, limits: &Limits, turn: Turn) -> Result<Option<Outcome>, Limit> {
+/// No outcome when the turns at some level are used up.
+fn search(
+    task: &Task,
+    limits: &Limits,
+    turn: Turn,
+    inherited: Option<&Inherited<'_>>,
+) -> Result<(Option<Outcome>, Learned), Limit> {
     let mut graph = PlanningGraph::new(task);
-    let mut extractor = Extractor {
-        search: Search::new(task, *limits),
-        encoding: Encoding::new(task, limits),
-        limits,
-        turn,
-        solver_leads: false,
-        spent: 0,
-        refuted: 0,
-    };
-    loop {
+    let mut extractor = Extractor::new(task, limits, turn);
+    if let Some(inherited) = inherited {
+        extractor.search.inherit(inherited.no_goods());
+    }
+    let too_few = inherited.map_or(0, Inherited::fewest_steps);
+    let outcome = loop {
         limits.check(graph.bytes() + extractor.bytes())?;
         if graph.is_possible(&task.goal) {
-            match extractor.extract(&graph)? {
-                Extraction::Plan(mut plan) => {
-                    any::drop_needless(task, &mut plan.steps);
-                    let encoding = &mut extractor.encoding;
-                    let plan = fewest::fewest(task, &graph, encoding, plan, limits);
-                    return Ok(Some(Outcome::Plan(plan)));
-                }
-                Extraction::None => {}
-                Extraction::Open => return Ok(None),
-                Extraction::Never(goals) => {
-                    let leveled_off_at =
-                        graph.leveled_off_at().expect("never is said after level-off");
-                    let reason = NoPlanReason::Together(goals);
-                    return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
+            if graph.top() >= too_few {
+                match extractor.extract(&graph)? {
+                    Extraction::Plan(mut plan) => {
+                        any::drop_needless(task, &mut plan.steps);
+                        let encoding = &mut extractor.encoding;
+                        let plan = fewest::fewest(task, &graph, encoding, plan, limits);
+                        break Some(Outcome::Plan(plan));
+                    }
+                    Extraction::None => {}
+                    Extraction::Open => break None,
+                    Extraction::Never(goals) => {
+                        let leveled_off_at =
+                            graph.leveled_off_at().expect("never is said after level-off");
+                        let reason = NoPlanReason::Together(goals);
+                        break Some(Outcome::NoPlan { leveled_off_at, reason });
+                    }
                 }
             }
         } else if let Some(leveled_off_at) = graph.leveled_off_at() {
             let reason = graph.conflict_of(&task.goal);
-            return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
+            break Some(Outcome::NoPlan { leveled_off_at, reason });
         }
         if graph.top() >= limits.parallel_steps {
             return Err(Limit::Steps);
         }
-        graph.expand(limits)?;
-    }
+        graph.expand(inherited, limits)?;
+    };
+    let fewest_steps = graph.top();
+    let no_goods = extractor.search.into_no_goods();
+    Ok((outcome, Learned { task: task.clone(), graph, no_goods, fewest_steps }))
 }
 
 /// The two ways to look for a plan of a given length, taking turns.
@@ -242,7 +269,19 @@ struct Extractor<'a> {
     refuted: usize,
 }
 
-impl Extractor<'_> {
+impl<'a> Extractor<'a> {
+    fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
+        Self {
+            search: Search::new(task, *limits),
+            encoding: Encoding::new(task, limits),
+            limits,
+            turn,
+            solver_leads: false,
+            spent: 0,
+            refuted: 0,
+        }
+    }
+
     fn bytes(&self) -> usize {
         self.search.bytes() + self.encoding.bytes()
     }

@@ -150,6 +150,12 @@ impl NoGoods {
         false
     }
 
+    /// One of each kind of set that is known to fail, with the highest level at which it does.
+    pub(super) fn all(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
+        let sets = self.nodes.iter().filter_map(|node| node.set.as_ref());
+        sets.map(|(level, facts)| (facts.to_vec(), *level))
+    }
+
     /// One of each kind of set that fails at exactly `level` and, as far as is known, not later.
     pub(super) fn exactly_at(&self, level: u32) -> Vec<Vec<FactId>> {
         let sets = self.nodes.iter().filter_map(|node| node.set.as_ref());

@@ -174,12 +174,15 @@ fn compare(turn: Turn) {
         let fewest = fewest_steps(&task);
         let any = solve_any(&task, &Limits::default());
         match &any {
-            Outcome::Plan(plan) => assert_eq!(validate(&task, plan), Ok(()), "seed {seed}"),
+            Outcome::Plan(plan) => {
+                assert_eq!(validate(&task, plan), Ok(()), "seed {seed}");
+                assert!(Some(plan.steps.len()) >= fewest, "seed {seed}");
+            }
             _ => assert_eq!(fewest, None, "seed {seed}"),
         }
-        let outcome = search(&task, &Limits::default(), turn);
-        match outcome.map_or_else(Outcome::LimitReached, |found| found.expect("turns without end"))
-        {
+        let outcome = search(&task, &Limits::default(), turn, None);
+        let answer = |(found, _): (Option<_>, _)| found.expect("turns without end");
+        match outcome.map_or_else(Outcome::LimitReached, answer) {
             Outcome::Plan(plan) => {
                 assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
                 assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
@@ -335,6 +338,23 @@ fn a_plan_with_a_flaw_is_refused() {
 }
 
 #[test]
+fn a_plan_found_soon_becomes_shorter_with_effort() {
+    let mut shortened = 0;
+    for seed in 1..=3000 {
+        let task = random_task(seed);
+        let at_once = Limits { shorten: 0, ..Limits::default() };
+        let Outcome::Plan(first) = solve_any(&task, &at_once) else { continue };
+        let Outcome::Plan(plan) = solve_any(&task, &Limits::default()) else {
+            panic!("seed {seed}: there was a plan")
+        };
+        assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+        assert!(plan.steps.len() <= first.steps.len(), "seed {seed}");
+        shortened += usize::from(plan.steps.len() < first.steps.len());
+    }
+    assert!(shortened > 0);
+}
+
+#[test]
 fn limits_are_an_outcome() {
     let task = (1..).map(random_task).find(|t| fewest_steps(t).is_some_and(|s| s >= 2)).unwrap();
     let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
@@ -343,4 +363,92 @@ fn limits_are_an_outcome() {
     assert_eq!(solve(&task, &short), Outcome::LimitReached(Limit::Steps));
     let small = Limits { memory_bytes: 1, ..Limits::default() };
     assert_eq!(solve(&task, &small), Outcome::LimitReached(Limit::Memory));
+}
+
+/// The task after its initial state lost a fact and grounding dropped what that made impossible.
+fn without_fact(task: &Task, lost: FactId) -> Task {
+    let mut rest = task.clone();
+    rest.init.retain(|&fact| fact != lost);
+    let mut possible: Vec<bool> = task.fact_ids().map(|fact| rest.init.contains(&fact)).collect();
+    loop {
+        let before = possible.iter().filter(|&&possible| possible).count();
+        for operator in &task.operators {
+            if operator.preconditions.iter().all(|fact| possible[fact.index()]) {
+                operator.add_effects.iter().for_each(|fact| possible[fact.index()] = true);
+            }
+        }
+        if possible.iter().filter(|&&possible| possible).count() == before {
+            break;
+        }
+    }
+    rest.operators.retain(|o| o.preconditions.iter().all(|fact| possible[fact.index()]));
+    rest.goal.iter().for_each(|fact| possible[fact.index()] = true);
+    let number: Vec<Option<FactId>> = possible
+        .iter()
+        .scan(0, |next, &possible| {
+            let number = possible.then_some(FactId(*next));
+            *next += u32::from(possible);
+            Some(number)
+        })
+        .collect();
+    let renumber = |facts: &mut Vec<FactId>| {
+        *facts = facts.iter().filter_map(|fact| number[fact.index()]).collect();
+    };
+    renumber(&mut rest.init);
+    renumber(&mut rest.goal);
+    for operator in &mut rest.operators {
+        renumber(&mut operator.preconditions);
+        renumber(&mut operator.add_effects);
+        renumber(&mut operator.del_effects);
+    }
+    let mut kept = possible.iter();
+    rest.facts.retain(|_| *kept.next().unwrap());
+    rest.check_invariants();
+    rest
+}
+
+#[test]
+fn planning_anew_with_what_was_learned_comes_to_the_same() {
+    let (mut inherited, mut plans, mut together) = (0, 0, 0);
+    for seed in 1..=4000 {
+        let tasks = [random_task(seed), random_task_with_objects(seed)];
+        for (kind, task) in tasks.iter().enumerate() {
+            let (_, learned) = solve_learning(task, None, &Limits::default());
+            let learned = learned.unwrap();
+            for &lost in &task.init {
+                let rest = without_fact(task, lost);
+                inherited += usize::from(learned.about(&rest).is_some());
+                let (again, _) = solve_learning(&rest, Some(&learned), &Limits::default());
+                match (again, solve(&rest, &Limits::default())) {
+                    (Outcome::Plan(again), Outcome::Plan(anew)) => {
+                        assert_eq!(validate(&rest, &again), Ok(()), "{kind} seed {seed}");
+                        assert_eq!(again.steps.len(), anew.steps.len(), "{kind} seed {seed}");
+                        plans += usize::from(anew.steps.len() > 1);
+                    }
+                    (Outcome::NoPlan { reason, .. }, Outcome::NoPlan { .. }) => {
+                        together += usize::from(matches!(reason, NoPlanReason::Together(_)));
+                    }
+                    other => panic!("{kind} seed {seed}: {other:?}"),
+                }
+            }
+        }
+    }
+    assert!(inherited > 5000 && plans > 200 && together > 0, "{inherited} {plans} {together}");
+}
+
+#[test]
+fn another_initial_fact_teaches_nothing() {
+    let task = random_task(1);
+    let (_, learned) = solve_learning(&task, None, &Limits::default());
+    let learned = learned.unwrap();
+    assert!(learned.about(&task).is_some());
+    let more = task.fact_ids().find(|fact| !task.init.contains(fact)).unwrap();
+    let mut richer = task.clone();
+    richer.init.push(more);
+    richer.init.sort_unstable();
+    assert!(learned.about(&richer).is_none());
+    let mut other = task;
+    other.operators[0].del_effects.clear();
+    other.operators[0].add_effects = vec![more];
+    assert!(learned.about(&other).is_none());
 }

@@ -1,0 +1,128 @@
+//! Planning anew after something assumed turned out false, with what was learned the first time (SPEC P2).
+//!
+//! Take facts of the initial state and operators away, and nothing becomes possible that was not: a plan for the
+//! smaller task is a plan for the larger. So everything that was proven impossible stays so – fact levels and
+//! mutexes are lower bounds, no-goods hold, and fewer steps than before will not do. Where a fact is asked for
+//! negatively its withdrawal adds the complement, and nothing learned is sound; then planning starts anew. So it
+//! does wherever the new task is not plainly a part of the old.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use super::graph::PlanningGraph;
+use crate::strips::{Fact, FactId, Operator, Task};
+
+/// What planning a task has taught.
+#[derive(Debug)]
+pub struct Learned {
+    pub(super) task: Task,
+    pub(super) graph: PlanningGraph,
+    /// Sets of facts with the level up to which they are out of reach together.
+    pub(super) no_goods: Vec<(Vec<FactId>, u32)>,
+    /// Fewer steps than these will not do.
+    pub(super) fewest_steps: usize,
+}
+
+/// What holds of a task because it held of one that it is a part of.
+pub(super) struct Inherited<'a> {
+    learned: &'a Learned,
+    /// The old fact for each new one.
+    old: Vec<FactId>,
+    /// The new fact for each old one, where there is one.
+    new: Vec<Option<FactId>>,
+}
+
+impl Learned {
+    /// None when the task is not plainly a part of the one that was learned from.
+    pub(super) fn about(&self, task: &Task) -> Option<Inherited<'_>> {
+        let facts: HashMap<Key<'_>, FactId> =
+            self.task.fact_ids().map(|id| (key(self.task.fact(id)), id)).collect();
+        let old: Vec<FactId> =
+            task.facts.iter().map(|fact| facts.get(&key(fact)).copied()).collect::<Option<_>>()?;
+        let mut new = vec![None; self.task.facts.len()];
+        for (number, fact) in old.iter().enumerate() {
+            new[fact.index()] = Some(FactId(number as u32));
+        }
+        let inherited = Inherited { learned: self, old, new };
+        inherited.is_part(task).then_some(inherited)
+    }
+}
+
+/// What a fact says.
+type Key<'a> = (&'a Arc<str>, &'a [Arc<str>], bool);
+
+fn key(fact: &Fact) -> Key<'_> {
+    (&fact.predicate, &fact.args, fact.negated)
+}
+
+impl Inherited<'_> {
+    /// Fewer steps than these will not do.
+    pub(super) fn fewest_steps(&self) -> usize {
+        self.learned.fewest_steps
+    }
+
+    /// Whether two new facts are known to exclude each other at a level.
+    pub(super) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
+        let graph = &self.learned.graph;
+        (level <= graph.top() || graph.leveled_off_at().is_some())
+            && graph.is_exclusive(level, self.old[a.index()], self.old[b.index()])
+    }
+
+    /// No-goods of the old task in terms of the new; those about facts that it lacks are left behind.
+    pub(super) fn no_goods(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
+        self.learned.no_goods.iter().filter_map(|(facts, level)| {
+            let mut facts: Vec<FactId> =
+                facts.iter().map(|fact| self.new[fact.index()]).collect::<Option<_>>()?;
+            facts.sort_unstable();
+            Some((facts, *level))
+        })
+    }
+
+    /// Every initial fact was initial, every operator an operator, and what grounding dropped from it makes no
+    /// difference: needs that always hold, effects that nobody minds.
+    fn is_part(&self, task: &Task) -> bool {
+        let whole = &self.learned.task;
+        let operators: HashMap<(&Arc<str>, &[Arc<str>]), &Operator> =
+            whole.operators.iter().map(|o| ((&o.name, o.args.as_slice()), o)).collect();
+        let pairs: Option<Vec<(&Operator, &Operator)>> = task
+            .operators
+            .iter()
+            .map(|o| Some((o, *operators.get(&(&o.name, o.args.as_slice()))?)))
+            .collect();
+        let Some(pairs) = pairs else { return false };
+        // What operators of the new task need, add and delete among the facts that it lacks.
+        let lacking = |fact: &&FactId| self.new[fact.index()].is_none();
+        let mut used = vec![false; whole.facts.len()];
+        let mut deleted = vec![false; whole.facts.len()];
+        for (_, o) in &pairs {
+            let uses = o.preconditions.iter().chain(&o.add_effects).filter(lacking);
+            uses.for_each(|fact| used[fact.index()] = true);
+            o.del_effects.iter().filter(lacking).for_each(|fact| deleted[fact.index()] = true);
+        }
+        let harmless = used.iter().zip(&deleted).all(|(used, deleted)| !(*used && *deleted));
+        let always = |fact: &FactId| whole.init.contains(fact) && !deleted[fact.index()];
+        let same = |new: &[FactId], old: &[FactId]| {
+            let mut kept: Vec<FactId> =
+                old.iter().filter_map(|fact| self.new[fact.index()]).collect();
+            kept.sort_unstable();
+            kept == new
+        };
+        harmless
+            && task.init.iter().all(|fact| whole.init.contains(&self.old[fact.index()]))
+            && pairs.iter().all(|(new, old)| {
+                same(&new.preconditions, &old.preconditions)
+                    && same(&new.add_effects, &old.add_effects)
+                    && same(&new.del_effects, &old.del_effects)
+                    && old.preconditions.iter().filter(lacking).all(always)
+            })
+            && self.keeps_goal(task, always)
+    }
+
+    fn keeps_goal(&self, task: &Task, always: impl Fn(&FactId) -> bool) -> bool {
+        let whole = &self.learned.task;
+        whole.goal.iter().all(|fact| match self.new[fact.index()] {
+            Some(fact) => task.goal.contains(&fact),
+            None => always(fact),
+        })
+    }
+}
