@@ -20,6 +20,8 @@ pub(crate) const BODIES: &[Body] = &[
     ("thor", thor),
     ("virtualhome", virtualhome),
     ("pyrobosim", pyrobosim),
+    ("rmf", rmf),
+    ("osmag", osmag),
     ("map_file", map_file),
 ];
 
@@ -107,6 +109,14 @@ pub(crate) fn virtualhome(bytes: &[u8]) -> Result<(), String> {
 
 pub(crate) fn pyrobosim(bytes: &[u8]) -> Result<(), String> {
     judged(exchange::read_pyrobosim(&text(bytes)?, &mut |_| None))
+}
+
+pub(crate) fn rmf(bytes: &[u8]) -> Result<(), String> {
+    judged(exchange::read_rmf(&text(bytes)?))
+}
+
+pub(crate) fn osmag(bytes: &[u8]) -> Result<(), String> {
+    judged(exchange::read_osmag(&text(bytes)?))
 }
 
 pub(crate) fn map_file(bytes: &[u8]) -> Result<(), String> {

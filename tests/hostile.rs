@@ -69,6 +69,62 @@ const HOUSE: &str = r#"{"rooms":[{"id":"room|2","roomType":"Kitchen","floorPolyg
 const GRAPH: &str = r#"{"nodes":[{"id":1,"class_name":"kitchen","category":"Rooms","properties":[],"states":[],"bounding_box":{"center":[0,1,0],"size":[5,2.5,4]}},{"id":2,"class_name":"chair","category":"Furniture","properties":["SITTABLE"],"states":["CLEAN"],"bounding_box":{"center":[1,0.4,1],"size":[0.5,0.9,0.5]}}],"edges":[{"from_id":2,"to_id":1,"relation_type":"INSIDE"}]}"#;
 const EVENT: &str = r#"{"objects":[{"objectId":"Floor|0|0|0","objectType":"Floor","position":{"x":0,"y":0,"z":0},"axisAlignedBoundingBox":{"center":{"x":0,"y":0,"z":0},"size":{"x":5,"y":0.1,"z":4}}},{"objectId":"Chair|1|0|1","objectType":"Chair","position":{"x":1,"y":0,"z":1},"rotation":{"x":0,"y":90,"z":0},"axisAlignedBoundingBox":{"center":{"x":1,"y":0.4,"z":1},"size":{"x":0.5,"y":0.9,"z":0.5}}}]}"#;
 
+/// Two rooms with a door between them on two floors, a lift, a chair.
+const YARD: &str = r#"coordinate_system: cartesian_meters
+name: yard
+levels:
+  L1: &floor
+    elevation: 0
+    vertices:
+      - [0, 0, 0, ""]
+      - [6, 0, 0, ""]
+      - [6, 4, 0, ""]
+      - [0, 4, 0, ""]
+      - [3, 0, 0, ""]
+      - [3, 4, 0, ""]
+      - [3, 1, 0, ""]
+      - [3, 2, 0, ""]
+      - [1, 1, 0, "charger", {is_charger: [4, true]}]
+    walls:
+      - [0, 4, {}]
+      - [4, 1, {}]
+      - [1, 2, {}]
+      - [2, 5, {}]
+      - [5, 3, {}]
+      - [3, 0, {}]
+      - [4, 6, {}]
+      - [7, 5, {}]
+    doors:
+      - [6, 7, {motion_axis: [1, start], motion_degrees: [3, 90], motion_direction: [2, 1], name: [1, main], type: [1, hinged]}]
+    models:
+      - {model_name: OfficeChairBlack, name: chair, static: true, x: 1, y: 2, yaw: 0.5, z: 0}
+  L2:
+    <<: *floor
+    elevation: 3
+lifts:
+  shaft: {depth: 1.2, width: 1.2, x: 5, y: 3, yaw: 0, lowest_floor: L1, highest_floor: L2, reference_floor_name: L1, doors: {front: {door_type: 2, motion_axis_orientation: 0, width: 0.9, x: 0, y: 0.7}}, level_doors: {L1: [front], L2: [front]}}
+"#;
+
+/// Two areas with a passage.
+const BLOCK: &str = r#"<?xml version='1.0' encoding='UTF-8'?>
+<osm version='0.6'>
+  <node id='-1' lat='31.17900' lon='121.59100'><tag k='name' v='root'/></node>
+  <node id='-2' lat='31.17900' lon='121.59105'/>
+  <node id='-3' lat='31.17905' lon='121.59105'/>
+  <node id='-4' lat='31.17905' lon='121.59100'/>
+  <node id='-5' lat='31.17900' lon='121.59110'/>
+  <node id='-6' lat='31.17905' lon='121.59110'/>
+  <node id='-7' lat='31.17902' lon='121.59105'/>
+  <node id='-8' lat='31.17903' lon='121.59105'/>
+  <way id='-11'><nd ref='-1'/><nd ref='-2'/><nd ref='-7'/><nd ref='-8'/><nd ref='-3'/><nd ref='-4'/><nd ref='-1'/>
+    <tag k='name' v='A1'/><tag k='level' v='1'/><tag k='indoor' v='room'/><tag k='osmAG:type' v='area'/><tag k='osmAG:areaType' v='room'/></way>
+  <way id='-12'><nd ref='-2'/><nd ref='-5'/><nd ref='-6'/><nd ref='-3'/><nd ref='-8'/><nd ref='-7'/><nd ref='-2'/>
+    <tag k='name' v='A2'/><tag k='level' v='1'/><tag k='indoor' v='room'/><tag k='osmAG:type' v='area'/><tag k='osmAG:areaType' v='room'/></way>
+  <way id='-13'><nd ref='-7'/><nd ref='-8'/>
+    <tag k='level' v='1'/><tag k='osmAG:from' v='A1'/><tag k='osmAG:to' v='A2'/><tag k='osmAG:type' v='passage'/></way>
+</osm>
+"#;
+
 fn corpus(name: &str) -> Vec<Vec<u8>> {
     let seeds = match name {
         "geojson" => files("tests/golden/formats", &[".geojson"]),
@@ -79,6 +135,8 @@ fn corpus(name: &str) -> Vec<Vec<u8>> {
         "thor" => vec![EVENT.into()],
         "virtualhome" => vec![GRAPH.into()],
         "pyrobosim" => files("tests/golden/pyrobosim", &["/flat.yaml"]),
+        "rmf" => vec![YARD.into()],
+        "osmag" => vec![BLOCK.into()],
         "map_file" => files("maps", &["box.toml", "room.toml"]),
         other => panic!("{other} has no corpus"),
     };

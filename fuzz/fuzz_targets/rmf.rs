@@ -1,0 +1,10 @@
+//! See `../bodies.rs`.
+#![no_main]
+
+#[allow(dead_code)]
+#[path = "../bodies.rs"]
+mod bodies;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    let _ = bodies::rmf(bytes);
+});
