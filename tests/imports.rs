@@ -10,6 +10,7 @@ use orthoframe::exchange::{Deed, ImportError, Imported, Options, What, read};
 use orthoframe::map::{World, check};
 use orthoframe::units::{AreaId, Cm};
 
+#[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn data(name: &str) -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if !path.exists() {
@@ -55,7 +56,7 @@ fn groups(world: &World) -> BTreeMap<AreaId, AreaId> {
     group
 }
 
-fn source<'w>(properties: &'w orthoframe::map::Properties) -> &'w str {
+fn source(properties: &orthoframe::map::Properties) -> &str {
     properties.get("ИСТОЧНИК").map_or("", String::as_str)
 }
 
@@ -104,6 +105,7 @@ fn the_clinic_arrives_with_its_doors_and_lifts() {
     assert_eq!((doors, of), (140, 140), "{}", clinic.report);
 }
 
+#[expect(clippy::print_stdout, reason = "the count is worth seeing")]
 #[test]
 fn passages_of_osmag_join_the_areas_that_they_name() {
     let Some(school) = imported("osmag/SIST_1.osm") else { return };

@@ -824,7 +824,7 @@ impl Knowledge<'_> {
                 };
                 found.iter().filter_map(|t| Some((sign * away(*t)?, *t))).collect()
             }
-            Extreme::LeftMost | Extreme::RightMost => self.from_left(&found, best.extreme),
+            Extreme::LeftMost | Extreme::RightMost => self.outermost(&found, best.extreme),
             Extreme::Most => return Ok(found),
             extreme => {
                 let up = matches!(
@@ -847,7 +847,7 @@ impl Knowledge<'_> {
     }
 
     /// Things in the order in which the robot sees them, from the left or from the right.
-    fn from_left(&self, found: &[Thing], extreme: Extreme) -> Vec<(f64, Thing)> {
+    fn outermost(&self, found: &[Thing], extreme: Extreme) -> Vec<(f64, Thing)> {
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
         let placed: Vec<(Vector, Thing)> = found
             .iter()

@@ -17,7 +17,7 @@ use super::values::Values;
 pub struct KindId(pub u16);
 
 /// What belongs to a kind.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Extension {
     ObjectType(TypeId),
     Object(ObjectId),
@@ -142,7 +142,7 @@ impl Lexicon {
         for object in world.objects.values() {
             if !of_type.contains_key(object.name.as_str()) && !object.name.is_empty() {
                 let phrase = NounPhrase::parse(&object.name, &WordHints::default());
-                lexicon.add(Extension::Object(object.id), phrase, &object.name_en, false);
+                lexicon.add(Extension::Object(object.id), &phrase, &object.name_en, false);
             }
         }
         lexicon.add_concepts();
@@ -151,16 +151,16 @@ impl Lexicon {
 
     fn add_type(&mut self, extension: Extension, entry: &TypeEntry) {
         let phrase = NounPhrase::parse(&entry.name, &hints_of_type(entry));
-        self.add(extension.clone(), phrase, &entry.name_en, true);
+        self.add(extension, &phrase, &entry.name_en, true);
         for synonym in &entry.synonyms {
             match Language::of(synonym) {
                 Language::Russian => {
                     let phrase = NounPhrase::parse(synonym, &WordHints::default());
-                    self.add(extension.clone(), phrase, "", false);
+                    self.add(extension, &phrase, "", false);
                 }
                 Language::English => {
                     let own = NounPhrase::parse(&entry.name, &hints_of_type(entry));
-                    let id = self.push(extension.clone(), own, synonym);
+                    let id = self.push(extension, own, synonym);
                     self.nouns.insert_english(synonym, Meaning::Kind(id));
                 }
             }
@@ -178,21 +178,21 @@ impl Lexicon {
     }
 
     /// Adds a kind; `own` for the name of a type, whose head then covers it.
-    fn add(&mut self, extension: Extension, phrase: NounPhrase, english_name: &str, own: bool) {
+    fn add(&mut self, extension: Extension, phrase: &NounPhrase, english_name: &str, own: bool) {
         if self.kinds.len() >= usize::from(u16::MAX) {
             return;
         }
-        let id = self.push(extension.clone(), phrase.clone(), english_name);
+        let id = self.push(extension, phrase.clone(), english_name);
         if Language::of(phrase.name()) == Language::English {
             self.nouns.insert_english(phrase.name(), Meaning::Kind(id));
             // A map of others knows no Russian: the language's own words for the thing serve.
             for word in english::russian_of(phrase.name()) {
                 let russian = NounPhrase::parse(word, &WordHints::default());
-                let id = self.push(extension.clone(), russian.clone(), phrase.name());
+                let id = self.push(extension, russian.clone(), phrase.name());
                 self.nouns.insert(&russian, Meaning::Kind(id));
             }
         } else {
-            self.nouns.insert(&phrase, Meaning::Kind(id));
+            self.nouns.insert(phrase, Meaning::Kind(id));
         }
         let english_name = match english_name {
             "" => self.kinds[usize::from(id.0)].english.clone(),
@@ -220,7 +220,7 @@ impl Lexicon {
             let first = words.next().unwrap_or_default();
             for word in russian.split('|') {
                 let phrase = NounPhrase::parse(word, &WordHints::default());
-                let id = self.push(extension.clone(), phrase.clone(), first);
+                let id = self.push(*extension, phrase.clone(), first);
                 self.nouns.insert(&phrase, Meaning::Kind(id));
             }
             let own = NounPhrase::parse(
@@ -228,7 +228,7 @@ impl Lexicon {
                 &WordHints::default(),
             );
             for word in english.split('|') {
-                let id = self.push(extension.clone(), own.clone(), word);
+                let id = self.push(*extension, own.clone(), word);
                 self.nouns.insert_english(word, Meaning::Kind(id));
             }
         }

@@ -283,7 +283,8 @@ impl Asker<'_> {
                 memory.learn(&answer);
                 Ok(answer)
             }
-            Err((doubt, query)) => {
+            Err(unanswered) => {
+                let (doubt, query) = *unanswered;
                 memory.pending = match (&doubt, query) {
                     (Doubt::Ambiguous { reference, candidates }, Some(query)) => Some(Pending {
                         query,
@@ -374,18 +375,18 @@ impl Asker<'_> {
         text: &str,
         language: Language,
         memory: &Memory,
-    ) -> Result<Answer, (Doubt, Option<Query>)> {
+    ) -> Result<Answer, Box<(Doubt, Option<Query>)>> {
         if let Some(query) = self.clarified(text, memory) {
             let language = memory.pending.as_ref().map_or(language, |p| p.language);
             let knowledge = self.knowledge(language, memory);
-            return knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)));
+            return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
         let query = match self.continued(text, memory) {
             Some(query) => query,
-            None => self.read(text, memory).map_err(|doubt| (doubt, None))?,
+            None => self.read(text, memory).map_err(|doubt| Box::new((doubt, None)))?,
         };
         let knowledge = self.knowledge(language, memory);
-        knowledge.answer(&query).map_err(|doubt| (doubt, Some(query)))
+        knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))))
     }
 
     /// «А чайник?» after a question about something else: the same question about the kettle.

@@ -147,7 +147,7 @@ pub struct Noun {
     pub restrictions: Vec<Restriction>,
     pub best: Option<Best>,
     /// «кроме лампы»
-    pub except: Vec<Noun>,
+    pub except: Vec<Self>,
 }
 
 /// «ближайший к столу», "the three biggest"
@@ -264,7 +264,7 @@ pub enum Query {
     /// Of the last answer, or of a claim.
     Why {
         negated: bool,
-        about: Option<Box<Query>>,
+        about: Option<Box<Self>>,
     },
 }
 

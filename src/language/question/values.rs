@@ -289,12 +289,12 @@ impl Values {
     pub fn is(&self, own: ValueId, asked: ValueId) -> bool {
         let adjective = |id: ValueId| self.entry(id).russian.as_str();
         own == asked
-            || match (adjective(own), adjective(asked)) {
-                ("запертый", "закрытый") => true,
-                ("открытый" | "закрытый", "отпертый") => true,
-                ("стальной", "металлический") => true,
-                _ => false,
-            }
+            || matches!(
+                (adjective(own), adjective(asked)),
+                ("запертый", "закрытый")
+                    | ("открытый" | "закрытый", "отпертый")
+                    | ("стальной", "металлический")
+            )
     }
 
     /// «чёрный», «чёрная», «чёрные»: the predicate about a noun of this gender and number.
