@@ -20,6 +20,7 @@ mod lifts;
 mod map_editing;
 mod maps;
 mod planning;
+mod position_reports;
 mod relation_truth;
 mod relations;
 mod routes;

@@ -125,6 +125,8 @@ pub(super) enum Command {
     Ask(AskArgs),
     /// A dialogue: questions and commands, a line each, with what was said before kept in mind
     Talk,
+    /// All forms of a name, Russian and English, and where they come from: ortho words "Письменный стол"
+    Words { name: String },
     /// The shortest drivable way between two places, rooms, doors or things
     Route {
         #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
@@ -158,6 +160,9 @@ pub(super) enum Command {
         /// Pose on the map, cm and degrees; the robot's when left out
         #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
         at: Option<String>,
+        /// Read a report back: the region of which it is true, and whether the pose lies in it
+        #[arg(long, value_name = "TEXT")]
+        read: Option<String>,
     },
     #[command(flatten)]
     Observe(ObserveCommand),

@@ -6,7 +6,9 @@ use serde_json::json;
 
 use crate::engine::{
     Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, ride_in_words,
+    uncertain_names,
 };
+use crate::language::{Case, NounPhrase};
 use crate::map::MapErrors;
 
 use super::args::{Common, RouteMethod};
@@ -79,13 +81,43 @@ pub(super) fn warn(warnings: &MapErrors) {
 pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
     let (world, warnings) = check_map(file)?;
     warn(&warnings);
+    let uncertain = uncertain_names(&world);
     if common.json {
-        let count = warnings.faults.len();
-        return say(
-            &json!({ "outcome": "sound", "warnings": count, "world": size(&world) }).to_string()
-        );
+        let names: Vec<_> = uncertain
+            .iter()
+            .map(|phrase| json!({"name": phrase.name(), "genitive": phrase.case(Case::Genitive)}))
+            .collect();
+        return say(&json!({
+            "outcome": "sound", "warnings": warnings.faults.len(), "world": size(&world),
+            "uncertain_names": names,
+        })
+        .to_string());
     }
-    say(&format!("Карта исправна. {}", described(&world)))
+    let mut lines = vec![format!("Карта исправна. {}", described(&world))];
+    if !uncertain.is_empty() {
+        lines.push(guessed(&uncertain));
+    }
+    say(&lines.join("\n"))
+}
+
+/// How many names of uncertain forms are listed; the JSON has all.
+const UNCERTAIN_SHOWN: usize = 20;
+
+/// «Формы 2 имён угаданы …», each with its genitive, where a wrong guess shows.
+fn guessed(uncertain: &[NounPhrase]) -> String {
+    let shown: Vec<String> = uncertain
+        .iter()
+        .take(UNCERTAIN_SHOWN)
+        .map(|phrase| format!("{} (нет {})", phrase.name(), phrase.case(Case::Genitive)))
+        .collect();
+    let more = match uncertain.len().saturating_sub(UNCERTAIN_SHOWN) {
+        0 => String::new(),
+        more => format!(" и ещё {more}"),
+    };
+    format!(
+        "Формы имён, угаданные по окончанию (карта может задать их полем forms; все формы: ortho words ИМЯ): {}{more}.",
+        shown.join(", ")
+    )
 }
 
 pub(super) fn size(world: &World) -> serde_json::Value {

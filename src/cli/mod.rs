@@ -16,10 +16,12 @@ mod import;
 mod json;
 mod observe;
 mod plan;
+mod read;
 mod store;
 mod talk;
 mod text;
 mod why;
+mod words;
 
 use std::io::Write;
 use std::process::ExitCode;
@@ -72,6 +74,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::perform(common, task, draw.as_deref(), *reset)
         }
         Command::Why { fact, not } => why::run(common, fact, *not),
+        Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),
         Command::Route { from, to, method, words } => {
             commands::route(common, from, to, *method, *words)
@@ -80,7 +83,10 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Datalog { program, facts, output } => {
             commands::datalog(common, program, facts, output)
         }
-        Command::Where { map, at } => commands::locate(common, map.as_deref(), at.as_deref()),
+        Command::Where { map, at, read: None } => {
+            commands::locate(common, map.as_deref(), at.as_deref())
+        }
+        Command::Where { at, read: Some(text), .. } => read::run(common, text, at.as_deref()),
         Command::Observe(command) => observe::run(common, command),
         Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),

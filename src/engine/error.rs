@@ -146,6 +146,19 @@ pub enum RequestError {
     #[diagnostic(code(engine::bad_pose), help("напишите X,Y или X,Y,КУРС, например 250,380,90"))]
     BadPose { text: String, reason: String },
 
+    /// A text that is no report of a position.
+    #[error("«{text}» не читается как доклад о положении, начиная с «{word}»")]
+    #[diagnostic(
+        code(engine::no_report),
+        help("например: «Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z.»")
+    )]
+    NoReport { text: String, word: String },
+
+    /// A report of a position that the map does not bear out.
+    #[error("такого места на карте нет: {reason}")]
+    #[diagnostic(code(engine::no_such_place), help("слова понятны: сверьте имена с картой"))]
+    NoSuchPlace { reason: String },
+
     /// Which of several maps is meant.
     #[error("в домейне несколько карт: {candidates}")]
     #[diagnostic(code(engine::which_map), help("назовите одну: --map ИМЯ"))]

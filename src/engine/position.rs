@@ -4,7 +4,7 @@ use crate::geometry::{Bounds, FloorPlan, Owner, Scene};
 use crate::language::report::{Beside, Doorway, Facing, Named, Opening, Position, Spot};
 use crate::map::{Entity, Permeability, World};
 use crate::semantics::{self, Nearness, Relations, Way, Whereabouts, whereabouts};
-use crate::units::{AreaId, DoorId, MapId, Point, Pose, Vector};
+use crate::units::{AreaId, DoorId, MapId, Point, Pose, ReplicaId, Vector};
 
 use super::lexicon::named;
 use super::{Engine, Error, RequestError};
@@ -80,7 +80,19 @@ pub(super) fn describe(
         semantics::Spot::InMiddle => Spot::InMiddle,
     };
     let mut position = Position::new(area(terms.area), [spot]);
-    position.facing = scene.and_then(|scene| facing(world, relations, scene, &terms, pose));
+    // Where another Map has an Area of this name, the Map is said too.
+    let name = world.name(Entity::Area(terms.area));
+    let namesakes = world.areas.values().filter(|a| a.name == name).count();
+    if namesakes > 1 && !world.maps[&map].name.is_empty() {
+        position.within.push(named(world, Entity::Map(map)));
+    }
+    let faced = scene.and_then(|scene| faced(world, relations, scene, terms.area, pose));
+    position.facing = faced.map(|faced| match faced {
+        Faced::Door(way) => Facing::Door(doorway(world, relations, way)),
+        Faced::Object(replica) => Facing::Object(named(world, Entity::Replica(replica))),
+        Faced::Wall => Facing::Wall,
+        Faced::Inward => Facing::Inward,
+    });
     Some(Whereabout { map, pose, terms, position })
 }
 
@@ -112,45 +124,54 @@ fn is_passage(world: &World, door: Option<DoorId>) -> bool {
 /// Farther than this, nothing in particular is faced, cm.
 const FACING_RANGE: f64 = 250.0;
 
+/// What the robot faces, before words are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Faced {
+    Door(Way),
+    Object(ReplicaId),
+    Wall,
+    Inward,
+}
+
 /// The first thing that a ray along the heading meets.
-fn facing(
+pub(super) fn faced(
     world: &World,
     relations: &Relations,
     scene: &Scene,
-    terms: &Whereabouts,
+    area: AreaId,
     pose: Pose,
-) -> Option<Facing> {
+) -> Option<Faced> {
     let (sin, cos) = pose.heading.sin_cos();
     let ray = Vector::new(cos, sin);
     let height = world.robot.height.get();
-    let mut nearest: Option<(f64, Facing)> = None;
-    let mut offer = |distance: f64, what: &dyn Fn() -> Facing| {
+    let mut nearest: Option<(f64, Faced)> = None;
+    let mut offer = |distance: f64, what: Faced| {
         if distance <= FACING_RANGE && nearest.as_ref().is_none_or(|(d, _)| distance < *d) {
-            nearest = Some((distance, what()));
+            nearest = Some((distance, what));
         }
     };
     for replica in scene.replicas.values() {
         for prism in replica.prisms.iter().filter(|p| p.bottom < height && p.top > 10.0) {
             for (a, b) in prism.polygon.edges() {
                 if let Some(distance) = hit(pose.at, ray, a, b) {
-                    offer(distance, &|| Facing::Object(named(world, Entity::Replica(replica.id))));
+                    offer(distance, Faced::Object(replica.id));
                 }
             }
         }
     }
-    let placed = scene.areas.get(&terms.area)?;
+    let placed = scene.areas.get(&area)?;
     for prism in &placed.prisms {
         let Owner::Area(area) = prism.owner else { continue };
         for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
             let Some(distance) = hit(pose.at, ray, a, b) else { continue };
             if side.permeability == Permeability::Impermeable {
-                offer(distance, &|| Facing::Wall);
+                offer(distance, Faced::Wall);
             } else if let Some(way) = way_through(relations, area, nalgebra::center(&a, &b)) {
-                offer(distance, &|| Facing::Door(doorway(world, relations, way)));
+                offer(distance, Faced::Door(way));
             }
         }
     }
-    Some(nearest.map_or(Facing::Inward, |(_, facing)| facing))
+    Some(nearest.map_or(Faced::Inward, |(_, faced)| faced))
 }
 
 /// The opening of an Area whose middle is here, seen from that Area.

@@ -45,6 +45,7 @@
 
 mod ask;
 mod body;
+mod claim;
 mod feed;
 mod grid;
 mod measure;
@@ -57,6 +58,7 @@ mod relations;
 mod view;
 
 pub use ask::Extent;
+pub use claim::{Claim, claim_bounds, claim_holds};
 pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
     Single, Within,

@@ -104,7 +104,12 @@ fn along_and_out((a, b): (Point, Point), p: Point) -> Option<(f64, f64)> {
     Some(((p - a).dot(&along) / along.norm_squared(), (p - a).dot(&normal)))
 }
 
-fn in_doorway(opening: &Opening, p: Point, here: Option<AreaId>, near: &Nearness) -> bool {
+pub(super) fn in_doorway(
+    opening: &Opening,
+    p: Point,
+    here: Option<AreaId>,
+    near: &Nearness,
+) -> bool {
     let Some((share, out)) = along_and_out(opening.ends, p) else { return false };
     // In the wall's thickness no Area is underfoot.
     let thickness = opening.outward.map_or(0.0, |(_, way)| way.min(near.wall_thickness));
@@ -142,7 +147,7 @@ fn next_to(measured: &Measurements, area: AreaId, p: Point, near: &Nearness) -> 
         .map(|(distance, replica)| Spot::NextTo { replica, distance })
 }
 
-fn by_walls(
+pub(super) fn by_walls(
     world: &World,
     measured: &Measurements,
     area: AreaId,

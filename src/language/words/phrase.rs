@@ -170,6 +170,33 @@ impl NounPhrase {
         self.evidence
     }
 
+    /// Where this form comes from: the map for a form that it gives, and for the name itself, which is given.
+    #[must_use]
+    pub fn evidence_of(&self, case: Case, number: Number) -> Evidence {
+        let number = if self.number == Number::Plural { Number::Plural } else { number };
+        let is_name = (case, number) == (Case::Nominative, self.number);
+        match is_name || self.given_form(case, number).is_some() {
+            true => Evidence::Given,
+            false => self.evidence,
+        }
+    }
+
+    /// The words of the name that decline, with where the forms of each come from; those that agree are settled by
+    /// their endings. Forms that the map gives of the whole name stand apart ([`Self::evidence_of`]).
+    #[must_use]
+    pub fn sources(&self) -> Vec<(String, Evidence)> {
+        let of = |piece: &Piece| match piece {
+            Piece::Fixed(_) => None,
+            Piece::Noun { written, noun } => Some((written.clone(), noun.evidence)),
+            Piece::Agreeing { written, .. } => Some((written.clone(), Evidence::Rule)),
+            Piece::Ordinal { digits, ending } => {
+                let form = ending.form(Case::Nominative, self.number, self.gender, self.animacy);
+                Some((format!("{digits}{}", ordinal_suffix(&form)), Evidence::Rule))
+            }
+        };
+        self.pieces.iter().filter_map(of).collect()
+    }
+
     /// Whether no word was declined by a mere guess from its ending.
     #[must_use]
     pub fn is_certain(&self) -> bool {

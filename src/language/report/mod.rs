@@ -18,6 +18,8 @@
 //! assert_eq!(position.say(Language::English), "I am in Room-B at the door leading from Room-B to Room-Z.");
 //! ```
 
+pub mod read;
+
 use super::words::russian::{self, Preposition};
 use super::words::{Case, Gender, Language, NounPhrase, Number, WordHints, english};
 
@@ -50,6 +52,12 @@ impl Named {
     #[must_use]
     pub fn phrase(&self) -> &NounPhrase {
         &self.russian
+    }
+
+    /// The English name as it is.
+    #[must_use]
+    pub fn english_name(&self) -> &str {
+        &self.english
     }
 
     /// The English name within a sentence, with its article.

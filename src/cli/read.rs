@@ -1,0 +1,98 @@
+//! `ortho where --read`: a position report read back, as the region of which it is true.
+
+use serde_json::json;
+
+use crate::engine::{Engine, Region, parse_pose};
+use crate::map::Entity;
+use crate::semantics::Claim;
+use crate::units::Point;
+
+use super::args::{Common, Lang};
+use super::commands::open;
+use super::fault::Failure;
+use super::{Answer, say};
+
+/// Step of the grid that measures a region, cm; wider where the box of the region has more than [`POINTS`].
+const STEP: f64 = 10.0;
+const POINTS: f64 = 10_000.0;
+
+/// With a pose, the answer is whether the report is true of it.
+pub(super) fn run(common: &Common, text: &str, at: Option<&str>) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let pose = at.map(parse_pose).transpose()?;
+    let region = engine.read_position(text)?;
+    let holds = pose.map(|pose| engine.region_contains(&region, pose)).transpose()?;
+    let size = region.bounds.max - region.bounds.min;
+    let step = (size.x * size.y / POINTS).sqrt().max(STEP);
+    let points = engine.region_points(&region, step)?;
+    let square = points.len() as f64 * step * step / 1e4;
+    let middle = middle_of(&points);
+    let world = engine.world()?;
+    let area = world.name(Entity::Area(region.area));
+    if common.json {
+        let view = json!({
+            "map": world.maps[&region.map].name,
+            "area": area,
+            "claim": kind(&region.claim),
+            "square_m2": square,
+            "point": middle.map(|p| [p.x, p.y]),
+            "contains": holds,
+        });
+        say(&view.to_string())?;
+    } else {
+        say(&in_words(&engine, &region, square, middle, common.lang)?)?;
+        if let Some(holds) = holds {
+            say(match holds {
+                true => common.lang.pick("Поза лежит в этой области.", "The pose lies in it."),
+                false => common
+                    .lang
+                    .pick("Поза не лежит в этой области.", "The pose does not lie in it."),
+            })?;
+        }
+    }
+    Ok(if holds == Some(false) { Answer::No } else { Answer::Yes })
+}
+
+fn in_words(
+    engine: &Engine,
+    region: &Region,
+    square: f64,
+    middle: Option<Point>,
+    lang: Lang,
+) -> Result<String, Failure> {
+    let name = engine.world()?.name(Entity::Area(region.area)).to_owned();
+    let point =
+        middle.map(|p| format!("{}{:.0},{:.0}", lang.pick(", например ", ", such as "), p.x, p.y));
+    let (head, unit) = (lang.pick("Область", "Region"), lang.pick("м²", "m²"));
+    let kind = match &region.claim {
+        Claim::InArea => lang.pick("где угодно", "anywhere"),
+        Claim::InDoorway(_) => lang.pick("в проёме", "in the doorway"),
+        Claim::AtDoor(_) => lang.pick("у двери или прохода", "at the door or passage"),
+        Claim::NextTo(_) => lang.pick("рядом с вещью", "next to a thing"),
+        Claim::InCorner => lang.pick("в углу", "in a corner"),
+        Claim::AlongWall => lang.pick("у стены", "by a wall"),
+        Claim::InMiddle => lang.pick("в середине", "in the middle"),
+    };
+    Ok(format!("{head}: {name}, {kind}, {square:.2} {unit}{}.", point.unwrap_or_default()))
+}
+
+fn kind(claim: &Claim) -> &'static str {
+    match claim {
+        Claim::InArea => "in_area",
+        Claim::InDoorway(_) => "in_doorway",
+        Claim::AtDoor(_) => "at_door",
+        Claim::NextTo(_) => "next_to",
+        Claim::InCorner => "in_corner",
+        Claim::AlongWall => "along_wall",
+        Claim::InMiddle => "in_middle",
+    }
+}
+
+/// The point of the region that lies nearest to the middle of them all.
+fn middle_of(points: &[Point]) -> Option<Point> {
+    let count = points.len().max(1) as f64;
+    let sum = points.iter().fold(crate::units::Vector::zeros(), |sum, p| sum + p.coords);
+    let centre = Point::from(sum / count);
+    let far = |p: &Point| (p - centre).norm_squared();
+    points.iter().copied().min_by(|p, q| far(p).total_cmp(&far(q)))
+}

@@ -1,0 +1,57 @@
+//! Names of the map with all their forms, and those whose forms are no more than a guess.
+
+use crate::language::names::{hints, hints_of_type};
+use crate::language::report::Named;
+use crate::language::{NounPhrase, WordHints};
+use crate::map::{Entity, World};
+
+use super::lexicon::named;
+use super::{Engine, Error};
+
+impl Engine {
+    /// A name with what the map knows of its forms: that of an entity, else that of a kind of thing, else as any word.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn declined(&self, name: &str) -> Result<Named, Error> {
+        let world = self.world()?;
+        if let Some(entity) = world.find(name).first() {
+            return Ok(named(world, *entity));
+        }
+        let key = crate::units::name_key(name);
+        let kind = world
+            .types
+            .object
+            .entries
+            .values()
+            .find(|kind| crate::units::name_key(&kind.name) == key);
+        Ok(match kind {
+            Some(kind) => {
+                let english = Some(kind.name_en.as_str()).filter(|name| !name.is_empty());
+                Named::new(&kind.name, &hints_of_type(kind), english)
+            }
+            None => Named::plain(name),
+        })
+    }
+}
+
+/// The names of a world that were declined by a mere guess from an ending, once each, in the order of the entities.
+#[must_use]
+pub fn uncertain_names(world: &World) -> Vec<NounPhrase> {
+    let mut entities: Vec<Entity> = world.names().map(|(entity, _)| entity).collect();
+    entities.dedup();
+    let mut found: Vec<NounPhrase> = Vec::new();
+    let mut seen = std::collections::HashSet::new();
+    for entity in entities {
+        let (name, hints) = (world.name(entity), hints(world, entity));
+        // Of names that the map gives no forms of, the same name is declined once.
+        if hints == WordHints::default() && !seen.insert(name) {
+            continue;
+        }
+        let phrase = NounPhrase::parse(name, &hints);
+        if !phrase.is_certain() {
+            found.push(phrase);
+        }
+    }
+    found
+}

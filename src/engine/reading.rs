@@ -1,0 +1,232 @@
+//! A position report read back: from a sentence to the region of poses of which it is true (SPEC T5).
+
+use crate::geometry::{Bounds, FloorPlan};
+use crate::language::FormIndex;
+use crate::language::names::hints;
+use crate::language::report::read::{SaidDoorway, SaidFacing, SaidPosition, SaidSpot, read};
+use crate::language::report::{Beside, Opening};
+use crate::map::{Entity, Permeability, World};
+use crate::semantics::{Claim, Located, Nearness, Relations, Way, claim_bounds, claim_holds};
+use crate::units::{AreaId, Deg, MapId, Point, Pose, ReplicaId};
+
+use super::lexicon::named;
+use super::position::{Faced, faced};
+use super::{Engine, Error, RequestError};
+
+/// Where a report says that the robot is: the poses of which it is true.
+///
+/// It may be wider than the poses that would be reported so, never narrower: who stands in the doorway is also at the
+/// door. Of a corner or a wall told by a thing, the thing is not measured.
+#[derive(Debug, Clone)]
+pub struct Region {
+    pub map: MapId,
+    /// The Area; in a doorway, one of the two.
+    pub area: AreaId,
+    pub claim: Claim,
+    /// None: any heading.
+    facing: Option<SaidFacing<Entity>>,
+    /// A box that holds all of it, on the Map.
+    pub bounds: Bounds,
+}
+
+impl Engine {
+    /// Reads a position report, in Russian or English, and finds the region that it tells. Nothing is guessed: a text
+    /// that fits two regions is refused.
+    ///
+    /// # Errors
+    /// It is no report; it tells of what the map does not have, or of several regions.
+    pub fn read_position(&self, text: &str) -> Result<Region, Error> {
+        let world = self.world()?;
+        let said = read(text, &index_of(world)).map_err(|unread| {
+            let shown = |text: &str| text.chars().take(80).collect::<String>();
+            RequestError::NoReport { text: shown(text), word: shown(&text[unread.at]) }
+        })?;
+        if said.is_off_the_map() {
+            let reason = "сказано, что робот вне карты".to_owned();
+            return Err(RequestError::NoSuchPlace { reason }.into());
+        }
+        let mut regions = regions(self.relations()?, &said)?;
+        match (regions.pop(), regions.is_empty()) {
+            (Some(only), true) => Ok(only),
+            (None, _) => {
+                let reason = "помещения, двери и вещи доклада не стоят так".to_owned();
+                Err(RequestError::NoSuchPlace { reason }.into())
+            }
+            (Some(last), false) => {
+                regions.push(last);
+                let name = |region: &Region| {
+                    let map = &world.maps[&region.map].name;
+                    format!("{} ({map})", world.name(Entity::Area(region.area)))
+                };
+                let candidates = regions.iter().map(name).collect::<Vec<_>>().join(", ");
+                let name = text.chars().take(80).collect();
+                Err(RequestError::AmbiguousName { name, candidates }.into())
+            }
+        }
+    }
+
+    /// Whether a report is true of a pose.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn region_contains(&self, region: &Region, pose: Pose) -> Result<bool, Error> {
+        let (world, relations) = (self.world()?, self.relations()?);
+        Ok(region.has_point(world, relations, pose.at)
+            && region.has_heading(world, relations, self.floor(region.map)?, pose))
+    }
+
+    /// The points of a square grid over the region where some heading makes the report true, if any does; `step` in cm.
+    /// Headings are tried every 15°.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn region_points(&self, region: &Region, step: f64) -> Result<Vec<Point>, Error> {
+        let (world, relations) = (self.world()?, self.relations()?);
+        let floor = self.floor(region.map)?;
+        let Bounds { min, max } = region.bounds;
+        let count = |length: f64| (length / step).floor().clamp(0.0, 2000.0) as u32;
+        let mut points = Vec::new();
+        for row in 0..=count(max.y - min.y) {
+            for column in 0..=count(max.x - min.x) {
+                let at = min + crate::units::Vector::new(f64::from(column), f64::from(row)) * step;
+                let turned = |k: u32| Pose { at, heading: Deg::of(f64::from(k) * 15.0) };
+                if region.has_point(world, relations, at)
+                    && (region.facing.is_none()
+                        || (0..24).any(|k| region.has_heading(world, relations, floor, turned(k))))
+                {
+                    points.push(at);
+                }
+            }
+        }
+        Ok(points)
+    }
+}
+
+impl Region {
+    fn has_point(&self, world: &World, relations: &Relations, at: Point) -> bool {
+        let (measured, openings) = (relations.measurements(), relations.openings());
+        let place = (self.map, self.area);
+        claim_holds(world, measured, openings, place, &self.claim, at, &Nearness::default())
+    }
+
+    fn has_heading(
+        &self,
+        world: &World,
+        relations: &Relations,
+        floor: &FloorPlan,
+        pose: Pose,
+    ) -> bool {
+        let Some(facing) = &self.facing else { return true };
+        let here = relations.measurements().area_at(self.map, pose.at).unwrap_or(self.area);
+        let Some(faced) = faced(world, relations, floor.scene(), here, pose) else { return false };
+        match (facing, faced) {
+            (SaidFacing::Door(said), Faced::Door(way)) => is_meant(said, way),
+            (SaidFacing::Object(said), Faced::Object(thing)) => {
+                said.contains(&Entity::Replica(thing))
+            }
+            (SaidFacing::Wall, Faced::Wall) | (SaidFacing::Inward, Faced::Inward) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Whether a doorway of the map is the one that was said.
+fn is_meant(said: &SaidDoorway<Entity>, way: Way) -> bool {
+    let is_area = |names: &[Entity], area: AreaId| names.contains(&Entity::Area(area));
+    let opening = if way.is_passage { Opening::Passage } else { Opening::Door };
+    let to = match (&said.to, way.to) {
+        (Some(names), Some(area)) => is_area(names, area),
+        (None, None) => true,
+        _ => false,
+    };
+    let by_name = said
+        .name
+        .as_ref()
+        .is_none_or(|names| way.door.is_some_and(|door| names.contains(&Entity::Door(door))));
+    is_area(&said.from, way.from)
+        && to
+        && by_name
+        && said.opening.is_none_or(|said| said == opening)
+}
+
+/// The regions that a report may mean, one for each Area that it may speak of.
+fn regions(relations: &Relations, said: &SaidPosition<Entity>) -> Result<Vec<Region>, Error> {
+    let measured = relations.measurements();
+    let near = Nearness::default();
+    let areas = match (&said.spot, said.area.is_empty()) {
+        (Some(SaidSpot::InDoorway(door)), true) => &door.from,
+        _ => &said.area,
+    };
+    let mut found = Vec::new();
+    for area in areas {
+        let Entity::Area(area) = *area else { continue };
+        let Some((map, bounds)) = claim_bounds(measured, area, &near) else { continue };
+        let on_map = |names: &Vec<Entity>| names.contains(&Entity::Map(map));
+        if !said.within.iter().all(on_map) {
+            continue;
+        }
+        for claim in claims(relations, area, said.spot.as_ref())? {
+            let facing = said.facing.clone();
+            found.push(Region { map, area, claim, facing, bounds });
+        }
+    }
+    Ok(found)
+}
+
+/// What a spot claims of an Area: nothing where the map has no such doorway or thing there.
+fn claims(
+    relations: &Relations,
+    area: AreaId,
+    spot: Option<&SaidSpot<Entity>>,
+) -> Result<Vec<Claim>, Error> {
+    let ways = |door: &SaidDoorway<Entity>| -> Vec<usize> {
+        let openings = relations.openings().iter().enumerate();
+        let meant = openings.filter(|(_, opening)| {
+            let is_passage = opening.permeability == Permeability::Permeable;
+            let way = |from, to| Way { door: opening.door, is_passage, from, to };
+            let behind = opening.leads_to();
+            let across = behind.map(|b| way(b, Some(opening.area)));
+            let own = way(opening.area, behind);
+            [Some(own), across].into_iter().flatten().any(|w| w.from == area && is_meant(door, w))
+        });
+        meant.map(|(place, _)| place).collect()
+    };
+    let claim = match spot {
+        None => Claim::InArea,
+        Some(SaidSpot::InDoorway(door)) => Claim::InDoorway(ways(door)),
+        Some(SaidSpot::AtDoor(door)) => Claim::AtDoor(ways(door)),
+        Some(SaidSpot::Object(Beside::NextTo, names)) => {
+            let is_here = |id: &ReplicaId| {
+                let single = relations.measurements().of_thing(*id);
+                single.is_some_and(|s| matches!(s.place, Located::In { area: a, .. } if a == area))
+            };
+            let things = names.iter().filter_map(|name| match name {
+                Entity::Replica(id) => Some(*id).filter(is_here),
+                _ => None,
+            });
+            return Ok(things.map(Claim::NextTo).collect());
+        }
+        Some(SaidSpot::Object(..)) => {
+            let reason = "стороны вещи не измерены как области; бывает «рядом с …»".to_owned();
+            return Err(RequestError::NoSuchPlace { reason }.into());
+        }
+        Some(SaidSpot::InCorner(_)) => Claim::InCorner,
+        Some(SaidSpot::AlongWall(_)) => Claim::AlongWall,
+        Some(SaidSpot::InMiddle) => Claim::InMiddle,
+    };
+    let is_empty =
+        matches!(&claim, Claim::InDoorway(ways) | Claim::AtDoor(ways) if ways.is_empty());
+    Ok(if is_empty { Vec::new() } else { vec![claim] })
+}
+
+/// The names that reports are made of: Maps, Areas, doors and things by their own names, as reports say them.
+fn index_of(world: &World) -> FormIndex<Entity> {
+    let mut index = FormIndex::default();
+    let mut entities: Vec<Entity> = world.names().map(|(entity, _)| entity).collect();
+    entities.dedup();
+    for entity in entities.into_iter().filter(|entity| !matches!(entity, Entity::Place(_))) {
+        index.insert_name(world.name(entity), &hints(world, entity), entity);
+        index.insert_english(named(world, entity).english_name(), entity);
+    }
+    index
+}

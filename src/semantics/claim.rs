@@ -1,0 +1,73 @@
+//! Whether a pose bears out what a report says of it: the terms of [`Spot`](super::Spot) as conditions.
+//!
+//! A claim is weaker than the choice of [`whereabouts`](super::whereabouts): who stands in a corner stands by a wall
+//! too. Invariant: what `whereabouts` says of a pose holds there as a claim.
+
+use crate::map::World;
+use crate::units::{AreaId, MapId, Point, ReplicaId};
+
+use super::measure::Measurements;
+use super::openings::Opening;
+use super::position::{Nearness, Spot, by_walls, in_doorway};
+use crate::geometry::{Bounds, nearest_on_segment};
+
+/// Something said of a spot. Openings are named by their places in the list; one of them is meant.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Claim {
+    InArea,
+    InDoorway(Vec<usize>),
+    AtDoor(Vec<usize>),
+    NextTo(ReplicaId),
+    InCorner,
+    AlongWall,
+    InMiddle,
+}
+
+/// Whether a claim about an Area of a Map holds at a point.
+#[must_use]
+pub fn claim_holds(
+    world: &World,
+    measured: &Measurements,
+    openings: &[Opening],
+    (map, area): (MapId, AreaId),
+    claim: &Claim,
+    at: Point,
+    near: &Nearness,
+) -> bool {
+    let Some(room) = measured.rooms.get(&area).filter(|room| room.map == map) else {
+        return false;
+    };
+    let meant = |places: &[usize], holds: &dyn Fn(&Opening) -> bool| {
+        places.iter().filter_map(|place| openings.get(*place)).any(holds)
+    };
+    if let Claim::InDoorway(places) = claim {
+        let here = measured.area_at(map, at);
+        return meant(places, &|o| in_doorway(o, at, here, near));
+    }
+    if !room.parts.iter().any(|(part, ..)| part.contains(at)) {
+        return false;
+    }
+    match claim {
+        Claim::InArea => true,
+        Claim::InDoorway(_) => false,
+        Claim::AtDoor(places) => meant(places, &|o| {
+            (at - nearest_on_segment(at, o.ends.0, o.ends.1)).norm() <= near.door
+        }),
+        Claim::NextTo(thing) => measured.bodies.get(thing).is_some_and(|body| {
+            body.outline.iter().any(|part| part.distance_to(at) <= near.object)
+        }),
+        Claim::InCorner => by_walls(world, measured, area, at, near) == Spot::InCorner,
+        Claim::AlongWall => by_walls(world, measured, area, at, near) != Spot::InMiddle,
+        Claim::InMiddle => by_walls(world, measured, area, at, near) == Spot::InMiddle,
+    }
+}
+
+/// A box around an Area, with the thickness of its doorways; none for an Area that lies on no Map.
+#[must_use]
+pub fn claim_bounds(
+    measured: &Measurements,
+    area: AreaId,
+    near: &Nearness,
+) -> Option<(MapId, Bounds)> {
+    measured.rooms.get(&area).map(|room| (room.map, room.bounds.grown(near.wall_thickness)))
+}
