@@ -537,6 +537,11 @@ tables! {
         key repl_id: u32 = "ReplID",
         col holder: String = "Holder",
     }
+    /// Devices that the robot left switched otherwise than the map says.
+    Log DeviceStates = 67 {
+        key repl_id: u32 = "ReplID",
+        col is_on: bool = "IsOn",
+    }
 }
 
 impl Table {
