@@ -2,6 +2,7 @@
 
 mod architecture;
 mod cli;
+mod commands;
 mod corridor;
 mod corridor_lattice;
 mod datalog_files;

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::engine::{Engine, Progress, TaskAnswer, TaskEnding, World, change_now};
+use crate::engine::{Engine, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words};
 use crate::graphplan::Outcome;
 
 use super::args::{Common, Lang};
@@ -144,6 +144,10 @@ impl<'w> Teller<'w> {
                     format!("{}.", report.number),
                     report.directive
                 ));
+                let language = self.lang.language();
+                for sentence in deeds_in_words(self.world, &report.directive, language) {
+                    self.line(&format!("     {sentence}"));
+                }
                 if let Some(position) = &report.position {
                     self.line(&format!("     {}", position.say(self.lang.language())));
                 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
-    World, steps,
+    World, deeds_in_words, steps,
 };
 use crate::facts;
 use crate::geometry::{Ride, Route};
@@ -252,7 +252,7 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         "seconds": round(answer.seconds),
         "length_cm": round(answer.reports.iter().map(|r| r.length).sum()),
         "replans": answer.replans,
-        "directives": answer.reports.iter().map(report).collect::<Vec<_>>(),
+        "directives": answer.reports.iter().map(|r| report(world, r)).collect::<Vec<_>>(),
     });
     match &answer.ending {
         TaskEnding::NoPlan(planned) => view["plan"] = plan(&planned.solved),
@@ -264,8 +264,11 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
     view
 }
 
-fn report(report: &Report) -> Value {
+fn report(world: &World, report: &Report) -> Value {
+    let said = |language| deeds_in_words(world, &report.directive, language);
     json!({
+        "done_ru": said(Language::Russian),
+        "done_en": said(Language::English),
         "number": report.number,
         "action": report.directive.action.as_ref(),
         "args": report.directive.args.iter().map(AsRef::as_ref).collect::<Vec<&str>>(),

@@ -214,6 +214,9 @@ pub(super) fn surprise(world: &World, surprise: &Surprise) -> String {
     match surprise {
         Surprise::Blocked { bump, .. } => format!("путь преграждает {}", thing(bump.against)),
         Surprise::NoWay { to, why } => format!("«{to}»: {why}"),
+        Surprise::NotSeen { thing, area } => {
+            format!("{}: «{thing}» не видно", world.name(Entity::Area(*area)))
+        }
         Surprise::Unknown { name } => format!("на карте нет «{name}»"),
         Surprise::Refused { refusal, .. } => match *refusal {
             Refusal::Locked(door) => format!("{} заперта", thing(Obstruction::Door(door))),

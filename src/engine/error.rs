@@ -174,6 +174,16 @@ pub enum RequestError {
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
     NotADoor { name: String },
 
+    /// Something that is to be switched and has no switch.
+    #[error("«{name}» нельзя ни включить, ни выключить")]
+    #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]
+    NotADevice { name: String },
+
+    /// The place where a thing is kept is not on the map.
+    #[error("«{thing}» хранится на «{home}», а такой вещи на карте нет")]
+    #[diagnostic(code(engine::no_home), help("исправьте свойство ХРАНИТСЯ_НА"))]
+    NoHome { thing: String, home: String },
+
     /// A change of the map as it was.
     #[error("прошлое карты нельзя править")]
     #[diagnostic(

@@ -31,8 +31,14 @@ pub(super) fn form_index(world: &World) -> FormIndex<Entity> {
         let kind = world.objects[&replica.object].object_type;
         of_type.entry(kind).or_default().push(Entity::Replica(replica.id));
     }
-    for (kind, things) in of_type {
-        let Some(kind) = world.types.object.get(kind) else { continue };
+    let mut rooms_of_type: BTreeMap<_, Vec<Entity>> = BTreeMap::new();
+    for area in world.areas.values() {
+        rooms_of_type.entry(area.area_type).or_default().push(Entity::Area(area.id));
+    }
+    let things = of_type.into_iter().map(|(kind, all)| (world.types.object.get(kind), all));
+    let rooms = rooms_of_type.into_iter().map(|(kind, all)| (world.types.area.get(kind), all));
+    for (kind, things) in things.chain(rooms) {
+        let Some(kind) = kind else { continue };
         index.insert_kind(&NounPhrase::parse(&kind.name, &hints_of_type(kind)), &things);
         if !kind.name_en.is_empty() {
             index.insert_english_kind(&kind.name_en, &things);

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::geometry::{DoorStates, FloorPlan};
-use crate::map::{Replica, World};
+use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
 use crate::semantics::{Profile, Relations, derive};
 use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
@@ -55,6 +55,11 @@ impl Engine {
                 if !belief.is_surveyed && self.world()?.areas.contains_key(&belief.place.area) {
                     (replica.area, replica.frame) = (belief.place.area, belief.place.frame);
                 }
+            }
+        }
+        for (device, on) in &memory.devices {
+            if let Some(replica) = world.replicas.get_mut(device) {
+                switch(&mut replica.properties, *on);
             }
         }
         let (mut held, mut handed_over) = (None, Vec::new());
@@ -189,7 +194,20 @@ impl After {
         for id in before.world.replicas.keys().filter(|id| carried.contains_key(id)) {
             moved.insert(*id, None);
         }
-        let memory = RobotMemory { pose: Some((belief.map, belief.pose)), doors, carried };
+        let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
+        let devices = belief
+            .world
+            .replicas
+            .values()
+            .chain(holding)
+            .filter_map(|is| {
+                let on = is_on(&is.properties)?;
+                let was = is_on(&surveyed.replicas.get(&is.id)?.properties);
+                (was != Some(on)).then_some((is.id, on))
+            })
+            .collect();
+        let pose = Some((belief.map, belief.pose));
+        let memory = RobotMemory { pose, doors, carried, devices };
         Self { memory, moved }
     }
 }

@@ -15,6 +15,7 @@
 //! **Invariant.** Only the engine writes to the store; what it derives belongs to the map that it holds, and is
 //! derived anew when that map changes.
 
+mod deeds;
 mod drawing;
 mod edit;
 mod error;
@@ -32,6 +33,7 @@ mod route;
 mod rules;
 mod talk;
 mod task;
+mod tidy;
 mod upkeep;
 mod words;
 
@@ -39,6 +41,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+pub use deeds::deeds_in_words;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};

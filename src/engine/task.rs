@@ -1,13 +1,15 @@
 //! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
 
+use std::collections::BTreeSet;
+
 use crate::graphplan::Limits;
 use crate::language::command::{Command, Listener, Relation};
 use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator, Station,
-    Surprise,
+    Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator,
+    Station, Surprise,
 };
 use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
@@ -146,16 +148,37 @@ impl Engine {
         belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
-        let mut goal = Vec::new();
+        // What is asked for is brought about together, and then each misplaced thing is put away by itself.
+        let mut goals = vec![Vec::new()];
         for command in commands {
-            goal.extend(self.goal_of(command, &here, &now.world, relations)?);
+            goals[0].extend(self.goal_of(command, &here, &now.world, relations)?);
         }
+        for command in commands {
+            let Command::Tidy(within) = command else { continue };
+            for (thing, home) in self.misplaced(*within, now, relations)? {
+                let args = vec![thing.clone()];
+                goals.push(vec![GoalFact { predicate: predicate::IN_ITS_PLACE.to_owned(), args }]);
+                belief.homes.push((thing, home));
+            }
+        }
+        goals.retain(|goal| !goal.is_empty());
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
+        for command in commands {
+            let Command::Find(what) = command else { continue };
+            let Entity::Replica(id) = what.id else { continue };
+            let name = self.world()?.name(what.id).to_owned();
+            let in_hand = !now.world.replicas.contains_key(&id);
+            if in_hand || drive.sees(id).is_some() {
+                belief.found.insert(name);
+            } else {
+                belief.sought.insert(name, BTreeSet::new());
+            }
+        }
         let mut mission =
             Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
         let mut plans = 0;
-        let ending = mission.run(&goal, &mut drive, &mut |event| match event {
+        let mut hear = |event: &Event<'_>| match event {
             Event::Planned(planned) => {
                 plans += 1;
                 tell(&Progress::Planned(planned));
@@ -171,22 +194,33 @@ impl Engine {
             Event::Surprised { directive, surprise, .. } => {
                 tell(&Progress::Surprised { directive, surprise });
             }
-        })?;
-        let ending = match ending {
-            Ending::Done => TaskEnding::Done,
-            Ending::AlreadyTrue => TaskEnding::AlreadyTrue,
-            Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
-            Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
         };
+        let mut ending = TaskEnding::AlreadyTrue;
+        let mut begun = 0;
+        for goal in &goals {
+            begun += 1;
+            match mission.run(goal, &mut drive, &mut hear)? {
+                Ending::Done => ending = TaskEnding::Done,
+                Ending::AlreadyTrue => {}
+                Ending::NoPlan(planned) => {
+                    ending = TaskEnding::NoPlan(planned);
+                    break;
+                }
+                Ending::Stuck(surprise) => {
+                    ending = TaskEnding::Stuck(surprise);
+                    break;
+                }
+            }
+        }
         let trace = drive.trace();
         let last = trace.last().expect("a run begins with a moment");
         Ok(TaskAnswer {
-            goal,
+            goal: goals.concat(),
             map,
             start,
             end: last.pose,
             reports,
-            replans: plans - 1,
+            replans: plans - begun,
             seconds: last.time,
             ending,
             after: Some(After::of(self.world()?, now, &mission)),
@@ -255,20 +289,39 @@ impl Engine {
                 }
             }
             Command::Take { what } => vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])],
-            Command::Find(what) => vec![self.being_near(what.id, now, relations)?],
+            Command::Find(what) => match what.id {
+                Entity::Replica(_) => vec![fact(predicate::FOUND, vec![name(what.id)])],
+                place => vec![self.being_at(place, now, relations)?],
+            },
             Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
             Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
             Command::Lock(door) => self.door_facts(predicate::DOOR_LOCKED, door.id)?,
             Command::Unlock(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
-            Command::SwitchOn(_)
-            | Command::SwitchOff(_)
-            | Command::Tidy(_)
-            | Command::CallOperator
-            | Command::Stop
-            | Command::Report => {
+            Command::SwitchOn(device) => vec![self.switched(predicate::DEVICE_ON, device.id)?],
+            Command::SwitchOff(device) => vec![self.switched(predicate::DEVICE_OFF, device.id)?],
+            Command::CallOperator => vec![fact(predicate::CALLED, vec![OPERATOR.to_owned()])],
+            // What is to be tidied, each thing is a goal of its own: see `goals_of`.
+            Command::Tidy(_) => Vec::new(),
+            Command::Stop | Command::Report => {
                 return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
             }
         })
+    }
+
+    fn switched(&self, predicate: &str, entity: Entity) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let name = world.name(entity).to_owned();
+        let is_device = match entity {
+            Entity::Replica(id) => {
+                let object = &world.objects[&world.replicas[&id].object];
+                world.types.object.has_trait(object.object_type, "device")
+            }
+            _ => false,
+        };
+        if !is_device {
+            return Err(RequestError::NotADevice { name }.into());
+        }
+        Ok(GoalFact { predicate: predicate.to_owned(), args: vec![name] })
     }
 
     fn being_at(

@@ -32,6 +32,7 @@
 //! ```
 
 mod check;
+mod device;
 mod door;
 mod doorway;
 mod fault;
@@ -43,6 +44,7 @@ mod world;
 
 pub use check::check;
 pub(crate) use check::plane;
+pub use device::{is_on, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{EditReading, Format, NextIds, Reading, edit, json_schema, read, read_file};

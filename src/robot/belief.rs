@@ -1,7 +1,9 @@
 //! What a mission holds to be so: the Map, corrected by what was seen, and where the robot and its load are.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::geometry::{DoorStates, FloorPlan, Scene};
-use crate::map::{DoorState, Entity, Replica, World};
+use crate::map::{DoorState, Entity, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
@@ -52,6 +54,12 @@ pub struct Belief {
     pub spots: Vec<Spot>,
     /// Places and doors that proved to have no way to them from within an Area.
     pub unreachable: Vec<(AreaId, String)>,
+    /// What is to be found, with the Areas where it proved not to be.
+    pub sought: BTreeMap<String, BTreeSet<AreaId>>,
+    /// What is or was in view since the mission began, or known to be in a hand.
+    pub found: BTreeSet<String>,
+    /// Where things belong: by the names of a thing and of its support.
+    pub homes: Vec<(String, String)>,
     pub floor: FloorPlan,
 }
 
@@ -81,6 +89,9 @@ impl Belief {
             people: Vec::new(),
             spots,
             unreachable: Vec::new(),
+            sought: BTreeMap::new(),
+            found: BTreeSet::new(),
+            homes: Vec::new(),
             floor,
         })
     }
@@ -115,11 +126,46 @@ impl Belief {
             let args = [(person.name.as_str(), "человек"), (person.place.as_str(), "место")];
             all.push(fact(predicate::PERSON_AT_PLACE, &args));
         }
+        for (thing, home) in &self.homes {
+            let args = [(thing.as_str(), "предмет"), (home.as_str(), "объект")];
+            all.push(fact(predicate::STORED_ON, &args));
+        }
+        for (thing, searched) in &self.sought {
+            for area in self.where_may_be(thing, searched) {
+                let area = self.world.name(Entity::Area(area));
+                let args = [(thing.as_str(), "объект"), (area, "помещение")];
+                all.push(InitialFact { assumed: true, ..fact(predicate::MAY_BE_IN, &args) });
+            }
+        }
+        for thing in &self.found {
+            all.push(fact(predicate::FOUND, &[(thing, "объект")]));
+        }
         for (thing, person) in &self.handed_over {
             let args = [(thing.name.as_str(), "предмет"), (person.as_str(), "человек")];
             all.push(fact(predicate::HANDED_OVER, &args));
         }
         all
+    }
+
+    /// Where a thing is believed to be; once it proved not to be there, every Area not yet searched.
+    fn where_may_be(&self, thing: &str, searched: &BTreeSet<AreaId>) -> Vec<AreaId> {
+        let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+        let believed = self.entity(thing, replica).and_then(|id| self.world.replicas.get(&id));
+        match believed.map(|r| r.area) {
+            Some(area) if !searched.contains(&area) => vec![area],
+            _ => self.world.areas.keys().copied().filter(|a| !searched.contains(a)).collect(),
+        }
+    }
+
+    /// Notes that a thing is not in an Area; whether it was news.
+    pub(super) fn searched(&mut self, thing: &str, area: AreaId) -> bool {
+        self.sought.entry(thing.to_owned()).or_default().insert(area)
+    }
+
+    pub(super) fn switch(&mut self, device: ReplicaId, on: bool) {
+        if let Some(replica) = self.world.replicas.get_mut(&device) {
+            switch(&mut replica.properties, on);
+        }
     }
 
     /// Whether a fact of the Map speaks of a way that proved not to be there.

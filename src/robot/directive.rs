@@ -55,6 +55,15 @@ pub enum Deed {
         thing: String,
         person: String,
     },
+    Switch {
+        device: String,
+        on: bool,
+    },
+    /// Turn round and look at all there is.
+    LookRound,
+    /// Have a thing in view, from here or from another place of the Area.
+    Seek(String),
+    Call(String),
 }
 
 impl Directive {
@@ -125,7 +134,27 @@ impl Directive {
                 Deed::Put { thing, onto }
             });
         }
+        for (predicate, on) in [(predicate::DEVICE_ON, true), (predicate::DEVICE_OFF, false)] {
+            if let Some([device]) = self.added(predicate) {
+                deeds.push(Deed::Switch { device: device.clone(), on });
+            }
+        }
+        if self.added(predicate::ROOM_INSPECTED).is_some() {
+            deeds.push(Deed::LookRound);
+        }
+        if let Some([thing]) = self.added(predicate::FOUND) {
+            deeds.push(Deed::Seek(thing.clone()));
+        }
+        if let Some([person]) = self.added(predicate::CALLED) {
+            deeds.push(Deed::Call(person.clone()));
+        }
         deeds
+    }
+
+    /// Whether a fact of this predicate holds afterwards.
+    #[must_use]
+    pub fn brings_about(&self, predicate: &str) -> bool {
+        self.added(predicate).is_some()
     }
 
     fn added(&self, predicate: &str) -> Option<&[String]> {

@@ -102,6 +102,21 @@ pub trait Drive {
     /// [`Refusal`]; the hand is then as it was.
     fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal>;
 
+    /// Switches a device on or off.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the device is then as it was.
+    fn switch(&mut self, device: ReplicaId, on: bool) -> Result<(), Refusal>;
+
+    /// Calls a person; whether anybody comes is another matter.
+    fn call(&mut self, person: &str);
+
+    /// Turns round once, so that everything about has been looked at.
+    fn look_round(&mut self);
+
+    /// Where a thing is that stands in view of here, whichever way the vehicle faces; `None` when it is hidden.
+    fn sees(&self, thing: ReplicaId) -> Option<Sighting>;
+
     /// What there is to see of a thing from here; `None` when it is out of sight.
     fn look_at(&self, what: Obstruction) -> Option<Sighting>;
 }

@@ -77,6 +77,8 @@ pub enum Surprise {
     NoWay { to: String, why: NoRoute },
     /// The directive names what the Map does not know.
     Unknown { name: String },
+    /// A thing that is sought is in view of no place of this Area.
+    NotSeen { thing: String, area: AreaId },
 }
 
 /// How a mission ended.
@@ -251,6 +253,14 @@ impl<'r> Mission<'r> {
                 let replica = self.belief.held.take().expect("checked by held()");
                 self.belief.handed_over.push((replica, person.clone()));
             }
+            Deed::Switch { device, on } => {
+                let id = self.replica(device)?;
+                drive.switch(id, *on).map_err(|r| refused(r, drive))?;
+                self.belief.switch(id, *on);
+            }
+            Deed::LookRound => drive.look_round(),
+            Deed::Seek(name) => self.seek(name, drive, leg)?,
+            Deed::Call(person) => drive.call(person),
         }
         Ok(())
     }
@@ -273,6 +283,48 @@ impl<'r> Mission<'r> {
         leg.route = Some(route);
         self.belief.pose = drive.pose().1;
         driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+    }
+
+    /// Looks for a thing from here, then from each place of the Area in turn.
+    fn seek(&mut self, name: &str, drive: &mut dyn Drive, leg: &mut Leg) -> Result<(), Surprise> {
+        let thing = self.replica(name)?;
+        let area = self.belief.area;
+        let here = |p: &&PlanPlace| p.area == area && p.source != PlaceSource::Robot;
+        let places: Vec<String> = self.places.iter().filter(here).map(|p| p.name.clone()).collect();
+        let mut places = places.into_iter();
+        loop {
+            if let Some(seen) = drive.sees(thing) {
+                self.belief.learn(seen);
+                self.belief.found.insert(name.to_owned());
+                return Ok(());
+            }
+            let Some(place) = places.next() else {
+                return Err(Surprise::NotSeen { thing: name.to_owned(), area });
+            };
+            let target = self.place_target(&place)?;
+            let driven = leg.route.take();
+            match self.go(&place, target, &[area], drive, leg) {
+                Ok(()) => {
+                    self.belief.station = Station::Place(place);
+                    drive.look_round();
+                }
+                // One looks from elsewhere.
+                Err(Surprise::NoWay { .. }) => {}
+                Err(other) => return Err(other),
+            }
+            leg.route = match (driven, leg.route.take()) {
+                (Some(first), Some(next)) => Some(Route {
+                    points: first
+                        .points
+                        .into_iter()
+                        .chain(next.points.into_iter().skip(1))
+                        .collect(),
+                    length: first.length + next.length,
+                    ..next
+                }),
+                (first, next) => next.or(first),
+            };
+        }
     }
 
     fn set_door(
@@ -337,6 +389,7 @@ impl<'r> Mission<'r> {
                 self.belief.unreachable.push(refuted);
                 news
             }
+            Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
             _ => false,
         }
     }

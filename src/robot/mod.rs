@@ -7,6 +7,7 @@
 mod belief;
 mod directive;
 mod drive;
+mod eye;
 mod mission;
 mod placing;
 mod simulator;

@@ -13,10 +13,11 @@ use parry2d_f64::shape::{Ball, Segment};
 use crate::geometry::{
     Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, nearest_on_segment,
 };
-use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World};
+use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
+use super::eye::View;
 
 /// How far the arm reaches beyond the footprint, cm.
 const ARM_REACH: f64 = 90.0;
@@ -51,6 +52,7 @@ pub struct Simulator {
     edges: Vec<Edge>,
     doorways: Vec<Doorway>,
     trace: Vec<Moment>,
+    calls: Vec<String>,
 }
 
 impl Simulator {
@@ -68,6 +70,7 @@ impl Simulator {
             edges: Vec::new(),
             doorways: Vec::new(),
             trace: vec![Moment { time: 0.0, pose }],
+            calls: Vec::new(),
         };
         simulator.rebuild();
         simulator
@@ -94,6 +97,12 @@ impl Simulator {
     #[must_use]
     pub fn truth(&self) -> &World {
         &self.truth
+    }
+
+    /// Whom it has called, in order.
+    #[must_use]
+    pub fn calls(&self) -> &[String] {
+        &self.calls
     }
 
     /// Edges of everything within the robot's height, walls and door leaves.
@@ -273,6 +282,41 @@ impl Drive for Simulator {
         self.let_go(thing).map(|_| ())
     }
 
+    fn switch(&mut self, device: ReplicaId, on: bool) -> Result<(), Refusal> {
+        if !self.reaches(device)? {
+            return Err(Refusal::OutOfReach(device));
+        }
+        let replica = self.truth.replicas.get_mut(&device).ok_or(Refusal::NotThere(device))?;
+        switch(&mut replica.properties, on);
+        self.advance(SWITCH_TIME, self.pose);
+        Ok(())
+    }
+
+    fn call(&mut self, person: &str) {
+        self.calls.push(person.to_owned());
+        self.advance(CALL_TIME, self.pose);
+    }
+
+    fn look_round(&mut self) {
+        self.advance(360.0 / self.profile.turn_rate, self.pose);
+    }
+
+    fn sees(&self, thing: ReplicaId) -> Option<Sighting> {
+        let scene = Scene::of(&self.truth, self.map);
+        let placed = scene.replicas.get(&thing)?;
+        let eye = (self.pose.at, self.profile.height.get());
+        let is_wall = |e: &&Edge| !matches!(e.of, Obstruction::Replica(_));
+        let walls = self.edges.iter().filter(is_wall).map(|e| (e.a, e.b)).collect();
+        let others = scene.replicas.values().filter(|r| r.id != thing);
+        let view = View { walls, bodies: others.flat_map(|r| &r.prisms).collect() };
+        let in_view = placed.prisms.iter().any(|p| {
+            let at = p.polygon.centroid();
+            (at - eye.0).norm() <= SIGHT_RANGE
+                && [(p.bottom + p.top) / 2.0, p.top].iter().any(|&z| view.is_clear(eye, (at, z)))
+        });
+        in_view.then(|| self.look_at(Obstruction::Replica(thing))).flatten()
+    }
+
     fn look_at(&self, what: Obstruction) -> Option<Sighting> {
         match what {
             Obstruction::Wall(_) => None,
@@ -288,6 +332,12 @@ impl Drive for Simulator {
     }
 }
 
+/// Seconds to press a button.
+const SWITCH_TIME: f64 = 3.0;
+/// Seconds to call a person.
+const CALL_TIME: f64 = 2.0;
+/// How far a thing is told from others, cm.
+const SIGHT_RANGE: f64 = 1_000.0;
 /// Seconds to swing or lock a door.
 const DOOR_TIME: f64 = 4.0;
 /// Seconds to take a thing or to let it go.

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{DoorKind, DoorStatus, World};
+use crate::map::{DoorKind, DoorStatus, World, is_on};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::measure::Located;
@@ -87,6 +87,7 @@ pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Init
     let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
     writer.doors();
     writer.named_places();
+    writer.light();
     writer.things(state.holds);
     writer.robot(state);
     Initial {
@@ -164,6 +165,31 @@ impl Writer<'_> {
         self.places.insert(name, (area, source));
     }
 
+    /// No Area is known to be dark: light is an assumption.
+    fn light(&mut self) {
+        for id in self.world.areas.keys() {
+            let room = self.area(*id);
+            self.insert(predicate::ROOM_LIT, &[(&room, ROOM)], true);
+        }
+    }
+
+    /// A device and its state; where it is reached from, of one that can be carried.
+    fn device(&mut self, id: ReplicaId, name: &str, root: ReplicaId, area: AreaId) {
+        let is_portable = self.is(id, "portable");
+        let kind = if is_portable { ITEM } else { OBJECT };
+        self.fact(predicate::DEVICE_HAS_BUTTON, &[(name, kind)]);
+        match is_on(&self.world.replicas[&id].properties) {
+            Some(true) => self.fact(predicate::DEVICE_ON, &[(name, kind)]),
+            Some(false) => self.fact(predicate::DEVICE_OFF, &[(name, kind)]),
+            None => {}
+        }
+        if is_portable {
+            for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
+                self.fact(predicate::PLACE_BY, &[(&place, PLACE), (name, kind)]);
+            }
+        }
+    }
+
     /// Places by things, things on things, things on the floor, keys, people.
     fn things(&mut self, held: Option<ReplicaId>) {
         for (&id, replica) in &self.world.replicas {
@@ -184,6 +210,9 @@ impl Writer<'_> {
                 for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
                     self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, OBJECT)]);
                 }
+            }
+            if self.is(id, "device") {
+                self.device(id, &name, root, area);
             }
             if let Some(door) = replica.properties.get("КЛЮЧ_ОТ") {
                 self.fact(predicate::KEY_FITS, &[(&name, ITEM), (door, DOOR)]);
@@ -403,6 +432,9 @@ links = [{ from = "a.C", to = "b.E" }, { from = "a.F", to = "c.B" }]
                 ПОЗИЦИЯ_НАХОДИТСЯ-В(место У тумбы, помещение Б)
                 ПОЗИЦИЯ_НАХОДИТСЯ-У(место Тумба-2, объект Тумба-2)
                 ПОЗИЦИЯ_НАХОДИТСЯ-У(место У тумбы, объект Тумба-1)
+                ПОМЕЩЕНИЕ-ОСВЕЩЕНО(помещение А)?
+                ПОМЕЩЕНИЕ-ОСВЕЩЕНО(помещение Б)?
+                ПОМЕЩЕНИЕ-ОСВЕЩЕНО(помещение В)?
                 ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ(предмет Ключ, место Место-у-Ключ)
                 ПРЕДМЕТ_НАХОДИТСЯ-НА(предмет Лекарство, объект Тумба-1)
                 ПРЕДМЕТ_НАХОДИТСЯ-НА(предмет Пилюля, объект Тумба-2)

@@ -37,3 +37,23 @@ pub const THING_AT_PLACE: &str = "ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИ�
 pub const PERSON_AT_PLACE: &str = "ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ";
 /// (предмет, человек)
 pub const HANDED_OVER: &str = "ПРЕДМЕТ_ПЕРЕДАН";
+/// (объект)
+pub const DEVICE_HAS_BUTTON: &str = "УСТРОЙСТВО-ИМЕЕТ-КНОПКУ";
+/// (объект)
+pub const DEVICE_ON: &str = "УСТРОЙСТВО-ВКЛЮЧЕНО";
+/// (объект)
+pub const DEVICE_OFF: &str = "УСТРОЙСТВО-ВЫКЛЮЧЕНО";
+/// (помещение)
+pub const ROOM_LIT: &str = "ПОМЕЩЕНИЕ-ОСВЕЩЕНО";
+/// (помещение)
+pub const ROOM_INSPECTED: &str = "ПОМЕЩЕНИЕ-ОСМОТРЕНО";
+/// (объект, помещение)
+pub const MAY_BE_IN: &str = "ПРЕДМЕТ_МОЖЕТ-БЫТЬ-В";
+/// (объект)
+pub const FOUND: &str = "ПРЕДМЕТ-НАЙДЕН";
+/// (предмет, объект)
+pub const STORED_ON: &str = "ПРЕДМЕТ_ХРАНИТСЯ-НА";
+/// (предмет)
+pub const IN_ITS_PLACE: &str = "ПРЕДМЕТ-НА-СВОЁМ-МЕСТЕ";
+/// (человек)
+pub const CALLED: &str = "ЧЕЛОВЕК-ПОЗВАН";

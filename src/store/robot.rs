@@ -28,6 +28,8 @@ pub struct RobotMemory {
     pub doors: BTreeMap<DoorId, DoorState>,
     /// What is not on the map any more, with the person to whom it was given; an empty name is the robot's hand.
     pub carried: BTreeMap<ReplicaId, String>,
+    /// Devices that it left switched otherwise than the map says: whether they are on.
+    pub devices: BTreeMap<ReplicaId, bool>,
 }
 
 impl Reader {
@@ -43,10 +45,12 @@ impl Reader {
         };
         let doors = self.records::<t::DoorStates>(&Key::new())?;
         let carried = self.records::<t::Carried>(&Key::new())?;
+        let devices = self.records::<t::DeviceStates>(&Key::new())?;
         Ok(RobotMemory {
             pose: self.robot_pose()?.map(|(map, pose, _)| (map, pose)),
             doors: doors.into_iter().map(state).collect(),
             carried: carried.into_iter().map(|r| (ReplicaId(r.repl_id), r.holder)).collect(),
+            devices: devices.into_iter().map(|r| (ReplicaId(r.repl_id), r.is_on)).collect(),
         })
     }
 }
@@ -95,6 +99,15 @@ impl Store {
                 .is_none_or(|r| !memory.carried.contains_key(&ReplicaId(r.repl_id)))
         };
         self.drop_all(Table::Carried, stale, &mut draft, &stamp)?;
+        for (device, is_on) in &memory.devices {
+            let record = t::DeviceStates { repl_id: device.0, is_on: *is_on };
+            self.put_log(&mut draft, &record, &stamp)?;
+        }
+        let stale = |row: &[super::Cell]| {
+            t::DeviceStates::from_row(row)
+                .is_none_or(|r| !memory.devices.contains_key(&ReplicaId(r.repl_id)))
+        };
+        self.drop_all(Table::DeviceStates, stale, &mut draft, &stamp)?;
         self.put_observations(seen, &mut draft)?;
         self.commit_log(draft)
     }

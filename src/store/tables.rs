@@ -537,6 +537,11 @@ tables! {
         key repl_id: u32 = "ReplID",
         col holder: String = "Holder",
     }
+    /// Devices that the robot left switched otherwise than the map says.
+    Log DeviceStates = 67 {
+        key repl_id: u32 = "ReplID",
+        col is_on: bool = "IsOn",
+    }
 }
 
 impl Table {
@@ -650,7 +655,7 @@ mod tests {
     #[test]
     fn codes_stay_what_they_are() {
         let codes: Vec<u8> = Table::ALL.iter().map(|t| t.code()).collect();
-        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=66).collect();
+        let expected: Vec<u8> = (1..=31).chain(40..=51).chain(60..=67).collect();
         assert_eq!(codes, expected);
         assert!(Table::ALL.iter().all(|t| Table::from_code(t.code()) == Some(*t)));
     }

@@ -1,0 +1,67 @@
+//! What is not where it belongs: the home of a thing is the one that its property names, else where it was surveyed.
+
+use std::collections::BTreeMap;
+
+use crate::map::{Entity, World};
+use crate::robot::facts_of_map;
+use crate::semantics::{Relations, predicate};
+
+use super::memory::Now;
+use super::{Engine, Error, RequestError};
+
+/// The property of a thing that names what it is kept on or in.
+const HOME: &str = "ХРАНИТСЯ_НА";
+
+impl Engine {
+    /// The things that are not where they belong, each with the name of its home, in the order of their names.
+    ///
+    /// Within an Area, those that lie in it; on a thing, those that lie on it. What the robot holds is misplaced
+    /// everywhere. A thing that was surveyed on the floor, and one that bears another, have no home.
+    pub(super) fn misplaced(
+        &self,
+        within: Option<Entity>,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<(String, String)>, Error> {
+        let world = self.world()?;
+        let mut homes = supports(world, self.relations()?);
+        for replica in world.replicas.values() {
+            let Some(kept) = replica.properties.get(HOME) else { continue };
+            let is_thing = |e: &Entity| matches!(e, Entity::Replica(_));
+            let Some(home) = world.find(kept).into_iter().find(is_thing) else {
+                let (thing, home) = (replica.name.clone(), kept.clone());
+                return Err(RequestError::NoHome { thing, home }.into());
+            };
+            homes.insert(replica.name.clone(), world.name(home).to_owned());
+        }
+        let lie_on = supports(&now.world, relations);
+        let is_asked = |thing: &str| match within {
+            None => true,
+            Some(Entity::Area(area)) => {
+                now.world.replicas.values().any(|r| r.name == thing && r.area == area)
+            }
+            Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
+        };
+        let is_held = |thing: &str| now.held.as_ref().is_some_and(|held| held.name == thing);
+        let lies = |thing: &str| now.world.replicas.values().any(|r| r.name == thing);
+        Ok(homes
+            .into_iter()
+            .filter(|(thing, home)| {
+                is_held(thing)
+                    || (lies(thing) && is_asked(thing) && lie_on.get(thing) != Some(home))
+            })
+            .collect())
+    }
+}
+
+/// What each thing that can be carried lies on or in, by name.
+fn supports(world: &World, relations: &Relations) -> BTreeMap<String, String> {
+    facts_of_map(world, relations)
+        .into_iter()
+        .filter(|fact| fact.predicate == predicate::THING_ON)
+        .filter_map(|fact| {
+            let [thing, on] = <[_; 2]>::try_from(fact.arguments).ok()?;
+            Some((thing.name, on.name))
+        })
+        .collect()
+}

@@ -1,0 +1,237 @@
+//! Commands beyond bringing: switch, find, tidy, call, each from the sentence to the world that it leaves.
+
+use std::collections::BTreeSet;
+
+use orthoframe::Engine;
+use orthoframe::engine::{Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words};
+use orthoframe::geometry::Scene;
+use orthoframe::language::Language;
+use orthoframe::map::{Entity, World, is_on, switch};
+use orthoframe::robot::{Deed, Surprise};
+use orthoframe::semantics::{Profile, RelationRules, derive};
+use orthoframe::units::{AreaId, ReplicaId};
+
+use crate::worlds::{mirrored, rb2};
+
+fn thing(world: &World, name: &str) -> ReplicaId {
+    let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+    world.find(name).into_iter().find_map(replica).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn area(world: &World, name: &str) -> AreaId {
+    let area = |e| if let Entity::Area(id) = e { Some(id) } else { None };
+    world.find(name).into_iter().find_map(area).unwrap_or_else(|| panic!("no {name}"))
+}
+
+fn perform(engine: &Engine, command: &str) -> TaskAnswer {
+    engine.perform(command, &mut |_| {}).unwrap_or_else(|e| panic!("{command}: {e}"))
+}
+
+fn said(world: &World, answer: &TaskAnswer, language: Language) -> Vec<String> {
+    answer.reports.iter().flat_map(|r| deeds_in_words(world, &r.directive, language)).collect()
+}
+
+/// The flat in a store of its own, so that one task goes on from another.
+fn stored(dir: &tempfile::TempDir) -> Engine {
+    let mut engine = Engine::open(&dir.path().join("store"), None).unwrap();
+    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml");
+    engine.import(map.as_ref(), &change_now("проверка", "карта")).unwrap();
+    engine
+}
+
+fn perform_and_remember(engine: &mut Engine, command: &str) -> TaskAnswer {
+    let answer = perform(engine, command);
+    engine.remember(&answer, std::time::SystemTime::now().into()).unwrap();
+    answer
+}
+
+fn world_now(engine: &Engine) -> World {
+    engine.now(std::time::SystemTime::now().into()).unwrap().world
+}
+
+/// What a thing lies on or in, by the relations of that world.
+fn support(world: &World, name: &str) -> Option<String> {
+    let relations = derive(world, &RelationRules::standard(), Profile::Surveyed).unwrap();
+    let on = relations.support_of(thing(world, name))?;
+    Some(world.replicas[&on].name.clone())
+}
+
+#[test]
+fn a_device_is_switched_by_one_who_stands_by_it() {
+    for (how, world) in [("as it is", rb2()), ("mirrored", mirrored(&rb2()))] {
+        let cases = [
+            ("Включи торшер", "Торшер-1", true, "Я включил Торшер-1.", "on"),
+            ("Turn off the lamp 1", "Лампа-1", false, "Я выключил Лампу-1.", "off"),
+            ("Выключи чайник", "Чайник-1", false, "Я выключил Чайник-1.", "off"),
+        ];
+        let engine = Engine::in_memory(world.clone(), None).unwrap();
+        for (command, device, on, russian, english) in cases {
+            let id = thing(&world, device);
+            let answer = perform(&engine, command);
+            assert!(matches!(answer.ending, TaskEnding::Done), "{how}, {command}");
+            let after = answer.after.as_ref().unwrap();
+            assert_eq!(after.memory.devices, [(id, on)].into(), "{how}, {command}");
+            let bounds = Scene::of(&world, answer.map).replicas[&id].bounds;
+            let at = answer.end.at;
+            let (dx, dy) = (
+                (bounds.min.x - at.x).max(at.x - bounds.max.x).max(0.0),
+                (bounds.min.y - at.y).max(at.y - bounds.max.y).max(0.0),
+            );
+            let arm = world.robot.radius.get() + 90.0;
+            assert!(dx.hypot(dy) <= arm, "{how}, {command}: {dx} {dy}");
+            assert_eq!(said(&world, &answer, Language::Russian), [russian], "{how}");
+            let words = &said(&world, &answer, Language::English)[0];
+            assert!(words.starts_with(&format!("I switched {english} ")), "{how}: {words}");
+
+            let mut so_already = world.clone();
+            switch(&mut so_already.replicas.get_mut(&id).unwrap().properties, on);
+            let answer = perform(&Engine::in_memory(so_already, None).unwrap(), command);
+            assert!(matches!(answer.ending, TaskEnding::AlreadyTrue), "{how}, {command}");
+            assert!(answer.reports.is_empty());
+        }
+        let refused = engine.perform("Включи диван", &mut |_| {}).unwrap_err();
+        assert_eq!(refused.to_string(), "«Диван-1» нельзя ни включить, ни выключить", "{how}");
+    }
+}
+
+#[test]
+fn a_device_stays_as_the_last_task_left_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    let lamp = thing(&rb2(), "Торшер-1");
+    let state = |engine: &Engine| is_on(&world_now(engine).replicas[&lamp].properties);
+    assert_eq!(state(&engine), Some(false));
+    perform_and_remember(&mut engine, "Включи торшер");
+    drop(engine);
+    let mut engine = Engine::open_existing(&dir.path().join("store"), None).unwrap();
+    assert_eq!(state(&engine), Some(true));
+    assert_eq!(engine.world().unwrap(), &rb2(), "the map itself is as it was surveyed");
+    let again = perform_and_remember(&mut engine, "Switch on the floor lamp");
+    assert!(matches!(again.ending, TaskEnding::AlreadyTrue));
+    let off = perform_and_remember(&mut engine, "Выключи торшер");
+    assert!(matches!(off.ending, TaskEnding::Done));
+    assert_eq!(state(&engine), Some(false));
+    assert!(off.after.unwrap().memory.devices.is_empty(), "it is as the map says again");
+}
+
+/// Searches for the red cup in a truth of its own: the answer, and the Areas where it was not seen.
+fn search(truth: World) -> (TaskAnswer, Vec<AreaId>) {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let mut missed = Vec::new();
+    let answer = engine.perform_in("Найди красную чашку", truth, &mut |progress| {
+        if let Progress::Surprised { surprise: Surprise::NotSeen { thing, area }, .. } = progress {
+            assert_eq!(thing, "Чашка-2");
+            missed.push(*area);
+        }
+    });
+    (answer.unwrap(), missed)
+}
+
+#[test]
+fn a_thing_is_sought_from_room_to_room() {
+    let world = rb2();
+    let cup = thing(&world, "Чашка-2");
+
+    let (answer, missed) = search(world.clone());
+    assert!(matches!(answer.ending, TaskEnding::Done));
+    assert!(missed.is_empty());
+    assert_eq!(said(&world, &answer, Language::Russian), ["Я вижу Чашку-2."]);
+
+    // It stands where the umbrella should be.
+    let mut moved = world.clone();
+    let umbrella = world.replicas[&thing(&world, "Зонт-1")].clone();
+    let replica = moved.replicas.get_mut(&cup).unwrap();
+    (replica.area, replica.frame) = (umbrella.area, umbrella.frame);
+    moved.replicas.remove(&umbrella.id);
+    let (answer, missed) = search(moved.clone());
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    assert_eq!(missed[0], area(&world, "Комната-Z"), "first where it is believed to be");
+    let seen = answer.after.as_ref().unwrap().moved[&cup].unwrap();
+    assert_eq!((seen.area, seen.frame), (umbrella.area, umbrella.frame));
+    let last = answer.reports.last().unwrap();
+    assert!(matches!(&last.directive.deeds()[..], [Deed::Seek(name)] if name == "Чашка-2"));
+
+    // It is nowhere: every room is looked into once, and then it is said.
+    let mut gone = world.clone();
+    gone.replicas.remove(&cup);
+    let (answer, missed) = search(gone);
+    assert!(matches!(answer.ending, TaskEnding::NoPlan(_)), "{:?}", answer.ending);
+    let rooms: BTreeSet<AreaId> = world.areas.keys().copied().collect();
+    assert_eq!(missed.len(), rooms.len());
+    assert_eq!(missed.into_iter().collect::<BTreeSet<_>>(), rooms);
+}
+
+#[test]
+fn what_stands_in_view_is_found_already() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let answer = perform(&engine, "Найди диван");
+    assert!(matches!(answer.ending, TaskEnding::AlreadyTrue));
+    let behind_walls = perform(&engine, "Найди кровать");
+    assert!(matches!(behind_walls.ending, TaskEnding::Done));
+}
+
+#[test]
+fn things_are_put_back_where_they_were_surveyed() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    assert!(matches!(perform(&engine, "Наведи порядок").ending, TaskEnding::AlreadyTrue));
+    for (command, name, on) in [
+        ("Положи белую чашку на письменный стол", "Чашка-1", "Письменный стол"),
+        ("Положи красную чашку на обеденный стол", "Чашка-2", "Обеденный стол"),
+    ] {
+        let put = perform_and_remember(&mut engine, command);
+        assert!(matches!(put.ending, TaskEnding::Done), "{command}: {:?}", put.ending);
+        assert_eq!(support(&world_now(&engine), name).as_deref(), Some(on));
+    }
+    let elsewhere = perform_and_remember(&mut engine, "Tidy the bedroom");
+    assert!(matches!(elsewhere.ending, TaskEnding::AlreadyTrue), "nothing there is misplaced");
+    let one = perform_and_remember(&mut engine, "Tidy the living room");
+    assert!(matches!(one.ending, TaskEnding::Done), "{:?}", one.ending);
+    let sentences = said(&rb2(), &one, Language::Russian);
+    assert_eq!(sentences, ["Я вернул Чашку-1 на место."]);
+    let rest = perform_and_remember(&mut engine, "Tidy up");
+    assert!(matches!(rest.ending, TaskEnding::Done), "{:?}", rest.ending);
+    assert_eq!(said(&rb2(), &rest, Language::Russian), ["Я вернул Чашку-2 на место."]);
+    for name in ["Чашка-1", "Чашка-2"] {
+        assert_eq!(support(&world_now(&engine), name), support(&rb2(), name), "{name}");
+    }
+    assert!(matches!(perform(&engine, "Наведи порядок").ending, TaskEnding::AlreadyTrue));
+}
+
+#[test]
+fn a_home_may_be_a_property() {
+    let mut world = rb2();
+    let book = thing(&world, "Книга-4");
+    let properties = &mut world.replicas.get_mut(&book).unwrap().properties;
+    properties.insert("ХРАНИТСЯ_НА".to_owned(), "письменный стол".to_owned());
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let answer = perform(&engine, "Наведи порядок");
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    let seen = answer.after.as_ref().unwrap().moved[&book].unwrap();
+    let mut after = world.clone();
+    let replica = after.replicas.get_mut(&book).unwrap();
+    (replica.area, replica.frame) = (seen.area, seen.frame);
+    assert_eq!(support(&after, "Книга-4").as_deref(), Some("Письменный стол"));
+
+    let properties = &mut world.replicas.get_mut(&book).unwrap().properties;
+    properties.insert("ХРАНИТСЯ_НА".to_owned(), "Рояль".to_owned());
+    let engine = Engine::in_memory(world, None).unwrap();
+    let error = engine.perform("Наведи порядок", &mut |_| {}).unwrap_err();
+    assert_eq!(error.to_string(), "«Книга-4» хранится на «Рояль», а такой вещи на карте нет");
+}
+
+#[test]
+fn the_operator_is_called_with_the_place_said() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    for command in ["Позови оператора", "Call the operator"] {
+        let answer = perform(&engine, command);
+        assert!(matches!(answer.ending, TaskEnding::Done), "{command}");
+        let ru = said(&rb2(), &answer, Language::Russian);
+        assert_eq!(ru, ["Оператор, подойдите, пожалуйста, ко мне."]);
+        let en = said(&rb2(), &answer, Language::English);
+        assert_eq!(en, ["Operator, please come to me."]);
+        let place = answer.reports[0].position.as_ref().unwrap().say(Language::Russian);
+        assert!(place.contains("Комнаты-В"), "{place}");
+        assert_eq!(answer.start, answer.end);
+    }
+}
