@@ -1,7 +1,7 @@
 //! IFC models (IFC2x3, IFC4) as STEP text → [`Survey`]: storeys, spaces, doors, windows, openings without doors,
 //! furniture. Walls are not read: they are what is between the spaces.
 //!
-//! Only the types of [`WANTED`] are taken apart; the rest of the file is passed over. A door is set where its
+//! Only the types of `WANTED` are taken apart; the rest of the file is passed over. A door is set where its
 //! placement and its body say; the spaces that it joins are looked for on both sides of it, and where the model has
 //! space boundaries they narrow the search.
 

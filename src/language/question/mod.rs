@@ -1,8 +1,8 @@
 //! Questions: from a sentence in Russian or English to a query, from the query to an answer, and to a sentence again.
 //!
-//! After SPEC T1 and T2. The path is tokens → items ([`grammar`]) → [`Query`] ([`assemble`]) → what is found on the map
-//! ([`knowledge`]) → [`Answer`]: data first, with the facts that it rests on, and a sentence in the question's language.
-//! The query can be shown as a rule of the Datalog that the relations are written in ([`Answer::rule`]).
+//! After SPEC T1 and T2. The path is tokens → items (`grammar`) → [`Query`] (`assemble`) → what is found on the map
+//! (`knowledge`) → [`Answer`]: data first, with the facts that it rests on, and a sentence in the question's language.
+//! The query can be shown as a rule of the Datalog that the relations are written in (`ortho ask --explain`).
 //!
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
 //! three different [`Doubt`]s. No text makes it panic.
