@@ -7,7 +7,7 @@ use std::path::PathBuf;
 
 use orthoframe::engine::Engine;
 use orthoframe::exchange::{Deed, ImportError, Imported, Options, What, read};
-use orthoframe::map::{World, check};
+use orthoframe::map::{DoorState, World, check};
 use orthoframe::units::{AreaId, Cm};
 
 #[expect(clippy::print_stdout, reason = "a skipped test says so")]
@@ -186,6 +186,44 @@ fn every_room_that_the_source_connects_can_be_driven_to() {
     for name in ["rmf/office.building.yaml", "rmf/triple_H.building.yaml"] {
         let Some(building) = imported(name) else { continue };
         let missing = routes(building.world);
+        assert!(missing.is_empty(), "{name}: {missing:#?}");
+    }
+}
+
+/// Into how many parts the doors of a ProcTHOR house leave its rooms, by the file alone.
+fn parts_of_house(path: &std::path::Path) -> usize {
+    let text = std::fs::read_to_string(path).expect("a file");
+    let house: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let list = |name: &str| house[name].as_array().cloned().unwrap_or_default();
+    let mut part: BTreeMap<String, String> = list("rooms")
+        .iter()
+        .filter_map(|r| r["id"].as_str())
+        .map(|r| (r.into(), r.into()))
+        .collect();
+    for door in list("doors") {
+        let end = |name: &str| door[name].as_str().and_then(|r| part.get(r)).cloned();
+        let (Some(one), Some(other)) = (end("room0"), end("room1")) else { continue };
+        part.values_mut().filter(|p| **p == one).for_each(|p| p.clone_from(&other));
+    }
+    part.into_values().collect::<BTreeSet<_>>().len()
+}
+
+/// Furniture may bar a way in a house of a simulator; the rooms themselves must hang together.
+#[test]
+fn rooms_of_houses_hang_together_when_they_stand_empty() {
+    let houses = (0..10).map(|n| format!("procthor/house_{n}.json"));
+    let scenes = (1..4).map(|n| format!("virtualhome/TestScene{n}_graph.json"));
+    for name in houses.chain(scenes) {
+        let Some(path) = data(&name) else { continue };
+        let mut world = read(&path, &Options::default()).expect("a building").world;
+        world.replicas.clear();
+        world.places.values_mut().for_each(|place| place.serves = None);
+        world.doors.values_mut().for_each(|door| door.state = DoorState::OPEN);
+        if name.starts_with("procthor") {
+            let joined = groups(&world).into_values().collect::<BTreeSet<_>>().len();
+            assert_eq!(joined, parts_of_house(&path), "{name}");
+        }
+        let missing = routes(world);
         assert!(missing.is_empty(), "{name}: {missing:#?}");
     }
 }
