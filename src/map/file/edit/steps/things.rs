@@ -1,0 +1,113 @@
+//! What stands in an Area: replicas and places put down, moved and turned.
+
+use super::word::{Done, Step, misprint, number, numbers, table, written};
+use super::{Steps, VERBS};
+use crate::map::fault::MapError;
+use crate::map::file::decode::shortened;
+use crate::map::file::edit::tree::{Handle, Kind, entry};
+use crate::map::file::node::{Entry, Node, Value};
+
+impl Steps<'_> {
+    pub(super) fn place(&mut self, step: &Step<'_>) -> Done {
+        let area = self.find(step.required("area")?, &[Kind::Area])?;
+        let fields = VERBS[0].1.iter().filter(|f| **f != "area").copied().collect::<Vec<_>>();
+        self.new_line(Kind::Replica, area, step, &fields)
+    }
+
+    pub(super) fn point(&mut self, step: &Step<'_>) -> Done {
+        let area = self.find(step.required("area")?, &[Kind::Area])?;
+        self.new_line(Kind::Place, area, step, &["at", "heading", "serves", "name_en", "forms"])
+    }
+
+    fn new_line(&mut self, kind: Kind, area: Handle, step: &Step<'_>, fields: &[&str]) -> Done {
+        let name = step.what()?;
+        if !self.tree.find(name, &[kind]).is_empty() {
+            let error = MapError::AlreadyThere { what: kind.title(), name: shortened(name) };
+            return Err(misprint(error, step.span()));
+        }
+        let mut entries = step.copies(fields);
+        for entry in &mut entries {
+            let kinds = match entry.key.as_str() {
+                "object" => &[Kind::Object],
+                "serves" => &[Kind::Replica],
+                _ => continue,
+            };
+            entry.node = self.reference(&entry.node, kinds)?;
+        }
+        entries.push(Entry { key: "name".to_owned(), ..step.verb.clone() });
+        entries.push(self.fresh_id(kind, step.span()));
+        // The place of the line is that of the whole step, as a line of a map file is that of its fields.
+        self.tree.add_line(kind, area, table(&step.verb.key_span, entries));
+        Ok(())
+    }
+
+    /// `move`: to a place, by an offset, into another Area. Coordinates are those of the Area.
+    pub(super) fn shift(&mut self, step: &Step<'_>) -> Done {
+        let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place])?;
+        let before = self.tree.get(at).and_then(|n| n.entry("at")).map(|e| numbers(&e.node));
+        let before = before.transpose()?.unwrap_or_default();
+        let (to, by) = (step.field("to"), step.field("by"));
+        let new = match (to, by) {
+            (Some(to), None) => Some((numbers(to)?, to)),
+            (None, Some(by)) => {
+                let by_how_much = numbers(by)?;
+                let sum = |i: usize| {
+                    before.get(i).copied().unwrap_or(0.0)
+                        + by_how_much.get(i).copied().unwrap_or(0.0)
+                };
+                let count = before.len().max(by_how_much.len());
+                Some(((0..count).map(sum).collect(), by))
+            }
+            (None, None) if step.field("area").is_some() => None,
+            (None, None) => {
+                return Err(misprint(MapError::MissingField { field: "to" }, &step.verb.key_span));
+            }
+            (Some(_), Some(by)) => {
+                let message = "дайте либо to, либо by".to_owned();
+                return Err(misprint(MapError::BadValue { message }, &by.span));
+            }
+        };
+        if let Some((new, node)) = new {
+            // A height that was there stays when the new place says none.
+            let mut new = new;
+            if let (2, Some(z)) = (new.len(), before.get(2)) {
+                new.push(*z);
+            }
+            if at.kind == Kind::Place {
+                new.truncate(2);
+            }
+            let list = new.iter().map(|x| Node { span: node.span.clone(), value: written(*x) });
+            let value = Value::List(list.collect());
+            self.change(at).put(entry("at", &node.span, value));
+        }
+        let Some(area) = step.field("area") else { return Ok(()) };
+        let area = self.find(area, &[Kind::Area])?;
+        if area.entry != at.entry {
+            let record = self.change(at);
+            let line = Node { span: step.verb.key_span.clone(), value: record.value.clone() };
+            record.value = Value::Nothing;
+            self.tree.add_line(at.kind, area, line);
+        }
+        Ok(())
+    }
+
+    pub(super) fn turn(&mut self, step: &Step<'_>) -> Done {
+        let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place])?;
+        let field = if at.kind == Kind::Place { "heading" } else { "angle" };
+        let before = self.tree.get(at).and_then(|n| n.entry(field)).map(|e| number(&e.node));
+        let before = before.transpose()?.unwrap_or(0.0);
+        let (angle, node) = match (step.field("to"), step.field("by")) {
+            (Some(to), None) => (number(to)?, to),
+            (None, Some(by)) => ((before + number(by)?).rem_euclid(360.0), by),
+            (Some(_), Some(by)) => {
+                let message = "дайте либо to, либо by".to_owned();
+                return Err(misprint(MapError::BadValue { message }, &by.span));
+            }
+            (None, None) => {
+                return Err(misprint(MapError::MissingField { field: "by" }, &step.verb.key_span));
+            }
+        };
+        self.change(at).put(entry(field, &node.span, written(angle)));
+        Ok(())
+    }
+}
