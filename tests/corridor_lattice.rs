@@ -660,14 +660,8 @@ fn empty_world() -> World {
     World {
         domain,
         maps: BTreeMap::from([(MapId(1), map)]),
-        areas: BTreeMap::new(),
-        objects: BTreeMap::new(),
-        orthoframes: BTreeMap::new(),
-        doors: BTreeMap::new(),
-        replicas: BTreeMap::new(),
-        places: BTreeMap::new(),
         types,
-        robot: orthoframe::map::RobotProfile::default(),
+        ..World::empty()
     }
 }
 

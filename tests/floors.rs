@@ -52,14 +52,8 @@ impl Builder {
             world: World {
                 domain,
                 maps: BTreeMap::from([(MapId(1), map)]),
-                areas: BTreeMap::new(),
-                objects: BTreeMap::new(),
-                orthoframes: BTreeMap::new(),
-                doors: BTreeMap::new(),
-                replicas: BTreeMap::new(),
-                places: BTreeMap::new(),
-                types: TypeLists::default(),
                 robot,
+                ..World::empty()
             },
             next: 1,
         }

@@ -93,15 +93,9 @@ pub(crate) fn world(seed: u64) -> World {
             maps: Vec::new(),
             lifts: Vec::new(),
         },
-        maps: BTreeMap::new(),
-        areas: BTreeMap::new(),
-        objects: BTreeMap::new(),
-        orthoframes: BTreeMap::new(),
-        doors: BTreeMap::new(),
-        replicas: BTreeMap::new(),
-        places: BTreeMap::new(),
         types: types(&mut dice),
         robot: RobotProfile { radius: Cm::of(dice.number(10.0, 40.0)), ..Default::default() },
+        ..World::empty()
     };
     orthoframes(&mut world, &mut dice);
     objects(&mut world, &mut dice);

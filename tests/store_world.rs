@@ -109,15 +109,9 @@ pub(crate) fn world(seed: u64, size: u32) -> World {
             maps: Vec::new(),
             lifts: Vec::new(),
         },
-        maps: BTreeMap::new(),
-        areas: BTreeMap::new(),
-        objects: BTreeMap::new(),
-        orthoframes: BTreeMap::new(),
-        doors: BTreeMap::new(),
-        replicas: BTreeMap::new(),
-        places: BTreeMap::new(),
         types,
         robot: RobotProfile { radius: dice.cm(), speed: dice.number(), ..RobotProfile::default() },
+        ..World::empty()
     };
     // Ids have holes, as in a store with a past.
     for n in 0..2 + u32::try_from(dice.roll(5)).unwrap() {

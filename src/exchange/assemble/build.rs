@@ -107,25 +107,15 @@ pub(super) fn build(
 fn empty(survey: &Survey) -> World {
     let name = names::tidy(&survey.name);
     let name = if name.is_empty() { "Здание".to_owned() } else { name };
+    let empty = World::empty();
     World {
         domain: Domain {
-            id: DomainId(1),
             key: "building".to_owned(),
             name_en: if names::is_russian(&name) { String::new() } else { name.clone() },
             name,
-            description: String::new(),
-            maps: Vec::new(),
-            lifts: Vec::new(),
+            ..empty.domain
         },
-        maps: BTreeMap::new(),
-        areas: BTreeMap::new(),
-        objects: BTreeMap::new(),
-        orthoframes: BTreeMap::new(),
-        doors: BTreeMap::new(),
-        replicas: BTreeMap::new(),
-        places: BTreeMap::new(),
-        types: crate::map::TypeLists::default(),
-        robot: RobotProfile::default(),
+        ..empty
     }
 }
 

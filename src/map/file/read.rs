@@ -181,15 +181,9 @@ impl<'n> Reader<'n> {
 
         let mut world = World {
             domain: self.domain(&maps),
-            maps: BTreeMap::new(),
-            areas: BTreeMap::new(),
-            objects: BTreeMap::new(),
-            orthoframes: BTreeMap::new(),
-            doors: BTreeMap::new(),
-            replicas: BTreeMap::new(),
-            places: BTreeMap::new(),
             types,
             robot: self.robot(),
+            ..World::empty()
         };
         world.orthoframes = self.records(orthoframes, Self::orthoframe);
         world.doors = self.records(doors, Self::door);
