@@ -657,12 +657,7 @@ fn empty_world() -> World {
         };
         types.area.entries.insert(TypeId(id), entry);
     }
-    World {
-        domain,
-        maps: BTreeMap::from([(MapId(1), map)]),
-        types,
-        ..World::empty()
-    }
+    World { domain, maps: BTreeMap::from([(MapId(1), map)]), types, ..World::empty() }
 }
 
 #[test]

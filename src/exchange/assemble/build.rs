@@ -9,9 +9,9 @@ use crate::map::BaseVector;
 use crate::map::plane::edges;
 use crate::map::{
     Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Orthoframe,
-    Permeability, Properties, RobotProfile, TypeKind, World,
+    Permeability, Properties, TypeKind, World,
 };
-use crate::units::{AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, OrFrId, Point, TypeId};
+use crate::units::{AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, Point, TypeId};
 
 use super::names::{self, Names, letters};
 use super::openings::{self, Placed};

@@ -179,12 +179,8 @@ impl<'n> Reader<'n> {
         let replicas = self.replicas(&mut areas);
         let places = self.places(&mut areas);
 
-        let mut world = World {
-            domain: self.domain(&maps),
-            types,
-            robot: self.robot(),
-            ..World::empty()
-        };
+        let mut world =
+            World { domain: self.domain(&maps), types, robot: self.robot(), ..World::empty() };
         world.orthoframes = self.records(orthoframes, Self::orthoframe);
         world.doors = self.records(doors, Self::door);
         world.objects = self.records(objects, Self::object);

@@ -1,0 +1,257 @@
+//! What is measured between things that are near, in the integer units of the facts (SPEC R1, R4).
+//!
+//! Lengths are tenths of a millimetre, angles hundredths of a degree, shares per mille. Nothing here knows what a
+//! number means: how near is "next to" stands in `rules/relations.dl`. Only [`Reach`], taken from that same text,
+//! says how far measuring need look, so that its cost grows with the number of near pairs.
+
+mod between;
+mod pair;
+mod rooms;
+mod single;
+mod update;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::OnceLock;
+
+pub use between::{Beside, Between};
+pub use pair::{Below, Directed, Into, Over, Pair, Within};
+pub(super) use pair::{level, surface_distance};
+pub(super) use rooms::Room;
+pub use single::{Located, Single};
+pub use update::Change;
+
+use crate::map::World;
+use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, ReplicaId};
+
+use super::body::{Body, Kind};
+use super::grid::Grid;
+use rooms::{placements, rooms};
+
+/// Fewer things than this are measured by one thread: starting more would take longer.
+const LEAST_SHARE: usize = 2_000;
+
+/// How far measuring looks, in tenths of a millimetre. The facts `reach(name, limit)` of the rule text set it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reach {
+    /// Surface distances up to this are facts.
+    pub distance: i64,
+    /// Facing sides and what stands between, up to this surface distance.
+    pub beside: i64,
+    /// Sectors round a front, up to this surface distance.
+    pub sector: i64,
+    /// How deep a foot may sink below a roof, and a roof rise above the base over it.
+    pub sink: i64,
+    /// How far a thing may stick out of what holds it.
+    pub escape: i64,
+    /// How far from its Fragment a thing that is in no Area may be.
+    pub outside: i64,
+    /// From the middle of one thing to what surrounds another, up to this; the standard rules do without it.
+    pub apart: i64,
+}
+
+impl Default for Reach {
+    fn default() -> Self {
+        Self {
+            distance: 13_000,
+            beside: 6_000,
+            sector: 20_000,
+            sink: 1_000,
+            escape: 1_000,
+            outside: 5_000,
+            apart: 0,
+        }
+    }
+}
+
+/// Everything measured on the Maps of a world.
+#[derive(Debug, Clone)]
+pub struct Measurements {
+    reach: Reach,
+    kinds: BTreeMap<ObjectId, Kind>,
+    pub(super) placements: BTreeMap<AreaId, (MapId, Frame)>,
+    pub(super) rooms: BTreeMap<AreaId, Room>,
+    room_grid: BTreeMap<MapId, Grid<AreaId>>,
+    pub(super) bodies: BTreeMap<ReplicaId, Body>,
+    grids: BTreeMap<MapId, Grid<ReplicaId>>,
+    pub(super) singles: BTreeMap<ReplicaId, Single>,
+    /// Measured when first asked for: a reopened store may answer without.
+    near: OnceLock<Near>,
+}
+
+/// What is measured of pairs.
+#[derive(Debug, Clone, Default, PartialEq)]
+struct Near {
+    pairs: BTreeMap<Key, Pair>,
+    /// For each thing the pairs between which it stands.
+    stands_between: BTreeMap<ReplicaId, BTreeSet<Key>>,
+}
+
+/// A pair of things, the lower id first.
+type Key = (ReplicaId, ReplicaId);
+
+/// The same measurements, whatever way they came about.
+impl PartialEq for Measurements {
+    fn eq(&self, other: &Self) -> bool {
+        self.singles == other.singles && self.near() == other.near() && self.bodies == other.bodies
+    }
+}
+
+impl Measurements {
+    /// Measures all Maps of a world.
+    #[must_use]
+    pub fn of(world: &World, reach: Reach) -> Self {
+        let measured = Self::of_things(world, reach);
+        measured.near();
+        measured
+    }
+
+    /// Measures things and Areas; pairs when they are first asked for.
+    pub(super) fn of_things(world: &World, reach: Reach) -> Self {
+        let placements = placements(world);
+        let mut measured = Self {
+            reach,
+            kinds: world
+                .objects
+                .values()
+                .filter_map(|o| Some((o.id, Kind::of(world, o)?)))
+                .collect(),
+            rooms: rooms(world),
+            room_grid: BTreeMap::new(),
+            bodies: BTreeMap::new(),
+            grids: BTreeMap::new(),
+            singles: BTreeMap::new(),
+            near: OnceLock::new(),
+            placements,
+        };
+        for room in measured.rooms.values() {
+            measured.room_grid.entry(room.map).or_default().insert(room.id, &room.bounds);
+        }
+        measured.bodies = world
+            .replicas
+            .keys()
+            .filter_map(|&id| {
+                Some((id, Body::new(world, &measured.kinds, &measured.placements, id)?))
+            })
+            .collect();
+        for body in measured.bodies.values() {
+            measured.grids.entry(body.map).or_default().insert(body.id, &body.bounds);
+        }
+        measured.singles = measured.bodies.values().map(|b| (b.id, measured.single(b))).collect();
+        measured
+    }
+
+    fn near(&self) -> &Near {
+        self.near.get_or_init(|| self.measure_pairs())
+    }
+
+    fn near_mut(&mut self) -> &mut Near {
+        self.near();
+        self.near.get_mut().expect("measured in the line before")
+    }
+
+    /// All pairs that are near enough to say something of.
+    pub(super) fn pairs(&self) -> &BTreeMap<Key, Pair> {
+        &self.near().pairs
+    }
+
+    /// Measures all near pairs, on all cores where there are many things.
+    fn measure_pairs(&self) -> Near {
+        let bodies: Vec<&Body> = self.bodies.values().collect();
+        let cores = std::thread::available_parallelism().map_or(1, usize::from);
+        let share = bodies.len().div_ceil(cores).max(LEAST_SHARE);
+        let pairs: Vec<(Key, Pair)> = if bodies.len() <= share {
+            self.pairs_of(&bodies)
+        } else {
+            std::thread::scope(|scope| {
+                let parts: Vec<_> = bodies
+                    .chunks(share)
+                    .map(|part| scope.spawn(move || self.pairs_of(part)))
+                    .collect();
+                let joined = parts.into_iter().map(|part| match part.join() {
+                    Ok(pairs) => pairs,
+                    Err(panic) => std::panic::resume_unwind(panic),
+                });
+                joined.flatten().collect()
+            })
+        };
+        let mut near = Near::default();
+        for (key, pair) in &pairs {
+            near.note_between(*key, pair);
+        }
+        near.pairs = pairs.into_iter().collect();
+        near
+    }
+
+    /// The pairs of which these bodies are the first.
+    fn pairs_of(&self, bodies: &[&Body]) -> Vec<(Key, Pair)> {
+        let mut pairs = Vec::new();
+        let mut near = Vec::new();
+        for a in bodies {
+            self.around(a, &mut near);
+            for b in near.iter().filter(|&&b| b > a.id).map(|b| &self.bodies[b]) {
+                if let Some(mut pair) = self.pair(a, b) {
+                    let key = (a.id, b.id);
+                    let between = pair.beside.as_ref().map(|_| self.between(key, &pair));
+                    if let Some((beside, between)) = pair.beside.as_mut().zip(between) {
+                        beside.between = between;
+                    }
+                    pairs.push((key, pair));
+                }
+            }
+        }
+        pairs
+    }
+
+    #[must_use]
+    pub fn reach(&self) -> Reach {
+        self.reach
+    }
+
+    pub(super) fn kind(&self, object: ObjectId) -> Option<&Kind> {
+        self.kinds.get(&object)
+    }
+
+    /// Number of pairs near enough to say something of.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
+        self.pairs().len()
+    }
+
+    /// What is measured of a thing by itself.
+    #[must_use]
+    pub fn of_thing(&self, id: ReplicaId) -> Option<&Single> {
+        self.singles.get(&id)
+    }
+
+    /// What is measured of two things, the lower id first; none when they are far apart.
+    #[must_use]
+    pub fn of_pair(&self, a: ReplicaId, b: ReplicaId) -> Option<&Pair> {
+        self.pairs().get(&(a.min(b), a.max(b)))
+    }
+
+    /// All things that may be within reach of a body, itself among them if it is in the grid.
+    fn around(&self, body: &Body, found: &mut Vec<ReplicaId>) {
+        let Reach { distance, beside, sector, apart, .. } = self.reach;
+        let reach = cm(distance.max(beside).max(sector).max(apart));
+        match self.grids.get(&body.map) {
+            Some(grid) => grid.near(&body.bounds.grown(reach), found),
+            None => found.clear(),
+        }
+    }
+}
+
+pub(super) fn tenths(length: f64) -> i64 {
+    Cm::of(length).to_tenths_mm()
+}
+
+pub(super) fn cm(tenths: i64) -> f64 {
+    tenths as f64 / 100.0
+}
+
+pub(super) fn hundredths(degrees: f64) -> i64 {
+    (degrees * 100.0).round() as i64
+}
+
+fn per_mille(share: f64) -> i64 {
+    (share * 1000.0).round() as i64
+}

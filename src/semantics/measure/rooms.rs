@@ -1,0 +1,63 @@
+//! The floors of the Areas, ready for measuring, and which of them lie under a point.
+
+use std::collections::BTreeMap;
+
+use crate::geometry::contact::Footprint;
+use crate::geometry::{Bounds, Polygon};
+use crate::map::{Item, World};
+use crate::units::{AreaId, Frame, MapId, Point};
+
+use super::Measurements;
+
+/// The floor of one Area, ready for measuring.
+#[derive(Debug, Clone, PartialEq)]
+pub(in crate::semantics) struct Room {
+    pub(in crate::semantics) id: AreaId,
+    pub(in crate::semantics) map: MapId,
+    pub(in crate::semantics) parts: Vec<(Footprint, f64, f64)>,
+    pub(in crate::semantics) bounds: Bounds,
+}
+impl Measurements {
+    /// The Area whose base holds a point of a Map; the lowest id where bases meet.
+    #[must_use]
+    pub fn area_at(&self, map: MapId, p: Point) -> Option<AreaId> {
+        let mut near = Vec::new();
+        self.room_grid.get(&map)?.near(&Bounds { min: p, max: p }, &mut near);
+        near.into_iter().find(|id| self.rooms[id].parts.iter().any(|(f, _, _)| f.contains(p)))
+    }
+
+    /// The Areas of a Map whose bounds may meet these, in the order of their ids.
+    pub(in crate::semantics) fn rooms_near(
+        &self,
+        map: MapId,
+        bounds: &Bounds,
+        found: &mut Vec<AreaId>,
+    ) {
+        match self.room_grid.get(&map) {
+            Some(grid) => grid.near(bounds, found),
+            None => found.clear(),
+        }
+    }
+}
+
+/// Where every Area stands.
+pub(super) fn placements(world: &World) -> BTreeMap<AreaId, (MapId, Frame)> {
+    let items = world.maps.values().flat_map(|m| m.items.iter().map(|i| (m.id, i)));
+    items.map(|(map, item)| (item.area, (map, item.frame))).collect()
+}
+
+pub(super) fn rooms(world: &World) -> BTreeMap<AreaId, Room> {
+    let placed = placements(world).into_iter().filter_map(|(area, (map, frame))| {
+        let part = |item: &Item| {
+            let orthoframe = world.orthoframe_of(item);
+            let place = frame.compose(&item.frame);
+            let base = Polygon::new(orthoframe.corners().map(|p| place.apply(p)).collect());
+            let bottom = place.z.get();
+            (Footprint::new(base), bottom, bottom + orthoframe.height.get())
+        };
+        let parts: Vec<_> = world.areas.get(&area)?.items.iter().map(part).collect();
+        let bounds = parts.iter().fold(Bounds::EMPTY, |b, (f, _, _)| b.union(&f.bounds));
+        Some((area, Room { id: area, map, parts, bounds }))
+    });
+    placed.collect()
+}
