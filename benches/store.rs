@@ -1,17 +1,24 @@
 //! The store: 100 000 records in durable batches, one durable edit, opening with full verification, a Fragment.
 //!
-//! `benches/store-sqlite.py` does the same with SQLite (WAL, synchronous=FULL) on the same disk; the directory
-//! is taken from `ORTHO_BENCH_DIR`, or the target directory, since /tmp may be in memory.
+//! `cargo bench --bench store` measures the store's own work with criterion;
+//! `cargo bench --features sqlite --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
+//! SQLite (WAL, synchronous=FULL) does the same work in the same run, turn by turn, on the same disk. The directory is
+//! taken from `ORTHO_BENCH_DIR`, or the target directory, since /tmp may be in memory.
+
+#[cfg(feature = "sqlite")]
+#[path = "store/sqlite.rs"]
+mod sqlite;
 
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use orthoframe::store::{Change, Edits, Store, Timestamp, records::AreaObjects};
+use cpu_time::ProcessTime;
+use criterion::Criterion;
+use orthoframe::store::{Change, Edits, Key, Store, Timestamp, records::AreaObjects};
 use orthoframe::units::AreaId;
 
 const RECORDS: u32 = 100_000;
-const BATCH: u32 = 1000;
+const BATCH: usize = 1000;
 /// Replicas of one Fragment.
 const FRAGMENT: u32 = 20;
 
@@ -37,78 +44,164 @@ fn replica(n: u32) -> AreaObjects {
     }
 }
 
+fn moved(n: u32) -> AreaObjects {
+    AreaObjects { x: f64::from(n) + 0.5, y: 1.0 + f64::from(n), ..replica(n) }
+}
+
 fn change() -> Change {
     Change::new("Мастер", Timestamp(1_790_000_000_000), "замер")
 }
 
 /// Writes records that are there already, as the work of SQLite is measured too.
 fn fill(store: &mut Store, records: &[AreaObjects]) {
-    for batch in records.chunks(BATCH as usize) {
+    for batch in records.chunks(BATCH) {
         let edits = batch.iter().fold(Edits::new(), Edits::put);
         store.apply(&edits, &change()).expect("the disk has room");
     }
 }
 
+fn edit(store: &mut Store, n: u32) {
+    store.apply(&Edits::new().put(&moved(n)), &change()).expect("the disk has room");
+}
+
+/// Replicas in no order that a cache would like.
+fn leaps() -> impl Iterator<Item = u32> {
+    (1..).map(|turn: u64| u32::try_from(turn * 7919 % u64::from(RECORDS)).expect("below RECORDS"))
+}
+
 fn store(c: &mut Criterion) {
     let records: Vec<AreaObjects> = (0..RECORDS).map(replica).collect();
     let mut group = c.benchmark_group("store");
-    group.sample_size(10).measurement_time(Duration::from_secs(15));
-    group.bench_function("100 000 records in 100 durable batches", |b| {
-        b.iter_batched(
-            || {
-                let dir = scratch();
-                let store = Store::open(dir.path()).expect("a new store").0;
-                (dir, store)
-            },
-            |(dir, mut store)| {
-                fill(&mut store, &records);
-                (dir, store)
-            },
-            BatchSize::PerIteration,
-        );
-    });
-
+    group.sample_size(10).measurement_time(Duration::from_secs(5));
     let dir = scratch();
     let mut store = Store::open(dir.path()).expect("a new store").0;
     fill(&mut store, &records);
-    let mut n = 0;
-    group.bench_function("one durable edit", |b| {
-        b.iter(|| {
-            n = (n + 7919) % RECORDS;
-            let moved = AreaObjects { x: f64::from(n) + 0.5, y: 1.0 + f64::from(n), ..replica(n) };
-            store.apply(&Edits::new().put(&moved), &change()).expect("the disk has room")
-        });
-    });
+    let mut leaps = leaps();
+    let mut next = || leaps.next().expect("without end");
+    group.bench_function("one durable edit", |b| b.iter(|| edit(&mut store, next())));
     group.bench_function("a Fragment of 20 replicas", |b| {
-        b.iter(|| {
-            n = (n + 7919) % RECORDS;
-            store.fragment(AreaId(n / FRAGMENT)).expect("the records are whole").len()
-        });
+        b.iter(|| store.fragment(AreaId(next() / FRAGMENT)).expect("whole records").len())
     });
     group.bench_function("its records alone", |b| {
         b.iter(|| {
-            n = (n + 7919) % RECORDS;
-            let prefix = orthoframe::store::Key::new().id(n / FRAGMENT);
+            let prefix = Key::new().id(next() / FRAGMENT);
             let found = store.reader().records::<AreaObjects>(&prefix);
-            found.expect("the records are whole").len()
+            found.expect("whole records").len()
         });
     });
     drop(store);
     group.bench_function("open 100 000 records, all verified", |b| {
-        b.iter_custom(|times| {
-            let mut spent = Duration::ZERO;
-            for _ in 0..times {
-                let start = Instant::now();
-                let (store, report) = Store::open(dir.path()).expect("the store is whole");
-                spent += start.elapsed();
-                assert!(report.records > u64::from(RECORDS) && report.tables_rebuilt.is_none());
-                drop(store);
-            }
-            spent
-        });
+        b.iter_custom(|times| (0..times).map(|_| open(dir.path()).0).sum());
     });
     group.finish();
 }
 
-criterion_group!(benches, store);
-criterion_main!(benches);
+/// Time on the clock and of the processor of one opening.
+fn open(path: &std::path::Path) -> (Duration, Duration) {
+    let (clock, cpu) = (Instant::now(), ProcessTime::now());
+    let (store, report) = Store::open(path).expect("the store is whole");
+    let spent = (clock.elapsed(), cpu.elapsed());
+    assert!(report.records > u64::from(RECORDS) && report.tables_rebuilt.is_none());
+    drop(store);
+    spent
+}
+
+fn timed(work: impl FnOnce()) -> (Duration, Duration) {
+    let (clock, cpu) = (Instant::now(), ProcessTime::now());
+    work();
+    (clock.elapsed(), cpu.elapsed())
+}
+
+/// Least and middle of times on the clock, and the middle of the processor's.
+fn summary(times: &mut [(Duration, Duration)]) -> [Duration; 3] {
+    times.sort();
+    let [least, middle] = [times[0].0, times[times.len() / 2].0];
+    times.sort_by_key(|&(_, cpu)| cpu);
+    [least, middle, times[times.len() / 2].1]
+}
+
+#[expect(clippy::print_stdout, reason = "a table on the terminal")]
+fn row(work: &str, ours: &mut [(Duration, Duration)], theirs: &mut [(Duration, Duration)]) {
+    let shown = |[least, middle, cpu]: [Duration; 3]| {
+        let ms = |time: Duration| time.as_secs_f64() * 1e3;
+        format!("{:.3} / {:.3} | {:.3}", ms(least), ms(middle), ms(cpu))
+    };
+    let ours = summary(ours);
+    if theirs.is_empty() {
+        return println!("| {work} | {} | – | – | – |", shown(ours));
+    }
+    let theirs = summary(theirs);
+    let ratio = ours[1].as_secs_f64() / theirs[1].as_secs_f64();
+    println!("| {work} | {} | {} | {ratio:.2} |", shown(ours), shown(theirs));
+}
+
+/// Both stores do each piece of work in turn, so that what else the machine does falls on both.
+#[expect(clippy::print_stdout, reason = "a table on the terminal")]
+fn table() {
+    const ROUNDS: usize = 7;
+    const EDITS: usize = 400;
+    let records: Vec<AreaObjects> = (0..RECORDS).map(replica).collect();
+    println!(
+        "| work | store: ms, least / median | CPU | SQLite: ms, least / median | CPU | ratio of medians |"
+    );
+    println!("|---|---|---|---|---|---|");
+
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for _ in 0..ROUNDS {
+        #[cfg(feature = "sqlite")]
+        {
+            let dir = scratch();
+            let db = sqlite::open(dir.path());
+            theirs.push(timed(|| sqlite::fill(&db, &records)));
+        }
+        let dir = scratch();
+        let mut store = Store::open(dir.path()).expect("a new store").0;
+        ours.push(timed(|| fill(&mut store, &records)));
+    }
+    row("100 000 records of 200 B in 100 durable batches", &mut ours, &mut theirs);
+
+    let dir = scratch();
+    let mut store = Store::open(dir.path()).expect("a new store").0;
+    fill(&mut store, &records);
+    #[cfg(feature = "sqlite")]
+    let peer_dir = scratch();
+    #[cfg(feature = "sqlite")]
+    let db = sqlite::open(peer_dir.path());
+    #[cfg(feature = "sqlite")]
+    sqlite::fill(&db, &records);
+    #[cfg(feature = "sqlite")]
+    let (mut their_edit, mut their_fragment) = (sqlite::edit(&db), sqlite::fragment(&db));
+    // What follows the import, in sled and in SQLite's journal, is not this edit's.
+    std::thread::sleep(Duration::from_secs(5));
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for n in leaps().take(EDITS) {
+        #[cfg(feature = "sqlite")]
+        theirs.push(timed(|| their_edit(&moved(n))));
+        ours.push(timed(|| edit(&mut store, n)));
+    }
+    row("one durable edit", &mut ours, &mut theirs);
+
+    let (mut ours, mut theirs) = (Vec::new(), Vec::new());
+    for n in leaps().take(20 * EDITS) {
+        #[cfg(feature = "sqlite")]
+        theirs.push(timed(|| assert_eq!(their_fragment(n / FRAGMENT), FRAGMENT as usize)));
+        ours.push(timed(|| {
+            let prefix = Key::new().id(n / FRAGMENT);
+            let found = store.reader().records::<AreaObjects>(&prefix).expect("whole records");
+            assert_eq!(found.len(), FRAGMENT as usize);
+        }));
+    }
+    row("20 records of a Fragment", &mut ours, &mut theirs);
+    drop(store);
+    let mut ours: Vec<_> = (0..ROUNDS).map(|_| open(dir.path())).collect();
+    row("opening 100 000 records, all verified", &mut ours, &mut []);
+}
+
+fn main() {
+    if std::env::args().any(|arg| arg == "--quick-table") {
+        return table();
+    }
+    let mut criterion = Criterion::default().configure_from_args();
+    store(&mut criterion);
+    criterion.final_summary();
+}

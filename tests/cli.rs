@@ -562,6 +562,56 @@ fn drawings_are_svg() {
 }
 
 #[test]
+fn the_map_is_written_for_other_programs() {
+    let place = Place::with_rb2();
+    place.run(&["edit", "move", "Стул-1", "--by", "10,0", "--user", "Анна"]).is(0);
+    let told = place.json(
+        &[
+            &["export", "map.toml", "--geojson", "floors.geojson", "--ros", "ros"][..],
+            &["--nav2", "graph.geojson", "--records", "records.json"],
+        ]
+        .concat(),
+        0,
+    );
+    assert_eq!(told["outcome"], "exported");
+    let files: Vec<&str> =
+        told["files"].as_array().unwrap().iter().map(|f| f.as_str().unwrap()).collect();
+    assert_eq!(files.len(), 6, "{files:?}");
+    assert!(files.iter().all(|f| place.path(f).exists()), "{files:?}");
+
+    // The map file is the map: read into a store of its own, and back where it came from.
+    place.run(&["--store", "second", "import", "map.toml"]).is(0);
+    place.run(&["--store", "second", "export", "again.toml"]).is(0);
+    let [first, second] =
+        ["map.toml", "again.toml"].map(|f| std::fs::read_to_string(place.path(f)).unwrap());
+    assert_eq!(first, second);
+    let known = place.json(&["import", "map.toml"], 0);
+    assert_eq!((&known["revision"], &known["changed"]), (&2.into(), &0.into()));
+
+    let text = std::fs::read_to_string(place.path("records.json")).unwrap();
+    let records: Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(records["revision"], 2);
+    let tables = &records["tables"];
+    let chair: Vec<&Value> = tables["AreaObjects"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .filter(|r| r["Name"] == "Стул-1")
+        .collect();
+    let [before, after] = chair[..] else { panic!("{chair:?}") };
+    assert_eq!((&before["Revision"], &after["Revision"]), (&1.into(), &2.into()));
+    let [from, to] = [before, after].map(|r| r["X"].as_f64().unwrap());
+    assert!((to - from - 10.0).abs() < 1e-9, "{from} {to}");
+    assert_eq!(after["RecUser"], "Анна");
+    assert_eq!(tables["Revisions"].as_array().unwrap().len(), 2);
+    let sides = tables["AreaItemSides"].as_array().unwrap();
+    assert!(!sides.is_empty() && sides[0].get("RecDate").is_none(), "{sides:?}");
+
+    let nowhere = place.json(&["export", "--records", "no/such/folder/x.json"], 2);
+    assert_eq!(nowhere["errors"][0]["code"], "engine::file");
+}
+
+#[test]
 fn the_demo_does_the_main_job() {
     let place = Place::empty();
     let told = place.run(&["demo"]).is(0).out;

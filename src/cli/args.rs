@@ -231,6 +231,9 @@ pub(super) struct ExportArgs {
     /// A floor's route graph for Nav2's route server, GeoJSON
     #[arg(long, value_name = "FILE")]
     pub nav2: Option<PathBuf>,
+    /// All tables of the store with all that ever stood in them, JSON
+    #[arg(long, value_name = "FILE")]
+    pub records: Option<PathBuf>,
     /// The tables of the store in a new SQLite file
     #[cfg(feature = "sqlite")]
     #[arg(long, value_name = "FILE")]
@@ -244,9 +247,9 @@ pub(super) struct ExportArgs {
 }
 
 #[cfg(feature = "sqlite")]
-const EXPORTS: [&str; 4] = ["geojson", "ros", "nav2", "sqlite"];
+const EXPORTS: [&str; 5] = ["geojson", "ros", "nav2", "records", "sqlite"];
 #[cfg(not(feature = "sqlite"))]
-const EXPORTS: [&str; 3] = ["geojson", "ros", "nav2"];
+const EXPORTS: [&str; 4] = ["geojson", "ros", "nav2", "records"];
 
 fn parse_cell(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {

@@ -28,6 +28,9 @@ pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure>
     if let Some(dir) = &args.ros {
         grids(&engine, args, dir, &mut written)?;
     }
+    if let Some(path) = &args.records {
+        write(path, engine.export_records()?.as_bytes(), &mut written)?;
+    }
     #[cfg(feature = "sqlite")]
     if let Some(path) = &args.sqlite {
         engine.export_sqlite(path)?;

@@ -1,7 +1,10 @@
 //! The map in other programs' formats.
 
-use crate::exchange::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_route_graph};
+use crate::exchange::{
+    GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_records, to_route_graph,
+};
 use crate::map::Format;
+use crate::store::Store;
 use crate::units::MapId;
 
 use super::{Engine, Error, RequestError};
@@ -42,6 +45,19 @@ impl Engine {
     pub fn export_route_graph(&self, map: MapId) -> Result<String, Error> {
         Ok(to_route_graph(self.world()?, self.floor(map)?))
     }
+
+    /// Every table of the store with every version of every record, as JSON.
+    ///
+    /// # Errors
+    /// There is no map, or a record is broken.
+    pub fn export_records(&self) -> Result<String, Error> {
+        let world = self.world()?;
+        Ok(to_records(&self.stored()?.reader(), world)?)
+    }
+
+    fn stored(&self) -> Result<&Store, Error> {
+        self.store.as_ref().ok_or_else(|| RequestError::NoMap { store: String::new() }.into())
+    }
 }
 
 #[cfg(feature = "sqlite")]
@@ -60,10 +76,7 @@ mod sqlite {
         /// There is no map, there is such a file already, or SQLite fails.
         pub fn export_sqlite(&self, path: &Path) -> Result<(), Error> {
             let world = self.world()?;
-            let Some(store) = &self.store else {
-                return Err(RequestError::NoMap { store: String::new() }.into());
-            };
-            Ok(write_sqlite(path, &store.reader(), world)?)
+            Ok(write_sqlite(path, &self.stored()?.reader(), world)?)
         }
 
         /// Makes the map of an SQLite file the store's map, in one transaction; ids are the file's.

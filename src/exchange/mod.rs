@@ -23,7 +23,9 @@ mod synonyms;
 
 pub use assemble::assemble;
 pub use error::ReadError;
-pub use export::{GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_route_graph};
+pub use export::{
+    GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_records, to_route_graph,
+};
 #[cfg(feature = "sqlite")]
 pub use export::{SqliteError, read_sqlite, write_sqlite};
 pub use fault::ImportError;

@@ -201,6 +201,24 @@ impl Reader {
         Ok(versions)
     }
 
+    /// All versions of all records of a table up to this revision, gone ones among them: those of one record
+    /// together, the oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a version is broken.
+    pub fn all_versions(&self, table: Table) -> Result<Vec<Version>> {
+        let mut keys = Vec::new();
+        self.trees.scan(table.code(), &[], &mut |key, _| {
+            keys.push(Key::from_bytes(key));
+            Ok(true)
+        })?;
+        let mut versions = Vec::new();
+        for key in &keys {
+            versions.extend(self.history(table, key)?);
+        }
+        Ok(versions)
+    }
+
     /// All that is known of where a replica stood by the map, the oldest version first, whichever the Area.
     ///
     /// Where it went to another Area, the old place's mark of deletion is left out.

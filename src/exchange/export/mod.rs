@@ -1,9 +1,10 @@
-//! The map in other programs' formats: a map file, GeoJSON, occupancy grids, route graphs, SQL tables.
+//! The map in other programs' formats: a map file, GeoJSON, occupancy grids, route graphs, records, SQL tables.
 
 mod geojson;
 mod grid;
 mod nav2;
 mod notation;
+mod records;
 #[cfg(feature = "sqlite")]
 mod sqlite;
 
@@ -11,6 +12,7 @@ pub use geojson::to_geojson;
 pub use grid::{GridFiles, MOST_CELLS, to_grid};
 pub use nav2::to_route_graph;
 pub use notation::to_map_file;
+pub use records::to_records;
 #[cfg(feature = "sqlite")]
 pub use sqlite::{SqliteError, read_sqlite, write_sqlite};
 
