@@ -7,7 +7,7 @@ use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
 use orthoframe::map::{NextIds, World, check, edit};
 use orthoframe::semantics::{Profile, derive};
-use orthoframe::units::{Frame, Source};
+use orthoframe::units::{Frame, ReplicaId, Source};
 
 fn root() -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR"))
@@ -133,6 +133,78 @@ fn relations_and_free_floor_follow_every_edit() {
         engine.undo(None, &change("назад")).unwrap();
         check_in_step(&engine, "undo");
     }
+}
+
+/// What bears what, by the relations.
+fn supports(engine: &Engine) -> Vec<String> {
+    let mut all = Vec::new();
+    for name in ["ON_TOP_OF", "INSIDE"] {
+        for tuple in engine.relations().unwrap().tuples(name).unwrap() {
+            all.push(format!("{name}{tuple:?}"));
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn a_load_goes_with_what_bears_it_or_is_told_to_stay() {
+    let scratch = tempfile::tempdir().unwrap();
+    let mut engine = rb2(scratch.path());
+    let surveyed = supports(&engine);
+    let bearer = {
+        let relations = engine.relations().unwrap();
+        let replicas = &engine.world().unwrap().replicas;
+        let loads = |of: ReplicaId| {
+            replicas.keys().filter(|id| relations.support_of(**id) == Some(of)).count()
+        };
+        let bearer =
+            replicas.values().filter(|r| r.name.starts_with("Стол")).max_by_key(|r| loads(r.id));
+        let bearer = bearer.expect("rb2 has tables");
+        assert!(loads(bearer.id) > 0, "{}", bearer.name);
+        bearer.name.clone()
+    };
+    let edit = |engine: &mut Engine, step: &str, mode| {
+        let text = format!("[[edit]]\n{step}\n");
+        engine.edit(&toml(&text), Format::Toml, &change("переставил"), mode).unwrap()
+    };
+
+    let left = edit(&mut engine, &format!("move = \"{bearer}\"\nby = [-3, 2]"), Mode::DryRun);
+    assert_eq!(left.differences.len(), 1);
+    assert!(!left.left_behind.is_empty());
+
+    for step in ["move = \"T\"\nby = [-3, 2]\ncarry = true", "turn = \"T\"\nby = 2\ncarry = true"] {
+        let done = edit(&mut engine, &step.replace('T', &bearer), Mode::Commit);
+        assert!(done.differences.len() > 1 && done.left_behind.is_empty(), "{done:?}");
+        assert_eq!(supports(&engine), surveyed, "{step}");
+        check_in_step(&engine, step);
+    }
+
+    // What the edit moves itself goes where the edit puts it.
+    let load = a_load_of(&engine, &bearer);
+    let both = format!(
+        "move = \"{load}\"\nby = [1, 0]\n[[edit]]\nmove = \"{bearer}\"\nby = [1, 0]\ncarry = true"
+    );
+    let x = |engine: &Engine| {
+        engine.world().unwrap().replicas.values().find(|r| r.name == load).unwrap().frame.x.get()
+    };
+    let before = x(&engine);
+    edit(&mut engine, &both, Mode::Commit);
+    assert!((x(&engine) - before - 1.0).abs() < 1e-9);
+
+    let point = engine.world().unwrap().places.values().next().unwrap().name.clone();
+    let text = format!("[[edit]]\nmove = \"{point}\"\nby = [1, 0]\ncarry = true\n");
+    let refused = engine.edit(&toml(&text), Format::Toml, &change(""), Mode::DryRun);
+    assert!(told(refused).contains("на точке ничего не стоит"));
+}
+
+/// Something that stands on a thing itself.
+fn a_load_of(engine: &Engine, bearer: &str) -> String {
+    let (relations, world) = (engine.relations().unwrap(), engine.world().unwrap());
+    let on_it = |id: ReplicaId| {
+        relations.support_of(id).is_some_and(|support| world.replicas[&support].name == bearer)
+    };
+    world.replicas.values().find(|r| on_it(r.id)).expect("it bears something").name.clone()
 }
 
 #[test]

@@ -75,6 +75,9 @@ pub(super) enum Step {
         by: Option<Numbers>,
         #[arg(long, value_name = "NAME")]
         area: Option<String>,
+        /// With what stands on it or lies in it
+        #[arg(long)]
+        carry: bool,
     },
     /// Turn a thing, or the heading of a place
     Turn {
@@ -84,6 +87,9 @@ pub(super) enum Step {
         to: Option<f64>,
         #[arg(long, value_name = "DEG", allow_hyphen_values = true)]
         by: Option<f64>,
+        /// With what stands on it or lies in it
+        #[arg(long)]
+        carry: bool,
     },
     /// Take anything out of the map
     Remove {
@@ -378,6 +384,10 @@ impl Text {
         value.map_or_else(String::new, |v| format!("{field} = {}\n", quoted(v))).prepend(self)
     }
 
+    fn flag(self, field: &str, is_set: bool) -> Self {
+        if is_set { self.line(field, "true") } else { self }
+    }
+
     fn number(self, field: &str, value: Option<f64>) -> Self {
         match value {
             Some(value) => self.line(field, &value.to_string()),
@@ -482,12 +492,13 @@ impl Step {
                 .numbers("at", Some(at))
                 .number("heading", *heading)
                 .opt("serves", serves.as_ref()),
-            Self::Move { name, to, by, area } => Text::step("move", name)
+            Self::Move { name, to, by, area, carry } => Text::step("move", name)
                 .numbers("to", to.as_ref())
                 .numbers("by", by.as_ref())
-                .opt("area", area.as_ref()),
-            Self::Turn { name, to, by } => {
-                Text::step("turn", name).number("to", *to).number("by", *by)
+                .opt("area", area.as_ref())
+                .flag("carry", *carry),
+            Self::Turn { name, to, by, carry } => {
+                Text::step("turn", name).number("to", *to).number("by", *by).flag("carry", *carry)
             }
             Self::Remove { name, kind } => Text::step("remove", name).kind(kind),
             Self::Rename { name, to, en, kind } => {
@@ -626,6 +637,7 @@ fn view(edited: &Edited) -> serde_json::Value {
         "changed": counts.changed,
         "deleted": counts.deleted,
         "differences": differences(&edited.differences),
+        "left_behind": edited.left_behind,
         "warnings": edited.warnings.faults.len(),
     })
 }
@@ -664,6 +676,23 @@ fn told(edited: &Edited, lang: Lang) -> String {
         return lang.pick("Ничего не меняется.", "Nothing changes.").to_owned();
     }
     let mut text: String = edited.differences.iter().map(|d| format!("{d}\n")).collect();
+    if !edited.left_behind.is_empty() {
+        let names = edited.left_behind.join(", ");
+        let _ = match lang {
+            Lang::Ru if edited.left_behind.len() == 1 => writeln!(
+                text,
+                "{names} остаётся на прежнем месте, хотя опора уходит; --carry перенесёт и это."
+            ),
+            Lang::Ru => writeln!(
+                text,
+                "{names} остаются на прежних местах, хотя опора уходит; --carry перенесёт и их."
+            ),
+            Lang::En => writeln!(
+                text,
+                "Stays behind, though what bears it goes: {names}; --carry takes it along."
+            ),
+        };
+    }
     text.push_str(&match (&edited.report, lang) {
         (Some(report), Lang::Ru) => format!("Правка {} записана.", report.revision),
         (Some(report), Lang::En) => format!("Revision {} is written.", report.revision),

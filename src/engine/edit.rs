@@ -9,7 +9,7 @@ use crate::store::{self, Change, Difference, ImportReport, Table};
 use crate::units::{AreaId, ReplicaId, Source};
 
 use super::lexicon::form_index;
-use super::{Engine, Error};
+use super::{Engine, Error, load};
 
 /// Whether an edit is made or only tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +26,8 @@ pub struct Edited {
     pub differences: Vec<Difference>,
     /// Warnings that the map did not have before.
     pub warnings: MapErrors,
+    /// What stood on a thing that was moved without its load, and so stayed.
+    pub left_behind: Vec<String>,
     /// The transaction; none for a trial, and without a store.
     pub report: Option<ImportReport>,
 }
@@ -53,12 +55,39 @@ impl Engine {
             let index = index.get_or_init(|| form_index(world));
             index.find(name).into_iter().map(|hit| *hit.id).collect()
         };
-        let EditReading { world, faults, reason } = map::edit(world, source, format, ids, &names);
-        let Some(world) = world else { return Err(faults.into()) };
+        let EditReading { world: edited, faults, reason, carriers } =
+            map::edit(world, source, format, ids, &names);
+        let Some(edited) = edited else { return Err(faults.into()) };
         let reason = reason.filter(|_| change.reason.is_empty());
         let change =
             Change { reason: reason.unwrap_or_else(|| change.reason.clone()), ..change.clone() };
-        self.become_world(world, faults, &change, mode)
+        let (after, faults, left_behind) = self.with_loads(edited, faults, &carriers)?;
+        let edited = self.become_world(after, faults, &change, mode)?;
+        let name = |id: &ReplicaId| self.world.as_ref()?.replicas.get(id).map(|r| r.name.clone());
+        let left_behind = left_behind.iter().filter_map(name).collect();
+        Ok(Edited { left_behind, ..edited })
+    }
+
+    /// Loads of what an edit moved follow where it says so; the map that they make is checked like any.
+    fn with_loads(
+        &self,
+        mut after: World,
+        warnings: MapErrors,
+        carriers: &BTreeSet<ReplicaId>,
+    ) -> Result<(World, MapErrors, Vec<ReplicaId>), Error> {
+        let Some(before) = self.world.as_ref().filter(|before| before.replicas != after.replicas)
+        else {
+            return Ok((after, warnings, Vec::new()));
+        };
+        let left_behind = load::carry(before, self.relations()?, carriers, &mut after);
+        if carriers.is_empty() {
+            return Ok((after, warnings, left_behind));
+        }
+        let faults = news(before, &after);
+        if faults.has_errors() {
+            return Err(faults.into());
+        }
+        Ok((after, faults, left_behind))
     }
 
     /// Edits the map as a value: `alter` changes a copy, which is then checked as a whole. New records take their
@@ -76,10 +105,7 @@ impl Engine {
         let before = self.world.as_ref().unwrap_or(&nothing);
         let mut after = before.clone();
         alter(&mut after);
-        let known = map::check(before);
-        let is_news = |f: &Fault| !known.iter().any(|k| k.error == f.error);
-        let faults = map::check(&after).into_iter().filter(is_news).collect();
-        let faults = MapErrors { source: None, faults };
+        let faults = news(before, &after);
         if faults.has_errors() {
             return Err(faults.into());
         }
@@ -121,14 +147,14 @@ impl Engine {
         let before = self.world.as_ref().unwrap_or(&nothing);
         let differences = store::compare(before, &after)?;
         if mode == Mode::DryRun {
-            return Ok(Edited { differences, warnings, report: None });
+            return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
         }
         let report = match &mut self.store {
             Some(store) => Some(store.commit(&after, change)?),
             None => None,
         };
         self.follow(after)?;
-        Ok(Edited { differences, warnings, report })
+        Ok(Edited { differences, warnings, left_behind: Vec::new(), report })
     }
 
     /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
@@ -184,6 +210,13 @@ impl Engine {
         self.mind.take();
         self.forms.take();
     }
+}
+
+/// The faults that a map did not have before.
+fn news(before: &World, after: &World) -> MapErrors {
+    let known = map::check(before);
+    let is_news = |f: &Fault| !known.iter().any(|k| k.error == f.error);
+    MapErrors { source: None, faults: map::check(after).into_iter().filter(is_news).collect() }
 }
 
 /// The replicas that differ between two worlds that are else alike; none when they are not.

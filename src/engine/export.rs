@@ -4,7 +4,6 @@ use crate::exchange::{
     GridFiles, MOST_CELLS, to_geojson, to_grid, to_map_file, to_records, to_route_graph,
 };
 use crate::map::Format;
-use crate::store::Store;
 use crate::units::MapId;
 
 use super::{Engine, Error, RequestError};
@@ -52,11 +51,7 @@ impl Engine {
     /// There is no map, or a record is broken.
     pub fn export_records(&self) -> Result<String, Error> {
         let world = self.world()?;
-        Ok(to_records(&self.stored()?.reader(), world)?)
-    }
-
-    fn stored(&self) -> Result<&Store, Error> {
-        self.store.as_ref().ok_or_else(|| RequestError::NoMap { store: String::new() }.into())
+        Ok(to_records(&self.store()?.reader(), world)?)
     }
 }
 
@@ -76,7 +71,7 @@ mod sqlite {
         /// There is no map, there is such a file already, or SQLite fails.
         pub fn export_sqlite(&self, path: &Path) -> Result<(), Error> {
             let world = self.world()?;
-            Ok(write_sqlite(path, &self.stored()?.reader(), world)?)
+            Ok(write_sqlite(path, &self.store()?.reader(), world)?)
         }
 
         /// Makes the map of an SQLite file the store's map, in one transaction; ids are the file's.

@@ -24,6 +24,7 @@ mod forms;
 mod history;
 mod journey;
 mod lexicon;
+mod load;
 mod memory;
 mod observe;
 mod plan;

@@ -20,14 +20,14 @@
 mod steps;
 mod tree;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::node::{self, Span, Value};
 use super::read::{self, Draft};
 use super::{Format, LIMIT, report, write};
 use crate::map::fault::{Fault, MapError};
 use crate::map::{Entity, MapErrors, TypeKind, World, check};
-use crate::units::Source;
+use crate::units::{ReplicaId, Source};
 
 use steps::Steps;
 use tree::{Kind, Tree};
@@ -88,6 +88,8 @@ pub struct EditReading {
     pub faults: MapErrors,
     /// Why the edit is made, if the text says so.
     pub reason: Option<String>,
+    /// Replicas that are to take along what stands on them; where to is known to whoever derives relations.
+    pub carriers: BTreeSet<ReplicaId>,
 }
 
 /// Works edits into a checked world. `names` finds what a name means that the map does not spell so: another case
@@ -117,6 +119,7 @@ pub fn edit(
         world: None,
         faults: report(source, faults),
         reason: None,
+        carriers: BTreeSet::new(),
     };
     if text.len() as u64 > LIMIT {
         let error = MapError::TooLarge { bytes: text.len() as u64, limit: LIMIT };
@@ -133,7 +136,7 @@ pub fn edit(
         .expect("what is written can be parsed");
     let mut steps = Steps::new(Tree::new(base, text.len()), world, ids, names);
     steps.take(&edits);
-    let Steps { tree, misprints, reason, only, .. } = steps;
+    let Steps { tree, misprints, reason, only, carriers, .. } = steps;
     let root = tree.finish();
     let Draft { world: edited, faults, origins, broken, left_out } = read::build(&root);
     let mut all: Vec<Fault> = misprints.into_iter().map(Fault::from).collect();
@@ -159,5 +162,5 @@ pub fn edit(
     all.sort_by_key(|fault| fault.spans.first().map(|span| span.offset()));
     all.dedup_by(|a, b| a.error == b.error && a.spans == b.spans);
     let faults = report(source, all);
-    EditReading { world: (!faults.has_errors()).then_some(edited), faults, reason }
+    EditReading { world: (!faults.has_errors()).then_some(edited), faults, reason, carriers }
 }

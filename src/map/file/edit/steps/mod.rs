@@ -9,6 +9,8 @@ mod things;
 mod traits;
 mod word;
 
+use std::collections::BTreeSet;
+
 use super::NextIds;
 use super::tree::{Kind, Tree};
 use crate::map::fault::MapError;
@@ -16,6 +18,7 @@ use crate::map::file::decode::{likely, shortened};
 use crate::map::file::node::{Misprint, Node, Span, Value};
 use crate::map::file::schema::FORMAT;
 use crate::map::{Entity, World};
+use crate::units::ReplicaId;
 
 use word::{Done, Step, misprint, text_of, unknown_field, wrong_kind};
 
@@ -26,8 +29,8 @@ const VERBS: &[(&str, &[&str])] = &[
         &["object", "area", "at", "angle", "name_en", "move_prob", "properties", "doors", "forms"],
     ),
     ("point", &["area", "at", "heading", "serves", "name_en", "forms"]),
-    ("move", &["to", "by", "area"]),
-    ("turn", &["to", "by"]),
+    ("move", &["to", "by", "area", "carry"]),
+    ("turn", &["to", "by", "carry"]),
     ("remove", &["kind"]),
     ("rename", &["to", "en", "forms", "kind"]),
     ("set", &["property", "value", "side", "move_prob", "kind"]),
@@ -55,6 +58,8 @@ pub(super) struct Steps<'a> {
     names: &'a dyn Fn(&str) -> Vec<Entity>,
     pub(super) misprints: Vec<Misprint>,
     pub(super) reason: Option<String>,
+    /// What is moved with all that stands on it.
+    pub(super) carriers: BTreeSet<ReplicaId>,
     /// The place of the only step, if there is but one: what it spoils elsewhere is told there.
     pub(super) only: Option<Span>,
 }
@@ -66,7 +71,16 @@ impl<'a> Steps<'a> {
         ids: NextIds,
         names: &'a dyn Fn(&str) -> Vec<Entity>,
     ) -> Self {
-        Self { tree, world, ids, names, misprints: Vec::new(), reason: None, only: None }
+        Self {
+            tree,
+            world,
+            ids,
+            names,
+            misprints: Vec::new(),
+            reason: None,
+            carriers: BTreeSet::new(),
+            only: None,
+        }
     }
 
     /// Works a whole file in: what is new first, then the steps in their order.

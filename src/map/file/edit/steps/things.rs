@@ -1,11 +1,12 @@
 //! What stands in an Area: replicas and places put down, moved and turned.
 
-use super::word::{Done, Step, misprint, number, numbers, table, written};
+use super::word::{Done, Step, misprint, number, numbers, table, written, wrong_kind};
 use super::{Steps, VERBS};
 use crate::map::fault::MapError;
 use crate::map::file::decode::shortened;
 use crate::map::file::edit::tree::{Handle, Kind, entry};
 use crate::map::file::node::{Entry, Node, Value};
+use crate::units::ReplicaId;
 
 impl Steps<'_> {
     pub(super) fn place(&mut self, step: &Step<'_>) -> Done {
@@ -44,6 +45,7 @@ impl Steps<'_> {
     /// `move`: to a place, by an offset, into another Area. Coordinates are those of the Area.
     pub(super) fn shift(&mut self, step: &Step<'_>) -> Done {
         let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place])?;
+        self.note_carrier(at, step)?;
         let before = self.tree.get(at).and_then(|n| n.entry("at")).map(|e| numbers(&e.node));
         let before = before.transpose()?.unwrap_or_default();
         let (to, by) = (step.field("to"), step.field("by"));
@@ -91,8 +93,34 @@ impl Steps<'_> {
         Ok(())
     }
 
+    /// `carry = true`: what stands on the thing goes with it.
+    fn note_carrier(&mut self, at: Handle, step: &Step<'_>) -> Done {
+        match step.field("carry") {
+            None => Ok(()),
+            Some(Node { value: Value::Bool(carry), span }) => {
+                let id = self.tree.get(at).and_then(|n| match n.entry("id")?.node.value {
+                    Value::Integer(id) => u32::try_from(id).ok(),
+                    _ => None,
+                });
+                match id {
+                    _ if !carry => Ok(()),
+                    Some(id) if at.kind == Kind::Replica => {
+                        self.carriers.insert(ReplicaId(id));
+                        Ok(())
+                    }
+                    _ => {
+                        let message = "carry: на точке ничего не стоит".to_owned();
+                        Err(misprint(MapError::BadValue { message }, span))
+                    }
+                }
+            }
+            Some(node) => Err(wrong_kind(node, "true или false")),
+        }
+    }
+
     pub(super) fn turn(&mut self, step: &Step<'_>) -> Done {
         let at = self.find(&step.verb.node, &[Kind::Replica, Kind::Place])?;
+        self.note_carrier(at, step)?;
         let field = if at.kind == Kind::Place { "heading" } else { "angle" };
         let before = self.tree.get(at).and_then(|n| n.entry(field)).map(|e| number(&e.node));
         let before = before.transpose()?.unwrap_or(0.0);

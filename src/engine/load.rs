@@ -1,0 +1,58 @@
+//! The load of a thing that an edit moves: what stood on it or lay in it goes with it, or is told to have stayed.
+//!
+//! **Invariant.** A load keeps its place on what bears it; what the edit moves itself is where the edit puts it.
+
+use std::collections::BTreeSet;
+
+use crate::map::{Replica, World};
+use crate::semantics::Relations;
+use crate::units::{Frame, ReplicaId};
+
+/// Moves the loads of `carriers` along, in `after`; returns those that stood on other moved things and stayed.
+pub(super) fn carry(
+    before: &World,
+    relations: &Relations,
+    carriers: &BTreeSet<ReplicaId>,
+    after: &mut World,
+) -> Vec<ReplicaId> {
+    let stands_as_before = |id: ReplicaId, after: &World| {
+        let (old, new) = (before.replicas.get(&id)?, after.replicas.get(&id)?);
+        Some(old.area == new.area && old.frame == new.frame)
+    };
+    let mut loads = Vec::new();
+    for &id in before.replicas.keys().filter(|id| stands_as_before(**id, after) == Some(true)) {
+        // Rules of the user's own might make things bear one another in a ring.
+        let mut seen = BTreeSet::from([id]);
+        let mut at = id;
+        while let Some(support) = relations.support_of(at).filter(|s| seen.insert(*s)) {
+            match stands_as_before(support, after) {
+                Some(true) => at = support,
+                Some(false) => {
+                    loads.push((id, support));
+                    break;
+                }
+                None => break,
+            }
+        }
+    }
+    let mut stayed = Vec::new();
+    for (id, support) in loads {
+        if carriers.contains(&support) {
+            let (old, new) = (&before.replicas[&support], &after.replicas[&support]);
+            let moved = along(&before.replicas[&id], old, new);
+            after.replicas.insert(id, moved);
+        } else {
+            stayed.push(id);
+        }
+    }
+    stayed
+}
+
+/// A load after what bears it went from `old` to `new`.
+fn along(load: &Replica, old: &Replica, new: &Replica) -> Replica {
+    let turn = Frame::new(0.0, 0.0, 0.0, new.frame.angle - old.frame.angle);
+    let at = new.frame.origin() + turn.turn(load.frame.origin() - old.frame.origin());
+    let z = load.frame.z.get() + (new.frame.z.get() - old.frame.z.get());
+    let frame = Frame::new(at.x, at.y, z, load.frame.angle + turn.angle);
+    Replica { area: new.area, frame, ..load.clone() }
+}
