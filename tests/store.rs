@@ -727,6 +727,72 @@ fn a_deep_check_finds_what_is_broken_and_opening_mends_it() {
     assert_eq!(load(&store), map);
 }
 
+/// A child shares its parent's files from its fork until it runs, the lock among them.
+#[test]
+fn a_closed_store_is_free_while_children_are_started() {
+    let dir = scratch();
+    let stop = std::sync::atomic::AtomicBool::new(false);
+    std::thread::scope(|scope| {
+        scope.spawn(|| {
+            while !stop.load(std::sync::atomic::Ordering::Relaxed) {
+                let _ = Command::new("true").status();
+            }
+        });
+        let refused = (0..40).filter(|_| Store::open(dir.path()).is_err()).count();
+        stop.store(true, std::sync::atomic::Ordering::Relaxed);
+        assert_eq!(refused, 0);
+    });
+}
+
+#[test]
+fn a_deep_check_says_what_the_next_opening_will_mend() {
+    let dir = scratch();
+    let mut store = open(dir.path());
+    for seed in 0..3 {
+        store.import(&world(seed, 5), &change("ещё")).unwrap();
+    }
+    store.put_derived("relations", 3, b"computed").unwrap();
+    let map = load(&store);
+    drop(store);
+    let journal =
+        std::fs::read_dir(dir.path().join("journal")).unwrap().next().unwrap().unwrap().path();
+    let derived = dir.path().join("derived").join("relations");
+    let flip = |path: &Path, at: usize| {
+        let mut bytes = std::fs::read(path).unwrap();
+        bytes[at] ^= 1;
+        std::fs::write(path, bytes).unwrap();
+    };
+    // The first frame is broken, whole ones follow, there is no snapshot: sled alone has it all.
+    flip(&journal, 300);
+    flip(&derived, 25);
+    let report = fsck(dir.path()).unwrap();
+    // What the random map itself is warned of is a note.
+    let texts: Vec<_> = report
+        .findings
+        .iter()
+        .filter(|f| f.severity > Severity::Note)
+        .map(|f| (f.severity, f.text.as_str()))
+        .collect();
+    assert!(texts.iter().all(|(severity, _)| *severity == Severity::Mendable), "{texts:#?}");
+    assert_eq!((report.revision, texts.len()), (3, 2), "{texts:#?}");
+    assert!(texts[0].1.contains("испорчен"), "{texts:#?}");
+    assert!(texts[1].1.contains("relations"), "{texts:#?}");
+    let (store, opened) = Store::open(dir.path()).unwrap();
+    assert!(opened.journal_renewed.is_some());
+    assert_eq!(load(&store), map);
+    assert_eq!(store.get_derived("relations"), None);
+    drop(store);
+
+    // With sled gone as well, nothing is left to mend with.
+    let journal =
+        std::fs::read_dir(dir.path().join("snapshots")).unwrap().next().unwrap().unwrap().path();
+    flip(&journal, 300);
+    std::fs::remove_dir_all(dir.path().join("sled")).unwrap();
+    let report = fsck(dir.path()).unwrap();
+    assert!(report.findings.iter().any(|f| f.severity == Severity::Broken), "{report:#?}");
+    assert!(matches!(Store::open(dir.path()), Err(StoreError::BothCorrupt { .. })));
+}
+
 /// One bit of any file, sled's included: everything is there all the same.
 /// `STORE_FLIPS=1000` flips as many.
 #[test]

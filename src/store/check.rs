@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::derived::broken_derived;
 use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
 use super::journal::snapshot_files;
@@ -13,7 +14,7 @@ use super::reader::replica_index;
 use super::schema::key_of;
 use super::snapshot::{check_snapshot, write_snapshot};
 use super::tables::Table;
-use super::trees::{HISTORY, REPLICAS, Trees, digests};
+use super::trees::{HISTORY, REPLICAS, Trees};
 use super::vault::{Shelf, Vault};
 use super::version::Version;
 
@@ -71,7 +72,19 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     }
     let mut report = FsckReport::default();
     check_snapshots(&*disk, dir, &mut report)?;
-    match Vault::open_read_only(Arc::clone(&disk), dir) {
+    let lock = lock(dir);
+    let mut shelf = SledShelf { dir: dir.to_owned() };
+    let looked = match &lock {
+        Ok(_) => Vault::look(Arc::clone(&disk), dir, || match shelf.exists() {
+            true => shelf.open(),
+            false => Err(StoreError::Tables { what: "таблиц sled нет".to_owned() }),
+        }),
+        Err(why) => {
+            report.find(Severity::Note, format!("{why}: таблицы sled не проверены"));
+            Vault::open_read_only(Arc::clone(&disk), dir)
+        }
+    };
+    match looked {
         Err(error @ StoreError::UnknownFormat { .. }) => return Err(error),
         Err(error) => report.find(Severity::Broken, error.to_string()),
         Ok((vault, opened)) => {
@@ -81,13 +94,18 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
                 let text = format!("журнал обрывается: {} байт не дописано", opened.torn_bytes);
                 report.find(Severity::Mendable, text);
             }
-            if let Some(fault) = opened.journal_renewed {
+            for fault in [&opened.journal_renewed, &opened.tables_rebuilt].into_iter().flatten() {
                 report.find(Severity::Mendable, fault);
             }
-            let trees = Arc::clone(vault.trees());
-            check_records(&*trees, &mut report)?;
+            if lock.is_ok() && opened.replayed > 0 && opened.tables_rebuilt.is_none() {
+                report.find(Severity::Note, "таблицы sled отстали от журнала");
+            }
+            check_records(&**vault.trees(), &mut report)?;
             check_map(Store::over(vault, dir, None), &mut report);
-            check_sled(dir, &*trees, &mut report);
+            for kind in broken_derived(&*disk, dir)? {
+                let text = format!("выведенное из карты ({kind}) испорчено, будет выведено заново");
+                report.find(Severity::Mendable, text);
+            }
         }
     }
     Ok(report)
@@ -159,29 +177,6 @@ fn check_map(store: Result<Store>, report: &mut FsckReport) {
                 report.find(Severity::Note, format!("карта: {}", fault.error));
             }
         }
-    }
-}
-
-fn check_sled(dir: &Path, expected: &dyn Trees, report: &mut FsckReport) {
-    let mut shelf = SledShelf { dir: dir.to_owned() };
-    if !shelf.exists() {
-        report.find(Severity::Mendable, "таблиц sled нет");
-        return;
-    }
-    let Ok(_lock) = lock(dir) else {
-        report
-            .find(Severity::Note, "хранилище открыто другой программой: таблицы sled не проверены");
-        return;
-    };
-    let found = shelf.open().and_then(|trees| {
-        let (state, now) = (trees.state()?, expected.state()?);
-        Ok((state.lsn < now.lsn, state.lsn == now.lsn && digests(&*trees)? == now.digests))
-    });
-    match found {
-        Ok((_, true)) => {}
-        Ok((true, _)) => report.find(Severity::Note, "таблицы sled отстали от журнала"),
-        Ok(_) => report.find(Severity::Mendable, "таблицы sled не сходятся с журналом"),
-        Err(error) => report.find(Severity::Mendable, error.to_string()),
     }
 }
 

@@ -7,9 +7,10 @@
 //! file := "ORTHODRV" format:u32 revision:u64 crc:u32 bytes       crc over all the rest; numbers big-endian
 //! ```
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::Store;
+use super::disk::Disk;
 use super::error::{Result, StoreError};
 use super::frame::FORMAT;
 
@@ -46,12 +47,8 @@ impl Store {
     #[must_use]
     pub fn get_derived(&self, kind: &str) -> Option<Vec<u8>> {
         let mut file = self.vault.disk().read(&self.derived_path(kind)).ok()?;
-        let (head, bytes) = file.split_at_checked(HEAD)?;
-        let whole = head[..8] == *MAGIC
-            && head[8..12] == FORMAT.to_be_bytes()
-            && head[12..20] == self.revision().to_be_bytes()
-            && head[20..24] == checksum(&head[..20], bytes).to_be_bytes();
-        whole.then(|| file.split_off(HEAD))
+        let is_current = whole_of(&file) == Some(self.revision());
+        is_current.then(|| file.split_off(HEAD))
     }
 
     fn derived_path(&self, kind: &str) -> PathBuf {
@@ -59,6 +56,31 @@ impl Store {
         assert!(!kind.is_empty() && kind.chars().all(plain), "{kind:?} is no plain word");
         self.dir.join("derived").join(kind)
     }
+}
+
+/// The revision of a file that is whole.
+fn whole_of(file: &[u8]) -> Option<u64> {
+    let (head, bytes) = file.split_at_checked(HEAD)?;
+    let is_whole = head[..8] == *MAGIC
+        && head[8..12] == FORMAT.to_be_bytes()
+        && head[20..24] == checksum(&head[..20], bytes).to_be_bytes();
+    let revision = head[12..20].try_into().expect("eight bytes");
+    is_whole.then_some(u64::from_be_bytes(revision))
+}
+
+/// The kinds of derived things whose files are broken.
+///
+/// # Errors
+/// [`StoreError::Io`].
+pub(crate) fn broken_derived(disk: &dyn Disk, dir: &Path) -> Result<Vec<String>> {
+    let dir = dir.join("derived");
+    let mut kinds = disk.list(&dir).map_err(StoreError::io("прочитать каталог", &dir))?;
+    kinds.retain(|kind| {
+        let is_whole = |file: Vec<u8>| whole_of(&file).is_some();
+        // What a killed program left unfinished is no file of the store.
+        !kind.ends_with(".new") && !disk.read(&dir.join(kind)).is_ok_and(is_whole)
+    });
+    Ok(kinds)
 }
 
 fn checksum(head: &[u8], bytes: &[u8]) -> u32 {

@@ -2,7 +2,6 @@
 //!
 //! One writer: whoever holds the `Store`. Readers are values of their own ([`Reader`]) and may live in other threads.
 
-use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -17,7 +16,7 @@ use super::edits::{
 };
 use super::error::{Result, StoreError};
 use super::ids::{self, Known};
-use super::open::{SledShelf, check_format, format_is_whole, lock, write_format};
+use super::open::{Lock, SledShelf, check_format, format_is_whole, lock, write_format};
 use super::reader::{Reader, history_key, key_of_record, replica_index};
 use super::schema::Record;
 use super::sheet::Sheet;
@@ -32,7 +31,7 @@ pub struct Store {
     pub(super) vault: Vault,
     pub(super) dir: PathBuf,
     revision: u64,
-    _lock: Option<File>,
+    _lock: Option<Lock>,
 }
 
 impl std::fmt::Debug for Store {
@@ -82,7 +81,7 @@ impl Store {
         Ok((Self::over(vault, dir, None)?, report))
     }
 
-    pub(crate) fn over(vault: Vault, dir: &Path, lock: Option<File>) -> Result<Self> {
+    pub(crate) fn over(vault: Vault, dir: &Path, lock: Option<Lock>) -> Result<Self> {
         let mut store = Self { vault, dir: dir.to_owned(), revision: 0, _lock: lock };
         let last = store.vault.trees().last(Table::Revisions.code(), &[], &[0xFF; 4])?;
         if let Some((key, _)) = last {

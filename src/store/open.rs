@@ -23,8 +23,19 @@ use super::vault::Shelf;
 const FORMAT_FILE: &str = "FORMAT";
 const FORMAT_LINE: &str = "orthoframe store, format ";
 
-/// Takes the store for this program alone; the lock goes with the file.
-pub(crate) fn lock(dir: &Path) -> Result<File> {
+/// The store is this program's alone as long as this lives.
+pub(crate) struct Lock(File);
+
+impl Drop for Lock {
+    fn drop(&mut self) {
+        // Closing is not enough: a child that another thread is about to start shares the file until it runs. What
+        // cannot be unlocked is unlocked by the end of both.
+        let _ = self.0.unlock();
+    }
+}
+
+/// Takes the store for this program alone.
+pub(crate) fn lock(dir: &Path) -> Result<Lock> {
     let path = dir.join("lock");
     let file = OpenOptions::new()
         .create(true)
@@ -33,7 +44,7 @@ pub(crate) fn lock(dir: &Path) -> Result<File> {
         .open(&path)
         .map_err(StoreError::io("открыть", &path))?;
     match file.try_lock() {
-        Ok(()) => Ok(file),
+        Ok(()) => Ok(Lock(file)),
         Err(TryLockError::WouldBlock) => Err(StoreError::Locked { dir: dir.display().to_string() }),
         Err(TryLockError::Error(error)) => Err(StoreError::io("запереть", &path)(error)),
     }

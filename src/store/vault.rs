@@ -104,6 +104,13 @@ struct Brought {
     frames: u64,
 }
 
+/// Where the records come from.
+struct Found {
+    brought: Brought,
+    /// The trees, when the records are theirs; else why they are those of snapshot and journal.
+    trees: Result<Arc<dyn Trees>>,
+}
+
 /// Applies the frames after the records' own state, and checks what comes out of it against the digests. `counted`
 /// is what the records hold before, by their own bytes.
 fn replay(log: &Log, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
@@ -184,17 +191,29 @@ impl Vault {
 
     /// Reads a store without touching it: snapshot and journal into memory.
     pub(crate) fn open_read_only(disk: Arc<dyn Disk>, dir: &Path) -> Result<(Self, OpenReport)> {
+        let unopened = StoreError::Tables {
+            what: "только для чтения не открываются".to_owned()
+        };
+        let (vault, report) = Self::look(disk, dir, || Err(unopened))?;
+        // What an opening for writing would mend, this one does not.
+        Ok((vault, OpenReport { tables_rebuilt: None, journal_renewed: None, ..report }))
+    }
+
+    /// What an opening for writing would find and mend; nothing is mended.
+    pub(crate) fn look(
+        disk: Arc<dyn Disk>,
+        dir: &Path,
+        open: impl FnOnce() -> Result<Arc<dyn Trees>>,
+    ) -> Result<(Self, OpenReport)> {
         let log = Log::read(&*disk, dir)?;
-        let snapshots = snapshot_files(&*disk, dir)?;
-        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-        let last = log.last().max(newest_snapshot);
-        let nothing = StoreError::Tables { what: "таблиц нет".to_owned() };
-        if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) {
-            return Err(both_corrupt(dir, &log, &nothing, &nothing));
-        }
-        let brought = Self::from_files(&*disk, &snapshots, &log, last)
-            .map_err(|error| both_corrupt(dir, &log, &error, &nothing))?;
-        let mut report = OpenReport { torn_bytes: log.torn, ..OpenReport::default() };
+        let Found { brought, trees } = Self::find(&*disk, dir, &log, open)?;
+        let journal_renewed = journal_fault(&*disk, dir, &log, brought.state.lsn)?;
+        let mut report = OpenReport {
+            torn_bytes: if journal_renewed.is_some() { 0 } else { log.torn },
+            tables_rebuilt: trees.err().map(|why| why.to_string()),
+            journal_renewed,
+            ..OpenReport::default()
+        };
         report.fill(&brought.state, brought.frames);
         let vault = Self {
             disk,
@@ -216,34 +235,14 @@ impl Vault {
         log: &Log,
         shelf: &mut dyn Shelf,
     ) -> Result<(Arc<dyn Trees>, Behind, State, OpenReport)> {
-        let snapshots = snapshot_files(disk, dir)?;
-        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-        let last = log.last().max(newest_snapshot);
         let mut report = OpenReport::default();
-
-        let opened = shelf.open().and_then(|trees| {
-            let seen = trees.state()?.lsn;
-            let (memory, counted) = MemoryTrees::copy_of(&*trees)?;
-            Ok((trees, replay(log, memory, counted, last.max(seen))?))
-        });
-        let (trees, brought, dirty) = match opened {
-            Ok((trees, mut brought)) => {
-                let dirty = std::mem::take(&mut brought.touched);
-                (trees, brought, dirty)
-            }
+        let Found { mut brought, trees } = Self::find(disk, dir, log, || shelf.open())?;
+        let (trees, dirty) = match trees {
+            Ok(trees) => (trees, std::mem::take(&mut brought.touched)),
             Err(why) => {
-                // With neither snapshot nor journal, empty trees would be a silent loss of everything.
-                if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) {
-                    return Err(both_corrupt(dir, log, &why, &why));
-                }
-                // Only what can be replaced is put away.
-                let brought = Self::from_files(disk, &snapshots, log, last)
-                    .map_err(|also| both_corrupt(dir, log, &also, &why))?;
                 shelf.set_aside()?;
-                let trees = shelf.open()?;
                 report.tables_rebuilt = Some(why.to_string());
-                let dirty = brought.memory.keys();
-                (trees, brought, dirty)
+                (shelf.open()?, brought.memory.keys())
             }
         };
         let Brought { memory, state, frames, .. } = brought;
@@ -251,6 +250,35 @@ impl Vault {
         let memory = Arc::new(memory);
         let behind = Behind::new(Arc::clone(&memory), trees, dirty, shelf.has_thread())?;
         Ok((memory, behind, state, report))
+    }
+
+    /// The records by the trees, or, when these do not hold, by snapshot and journal.
+    fn find(
+        disk: &dyn Disk,
+        dir: &Path,
+        log: &Log,
+        open: impl FnOnce() -> Result<Arc<dyn Trees>>,
+    ) -> Result<Found> {
+        let snapshots = snapshot_files(disk, dir)?;
+        let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
+        let last = log.last().max(newest_snapshot);
+        let opened = open().and_then(|trees| {
+            let seen = trees.state()?.lsn;
+            let (memory, counted) = MemoryTrees::copy_of(&*trees)?;
+            Ok((trees, replay(log, memory, counted, last.max(seen))?))
+        });
+        match opened {
+            Ok((trees, brought)) => Ok(Found { brought, trees: Ok(trees) }),
+            // With neither snapshot nor journal, empty trees would be a silent loss of everything.
+            Err(why) if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) => {
+                Err(both_corrupt(dir, log, &why, &why))
+            }
+            Err(why) => {
+                let brought = Self::from_files(disk, &snapshots, log, last)
+                    .map_err(|also| both_corrupt(dir, log, &also, &why))?;
+                Ok(Found { brought, trees: Err(why) })
+            }
+        }
     }
 
     /// The records of the newest snapshot that is whole and from which the journal leads on.
@@ -281,18 +309,7 @@ impl Vault {
 
     /// Goes on writing where the journal ends, or begins a new one where it cannot be trusted.
     fn resume_journal(&mut self, log: &Log, report: &mut OpenReport) -> Result<()> {
-        let snapshots = snapshot_files(&*self.disk, &self.dir)?;
-        let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-        let chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
-        report.journal_renewed = if let Some(fault) = &log.fault {
-            Some(fault.to_string())
-        } else if self.state.lsn > log.last().max(newest) {
-            Some("в журнале нет последних кадров".into())
-        } else if !chained.into_iter().any(|lsn| log.reaches(lsn, self.state.lsn)) {
-            Some("нет снимка, от которого ведёт журнал".into())
-        } else {
-            None
-        };
+        report.journal_renewed = journal_fault(&*self.disk, &self.dir, log, self.state.lsn)?;
         if report.journal_renewed.is_some() {
             return self.renew_journal(log);
         }
@@ -471,6 +488,23 @@ impl Vault {
         Ok(())
     }
 }
+
+/// Why a journal does not lead to a state, if so.
+fn journal_fault(disk: &dyn Disk, dir: &Path, log: &Log, lsn: u64) -> Result<Option<String>> {
+    let snapshots = snapshot_files(disk, dir)?;
+    let newest = snapshots.last().map_or(0, |(lsn, _)| *lsn);
+    let mut chained = snapshots.iter().map(|(lsn, _)| *lsn).chain([0]);
+    Ok(if let Some(fault) = &log.fault {
+        Some(fault.to_string())
+    } else if lsn > log.last().max(newest) {
+        Some("в журнале нет последних кадров".into())
+    } else if !chained.any(|first| log.reaches(first, lsn)) {
+        Some("нет снимка, от которого ведёт журнал".into())
+    } else {
+        None
+    })
+}
+
 fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError) -> StoreError {
     let journal = log.fault.as_ref().unwrap_or(rebuild);
     StoreError::BothCorrupt {
