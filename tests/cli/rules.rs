@@ -1,0 +1,108 @@
+//! Relations and rules: what is derived, why, and Datalog programs.
+
+use serde_json::Value;
+
+use super::{Place, project};
+
+#[test]
+fn relations_answer_to_both_names() {
+    let place = Place::with_rb2();
+    let counts = place.json(&["relations"], 0);
+    assert!(counts["relations"].as_array().unwrap().len() > 20);
+    let facts = |args: &[&str]| place.json(args, 0)["facts"].clone();
+    let russian = facts(&["relations", "--name", "НАХОДИТСЯ_СВЕРХУ_НА"]);
+    assert_eq!(russian, facts(&["relations", "--name", "ON_TOP_OF"]));
+    let medicine = serde_json::json!(
+        {"relation": "НАХОДИТСЯ_СВЕРХУ_НА", "args": ["Лекарство", "Тумбочка-2"]}
+    );
+    assert!(russian.as_array().unwrap().contains(&medicine), "{russian}");
+    let of_medicine = facts(&["relations", "--of", "Лекарство"]);
+    assert!(of_medicine.as_array().unwrap().contains(&medicine), "{of_medicine}");
+    // Another case, another alphabet, other letters.
+    for name in ["лекарства", "Medicine", "ЛЕКАРСТВОМ"] {
+        assert_eq!(facts(&["relations", "--of", name]), of_medicine, "{name}");
+    }
+    let both = facts(&["relations", "--name", "ON_TOP_OF", "--of", "Лекарство"]);
+    assert_eq!(both, serde_json::json!([medicine]));
+}
+
+#[test]
+fn why_and_why_not_go_down_to_the_measurements() {
+    let place = Place::with_rb2();
+    let facts = place.run(&["relations", "--name", "ON_TOP_OF", "--json"]).is(0);
+    let facts: Value = serde_json::from_str(&facts.out).unwrap();
+    let one = &facts["facts"][0]["args"];
+    let (upper, lower) = (one[0].as_str().unwrap(), one[1].as_str().unwrap());
+    let why = place.run(&["why", &format!("НАХОДИТСЯ_СВЕРХУ_НА({upper}, {lower})")]).is(0);
+    assert!(why.out.starts_with("НАХОДИТСЯ_СВЕРХУ_НА("), "{}", why.out);
+    assert!(why.out.contains("over(") && why.out.contains("Gap <= Up: "), "{}", why.out);
+
+    let english =
+        place.run(&["why", "--lang", "en", &format!("on_top_of({upper}, \"{lower}\")")]).is(0);
+    assert!(
+        english.out.starts_with("ON_TOP_OF(") && english.out.contains("RESTS_ON("),
+        "{}",
+        english.out
+    );
+
+    // The other way round it does not hold: the nearest rule, and below it what failed.
+    let swapped = format!("ON_TOP_OF({lower}, {upper})");
+    let why_not = place.run(&["why", "--not", &swapped]).is(0);
+    assert!(why_not.out.contains("- bears(") && why_not.out.contains("- over("), "{}", why_not.out);
+    let json = place.run(&["why", "--not", "--json", &swapped]);
+    let json: Value = serde_json::from_str(&json.out).unwrap();
+    assert_eq!(json["holds"], false);
+    let failed = &json["nearest"]["premises"][0];
+    assert!(failed["holds"] == false && failed["nearest"]["premises"].is_array(), "{json}");
+
+    place.run(&["why", &swapped]).is(1);
+    place.run(&["why", "--not", &format!("ON_TOP_OF({upper}, {lower})")]).is(1);
+    let wrong = place.run(&["why", "Чашка на столе"]).is(2);
+    assert!(wrong.err.contains("не читается как факт"), "{}", wrong.err);
+}
+
+#[test]
+fn relations_are_kept_in_the_store_for_its_map_and_rules() {
+    let place = Place::with_rb2();
+    let derived = place.run(&["relations", "--name", "NEXT_TO"]).is(0).out;
+    let kept = place.path("ortho-store").join("derived/relations");
+    let bytes = std::fs::read(&kept).unwrap_or_else(|_| panic!("{} is there", kept.display()));
+    assert_eq!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_eq!(std::fs::read(&kept).unwrap(), bytes);
+
+    // Other rules: what was kept does not count.
+    let rules = std::fs::read_to_string(project("rules/relations.dl")).unwrap();
+    place.write(
+        "rules/relations.dl",
+        rules.replace(
+            "limit(\"common\",   \"next most\",         6000)",
+            "limit(\"common\",   \"next most\",         0)",
+        ),
+    );
+    assert_ne!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_ne!(std::fs::read(&kept).unwrap(), bytes);
+    // Broken bytes: derived anew.
+    std::fs::write(&kept, b"broken").unwrap();
+    std::fs::remove_file(place.path("rules/relations.dl")).unwrap();
+    assert_eq!(place.run(&["relations", "--name", "NEXT_TO"]).is(0).out, derived);
+    assert_eq!(std::fs::read(&kept).unwrap(), bytes);
+}
+
+#[test]
+fn a_datalog_program_runs_on_files() {
+    let place = Place::empty();
+    let program = place.write(
+        "reach.dl",
+        ".decl door(a: symbol, b: symbol)\n.input door\n.decl reach(a: symbol, b: symbol)\n.output reach\n\
+         reach(a, b) :- door(a, b).\nreach(a, c) :- reach(a, b), door(b, c).\n"
+            ,
+    );
+    place.write("door.facts", "кухня\tзал\nзал\tспальня\n");
+    place.run(&["datalog", &program, "-F", ".", "-D", "."]).is(0);
+    let reached = std::fs::read_to_string(place.path("reach.csv")).unwrap();
+    assert!(reached.contains("кухня\tспальня"), "{reached}");
+    let faulty = place.write("faulty.dl", ".decl p(a: symbol)\np(X) :- q(X).\n");
+    let faults = place.json(&["datalog", &faulty], 2)["errors"].clone();
+    let at = |f: &Value| (f["line"].as_u64(), f["column"].as_u64());
+    assert!(faults.as_array().unwrap().iter().any(|f| at(f) == (Some(2), Some(9))), "{faults}");
+}

@@ -1,0 +1,236 @@
+//! Plans, tasks and ways.
+
+use serde_json::Value;
+
+use super::{AT_THE_DOOR, Place, project, rb2, walk};
+
+#[test]
+fn the_papers_walk_is_planned() {
+    let place = Place::with_rb2();
+    let action =
+        |action: &str, args: &[&str]| serde_json::json!([{"action": action, "args": args}]);
+    let steps = serde_json::json!([
+        action("Движение-в_от-места_до-двери", &["Комната-В", "Точка-А", "Дверь-ВZ"]),
+        action("Движение-из_в_через-дверь", &["Комната-В", "Комната-Z", "Дверь-ВZ"]),
+        action("Движение-в_от-двери_до-двери", &["Комната-Z", "Дверь-ВZ", "Дверь-ZY"]),
+        action("Движение-из_в_через-дверь", &["Комната-Z", "Комната-Y", "Дверь-ZY"]),
+        action("Движение-в_от-двери_до-места", &["Комната-Y", "Дверь-ZY", "Точка-К"]),
+    ]);
+    let stored = ["--store", "ortho-store"];
+    let walk = walk();
+    for extra in [&stored[..], &[]] {
+        let args = [&["plan", walk.as_str()], extra].concat();
+        let plan = place.json(&args, 0);
+        assert_eq!(plan["outcome"], "plan");
+        assert_eq!(plan["parallel_steps"], 5);
+        assert_eq!(plan["steps"], steps);
+    }
+    let text = place.run(&["plan", &walk, "--out", "plan.txt"]).is(0).out;
+    assert!(
+        text.contains("5. Движение-в_от-двери_до-места_(Комната-Y, Дверь-ZY, Точка-К)"),
+        "{text}"
+    );
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    assert_eq!(written.matches("Движение").count(), 5, "{written}");
+}
+
+#[test]
+fn a_given_plan_is_checked_step_by_step() {
+    let place = Place::with_rb2();
+    let walk = walk();
+    place.run(&["plan", &walk, "--out", "plan.txt"]).is(0);
+    let sound = place.run(&["plan", &walk, "--check", "plan.txt"]).is(0).out;
+    assert!(sound.contains("План верен: шагов 5, действий 5, стоимость 5."), "{sound}");
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    // Without its third step the plan breaks at what was the fourth; without the last it misses the goal.
+    let without = |step: &str| -> String {
+        written
+            .lines()
+            .filter(|line| !line.starts_with(step))
+            .fold(String::new(), |text, line| text + line + "\n")
+    };
+    place.write("gap.txt", without("2:"));
+    let broken = place.run(&["plan", &walk, "--check", "gap.txt"]).is(1).out;
+    assert!(broken.contains("План обрывается на шаге 3:"), "{broken}");
+    assert!(broken.contains("gap.txt:3:4: действие невыполнимо: не выполнено"), "{broken}");
+    let view = place.json(&["plan", &walk, "--check", "gap.txt"], 1);
+    assert_eq!((&view["outcome"], &view["broken"]["step"]), (&"broken".into(), &3.into()));
+    assert_eq!(view["broken"]["faults"][0]["code"], "strips::plan_precondition");
+    assert_eq!(view["steps"].as_array().unwrap().len(), 2);
+    place.write("short.txt", without("4:"));
+    let missed = place.run(&["plan", &walk, "--check", "short.txt"]).is(1).out;
+    assert!(missed.contains("цели не достигает"), "{missed}");
+    place.write("no-plan.txt", "0: (Движение");
+    place.run(&["plan", &walk, "--check", "no-plan.txt"]).is(2);
+}
+
+#[test]
+fn a_plan_of_another_planner_is_checked_on_pddl() {
+    let place = Place::empty();
+    let case = |name: &str| {
+        project(&format!("tests/golden/planning/pddl_gripper/{name}")).display().to_string()
+    };
+    let (domain, problem) = (case("domain.pddl"), case("problem.pddl"));
+    let given = ["plan", "--domain", &domain, "--problem", &problem];
+    place.run(&[&given[..], &["--out", "plan.txt"]].concat()).is(0);
+    let sound = place.json(&[&given[..], &["--check", "plan.txt"]].concat(), 0);
+    assert_eq!((&sound["outcome"], &sound["broken"]), (&"sound".into(), &Value::Null));
+    // As sequential planners write: without numbers, in capitals.
+    let written = std::fs::read_to_string(place.path("plan.txt")).unwrap();
+    let alone = |line: &str| line.split_once(": ").map(|(_, action)| action.to_uppercase() + "\n");
+    place.write("serial.txt", written.lines().filter_map(alone).collect::<String>());
+    place.run(&[&given[..], &["--check", "serial.txt"]].concat()).is(0);
+}
+
+#[test]
+#[expect(clippy::print_stdout, reason = "a skipped test says so")]
+fn no_plan_is_the_answer_no() {
+    let folder = project("../shared/data/homebot");
+    if !folder.is_dir() {
+        println!("skipped: there is no {}", folder.display());
+        return;
+    }
+    let place = Place::empty();
+    let domain = folder.join("domain.pddl").display().to_string();
+    for name in ["u1", "u2", "u3"] {
+        let problem = folder.join(format!("{name}.pddl")).display().to_string();
+        let plan = place.json(&["plan", "--domain", &domain, "--problem", &problem], 1);
+        assert_eq!((&plan["outcome"], &plan["parallel_steps"]), (&"no_plan".into(), &0.into()));
+        assert!(plan["explanation"].as_str().is_some_and(|why| !why.is_empty()), "{name}");
+    }
+}
+
+#[test]
+fn a_goal_behind_a_locked_door_is_the_answer_no() {
+    let place = Place::empty();
+    let map = std::fs::read_to_string(rb2()).unwrap();
+    let locked = map.replace(r#"state = "open""#, r#"state = "locked""#);
+    let locked = locked.replace(
+        "width = 100\nheight = 205\nleaves = [{ hinge = \"left\", share = 1, thickness = 4, max_open = 100 }]\nstate = \"closed\"",
+        "width = 100\nheight = 205\nleaves = [{ hinge = \"left\", share = 1, thickness = 4, max_open = 100 }]\nstate = \"locked\"",
+    );
+    assert_ne!(locked, map);
+    place.run(&["import", &place.write("locked.toml", locked)]).is(0);
+    let done = place.json(&["do", "Принеси лекарство"], 1);
+    assert_eq!(done["outcome"], "no_plan");
+    assert!(done["plan"]["explanation"].as_str().unwrap().contains("Дверь"), "{done}");
+    let route = place.json(&["route", "--from", "Точка-А", "--to", "Точка-К"], 1);
+    assert_eq!(route["outcome"], "no_route");
+    let why = route["explanation"].as_str().unwrap();
+    assert!(why.to_lowercase().contains("двер"), "{why}");
+    place.run(&["draw", "route", "--from", "Точка-А", "--to", "Точка-К"]).is(1);
+}
+
+#[test]
+fn a_task_is_carried_out() {
+    let place = Place::with_rb2();
+    let done = place.json(&["do", "Принеси лекарство", "--draw", "way/plan.svg"], 0);
+    assert_eq!((&done["outcome"], &done["replans"]), (&"done".into(), &0.into()));
+    let directives = done["directives"].as_array().unwrap();
+    assert!(directives.iter().any(|d| d["ru"] == AT_THE_DOOR), "{done}");
+    assert!(directives.iter().all(|d| d["en"].is_string()));
+    assert!(std::fs::read_to_string(place.path("way/plan.svg")).unwrap().contains("<svg"));
+    let text = place.run(&["do", "Bring the medicine", "--lang", "en", "--reset"]).is(0).out;
+    assert!(text.contains("Done:"), "{text}");
+    assert!(text.contains("I am in Room V at the door leading from Room V to Room Z."), "{text}");
+    let misheard = place.json(&["do", "Станцуй вальс"], 2);
+    assert_eq!(misheard["outcome"], "error");
+}
+
+#[test]
+fn the_robot_goes_on_from_where_its_last_task_left_it() {
+    let place = Place::with_rb2();
+    let start = place.json(&["where"], 0);
+    assert_eq!(start["area"], "Комната-В");
+    let gone = place.json(&["do", "Поезжай в Комнату-Y"], 0);
+    let stands = place.json(&["where"], 0);
+    assert_eq!((&stands["area"], &stands["pose"]), (&"Комната-Y".into(), &gone["end"]));
+    // What it takes is off the map's places for it, and stays in its hand until it puts it down.
+    place.json(&["do", "Возьми лекарство"], 0);
+    assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], "");
+    assert_eq!(place.json(&["do", "Возьми лекарство"], 0)["outcome"], "already_true");
+    let put = place.json(&["do", "Положи лекарство на Тумбочку-1"], 0);
+    assert_eq!(put["end"], place.json(&["do", "Возьми лекарство", "--read-only"], 0)["start"]);
+    assert_eq!(place.json(&["find", "Лекарство"], 0)["carried"], Value::Null);
+    // The survey knows nothing of all that.
+    assert_eq!(place.json(&["history"], 0)["revisions"].as_array().unwrap().len(), 1);
+    let again = place.json(&["do", "Поезжай в Комнату-Y", "--reset"], 0);
+    assert_eq!(again["start"], start["pose"]);
+}
+
+#[test]
+fn the_demo_does_the_main_job() {
+    let place = Place::empty();
+    let told = place.run(&["demo"]).is(0).out;
+    for words in ["НАХОДИТСЯ_СВЕРХУ_НА", AT_THE_DOOR, "Передать_(Лекарство", "Сделано", "plan.svg"]
+    {
+        assert!(told.contains(words), "{words} is missing in {told}");
+    }
+    let drawing = std::fs::read_to_string(place.path("demo/plan.svg")).unwrap();
+    assert!(drawing.contains("<svg"));
+    assert!(place.store().is_none(), "without a directory, no store is kept");
+    let kept = place.json(&["demo", "kept"], 0);
+    assert_eq!(kept["outcome"], "done");
+    assert_eq!(place.json(&["--store", "kept", "where", "--at", "225,395"], 0)["ru"], AT_THE_DOOR);
+}
+
+#[test]
+fn ways_are_found_between_names_in_any_case() {
+    let place = Place::with_rb2();
+    let length = |from: &str, to: &str| {
+        let route = place.json(&["route", "--from", from, "--to", to], 0);
+        assert_eq!(route["outcome"], "route");
+        assert!(route["points"].as_array().unwrap().len() >= 2);
+        route["length_cm"].as_f64().unwrap()
+    };
+    let plain = length("Точка-А", "Точка-К");
+    assert!((600.0..1500.0).contains(&plain));
+    // Another case, small letters, a Latin A; and the numbers that the name stands for.
+    for from in ["Точки-А", "точка-а", "Точка-A", "Point A", "330,150"] {
+        assert!((length(from, "Точку-К") - plain).abs() < 0.01, "{from}");
+    }
+    assert!(length("Комнаты-В", "Комнату-Y") > 300.0);
+    let text = place.run(&["route", "--from", "Точка-А", "--to", "Комната-Y"]).is(0).out;
+    assert!(text.contains("Комната-В → Дверь-ВZ → Комната-Z → Дверь-ZY → Комната-Y"), "{text}");
+    let fault = |args: &[&str]| place.json(args, 2)["errors"][0].clone();
+    let near = fault(&["route", "--from", "Точка-Ы", "--to", "Точка-К"]);
+    assert_eq!(near["code"], "engine::unknown_name");
+    assert!(near["help"].as_str().unwrap().contains("Точка-"), "{near}");
+    for pose in ["NaN,1", "1e300,5", "-inf,2"] {
+        let bad = fault(&["route", "--from", pose, "--to", "Точка-К"]);
+        assert_eq!(bad["code"], "engine::bad_pose", "{pose}");
+    }
+    assert_eq!(fault(&["route", "--from", "", "--to", "Точка-К"])["code"], "engine::unknown_name");
+    assert_eq!(
+        fault(&["route", "--from", "-500,-500", "--to", "Точка-К"])["code"],
+        "engine::nowhere"
+    );
+}
+
+#[test]
+fn corridors_are_told_by_entrances() {
+    let place = Place::with_rb2();
+    let paper = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/corridor-paper4.toml");
+    let way = ["corridor", paper, "--from", "201", "--last", "1,0", "--to", "210"];
+    let one = place.json(&way, 0);
+    let two = place.json(&[&way[..], &["--variant", "2"]].concat(), 0);
+    assert_eq!(one["steps"], two["steps"]);
+    let told: Vec<&str> =
+        one["steps"].as_array().unwrap().iter().map(|s| s["ru"].as_str().unwrap()).collect();
+    assert_eq!(
+        told[..4],
+        [
+            "разворот",
+            "движение до двери справа",
+            "движение до соединения коридоров",
+            "поворот направо"
+        ]
+    );
+    let english = place.run(&[&way[..], &["--lang", "en"]].concat()).is(0).out;
+    assert!(english.contains("U-turn") || english.contains("turn"), "{english}");
+    let unknown = place.json(&["corridor", paper, "--from", "201", "--to", "999"], 2);
+    assert!(unknown["errors"][0]["code"].as_str().unwrap().starts_with("corridor::"), "{unknown}");
+    place.run(&["corridor", "--map", "flat", "--from", "Комната-В", "--to", "Комната-Y"]).is(0);
+    let drawn = place.run(&["draw", "corridor", paper, "--from", "201", "--to", "210"]).is(0).out;
+    assert!(drawn.starts_with("<svg"));
+}
