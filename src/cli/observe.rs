@@ -155,8 +155,14 @@ fn proposals(common: &Common) -> Result<Answer, Failure> {
     say(&lines.join("\n"))
 }
 
-fn place(engine: &Engine, seen: &Seen) -> Result<String, Failure> {
-    let area = engine.world()?.areas.get(&seen.area).map_or("?", |a| a.name.as_str());
+/// A name in the language of the answer, where it has one.
+fn spoken<'n>(name: &'n str, name_en: &'n str, lang: Lang) -> &'n str {
+    if lang == Lang::En && !name_en.is_empty() { name_en } else { name }
+}
+
+fn place(engine: &Engine, seen: &Seen, lang: Lang) -> Result<String, Failure> {
+    let area = engine.world()?.areas.get(&seen.area);
+    let area = area.map_or("?", |a| spoken(&a.name, &a.name_en, lang));
     let (x, y) = (seen.frame.x.get(), seen.frame.y.get());
     Ok(format!("{area} ({x:.0}; {y:.0})"))
 }
@@ -178,6 +184,7 @@ fn view(engine: &Engine, found: &Believed) -> Result<Value, Failure> {
         "confidence": (b.confidence * 1000.0).round() / 1000.0,
         "since": b.since.to_string(),
         "last_seen": b.last_seen.map(|at| at.to_string()),
+        "missed": b.missed.map(|at| at.to_string()),
         "is_surveyed": b.is_surveyed,
         "surveyed": place_view(engine, &found.surveyed)?,
         "carried": found.carried,
@@ -186,24 +193,35 @@ fn view(engine: &Engine, found: &Believed) -> Result<Value, Failure> {
 
 fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure> {
     let b = &found.belief;
+    let replica = engine.world()?.replicas.get(&found.replica);
+    let name = replica.map_or(found.name.as_str(), |r| spoken(&r.name, &r.name_en, lang));
     match (found.carried.as_deref(), lang) {
-        (Some(""), Lang::Ru) => return Ok(format!("{}: в руке робота.", found.name)),
-        (Some(""), Lang::En) => return Ok(format!("{}: in the robot's hand.", found.name)),
-        (Some(who), Lang::Ru) => return Ok(format!("{}: у человека: {who}.", found.name)),
-        (Some(who), Lang::En) => return Ok(format!("{}: handed to {who}.", found.name)),
+        (Some(""), Lang::Ru) => return Ok(format!("{name}: в руке робота.")),
+        (Some(""), Lang::En) => return Ok(format!("{name}: in the robot's hand.")),
+        (Some(who), Lang::Ru) => return Ok(format!("{name}: у человека: {who}.")),
+        (Some(who), Lang::En) => return Ok(format!("{name}: handed to {who}.")),
         (None, _) => {}
     }
     let sure = (b.confidence * 100.0).round();
-    let here = place(engine, &b.place)?;
+    let here = place(engine, &b.place, lang)?;
     let since = moment(b.since);
+    let missed = match (b.missed.map(moment), lang) {
+        (None, _) => String::new(),
+        (Some(at), Lang::Ru) => format!("; осмотр {at} этого не подтвердил"),
+        (Some(at), Lang::En) => format!("; a look at {at} did not find it there"),
+    };
     let map = if b.is_surveyed {
         lang.pick("как на карте", "as on the map").to_owned()
     } else {
-        format!("{} {}", lang.pick("на карте:", "on the map:"), place(engine, &found.surveyed)?)
+        format!(
+            "{} {}",
+            lang.pick("на карте:", "on the map:"),
+            place(engine, &found.surveyed, lang)?
+        )
     };
     Ok(match lang {
-        Lang::Ru => format!("{}: {here}, с {since}, уверенность {sure} % – {map}.", found.name),
-        Lang::En => format!("{}: {here}, since {since}, {sure} % sure – {map}.", found.name),
+        Lang::Ru => format!("{name}: {here}, с {since}, уверенность {sure} % – {map}{missed}."),
+        Lang::En => format!("{name}: {here}, since {since}, {sure} % sure – {map}{missed}."),
     })
 }
 
@@ -229,7 +247,7 @@ fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
     let mut lines = Vec::new();
     for station in &stations {
         let here = match &station.place {
-            Some(seen) => place(&engine, seen)?,
+            Some(seen) => place(&engine, seen, common.lang)?,
             None => common.lang.pick("нет на месте", "not there").to_owned(),
         };
         let source = match (&station.source, common.lang) {

@@ -55,6 +55,8 @@ pub struct Belief {
     pub since: Timestamp,
     /// When it was last seen, at this place or another; none when it was only surveyed.
     pub last_seen: Option<Timestamp>,
+    /// When it was missed, if it was not seen anywhere since.
+    pub missed: Option<Timestamp>,
     /// Whether the place is the surveyed one.
     pub is_surveyed: bool,
 }
@@ -98,6 +100,7 @@ struct Opinion {
     at: Timestamp,
     since: Timestamp,
     last_seen: Option<Timestamp>,
+    missed: Option<Timestamp>,
 }
 
 impl Opinion {
@@ -109,9 +112,10 @@ impl Opinion {
     fn learn(&mut self, seen: Option<Seen>, sure: f64) {
         let Some(seen) = seen else {
             self.confidence *= 1.0 - sure;
+            self.missed = Some(self.at);
             return;
         };
-        self.last_seen = Some(self.at);
+        (self.last_seen, self.missed) = (Some(self.at), None);
         if is_same(&seen, &self.place) {
             self.confidence = 1.0 - (1.0 - self.confidence) * (1.0 - sure);
         } else if sure >= self.confidence * (1.0 - sure) {
@@ -167,17 +171,23 @@ impl Reader {
             .filter(|at| *at <= now)
             .max();
         let from = rejected.map_or(written, |at| at.max(written));
-        let mut opinion =
-            Opinion { place: surveyed, confidence: 1.0, at: from, since: from, last_seen: None };
+        let mut opinion = Opinion {
+            place: surveyed,
+            confidence: 1.0,
+            at: from,
+            since: from,
+            last_seen: None,
+            missed: None,
+        };
         let observations = self.observations(replica.id)?;
         for seen in observations.into_iter().filter(|o| o.at <= now && o.at >= from) {
             opinion.fade(replica.move_prob, seen.at);
             opinion.learn(seen.seen, seen.sure);
         }
         opinion.fade(replica.move_prob, now);
-        let Opinion { place, confidence, since, last_seen, .. } = opinion;
+        let Opinion { place, confidence, since, last_seen, missed, .. } = opinion;
         let is_surveyed = is_same(&place, &surveyed);
-        Ok(Belief { place, confidence, since, last_seen, is_surveyed })
+        Ok(Belief { place, confidence, since, last_seen, missed, is_surveyed })
     }
 
     /// Where the robot stood last, when, and who said so.

@@ -40,9 +40,10 @@ fn what_the_robot_sees_is_believed_but_leaves_the_map_alone() {
 
     store.observe(&[look(&chair, 10, None, 0.5), look(&chair, 20, Some(elsewhere), 0.9)]).unwrap();
     assert!(belief(&store, 11).confidence < 0.5);
+    assert_eq!((belief(&store, 9).missed, belief(&store, 11).missed), (None, Some(at(10))));
     let now = belief(&store, 20);
     assert_eq!((now.place, now.confidence, now.is_surveyed), (elsewhere, 0.9, false));
-    assert_eq!((now.since, now.last_seen), (at(20), Some(at(20))));
+    assert_eq!((now.since, now.last_seen, now.missed), (at(20), Some(at(20)), None));
     // Where was it before that?
     assert!(belief(&store, 15).is_surveyed);
     // Seen there again, it is surer, and has been there since the first time.
