@@ -304,7 +304,8 @@ impl Maker<'_> {
         if names::is_russian(&name) {
             return self.names.unique(&name, "");
         }
-        self.names.numbered_with("Точка", &name)
+        // A number of ours would hide the name that people know the place by.
+        self.names.unique(&format!("Точка {name}"), &name)
     }
 }
 
