@@ -1,6 +1,7 @@
 //! Integration tests: one binary, one file a capability.
 
 mod architecture;
+mod assembly;
 mod cli;
 mod commands;
 mod corridor;

@@ -3,17 +3,22 @@
 //! An *area* is a closed way tagged `osmAG:type=area`; those of `osmAG:areaType=structure` only hold others and are no
 //! floor. A *passage* is a way tagged `osmAG:type=passage` along the opening, with the names or ids of the two areas in
 //! `osmAG:from` and `osmAG:to`. Latitude and longitude are laid flat about the root node. Rooms of one name on several
-//! levels that lie over one another are a flight of stairs or a shaft. Ways of plain indoor tagging (`indoor=room`,
+//! levels that lie over one another are a flight of stairs or a shaft. An area that is drawn as a mere line still arrives:
+//! its floor is what its passages enclose, else a strip. Ways of plain indoor tagging (`indoor=room`,
 //! `area`, `corridor`) are rooms too.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
 use roxmltree::{Document, Node, ParsingOptions};
 
 use crate::map::Properties;
-use crate::map::plane::bounds;
-use crate::units::{Cm, Point, Source};
+use crate::map::plane::{bounds, doubled_area};
+use crate::units::{Cm, Point, Source, Vector};
 
+use super::assemble::ring::{self, LEAST_AREA, Ring};
+use super::outline;
 use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey};
 
 const FORMAT: &str = "osmAG";
@@ -21,6 +26,8 @@ const FORMAT: &str = "osmAG";
 const EARTH: f64 = 637_100_880.0;
 /// Floor to floor where the file does not tell, cm.
 const STOREY: f64 = 320.0;
+/// The least width of a strip of floor, cm.
+const STRIP: f64 = 20.0;
 /// Elements of one file.
 const MOST: u32 = 20_000_000;
 
@@ -57,6 +64,7 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
         let what = "нет ни одного пути с osmAG:type=area или indoor=room".to_owned();
         return Err(ReadError::NoBuilding { format: FORMAT, what });
     }
+    reader.thin_areas();
     reader.passages();
     reader.shafts();
     Ok(reader.survey)
@@ -222,6 +230,69 @@ impl<'x> Reader<'x> {
         }
     }
 
+    /// Gives a floor to areas that have none of their own: what their passages enclose, else a strip along their line.
+    fn thin_areas(&mut self) {
+        let is_thin = |room: &Room| {
+            let outline = &room.outline;
+            doubled_area(outline).abs() < 2.0 * LEAST_AREA && ring::clean(outline, &[]).is_none()
+        };
+        let thin: Vec<usize> = (0..self.areas.len())
+            .filter(|&i| {
+                is_thin(&self.survey.levels[self.areas[i].level].rooms[self.areas[i].room])
+            })
+            .collect();
+        if thin.is_empty() {
+            return;
+        }
+        let mut lines = self.passage_lines();
+        for area in thin {
+            let Found { level, room, .. } = self.areas[area];
+            let record = &self.survey.levels[level].rooms[room];
+            let line = record.outline.clone();
+            let others: Vec<Ring> = self.survey.levels[level]
+                .rooms
+                .iter()
+                .enumerate()
+                .filter(|(i, other)| *i != room && other.outline.len() > 2)
+                .map(|(_, other)| ring::counter_clockwise(other.outline.clone()))
+                .collect();
+            let jambs = lines.remove(&area).unwrap_or_default();
+            let (outline, text) = match enclosed(&line, &jambs, &others) {
+                Some(outline) => {
+                    (outline, "контура нет: взято то, что лежит между его проходами".to_owned())
+                }
+                None => match strip(&line, &others) {
+                    Some(outline) => {
+                        let width = strip_width(&line).round();
+                        (outline, format!("контур – линия: взята полоса вдоль неё, {width} см"))
+                    }
+                    None => continue,
+                },
+            };
+            let source = record.source.clone();
+            self.survey.levels[level].rooms[room].outline = outline;
+            self.remark(&source, text);
+        }
+    }
+
+    /// The jambs of the passages that name each area.
+    fn passage_lines(&self) -> HashMap<usize, Vec<Point>> {
+        let mut lines: HashMap<usize, Vec<Point>> = HashMap::new();
+        for way in self.ways.iter().filter(|w| w.tags.get("osmAG:type") == Some(&"passage")) {
+            let line: Vec<Point> =
+                way.nodes.iter().filter_map(|n| self.points.get(n)).copied().collect();
+            let Some(&first) = line.first() else { continue };
+            let wanted = way.tags.get("level").map(|_| level(&way.tags));
+            for key in ["osmAG:from", "osmAG:to"] {
+                let found = way.tags.get(key).and_then(|word| self.nearest(word, wanted, first));
+                if let Some(found) = found {
+                    lines.entry(found).or_default().extend(&line);
+                }
+            }
+        }
+        lines
+    }
+
     fn passages(&mut self) {
         let passages: Vec<usize> = (0..self.ways.len())
             .filter(|&i| self.ways[i].tags.get("osmAG:type") == Some(&"passage"))
@@ -332,6 +403,44 @@ impl<'x> Reader<'x> {
             }
         }
     }
+}
+
+/// The floor between the passages of an area, where no other area lies; None when they enclose none.
+fn enclosed(line: &[Point], jambs: &[Point], others: &[Ring]) -> Option<Ring> {
+    if jambs.len() < 4 {
+        return None;
+    }
+    let points: Vec<Point> = line.iter().chain(jambs).copied().collect();
+    let hull = ring::clean(&outline::hull(&points), &[])?.region;
+    Some(ring::largest(ring::subtract(&hull, others))?.outer)
+}
+
+/// Wide enough for the least floor that a room may have, cm.
+fn strip_width(line: &[Point]) -> f64 {
+    let length: f64 = line.windows(2).map(|w| (w[1] - w[0]).norm()).sum();
+    (1.05 * LEAST_AREA / length).max(STRIP)
+}
+
+/// A strip along a line, on that side of it where it takes least from others.
+fn strip(line: &[Point], others: &[Ring]) -> Option<Ring> {
+    let (&a, &b) = (
+        line.first()?,
+        line.iter().max_by(|p, q| (*p - line[0]).norm().total_cmp(&(*q - line[0]).norm()))?,
+    );
+    let along = (b - a).try_normalize(1.0)?;
+    let left = Vector::new(-along.y, along.x) * strip_width(&[a, b]);
+    let taken = |strip: &Ring| -> f64 {
+        let common = ring::overlay(
+            std::slice::from_ref(strip),
+            others,
+            OverlayRule::Intersect,
+            FillRule::NonZero,
+        );
+        common.iter().map(ring::Region::area).sum()
+    };
+    let strips = [left / 2.0, left, Vector::zeros()]
+        .map(|top| ring::counter_clockwise(vec![a + top - left, b + top - left, b + top, a + top]));
+    strips.into_iter().min_by(|one, other| taken(one).total_cmp(&taken(other)))
 }
 
 /// The first of the levels of a tag: `1`, `1;2`, `-1--2`.

@@ -22,6 +22,8 @@ const SAID_REACH: f64 = 150.0;
 const STEPS: [f64; 8] = [3.0, 8.0, 15.0, 25.0, 35.0, 48.0, 62.0, 78.0];
 /// Openings narrower than this are none, cm.
 const LEAST_WIDTH: f64 = 20.0;
+/// A floor that differs less from the one drawn is the same, cm².
+const UNCHANGED: f64 = 0.01;
 /// Bays may share so much floor with another room, cm²; the map's checks allow 1.
 const TOUCH: f64 = 0.5;
 
@@ -258,9 +260,13 @@ impl Site<'_> {
         let mut queue: Vec<usize> = (0..self.walls.len()).collect();
         while let Some(room) = queue.pop() {
             while let Some(opening) = self.worst(room) {
-                for rooms in mounted[opening].take().into_iter().flatten().flatten() {
-                    if let Some(walls) = &mut self.walls[rooms] {
+                for other in mounted[opening].take().into_iter().flatten().flatten() {
+                    if let Some(walls) = &mut self.walls[other] {
                         walls.release(opening);
+                        // Without it the room is another one.
+                        if other != room {
+                            queue.push(other);
+                        }
                     }
                 }
                 let record = &self.level.openings[opening];
@@ -269,29 +275,43 @@ impl Site<'_> {
         }
     }
 
-    /// An opening of this room that has to go.
+    /// An opening of this room that has to go: the first without which the room is sound.
     fn worst(&self, room: usize) -> Option<usize> {
         let walls = self.walls[room].as_ref()?;
-        let bays = walls.bays();
-        if bays.is_empty() && walls.openings().next().is_none() {
+        if self.is_sound(room, walls) {
             return None;
+        }
+        let bays = walls.bays();
+        let others: Vec<usize> = walls.openings().filter(|o| !bays.contains(o)).collect();
+        let suspects: Vec<usize> = bays.into_iter().chain(others.into_iter().rev()).collect();
+        let is_guilty = |&&opening: &&usize| {
+            let mut without = walls.clone();
+            without.release(opening);
+            self.is_sound(room, &without)
+        };
+        suspects.iter().find(is_guilty).or(suspects.first()).copied()
+    }
+
+    /// Whether a room with its openings is a simple outline that reaches into no other room. Openings change the
+    /// floor by bays, and by spanning slight bends of a wall.
+    fn is_sound(&self, room: usize, walls: &Walls) -> bool {
+        if walls.openings().next().is_none() {
+            return true;
         }
         let shape = as_region(&walls.outline());
         if !is_sound(&shape) {
-            return bays.first().copied().or_else(|| walls.openings().last());
+            return false;
         }
-        if bays.is_empty() {
-            return None;
+        let as_drawn = self.regions[room].as_ref().map_or(0.0, Region::area);
+        if walls.bays().is_empty() && (shape.area() - as_drawn).abs() < UNCHANGED {
+            return true;
         }
         let near = self.index.near_box(grown(bounds(shape.outer.iter().copied())));
-        near.into_iter()
-            .filter(|&other| other != room)
-            .any(|other| {
-                self.walls[other]
-                    .as_ref()
-                    .is_some_and(|walls| common(&shape, &as_region(&walls.outline())).0 > TOUCH)
-            })
-            .then(|| bays[0])
+        near.into_iter().filter(|&other| other != room).all(|other| {
+            self.walls[other]
+                .as_ref()
+                .is_none_or(|walls| common(&shape, &as_region(&walls.outline())).0 <= TOUCH)
+        })
     }
 }
 

@@ -20,6 +20,9 @@ pub(in crate::exchange) type Ring = Vec<Point>;
 
 /// Corners nearer than this are one, cm; twice what the map's checks call the same place.
 pub(in crate::exchange) const NEAR: f64 = 0.1;
+/// Sides nearer than this meet, cm: more than what is lost when a place is told from another corner, and twice what
+/// [`pieces`] takes for the same place.
+const TOUCHING: f64 = 2e-3;
 /// A corner that stands out from the line between its neighbours by less is none, cm.
 const STRAIGHT: f64 = 1e-4;
 /// Floor smaller than this is none, cm².
@@ -162,7 +165,7 @@ pub(in crate::exchange) fn is_simple(ring: &[Point]) -> bool {
     let boxes: Vec<_> = sides.iter().map(|&(a, b)| bounds([a, b])).collect();
     let n = sides.len();
     let mut is_simple = n >= 3;
-    near_pairs(&boxes, 0.0, |i, j| {
+    near_pairs(&boxes, TOUCHING, |i, j| {
         if is_simple && crosses(&sides, n, i, j) {
             is_simple = false;
         }
@@ -178,7 +181,17 @@ fn crosses(sides: &[(Point, Point)], n: usize, i: usize, j: usize) -> bool {
         let (u, v) = (sides[first].1 - sides[first].0, sides[second].1 - sides[second].0);
         return u.perp(&v).abs() <= 1e-9 * u.norm() * v.norm() && u.dot(&v) < 0.0;
     }
-    meeting(sides[i], sides[j]).is_some()
+    meet(sides[i], sides[j])
+}
+
+/// Whether two sides meet, or would once their places are told from another corner.
+fn meet(one: (Point, Point), other: (Point, Point)) -> bool {
+    let touches = |p: Point, side| segment_distance(p, side) < TOUCHING;
+    meeting(one, other).is_some()
+        || touches(one.0, other)
+        || touches(one.1, other)
+        || touches(other.0, one)
+        || touches(other.1, one)
 }
 
 /// Whether no ring of a region meets another.
@@ -196,8 +209,8 @@ pub(in crate::exchange) fn is_sound(region: &Region) -> bool {
     }
     let boxes: Vec<_> = sides.iter().map(|&(_, (a, b))| bounds([a, b])).collect();
     let mut is_sound = true;
-    near_pairs(&boxes, 0.0, |i, j| {
-        if sides[i].0 != sides[j].0 && meeting(sides[i].1, sides[j].1).is_some() {
+    near_pairs(&boxes, TOUCHING, |i, j| {
+        if sides[i].0 != sides[j].0 && meet(sides[i].1, sides[j].1) {
             is_sound = false;
             return ControlFlow::Break(());
         }
@@ -223,16 +236,20 @@ pub(in crate::exchange) fn overlay(
     rule: OverlayRule,
     fill: FillRule,
 ) -> Vec<Region> {
+    shapes(subject, clip, rule, fill).iter().filter_map(|shape| region(shape)).collect()
+}
+
+/// The shapes of a boolean operation as i_overlay gives them: slivers, which are no floor, among them.
+fn shapes(subject: &[Ring], clip: &[Ring], rule: OverlayRule, fill: FillRule) -> Vec<Vec<Contour>> {
     let subject: Vec<Contour> = subject.iter().map(|r| contour(r)).collect();
     let clip: Vec<Contour> = clip.iter().map(|r| contour(r)).collect();
-    let shapes = FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
+    FloatOverlay::<[f64; 2], i64>::from_subj_and_clip_custom(
         &subject,
         &clip,
         OverlayOptions::ogc(),
         Solver::default(),
     )
-    .overlay(rule, fill);
-    shapes.iter().filter_map(|shape| region(shape)).collect()
+    .overlay(rule, fill)
 }
 
 /// A shape of i_overlay as a region; rings without area are left out.
@@ -259,14 +276,14 @@ pub(in crate::exchange) fn largest(regions: Vec<Region>) -> Option<Region> {
         .max_by(|a, b| a.area().total_cmp(&b.area()))
 }
 
-/// A region whose rings touch themselves or each other is shrunk by a hair, which parts them.
+/// A region whose rings touch themselves or each other loses a hair of floor there, which parts them.
 fn unpinched(region: Region) -> Vec<Region> {
     if is_sound(&region) {
         return vec![region];
     }
-    // Touching places get a small square cut out of the floor; i_overlay then finds sound rings.
+    // Touching places are cut out of the floor; i_overlay then finds sound rings.
     let rings: Vec<Ring> = region.rings().cloned().collect();
-    let cuts: Vec<Ring> = touching(&rings).into_iter().map(square).collect();
+    let cuts = pinches(&rings);
     if cuts.is_empty() {
         return Vec::new();
     }
@@ -276,13 +293,16 @@ fn unpinched(region: Region) -> Vec<Region> {
         .collect()
 }
 
-fn square(at: Point) -> Ring {
-    let h = 2.0 * NEAR;
-    [(-h, -h), (h, -h), (h, h), (-h, h)].map(|(x, y)| at + Vector::new(x, y)).to_vec()
+/// What lies within `margin` of a line, its ends squared; counter-clockwise.
+pub(in crate::exchange) fn band((a, b): (Point, Point), margin: f64) -> Ring {
+    let along = (b - a).try_normalize(NEAR).unwrap_or(Vector::x()) * margin;
+    let left = Vector::new(-along.y, along.x);
+    let (a, b) = (a - along, b + along);
+    vec![a - left, b - left, b + left, a + left]
 }
 
-/// The points in which rings meet that should not.
-fn touching(rings: &[Ring]) -> Vec<Point> {
+/// The places at which rings meet that should not, a hair wider: squares round points, bands along lines.
+fn pinches(rings: &[Ring]) -> Vec<Ring> {
     let mut sides = Vec::new();
     for (k, ring) in rings.iter().enumerate() {
         for (i, edge) in edges(ring).enumerate() {
@@ -291,19 +311,23 @@ fn touching(rings: &[Ring]) -> Vec<Point> {
     }
     let boxes: Vec<_> = sides.iter().map(|&(.., (a, b))| bounds([a, b])).collect();
     let mut found = Vec::new();
-    near_pairs(&boxes, 1e-3, |i, j| {
+    near_pairs(&boxes, TOUCHING, |i, j| {
         let ((k, a, one), (l, b, other)) = (sides[i], sides[j]);
         let n = rings[k].len();
         let are_neighbours = k == l && ((a + 1) % n == b || (b + 1) % n == a);
         if are_neighbours {
             return ControlFlow::Continue(());
         }
-        let near = [one.0, one.1]
-            .into_iter()
-            .find(|&p| segment_distance(p, other) < 1e-3)
-            .or_else(|| [other.0, other.1].into_iter().find(|&p| segment_distance(p, one) < 1e-3))
-            .or_else(|| meeting(one, other));
-        found.extend(near);
+        let near = |p: &Point, side| segment_distance(*p, side) < TOUCHING;
+        let mut places: Vec<Point> =
+            [one.0, one.1].into_iter().filter(|p| near(p, other)).collect();
+        places.extend([other.0, other.1].into_iter().filter(|p| near(p, one)));
+        places.extend(meeting(one, other));
+        if let Some(&first) = places.first() {
+            let far = |p: &Point| (*p - first).norm();
+            let last = places.into_iter().max_by(|p, q| far(p).total_cmp(&far(q)));
+            found.push(band((first, last.unwrap_or(first)), 2.0 * NEAR));
+        }
         ControlFlow::Continue(())
     });
     found
@@ -316,14 +340,21 @@ pub(in crate::exchange) fn subtract(region: &Region, others: &[Ring]) -> Vec<Reg
     both
 }
 
-/// The common floor of two regions, cm², and the length of its border, cm.
+/// The common floor of two regions, cm², and the length of its border, cm. Two walls that cross at a hair's breadth
+/// have a sliver in common that is no floor and yet counts.
 pub(in crate::exchange) fn common(one: &Region, other: &Region) -> (f64, f64) {
     let rings = |r: &Region| r.rings().cloned().collect::<Vec<_>>();
-    let shapes = overlay(&rings(one), &rings(other), OverlayRule::Intersect, FillRule::NonZero);
-    let around = |r: &Region| {
-        r.rings().flat_map(|ring| edges(ring)).map(|(a, b)| (b - a).norm()).sum::<f64>()
-    };
-    (shapes.iter().map(Region::area).sum(), shapes.iter().map(around).sum())
+    let shapes = shapes(&rings(one), &rings(other), OverlayRule::Intersect, FillRule::NonZero);
+    let (mut area, mut around) = (0.0, 0.0);
+    for shape in &shapes {
+        for (k, contour) in shape.iter().enumerate() {
+            let ring = points(contour);
+            let within = doubled_area(&ring).abs() / 2.0;
+            area += if k == 0 { within } else { -within };
+            around += edges(&ring).map(|(a, b)| (b - a).norm()).sum::<f64>();
+        }
+    }
+    (area, around)
 }
 
 /// A region with holes as pieces without, cut by upright slits from its holes to the next ring above and below.
