@@ -32,7 +32,7 @@ struct Plan {
 /// openings and things anywhere.
 fn plan(dice: &mut Dice) -> Plan {
     let dirt = DIRT[dice.below(DIRT.len())];
-    let turn = [0.0, between(dice, 0.0, 3.0), 0.785_398_163_4][dice.below(3)];
+    let turn = [0.0, between(dice, 0.0, 3.0), std::f64::consts::FRAC_PI_4][dice.below(3)];
     let far = [0.0, 5000.0, 800_000.0][dice.below(3)];
     let place = |x: f64, y: f64| {
         let (sin, cos) = turn.sin_cos();

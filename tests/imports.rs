@@ -6,9 +6,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
 
 use orthoframe::engine::Engine;
-use orthoframe::exchange::{Deed, ImportError, Imported, Options, What, read};
+use orthoframe::exchange::{
+    Deed, ImportError, Imported, Options, Room, What, file_text, read, read_rmf,
+};
 use orthoframe::map::{DoorState, World, check};
-use orthoframe::units::{AreaId, Cm};
+use orthoframe::units::{AreaId, Cm, MapId, Point};
 
 #[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn data(name: &str) -> Option<PathBuf> {
@@ -34,53 +36,67 @@ fn taken(imported: &Imported, what: What) -> (usize, usize) {
     imported.report.counts.get(&what).map_or((0, 0), |c| (c.taken, c.found))
 }
 
-/// Groups of Areas that doors, passages and lifts join; each Area's group by its least id.
-fn groups(world: &World) -> BTreeMap<AreaId, AreaId> {
-    let mut group: BTreeMap<AreaId, AreaId> = world.areas.keys().map(|&a| (a, a)).collect();
-    let mut pairs: Vec<Vec<AreaId>> = world.doors.keys().map(|&d| world.door_areas(d)).collect();
-    pairs
-        .extend(world.domain.lifts.iter().map(|(_, stops)| stops.iter().map(|s| s.area).collect()));
-    let mut is_changed = true;
-    while is_changed {
-        is_changed = false;
-        for areas in &pairs {
-            let Some(&least) = areas.iter().map(|a| &group[a]).min() else { continue };
-            for area in areas {
-                if group[area] != least {
-                    group.insert(*area, least);
-                    is_changed = true;
-                }
-            }
+/// Groups of whatever is joined in pairs.
+struct Groups<K: Ord + Clone>(BTreeMap<K, K>);
+
+impl<K: Ord + Clone> Groups<K> {
+    fn root(&self, of: &K) -> K {
+        let mut at = of;
+        while let Some(next) = self.0.get(at).filter(|next| *next != at) {
+            at = next;
         }
+        at.clone()
     }
-    group
+
+    fn join(&mut self, one: &K, other: &K) {
+        let (one, other) = (self.root(one), self.root(other));
+        self.0.insert(other, one);
+    }
+}
+
+/// Rooms that doors, passages and lifts join.
+fn by_doors(world: &World) -> Groups<AreaId> {
+    let mut groups = Groups(BTreeMap::new());
+    for &door in world.doors.keys() {
+        world.door_areas(door).windows(2).for_each(|pair| groups.join(&pair[0], &pair[1]));
+    }
+    for (_, stops) in &world.domain.lifts {
+        stops.windows(2).for_each(|pair| groups.join(&pair[0].area, &pair[1].area));
+    }
+    groups
 }
 
 fn source(properties: &orthoframe::map::Properties) -> &str {
     properties.get("ИСТОЧНИК").map_or("", String::as_str)
 }
 
-/// From the first room of each group to each other room of it on the same map, there is a way on the floor.
-fn routes(world: World) -> Vec<String> {
-    let group = groups(&world);
+/// Rooms of one group, on one map, between which the robot cannot drive, each with the first of its group.
+fn parted(world: World, group: &dyn Fn(AreaId) -> Option<String>) -> Vec<(String, String)> {
     let engine = Engine::in_memory(world, None).expect("rules are sound");
-    let world = engine.world().expect("a map");
-    let mut firsts: BTreeMap<(AreaId, orthoframe::units::MapId), AreaId> = BTreeMap::new();
-    let mut missing = Vec::new();
-    for (&area, &root) in &group {
+    let (world, floors) = (engine.world().expect("a map"), engine.floors().expect("floors"));
+    let mut firsts: BTreeMap<(String, MapId), Vec<AreaId>> = BTreeMap::new();
+    for &area in world.areas.keys() {
         let (map, _) = world.placement(area).expect("every room stands on a map");
-        let first = *firsts.entry((root, map)).or_insert(area);
-        if first == area {
-            continue;
-        }
-        let (from, to) = (&world.areas[&first].name, &world.areas[&area].name);
-        match engine.route(from, to, orthoframe::engine::Method::Shortest) {
-            Ok(answer) if answer.route.is_ok() => {}
-            Ok(answer) => missing.push(format!("{from} → {to}: {:?}", answer.route.err())),
-            Err(e) => missing.push(format!("{from} → {to}: {e}")),
+        if let Some(group) = group(area) {
+            firsts.entry((group, map)).or_default().push(area);
         }
     }
-    missing
+    let mut parted = Vec::new();
+    for ((_, map), areas) in firsts {
+        let floor = &floors[&map];
+        let name = |area: AreaId| world.areas[&area].name.clone();
+        let Some(first) = areas.iter().copied().find(|&a| floor.rest_in(a).is_some()) else {
+            continue;
+        };
+        let from = floor.rest_in(first).expect("just seen");
+        for &area in areas.iter().filter(|&&area| area != first) {
+            let is_joined = floor.rest_in(area).is_some_and(|to| floor.are_joined(from, to));
+            if !is_joined {
+                parted.push((name(first), name(area)));
+            }
+        }
+    }
+    parted
 }
 
 #[test]
@@ -176,12 +192,88 @@ fn passages_of_osmag_join_the_areas_that_they_name() {
     assert!(exact * 100 >= sound * 97, "{exact} of {sound}: {wrong:#?}\n{}", school.report);
 }
 
+/// The rooms that the lanes of a building of Open-RMF join, by the ids of the file.
+fn by_lanes(path: &std::path::Path) -> Groups<String> {
+    let text = file_text(path).expect("a text");
+    let survey = read_rmf(&text).expect("a building");
+    let mut groups = Groups(BTreeMap::new());
+    for (n, level) in survey.levels.iter().enumerate() {
+        let node = |p: Point| {
+            let key = format!("{n}: {:.0} {:.0}", p.x, p.y);
+            let within = |room: &&Room| {
+                let rings = std::iter::once(&room.outline).chain(&room.holes);
+                rings.filter(|ring| contains(ring, p)).count() % 2 == 1
+            };
+            // The cabin of a lift is drawn into another room.
+            let room = level.rooms.iter().filter(within).last();
+            room.map_or(key, |room| room.source.clone())
+        };
+        for lane in &level.lanes {
+            groups.join(&node(lane.ends[0]), &node(lane.ends[1]));
+        }
+    }
+    groups
+}
+
+fn contains(ring: &[Point], p: Point) -> bool {
+    let sides = ring.iter().zip(ring.iter().cycle().skip(1));
+    let cut = sides.filter(|(a, b)| (a.y > p.y) != (b.y > p.y));
+    cut.filter(|(a, b)| p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)).count() % 2 == 1
+}
+
+/// The rooms that the passages of an osmAG file join, by the ids of the file; on one level, by the words of the file.
+fn by_passages(path: &std::path::Path) -> Groups<String> {
+    let text = std::fs::read_to_string(path).expect("readable");
+    let document = roxmltree::Document::parse(&text).expect("XML");
+    let mut rooms: BTreeMap<(String, String), Vec<String>> = BTreeMap::new();
+    let mut passages = Vec::new();
+    for way in document.root_element().children().filter(|n| n.has_tag_name("way")) {
+        let tags = way.children().filter(|n| n.has_tag_name("tag"));
+        let tags: BTreeMap<&str, &str> =
+            tags.filter_map(|t| Some((t.attribute("k")?, t.attribute("v")?))).collect();
+        let of = |key: &str| tags.get(key).copied().unwrap_or_default().to_owned();
+        let id = way.attribute("id").expect("an id").to_owned();
+        if tags.get("osmAG:areaType") == Some(&"room") {
+            rooms.entry((of("name"), of("level"))).or_default().push(id);
+        } else if tags.get("osmAG:type") == Some(&"passage") {
+            passages.push([(of("osmAG:from"), of("level")), (of("osmAG:to"), of("level"))]);
+        }
+    }
+    let mut groups = Groups(BTreeMap::new());
+    for [from, to] in passages {
+        if let (Some([one]), Some([other])) =
+            (rooms.get(&from).map(Vec::as_slice), rooms.get(&to).map(Vec::as_slice))
+        {
+            groups.join(one, other);
+        }
+    }
+    groups
+}
+
+/// A way exists between any two rooms of one storey that the source's own graph joins: lanes of robots, passages.
 #[test]
-fn every_room_that_the_source_connects_can_be_driven_to() {
-    for name in ["rmf/office.building.yaml", "rmf/triple_H.building.yaml"] {
-        let Some(building) = imported(name) else { continue };
-        let missing = routes(building.world);
-        assert!(missing.is_empty(), "{name}: {missing:#?}");
+fn rooms_that_the_source_joins_can_be_driven_between() {
+    type Graph = fn(&std::path::Path) -> Groups<String>;
+    let buildings: [(&str, Graph); 4] = [
+        ("rmf/office.building.yaml", by_lanes),
+        ("rmf/triple_H.building.yaml", by_lanes),
+        ("rmf/clinic.building.yaml", by_lanes),
+        ("osmag/SIST_1.osm", by_passages),
+    ];
+    for (name, graph) in buildings {
+        let Some(path) = data(name) else { continue };
+        let groups = graph(&path);
+        assert!(!groups.0.is_empty(), "{name} has a graph");
+        let building = read(&path, &Options::default()).expect("a building");
+        // Lifts and stairs lead from storey to storey; a way within one must not need them.
+        let of: BTreeMap<AreaId, String> = building
+            .world
+            .areas
+            .iter()
+            .map(|(&id, area)| (id, groups.root(&source(&area.properties).to_owned())))
+            .collect();
+        let parted = parted(building.world, &|area| of.get(&area).cloned());
+        assert_eq!(parted, [], "{name}");
     }
 }
 
@@ -203,24 +295,51 @@ fn parts_of_house(path: &std::path::Path) -> usize {
     part.into_values().collect::<BTreeSet<_>>().len()
 }
 
-/// Furniture may bar a way in a house of a simulator; the rooms themselves must hang together.
-#[test]
-fn rooms_of_houses_hang_together_when_they_stand_empty() {
+/// Pairs of rooms of the dwellings that their doors join and furniture parts, for a robot so much narrower, cm.
+fn barred(keeps_furniture: bool, slimmer: f64) -> Vec<(String, Vec<(String, String)>)> {
     let houses = (0..10).map(|n| format!("procthor/house_{n}.json"));
     let scenes = (1..4).map(|n| format!("virtualhome/TestScene{n}_graph.json"));
+    let mut barred = Vec::new();
     for name in houses.chain(scenes) {
         let Some(path) = data(&name) else { continue };
         let mut world = read(&path, &Options::default()).expect("a building").world;
-        world.replicas.clear();
-        world.places.values_mut().for_each(|place| place.serves = None);
-        world.doors.values_mut().for_each(|door| door.state = DoorState::OPEN);
-        if name.starts_with("procthor") {
-            let joined = groups(&world).into_values().collect::<BTreeSet<_>>().len();
-            assert_eq!(joined, parts_of_house(&path), "{name}");
+        if !keeps_furniture {
+            world.replicas.clear();
+            world.places.values_mut().for_each(|place| place.serves = None);
         }
-        let missing = routes(world);
-        assert!(missing.is_empty(), "{name}: {missing:#?}");
+        world.doors.values_mut().for_each(|door| door.state = DoorState::OPEN);
+        world.robot.radius = Cm::of(world.robot.radius.get() - slimmer / 2.0);
+        let groups = by_doors(&world);
+        if name.starts_with("procthor") {
+            let parts: BTreeSet<AreaId> = world.areas.keys().map(|a| groups.root(a)).collect();
+            assert_eq!(parts.len(), parts_of_house(&path), "{name}");
+        }
+        let parted = parted(world, &|area| Some(groups.root(&area).0.to_string()));
+        if !parted.is_empty() {
+            barred.push((name, parted));
+        }
     }
+    barred
+}
+
+#[test]
+fn rooms_of_houses_hang_together_when_they_stand_empty() {
+    assert_eq!(barred(false, 0.0), []);
+}
+
+/// Where the furniture of the simulators leaves less than the robot's width, and nowhere else: a bedroom's door lacks
+/// less than 2 cm, another one's way to the bath less than 21 cm.
+#[test]
+fn furniture_bars_the_ways_that_it_narrows() {
+    if data("procthor").is_none() || data("virtualhome").is_none() {
+        return;
+    }
+    let pair = |to: &str| ("Спальня".to_owned(), to.to_owned());
+    let bedroom = ["Ванная", "Кухня", "Гостиная"].map(pair).to_vec();
+    let bath = ("procthor/house_8.json".to_owned(), vec![pair("Ванная")]);
+    assert_eq!(barred(true, 0.0), [("procthor/house_1.json".to_owned(), bedroom), bath.clone()]);
+    assert_eq!(barred(true, 2.0), [bath]);
+    assert_eq!(barred(true, 21.0), []);
 }
 
 #[test]

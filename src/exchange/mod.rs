@@ -20,6 +20,7 @@ mod scene;
 mod shafts;
 mod survey;
 mod synonyms;
+mod yaml;
 
 pub use assemble::assemble;
 pub use error::ReadError;
@@ -36,6 +37,6 @@ pub use report::{Count, Deed, Note, Report, What, Why};
 pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 pub use survey::{
-    Kind, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
+    Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
 };
 pub use synonyms::{Found, Meaning, Synonyms, Vocabulary};

@@ -277,6 +277,7 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         Some(path) => Synonyms::load(path)?,
         None => Synonyms::built_in(),
     };
+    let synonyms = synonyms.of_format(reader.key);
     let survey = (reader.read)(input)?;
     let name = input.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into());
     let mut report = Report::new(reader.title, &name);

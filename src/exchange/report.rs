@@ -36,6 +36,8 @@ pub enum What {
     Thing,
     Place,
     Wall,
+    /// A piece of a way that the file says is driven; it makes nothing of the Map.
+    Lane,
     /// A relation or edge of the source: `ON`, `INSIDE`.
     Relation,
     /// Anything else that the file holds.
@@ -58,6 +60,7 @@ impl What {
             Self::Thing => "вещей",
             Self::Place => "точек",
             Self::Wall => "стен",
+            Self::Lane => "полос движения",
             Self::Relation => "связей",
             Self::Record => "записей",
         }
@@ -76,6 +79,7 @@ impl What {
             Self::Thing => "вещь",
             Self::Place => "точка",
             Self::Wall => "стена",
+            Self::Lane => "полоса движения",
             Self::Relation => "связь",
             Self::Record => "запись",
         }
@@ -186,6 +190,14 @@ pub enum Why {
     #[error("дверями с остальными не соединено; положение задано связью глухих стен")]
     #[diagnostic(code(import::island))]
     Island,
+    /// A lane that ends where no room is.
+    #[error("кончается вне всех помещений")]
+    #[diagnostic(code(import::lane_off_floor))]
+    LaneOffFloor,
+    /// A lane that leads through a wall.
+    #[error("проходит сквозь стену, где нет проёма: «{rooms}»")]
+    #[diagnostic(code(import::lane_through_wall))]
+    LaneThroughWall { rooms: String },
     /// A level without a room.
     #[error("на этаже нет ни одного помещения")]
     #[diagnostic(code(import::empty_level))]

@@ -45,6 +45,14 @@ pub struct Level {
     pub openings: Vec<Opening>,
     pub things: Vec<Thing>,
     pub spots: Vec<Spot>,
+    pub lanes: Vec<Lane>,
+}
+
+/// A straight piece of a way that the file says is driven. It is a hint that is checked, and no record of the Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lane {
+    pub source: String,
+    pub ends: [Point; 2],
 }
 
 /// A room: it becomes an Area.
@@ -148,6 +156,8 @@ pub struct Thing {
 pub struct Spot {
     pub source: String,
     pub name: String,
+    /// The file's word for what it is, whatever its name: `charger`; empty when it does not tell.
+    pub kind: String,
     pub at: Point,
     pub heading: Option<Deg>,
 }

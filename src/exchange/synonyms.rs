@@ -61,6 +61,7 @@ struct List {
 #[derive(Debug, Clone)]
 pub struct Synonyms {
     lists: BTreeMap<Vocabulary, List>,
+    codes: Vec<Code>,
 }
 
 /// A found meaning, with the size of this very model where the table has one.
@@ -89,6 +90,8 @@ struct TableFile {
     door: Vec<Record>,
     #[serde(default)]
     model: Vec<Model>,
+    #[serde(default)]
+    code: Vec<Code>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -118,6 +121,18 @@ struct Model {
     size: Option<[f64; 3]>,
 }
 
+/// A short word for a room that means this in the files of one format only.
+#[derive(Debug, Clone, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Code {
+    /// As the command line names it: `osmag`.
+    format: String,
+    word: String,
+    /// The name of an area type.
+    #[serde(rename = "is")]
+    area: String,
+}
+
 impl Synonyms {
     /// The table built in.
     ///
@@ -125,7 +140,7 @@ impl Synonyms {
     /// When the built-in text is broken, which a test of this file excludes.
     #[must_use]
     pub fn built_in() -> Self {
-        let mut table = Self { lists: BTreeMap::new() };
+        let mut table = Self { lists: BTreeMap::new(), codes: Vec::new() };
         table
             .lay_over(&Source::new("rules/import-synonyms.toml", BUILT_IN))
             .expect("the built-in table is sound");
@@ -180,7 +195,26 @@ impl Synonyms {
             }
             objects.add_phrase(&model.word, meaning, model.size);
         }
+        let areas = self.lists.entry(Vocabulary::Area).or_default();
+        for code in file.code {
+            if !areas.by_name.contains_key(&name_key(&code.area)) {
+                return Err(fault(format!("«{}»: нет типа «{}»", code.word, code.area), None));
+            }
+            self.codes.push(code);
+        }
         Ok(())
+    }
+
+    /// The table with the short words of one format.
+    #[must_use]
+    pub fn of_format(mut self, format: &str) -> Self {
+        let areas = self.lists.entry(Vocabulary::Area).or_default();
+        for code in self.codes.iter().filter(|code| code.format == format) {
+            if let Some(&meaning) = areas.by_name.get(&name_key(&code.area)) {
+                areas.add_phrase(&code.word, meaning, None);
+            }
+        }
+        self
     }
 
     /// What a foreign word means.
@@ -320,6 +354,15 @@ mod tests {
     }
 
     #[test]
+    fn codes_hold_in_their_own_format_only() {
+        let table = Synonyms::built_in();
+        assert!(table.find(Vocabulary::Area, "E1-F2-MR").is_none());
+        let table = table.of_format("osmag");
+        let found = table.find(Vocabulary::Area, "E1-F2-MR").expect("a code");
+        assert_eq!((found.meaning.name.as_str(), found.is_whole), ("Мужской туалет", false));
+    }
+
+    #[test]
     fn a_user_s_table_lies_over_the_built_in_one() {
         let mut table = Synonyms::built_in();
         let text = r#"
@@ -346,6 +389,7 @@ mod tests {
             ("[[object]]\nnam = \"Стул\"", "unknown field"),
             ("[[object]]\nname = \"Стул\"\nsize = [1, -2, 3]", "размеры"),
             ("[[model]]\nword = \"x\"\nis = \"Нечто\"", "нет типа"),
+            ("[[code]]\nformat = \"osmag\"\nword = \"x\"\nis = \"Нечто\"", "нет типа"),
         ] {
             let error = table.clone().lay_over(&Source::new("my.toml", spoilt)).expect_err(spoilt);
             assert!(error.to_string().contains(wants), "{error}");

@@ -103,6 +103,13 @@ impl FloorPlan {
         self.route_within(world, from, target, method, None)
     }
 
+    /// Whether the robot can drive from one place to another: what [`Self::route`] would answer, without a way.
+    #[must_use]
+    pub fn are_joined(&self, from: Point, to: Point) -> bool {
+        let region = |p: Point| Some(self.region(self.anchor(p, None, None)?.cell));
+        region(from).is_some_and(|r| region(to) == Some(r))
+    }
+
     /// A route that stays in the Fragments named.
     ///
     /// # Errors

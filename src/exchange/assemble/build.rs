@@ -98,6 +98,7 @@ pub(super) fn build(
         if let Some(storey) = storey {
             maker.things(level, storey, &kinds);
             maker.spots(level, storey);
+            maker.lanes(level, storey);
         }
     }
     maker.world.types = std::mem::take(&mut maker.types.lists);

@@ -15,6 +15,7 @@ mod build;
 mod doors;
 mod index;
 mod kinds;
+mod lanes;
 mod names;
 mod openings;
 pub(super) mod ring;
@@ -243,6 +244,7 @@ mod tests {
             spots: vec![Spot {
                 source: "p".into(),
                 name: String::new(),
+                kind: String::new(),
                 at: Point::new(50.0, 50.0),
                 heading: None,
             }],

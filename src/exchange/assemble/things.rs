@@ -289,23 +289,20 @@ impl Maker<'_> {
 
     fn spot_name(&mut self, spot: &Spot) -> Named {
         let name = names::tidy(&spot.name);
-        if name.is_empty() {
-            return self.names.numbered("Точка", "Point");
-        }
-        if let Some(found) = self.synonyms.find(Vocabulary::Place, &name) {
-            let (ru, en) = (found.meaning.name.clone(), names::capital(&found.meaning.name_en));
-            if found.is_whole {
-                return self.names.numbered(&ru, &en);
-            }
-            if !names::is_russian(&name) {
-                return self.names.numbered_with(&ru, &name);
-            }
+        let by_name = self.synonyms.find(Vocabulary::Place, &name);
+        let by_kind = self.synonyms.find(Vocabulary::Place, &spot.kind);
+        let (ru, en) = by_name.or(by_kind).map_or_else(
+            || ("Точка".to_owned(), "Point".to_owned()),
+            |f| (f.meaning.name.clone(), names::capital(&f.meaning.name_en)),
+        );
+        if name.is_empty() || by_name.is_some_and(|f| f.is_whole) {
+            return self.names.numbered(&ru, &en);
         }
         if names::is_russian(&name) {
             return self.names.unique(&name, "");
         }
         // A number of ours would hide the name that people know the place by.
-        self.names.unique(&format!("Точка {name}"), &name)
+        self.names.unique(&format!("{ru} {name}"), &name)
     }
 }
 

@@ -325,7 +325,8 @@ impl Reader {
         let Some(Shape::Points(points)) = &feature.shape else { return };
         let Some(&at) = points.first() else { return };
         let word = feature.first(&["category", "amenity", "type", "class", "kind"]);
-        let name = self.tongue.name(feature).or_else(|| word.map(std::borrow::Cow::into_owned));
+        let kind = word.map(std::borrow::Cow::into_owned);
+        let name = self.tongue.name(feature).or_else(|| kind.clone());
         let Some(name) = name else { return self.count(feature, &Class::Unknown) };
         let at = self.ground.place(at);
         if Cm::new(at.x).is_err() || Cm::new(at.y).is_err() {
@@ -334,7 +335,9 @@ impl Reader {
         let heading = feature.number(&["heading", "direction", "yaw"]);
         let heading = heading.and_then(|h| crate::units::Deg::new(h).ok());
         for level in self.levels.of_feature(feature) {
-            let spot = Spot { source: feature.id.clone(), name: name.clone(), at, heading };
+            let (source, name) = (feature.id.clone(), name.clone());
+            let kind = kind.clone().unwrap_or_default();
+            let spot = Spot { source, name, kind, at, heading };
             self.survey.levels[level].spots.push(spot);
         }
     }

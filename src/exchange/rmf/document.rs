@@ -9,26 +9,7 @@ use super::{FORMAT, METRE};
 
 /// The whole text as one value; nesting, nodes and aliases are limited.
 pub(super) fn parse(source: &Source) -> Result<Value, ReadError> {
-    let options = serde_saphyr::options! {
-        budget: serde_saphyr::budget! {
-            max_depth: 64,
-            flow_nesting_limit: 32,
-            max_nodes: 20_000_000,
-            max_events: 40_000_000,
-            max_aliases: 1_000,
-        },
-        alias_limits: serde_saphyr::alias_limits! { max_total_replayed_events: 10_000 },
-    };
-    serde_saphyr::from_str_with_options(source.text(), options).map_err(|e| {
-        let e = e.without_snippet();
-        let at = e.location().map_or(0, |at| {
-            let lines = source.text().split_inclusive('\n');
-            let before: usize =
-                lines.take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
-            before + (at.column() as usize).saturating_sub(1)
-        });
-        ReadError::syntax(FORMAT, format!("это не YAML здания: {e}"), source, at)
-    })
+    crate::exchange::yaml::parse(source, FORMAT, "здания")
 }
 
 pub(super) fn text<'v>(value: &'v Value, field: &str) -> Option<&'v str> {
@@ -59,23 +40,82 @@ pub(super) fn param<'v>(edge: &'v Value, name: &str) -> Option<&'v Value> {
     edge.get(2)?.get(name)?.get(1)
 }
 
-/// How coordinates of a level become cm of the building: turned, scaled, moved, and for images mirrored.
+/// What the coordinates of a building count.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum System {
+    /// Pixels of a drawing, y down; each level has its own.
+    Image,
+    /// Metres, y up.
+    Metres,
+    /// Degrees of longitude and latitude on WGS 84.
+    Degrees,
+    /// The square of the spherical Mercator projection, 256 wide, y down.
+    Mercator,
+}
+
+impl System {
+    /// The system of this name in the file; the editor's first one where the file names none.
+    pub(super) fn named(name: Option<&str>) -> Option<Self> {
+        match name.unwrap_or("reference_image") {
+            "reference_image" => Some(Self::Image),
+            "cartesian_meters" => Some(Self::Metres),
+            "wgs84" => Some(Self::Degrees),
+            "web_mercator" => Some(Self::Mercator),
+            _ => None,
+        }
+    }
+}
+
+/// Radius of the sphere of the Mercator projection, and WGS 84's radius at the equator, m.
+const RADIUS: f64 = 6_378_137.0;
+/// Square of the eccentricity of WGS 84.
+const ECCENTRICITY2: f64 = 0.006_694_379_990_14;
+
+/// How coordinates of a level become cm of the building: moved to the origin, scaled, turned, moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Fit {
-    scale: f64,
-    is_image: bool,
+    /// What lies at the origin; globes need it for the sake of precision.
+    origin: Vector,
+    /// cm of a unit along both axes; negative where an axis runs down.
+    scale: Vector,
     turn: f64,
     shift: Vector,
 }
 
 impl Fit {
     pub(super) fn metres() -> Self {
-        Self { scale: METRE, is_image: false, turn: 0.0, shift: Vector::zeros() }
+        Self::units(METRE, METRE)
+    }
+
+    fn units(x: f64, y: f64) -> Self {
+        Self {
+            origin: Vector::zeros(),
+            scale: Vector::new(x, y),
+            turn: 0.0,
+            shift: Vector::zeros(),
+        }
     }
 
     /// Pixels of so many metres, y down.
     pub(super) fn pixels(metres: f64) -> Self {
-        Self { scale: metres * METRE, is_image: true, ..Self::metres() }
+        Self::units(metres * METRE, -metres * METRE)
+    }
+
+    /// The plane that touches the ellipsoid at a longitude and latitude, degrees.
+    pub(super) fn degrees(lon: f64, lat: f64) -> Self {
+        let lat_here = lat.to_radians();
+        let w = (1.0 - ECCENTRICITY2 * lat_here.sin().powi(2)).sqrt();
+        let east = (RADIUS / w * lat_here.cos()).to_radians();
+        let north = (RADIUS * (1.0 - ECCENTRICITY2) / w.powi(3)).to_radians();
+        Self { origin: Vector::new(lon, lat), ..Self::units(east * METRE, north * METRE) }
+    }
+
+    /// The Mercator square about one of its points: the projection stretches by 1/cos of the latitude.
+    pub(super) fn mercator(x: f64, y: f64) -> Self {
+        let unit = std::f64::consts::PI / 128.0;
+        let lat = ((128.0 - y) * unit).sinh().atan();
+        let cm = RADIUS * unit * lat.cos() * METRE;
+        Self { origin: Vector::new(x, y), ..Self::units(cm, -cm) }
     }
 
     pub(super) fn then(self, (turn, shift): (f64, Vector)) -> Self {
@@ -88,10 +128,9 @@ impl Fit {
     }
 
     fn apply(&self, x: f64, y: f64) -> Point {
-        let y = if self.is_image { -y } else { y };
-        let (x, y) = (x * self.scale, y * self.scale);
+        let p = (Vector::new(x, y) - self.origin).component_mul(&self.scale);
         let (sin, cos) = self.turn.sin_cos();
-        Point::new(x * cos - y * sin, x * sin + y * cos) + self.shift
+        Point::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos) + self.shift
     }
 }
 
@@ -108,7 +147,7 @@ pub(super) fn points(level: &Value, field: &str, fit: &Fit) -> Vec<Option<Point>
 
 /// Metres of a pixel: the mean of the level's measurements.
 pub(super) fn scale(level: &Value) -> Option<f64> {
-    let vertices = points(level, "vertices", &Fit { scale: 1.0, ..Fit::metres() });
+    let vertices = points(level, "vertices", &Fit::units(1.0, 1.0));
     let measured = list(level, "measurements").iter().filter_map(|m| {
         let end =
             |k: usize| vertices.get(usize::try_from(m.get(k)?.as_u64()?).ok()?).copied().flatten();
@@ -167,6 +206,26 @@ mod tests {
     use super::*;
 
     #[test]
+    fn globes_are_laid_flat() {
+        // The same two places of Singapore, 100 m apart to the east and to the north.
+        let (lon, lat) = (103.85, 1.29);
+        let near = |p: Point, x: f64, y: f64| (p - Point::new(x, y)).norm() < 1.0;
+        let degrees = Fit::degrees(lon, lat);
+        let moved = degrees.apply(lon + 8.985e-4, lat + 9.0437e-4);
+        assert!(near(moved, 10_000.0, 10_000.0), "{moved}");
+        let square = |lon: f64, lat: f64| {
+            let y = lat.to_radians().tan().asinh() * 128.0 / std::f64::consts::PI;
+            ((lon + 180.0) / 360.0 * 256.0, 128.0 - y)
+        };
+        let (x, y) = square(lon, lat);
+        let mercator = Fit::mercator(x, y);
+        let (x, y) = square(lon + 8.985e-4, lat + 9.0437e-4);
+        // The sphere is not the ellipsoid: to the north they differ by a hundred and fiftieth.
+        let moved = mercator.apply(x, y);
+        assert!((moved.x - 10_000.0).abs() < 5.0 && (moved.y - 10_067.0).abs() < 5.0, "{moved}");
+    }
+
+    #[test]
     fn levels_are_laid_over_one_another_by_their_marks() {
         let mark = |name: &str, x: f64, y: f64| (name.to_owned(), Point::new(x, y));
         let on = [mark("1", 0.0, 0.0), mark("2", 100.0, 0.0), mark("3", 0.0, 50.0)];
@@ -174,7 +233,7 @@ mod tests {
         let marks = [mark("2", 7.0, 105.0), mark("1", 7.0, 5.0), mark("3", -43.0, 5.0)];
         let (turn, shift) = lay(&marks, &on).expect("common marks");
         assert!((turn + std::f64::consts::FRAC_PI_2).abs() < 1e-9);
-        let fit = Fit { scale: 1.0, ..Fit::metres() }.then((turn, shift));
+        let fit = Fit::units(1.0, 1.0).then((turn, shift));
         assert!((fit.apply(7.0, 105.0) - Point::new(100.0, 0.0)).norm() < 1e-9);
         assert_eq!(lay(&marks, &[mark("9", 0.0, 0.0)]), None);
     }

@@ -3,9 +3,11 @@
 //! Walls and doors are edges between numbered vertices; rooms are the faces of that graph, and what the drawn floors
 //! cover beyond them. In the coordinate system `reference_image` vertices are pixels with y down, and measurements
 //! tell how long a pixel is; levels are laid over one another by their fiducials. In `cartesian_meters` they are
-//! metres with y up. Angles are counter-clockwise in both.
+//! metres with y up, in `wgs84` degrees of longitude and latitude, in `web_mercator` parts of a square of 256; both are
+//! laid flat about the first vertex. Angles are counter-clockwise in all.
 //!
-//! Lanes are hints for the robots of another system and are not carried over; named vertices become places.
+//! Lanes are hints for the robots of another system. A face through which one runs is floor, whatever the drawn floors
+//! cover; else they are only held against the rooms. Named vertices, chargers and parking spots become places.
 
 mod document;
 mod faces;
@@ -19,9 +21,10 @@ use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Permeabilit
 use crate::units::{Cm, Deg, Point, Source, Vector};
 
 use super::{
-    Kind, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey, Thing,
+    Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
+    Thing,
 };
-use document::{Fit, entries, length, list, number, param, points, text};
+use document::{Fit, System, entries, length, list, number, param, points, text};
 use faces::Edge;
 
 const FORMAT: &str = "Open-RMF";
@@ -48,16 +51,23 @@ pub(super) fn recognises(text: &str) -> bool {
 /// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when no level has a room; [`ReadError::TooMany`].
 pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let building = document::parse(source)?;
-    let system = text(&building, "coordinate_system").unwrap_or("reference_image");
-    if !["reference_image", "cartesian_meters"].contains(&system) {
+    let word = text(&building, "coordinate_system");
+    let Some(system) = System::named(word) else {
+        let word = word.unwrap_or_default();
         let what = format!(
-            "система координат {system} не читается: нужна reference_image или cartesian_meters"
+            "система координат {word} не читается: нужна reference_image, cartesian_meters, wgs84 или web_mercator"
         );
         return Err(ReadError::NoBuilding { format: FORMAT, what });
-    }
-    let mut reader = Reader { is_image: system == "reference_image", ..Reader::default() };
+    };
+    let mut reader = Reader::default();
     let levels: Vec<(&str, &Value)> = entries(&building, "levels");
-    reader.fits = reader.lay_levels(&levels, text(&building, "reference_level_name"));
+    reader.fits = match system {
+        System::Image => reader.lay_levels(&levels, text(&building, "reference_level_name")),
+        System::Metres => vec![Fit::metres(); levels.len()],
+        System::Degrees | System::Mercator => {
+            vec![Reader::laid_flat(system, &levels)?; levels.len()]
+        }
+    };
     for (i, (name, level)) in levels.iter().enumerate() {
         reader.level(i, name, level)?;
     }
@@ -75,7 +85,6 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
 
 #[derive(Default)]
 struct Reader {
-    is_image: bool,
     /// Of each level into the frame of the first.
     fits: Vec<Fit>,
     survey: Survey,
@@ -89,9 +98,6 @@ impl Reader {
 
     /// Metres of a unit of each level, and how it lies on the reference level.
     fn lay_levels(&mut self, levels: &[(&str, &Value)], reference: Option<&str>) -> Vec<Fit> {
-        if !self.is_image {
-            return vec![Fit::metres(); levels.len()];
-        }
         let mut fits = Vec::with_capacity(levels.len());
         for (name, level) in levels {
             let scale = document::scale(level).unwrap_or_else(|| {
@@ -119,8 +125,27 @@ impl Reader {
         fits
     }
 
+    /// The plane about the first vertex of a building on the globe.
+    fn laid_flat(system: System, levels: &[(&str, &Value)]) -> Result<Fit, ReadError> {
+        let place = |v: &Value| Some((number(v.get(0))?, number(v.get(1))?));
+        let is_sound = |&(x, y): &(f64, f64)| match system {
+            System::Mercator => (0.0..=256.0).contains(&x) && (0.0..=256.0).contains(&y),
+            _ => x.abs() <= 180.0 && y.abs() <= 89.0,
+        };
+        let mut all = levels.iter().flat_map(|(_, level)| list(level, "vertices"));
+        let first = all.find_map(|v| place(v).filter(is_sound));
+        let Some((x, y)) = first else {
+            let what = "ни одна вершина не лежит на земном шаре".to_owned();
+            return Err(ReadError::NoBuilding { format: FORMAT, what });
+        };
+        Ok(match system {
+            System::Mercator => Fit::mercator(x, y),
+            _ => Fit::degrees(x, y),
+        })
+    }
+
     fn level(&mut self, index: usize, name: &str, level: &Value) -> Result<(), ReadError> {
-        for what in ["vertices", "walls", "doors", "models"] {
+        for what in ["vertices", "walls", "doors", "models", "lanes"] {
             if list(level, what).len() > MOST {
                 let what = "записей этажа";
                 return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST });
@@ -143,16 +168,18 @@ impl Reader {
             .chain(doors.iter().enumerate().map(|(i, d)| Edge { ends: d.ends, tag: i + 1 }))
             .collect();
         let plan = faces::faces(&graph);
-        let floors: Vec<Vec<Point>> = list(level, "floors")
-            .iter()
-            .map(|floor| {
-                let corner =
-                    |v: &Value| vertices.get(usize::try_from(v.as_u64()?).ok()?)?.as_ref().copied();
-                list(floor, "vertices").iter().filter_map(corner).collect()
-            })
-            .collect();
+        let polygons = |what: &str| -> Vec<Vec<Point>> {
+            let corner =
+                |v: &Value| vertices.get(usize::try_from(v.as_u64()?).ok()?)?.as_ref().copied();
+            let records = list(level, what).iter();
+            records.map(|p| list(p, "vertices").iter().filter_map(corner).collect()).collect()
+        };
         made.spots = self.spots(name, list(level, "vertices"), &vertices);
-        made.rooms = rooms::rooms(name, &plan, &floors);
+        let lanes = self.edges(&format!("{name}/lanes"), list(level, "lanes"), &vertices);
+        let driven: Vec<(Point, Point)> = lanes.iter().map(|lane| lane.ends).collect();
+        let lane = |l: Drawn<'_>| Lane { source: l.source, ends: [l.ends.0, l.ends.1] };
+        made.lanes = lanes.into_iter().map(lane).collect();
+        made.rooms = rooms::rooms(name, &plan, &polygons("floors"), &polygons("holes"), &driven);
         let door_names: Vec<String> = doors
             .iter()
             .map(|d| param(d.record, "name").and_then(Value::as_str).unwrap_or_default().to_owned())
@@ -270,14 +297,21 @@ impl Reader {
                 let flag = record.get(4).and_then(|p| p.get(what)).and_then(|p| p.get(1));
                 flag.and_then(Value::as_bool).unwrap_or(false)
             };
+            let kind = match () {
+                () if is("is_charger") => "charger",
+                () if is("is_parking_spot") => "parking spot",
+                () => "",
+            };
+            let dock = record.get(4).and_then(|p| p.get("dock_name")).and_then(|p| p.get(1));
             let name = match name {
-                "" if is("is_charger") => "charger",
+                "" => dock.and_then(Value::as_str).unwrap_or_default(),
                 name => name,
             };
-            if !name.is_empty() {
+            if !name.is_empty() || !kind.is_empty() {
                 spots.push(Spot {
                     source: format!("{level}/vertices/{i}"),
                     name: name.to_owned(),
+                    kind: kind.to_owned(),
                     at: *at,
                     heading: None,
                 });

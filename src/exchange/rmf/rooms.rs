@@ -3,7 +3,7 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
-use crate::exchange::assemble::ring::{self, Region};
+use crate::exchange::assemble::ring::{self, Region, Ring};
 use crate::exchange::{Room, Spot};
 use crate::map::Properties;
 use crate::map::plane::{contains, doubled_area, edges};
@@ -19,14 +19,21 @@ const LEAST_WIDTH: f64 = 60.0;
 /// A face of which the drawn floors cover less is no room: a shaft, a yard.
 const COVERED: f64 = 0.2;
 
-/// The faces that have a floor, then what the floors cover beyond all faces.
-pub(super) fn rooms(level: &str, plan: &Plan, floors: &[Vec<Point>]) -> Vec<Room> {
+/// The faces that have a floor or through which a lane runs, then what the floors cover beyond all faces.
+pub(super) fn rooms(
+    level: &str,
+    plan: &Plan,
+    floors: &[Vec<Point>],
+    holes: &[Vec<Point>],
+    lanes: &[(Point, Point)],
+) -> Vec<Room> {
     let faces: Vec<Region> = plan.faces.iter().map(region).collect();
-    let floors: Vec<Vec<Point>> = floors
-        .iter()
-        .filter(|f| f.len() >= 3)
-        .map(|f| ring::counter_clockwise(f.clone()))
-        .collect();
+    let floors = without(rings(floors), &rings(holes));
+    let is_driven = |face: &Region| {
+        lanes
+            .iter()
+            .any(|&(a, b)| [a, nalgebra::center(&a, &b), b].iter().any(|&p| face.contains(p)))
+    };
     let room = |source: String, region: &Region| Room {
         source,
         name: String::new(),
@@ -39,7 +46,7 @@ pub(super) fn rooms(level: &str, plan: &Plan, floors: &[Vec<Point>]) -> Vec<Room
     let mut rooms: Vec<Room> = faces
         .iter()
         .enumerate()
-        .filter(|(_, face)| floors.is_empty() || is_covered(face, &floors))
+        .filter(|(_, face)| floors.is_empty() || is_covered(face, &floors) || is_driven(face))
         .map(|(i, face)| room(format!("{level}/face/{i}"), face))
         .collect();
     if !floors.is_empty() {
@@ -49,6 +56,21 @@ pub(super) fn rooms(level: &str, plan: &Plan, floors: &[Vec<Point>]) -> Vec<Room
         rooms.extend(open.enumerate().map(|(i, r)| room(format!("{level}/floor/{i}"), r)));
     }
     rooms
+}
+
+/// Drawn polygons, counter-clockwise.
+fn rings(drawn: &[Vec<Point>]) -> Vec<Ring> {
+    let drawn = drawn.iter().filter(|ring| ring.len() >= 3);
+    drawn.map(|ring| ring::counter_clockwise(ring.clone())).collect()
+}
+
+/// Floors less the holes that are drawn into them.
+fn without(floors: Vec<Ring>, holes: &[Ring]) -> Vec<Ring> {
+    if holes.is_empty() {
+        return floors;
+    }
+    let left = ring::overlay(&floors, holes, OverlayRule::Difference, FillRule::NonZero);
+    left.iter().flat_map(|region| region.rings().cloned()).collect()
 }
 
 fn region(face: &Face) -> Region {
@@ -74,7 +96,8 @@ pub(super) fn name(rooms: &mut [Room], plan: &Plan, spots: &[Spot], doors: &[Str
         let within = |spot: &&Spot| {
             contains(&room.outline, spot.at) && !room.holes.iter().any(|h| contains(h, spot.at))
         };
-        let named: Vec<&Spot> = spots.iter().filter(within).collect();
+        let named: Vec<&Spot> =
+            spots.iter().filter(|spot| !spot.name.is_empty()).filter(within).collect();
         if let [only] = named[..] {
             room.kind.clone_from(&only.name);
         }

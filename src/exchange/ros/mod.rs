@@ -98,25 +98,7 @@ pub fn read_parts(name: &str, sheet: &Sheet, picture: &[u8]) -> Result<Survey, R
 /// # Errors
 /// [`ReadError::Syntax`] when it is no YAML, [`ReadError::NoBuilding`] when a field is missing or makes no sense.
 pub fn sheet(source: &Source) -> Result<Sheet, ReadError> {
-    let options = serde_saphyr::options! {
-        budget: serde_saphyr::budget! {
-            max_depth: 16,
-            flow_nesting_limit: 16,
-            max_nodes: 10_000,
-            max_events: 20_000,
-            max_aliases: 100,
-        },
-        alias_limits: serde_saphyr::alias_limits! { max_total_replayed_events: 10_000 },
-    };
-    let root: Value = serde_saphyr::from_str_with_options(source.text(), options).map_err(|e| {
-        let e = e.without_snippet();
-        let place = e.location().map_or(0, |at| {
-            let starts = source.text().split_inclusive('\n').map(str::len);
-            let line: usize = starts.take((at.line() as usize).saturating_sub(1)).sum();
-            line + (at.column() as usize).saturating_sub(1)
-        });
-        ReadError::syntax(FORMAT, e.to_string(), source, place)
-    })?;
+    let root: Value = super::yaml::parse(source, FORMAT, "карты")?;
     let wrong = |what: &str| ReadError::NoBuilding { format: FORMAT, what: what.to_owned() };
     let number = |key: &str| root.get(key).and_then(as_number);
     let share = |key: &str, usual: f64| match root.get(key) {

@@ -127,6 +127,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
         openings,
         things,
         spots: agent(&house).into_iter().collect(),
+        lanes: Vec::new(),
     };
     Ok(Survey {
         name: String::new(),
@@ -145,6 +146,7 @@ fn agent(house: &Value) -> Option<Spot> {
     Some(Spot {
         source: "agent".to_owned(),
         name: String::new(),
+        kind: String::new(),
         at,
         heading: Some(Deg::of(90.0 - turn)),
     })

@@ -58,7 +58,8 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
     let agent = scene.get("agent").and_then(|a| {
         let heading = Deg::of(90.0 - angles(a.get("rotation"))[1]);
         let at = plan(triple(a.get("position"))?);
-        Some(Spot { source: "agent".to_owned(), name: String::new(), at, heading: Some(heading) })
+        let (name, kind) = (String::new(), String::new());
+        Some(Spot { source: "agent".to_owned(), name, kind, at, heading: Some(heading) })
     });
     let scene_name = text(scene, "sceneName").unwrap_or_default();
     let level = Level {

@@ -67,6 +67,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
             "Characters" => spots.push(Spot {
                 source: node.id.clone(),
                 name: String::new(),
+                kind: String::new(),
                 at: node.middle(),
                 heading: None,
             }),

@@ -20,6 +20,7 @@ use crate::units::{Cm, Frame, Point, Source};
 
 use super::json::{length, list, remark, text};
 use super::plane;
+use super::shape::rectangle;
 use super::stock::state;
 
 use hallway::{Crossing, band, crossing, door, middle_line};
@@ -29,6 +30,8 @@ const FORMAT: &str = "pyrobosim";
 /// Heights where the file gives none, cm: of a table, and of what is taken in hand.
 const LOCATION: f64 = 75.0;
 const OBJECT: f64 = 10.0;
+/// Width and depth of what stands for a shape told by a mesh, until its usual size is known, cm.
+const MESH: f64 = 20.0;
 /// A hallway with less floor than this between its rooms is but an opening, cm².
 const LEAST_FLOOR: f64 = 1000.0;
 
@@ -73,33 +76,15 @@ pub fn read_pyrobosim(
 }
 
 fn yaml(source: &Source) -> Result<Value, ReadError> {
-    let options = serde_saphyr::options! {
-        strict_booleans: true,
-        budget: serde_saphyr::budget! {
-            max_depth: 32,
-            flow_nesting_limit: 32,
-            max_nodes: 4_000_000,
-            max_events: 8_000_000,
-            max_aliases: 1_000,
-        },
-        alias_limits: serde_saphyr::alias_limits! { max_total_replayed_events: 10_000 },
-    };
-    serde_saphyr::from_str_with_options(source.text(), options).map_err(|e| {
-        let e = e.without_snippet();
-        let at = e.location().map_or(0, |at| {
-            let lines = source.text().split_inclusive('\n');
-            let before: usize =
-                lines.take((at.line() as usize).saturating_sub(1)).map(str::len).sum();
-            before + (at.column() as usize).saturating_sub(1)
-        });
-        ReadError::syntax(FORMAT, format!("это не YAML мира: {e}"), source, at)
-    })
+    crate::exchange::yaml::parse(source, FORMAT, "мира")
 }
 
 /// What a location or an object of one category looks like.
 #[derive(Debug, Clone)]
 struct Look {
     outline: Vec<Point>,
+    /// Its shape stands in a file of another sort: its size is the usual one of its word.
+    is_mesh: bool,
     height: Option<f64>,
     properties: Properties,
 }
@@ -169,13 +154,22 @@ impl Reader {
                 Some(outline) => {
                     let look = Look {
                         outline,
+                        is_mesh: false,
                         height: footprint.get("height").and_then(length).filter(|h| *h > 0.0),
                         properties: colour_of(record.get("color")),
                     };
                     looks.insert(category.clone(), look);
                 }
                 None => {
-                    self.note(category, "вид предмета пропущен: контур задан сеткой или неполон")
+                    self.note(category, "контур задан сеткой или неполон: взят обычный размер");
+                    let (x, y) = (MESH / 2.0, MESH / 2.0);
+                    let look = Look {
+                        outline: rectangle(-x, -y, x, y),
+                        is_mesh: true,
+                        height: None,
+                        properties: colour_of(record.get("color")),
+                    };
+                    looks.insert(category.clone(), look);
                 }
             }
         }
@@ -197,6 +191,7 @@ impl Reader {
             self.level.spots.push(Spot {
                 source,
                 name: String::new(),
+                kind: String::new(),
                 at,
                 heading: Some(place.angle),
             });
@@ -306,6 +301,7 @@ impl Reader {
             let spot = Spot {
                 source,
                 name: String::new(),
+                kind: "charger".to_owned(),
                 at: frame.origin(),
                 heading: Some(frame.angle),
             };
@@ -405,16 +401,17 @@ impl Reader {
     ) {
         let known = self.kinds.iter().position(|k| k.source == category);
         let kind = known.unwrap_or_else(|| {
+            let part = Part {
+                word: String::new(),
+                outline: look.outline.clone(),
+                bottom: Cm::ZERO,
+                height: Cm::of(height),
+                permeability: Permeability::Impermeable,
+            };
             self.kinds.push(Kind {
                 source: category.to_owned(),
                 word: category.to_owned(),
-                parts: vec![Part {
-                    word: String::new(),
-                    outline: look.outline.clone(),
-                    bottom: Cm::ZERO,
-                    height: Cm::of(height),
-                    permeability: Permeability::Impermeable,
-                }],
+                parts: if look.is_mesh { Vec::new() } else { vec![part] },
                 front: None,
                 properties: look.properties.clone(),
             });
@@ -442,8 +439,13 @@ impl Reader {
         let told = record.get("pose").and_then(pose);
         let frame = told.or_else(|| room.map(|r| frame_at(centroid(&r.outline), 0.0, 0.0)));
         if let Some(frame) = frame {
-            let spot =
-                Spot { source: name.clone(), name, at: frame.origin(), heading: Some(frame.angle) };
+            let spot = Spot {
+                source: name.clone(),
+                name,
+                kind: String::new(),
+                at: frame.origin(),
+                heading: Some(frame.angle),
+            };
             self.level.spots.push(spot);
         }
     }
