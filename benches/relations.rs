@@ -2,11 +2,13 @@
 //!
 //! `cargo bench --bench relations` prints a table; `-- 1000 50000` chooses the numbers of replicas.
 
+mod wards;
+
 use std::time::{Duration, Instant};
 
-use orthoframe::map::{Area, Format, MapItem, Replica, World};
+use orthoframe::map::World;
 use orthoframe::semantics::{Measurements, Profile, RelationRules, derive, derive_from};
-use orthoframe::units::{AreaId, Deg, Frame, ReplicaId, Source};
+use orthoframe::units::{Deg, Frame, ReplicaId};
 
 const WARD: &str = r#"
 format = 1
@@ -82,40 +84,15 @@ items = [{ area = "ward" }]
 
 /// Wards side by side and back to back, until there are so many replicas; every seventh ward is turned round.
 fn hospital(replicas: usize) -> World {
-    let text = Source::new("палата.toml", WARD);
-    let mut world = World::parse(&text, Format::Toml).expect("the ward is sound");
-    let ward = world.areas.values().next().expect("one ward").clone();
-    let furniture: Vec<Replica> = world.replicas.values().cloned().collect();
-    let map = world.maps.values_mut().next().expect("one floor");
-    map.items.clear();
-    world.areas.clear();
-    world.replicas.clear();
-    let wards = replicas.div_ceil(furniture.len());
+    let wards = replicas.div_ceil(wards::things(WARD));
     let columns = (wards as f64).sqrt().ceil() as usize;
-    for n in 0..wards {
-        let id = AreaId(n as u32 + 1);
+    wards::hospital(WARD, wards, replicas, |n| {
         let (x, y) = ((n % columns) as f64 * 520.0, (n / columns) as f64 * 420.0);
-        let frame = if n % 7 == 0 {
-            Frame::new(x + 500.0, y + 400.0, 0.0, Deg::of(180.0))
-        } else {
-            Frame::new(x, y, 0.0, Deg::ZERO)
-        };
-        let name = format!("Палата-{n}");
-        world.areas.insert(id, Area { id, name, key: format!("ward-{n}"), ..ward.clone() });
-        map.items.push(MapItem { area: id, frame, is_base: n == 0 });
-        for (k, thing) in furniture.iter().enumerate() {
-            let number = n * furniture.len() + k;
-            if number >= replicas {
-                break;
-            }
-            let id = ReplicaId(number as u32 + 1);
-            let name = format!("{}-{n}", thing.name);
-            world
-                .replicas
-                .insert(id, Replica { id, area: AreaId(n as u32 + 1), name, ..thing.clone() });
+        match n % 7 {
+            0 => Frame::new(x + 500.0, y + 400.0, 0.0, Deg::of(180.0)),
+            _ => Frame::new(x, y, 0.0, Deg::ZERO),
         }
-    }
-    world
+    })
 }
 
 /// Processor time of the whole process in seconds, in the system's ticks; none where it is not told.

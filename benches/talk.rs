@@ -2,12 +2,16 @@
 //!
 //! `cargo bench --bench talk`; 2 000 rooms with 20 things each, names of the sort «Стул-2-1704».
 
+mod wards;
+
+use std::time::Instant;
+
+use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use orthoframe::Engine;
-use orthoframe::engine::{Memory, World};
+use orthoframe::engine::{Memory, Mode, World, change_now};
 use orthoframe::language::question::Lexicon;
-use orthoframe::map::{Area, Format, MapItem, Replica};
-use orthoframe::units::{AreaId, Deg, Frame, ReplicaId, Source};
+use orthoframe::units::{Deg, Frame};
 
 const WARD: &str = r#"
 format = 1
@@ -52,31 +56,10 @@ items = [{ area = "ward" }]
 "#;
 
 /// Wards side by side and back to back.
-fn hospital(wards: u32) -> World {
-    let text = Source::new("палата.toml", WARD);
-    let mut world = World::parse(&text, Format::Toml).expect("the ward is sound");
-    let ward = world.areas.values().next().expect("one ward").clone();
-    let furniture: Vec<Replica> = world.replicas.values().cloned().collect();
-    let map = world.maps.values_mut().next().expect("one floor");
-    map.items.clear();
-    world.areas.clear();
-    world.replicas.clear();
-    for n in 0..wards {
-        let id = AreaId(n + 1);
-        let frame =
-            Frame::new(f64::from(n % 45) * 520.0, f64::from(n / 45) * 420.0, 0.0, Deg::ZERO);
-        let name = format!("Палата-{n}");
-        world.areas.insert(id, Area { id, name, key: format!("ward-{n}"), ..ward.clone() });
-        map.items.push(MapItem { area: id, frame, is_base: n == 0 });
-        for (k, thing) in furniture.iter().enumerate() {
-            let replica = ReplicaId(n * furniture.len() as u32 + k as u32 + 1);
-            let name = format!("{}-{n}", thing.name);
-            world
-                .replicas
-                .insert(replica, Replica { id: replica, area: id, name, ..thing.clone() });
-        }
-    }
-    world
+fn hospital(wards: usize) -> World {
+    wards::hospital(WARD, wards, usize::MAX, |n| {
+        Frame::new((n % 45) as f64 * 520.0, (n / 45) as f64 * 420.0, 0.0, Deg::ZERO)
+    })
 }
 
 const QUESTIONS: [&str; 6] = [
@@ -88,8 +71,45 @@ const QUESTIONS: [&str; 6] = [
     "Какой стул ближе всего к Кровати-2-1999?",
 ];
 
+/// Processor and wall time of some work, in milliseconds.
+#[expect(clippy::print_stdout, reason = "a bench prints its figures")]
+fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
+    let (processor, clock) = (ProcessTime::now(), Instant::now());
+    let result = work();
+    let (processor, clock) = (processor.elapsed(), clock.elapsed());
+    println!(
+        "{what}: {:.1} ms of processor time, {:.1} ms on the clock",
+        processor.as_secs_f64() * 1e3,
+        clock.as_secs_f64() * 1e3
+    );
+    result
+}
+
+/// The hospital in a store: from opening it to the first answer.
+fn first_question(world: World) {
+    let dir = tempfile::tempdir().expect("a directory for the store");
+    let dir = dir.path().join("store");
+    let change = change_now("bench", "a hospital");
+    let mut engine = Engine::open(&dir, None).expect("a new store");
+    engine.edit_world(&change, Mode::Commit, |empty| *empty = world).expect("a sound map");
+    timed("relations derived and kept", || engine.relations().map(|_| ())).expect("they end");
+    drop(engine);
+    for round in 0..3 {
+        let engine = timed(&format!("store opened, round {round}"), || {
+            Engine::open_read_only(&dir, None).expect("the store is sound")
+        });
+        timed("  relations taken up", || engine.relations().map(|_| ())).expect("they are kept");
+        for question in [QUESTIONS[0], QUESTIONS[3]] {
+            let ask = || engine.ask(question, &mut Memory::default()).expect("there is a map");
+            let answer = timed(&format!("  {question}"), ask);
+            assert!(answer.is_ok(), "{question}: {answer:?}");
+        }
+    }
+}
+
 fn talk(c: &mut Criterion) {
     let world = hospital(2_000);
+    first_question(world.clone());
     c.bench_function("talk/nouns of 40 000 things", |b| b.iter(|| Lexicon::of(&world)));
     let engine = Engine::in_memory(world, None).expect("the rules are sound");
     engine.relations().expect("they end");

@@ -423,12 +423,15 @@ fn a_way_in_words_counts_entrances_along_corridors() {
     }
     let engine = orthoframe::engine::Engine::in_memory(world, None).unwrap();
     let answer = engine.route("Точка-А", "Точка-К", orthoframe::engine::Method::Shortest).unwrap();
-    let words = |language| engine.route_in_words(&answer, language).unwrap().join("\n");
+    let words = |language| {
+        let detail = orthoframe::language::report::Detail::Spot;
+        engine.route_in_words(&answer, None, language, detail).unwrap().join("\n")
+    };
     expect![[r#"
-        Выезжайте из Комнаты-В через Проход-ВК в Коридор.
+        Выйдите из Комнаты-В через Проход-ВК в Коридор.
         Встаньте вдоль коридора, чтобы дверь была слева.
         Проезжайте до 1-го входа, дверь прямо.
-        Цель: Точка-К."#]]
+        Возьмите правее и дойдите до Точки-К."#]]
     .assert_eq(&words(orthoframe::language::Language::Russian));
     let english = words(orthoframe::language::Language::English);
     assert!(english.starts_with("Leave Room V through Passage VK into"), "{english}");

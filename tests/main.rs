@@ -34,5 +34,6 @@ mod store_faults;
 mod store_world;
 mod story;
 mod talk;
+mod talk_ways;
 mod words;
 mod worlds;

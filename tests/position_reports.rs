@@ -1,20 +1,22 @@
 //! Position reports said and read back: what is said of a pose is read as a region that holds the pose.
 
 use orthoframe::engine::Engine;
+use orthoframe::exchange::{Options, read};
 use orthoframe::language::Language;
 use orthoframe::language::report::Detail;
 use orthoframe::map::World;
-use orthoframe::units::{Deg, Point, Pose};
+use orthoframe::units::{Deg, MapId, Point, Pose};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use proptest::test_runner::{TestCaseError, TestRunner};
 
-use crate::worlds::{mirrored, rb2, renamed, rotated};
+use crate::scenes::shared;
+use crate::worlds::{area_named, doubled, mirrored, rb2, renamed, rotated, unnumbered};
 
 const DETAILS: [Detail; 3] = [Detail::Region, Detail::Spot, Detail::Heading];
 
-/// The robot's places on the floor of a world's first Map, as shares of its extent, with a heading.
-fn pose(engine: &Engine, (x, y, heading): (f64, f64, f64)) -> Option<Pose> {
-    let (_, floor) = engine.floors().unwrap().first_key_value()?;
+/// The robot's places on the floor of a Map, as shares of its extent, with a heading.
+fn pose(engine: &Engine, map: MapId, (x, y, heading): (f64, f64, f64)) -> Option<Pose> {
+    let floor = &engine.floors().unwrap()[&map];
     let areas = floor.scene().areas.values().flat_map(|area| &area.prisms);
     let corners: Vec<Point> = areas.flat_map(|p| [p.bounds.min, p.bounds.max]).collect();
     let low = corners.iter().fold(corners[0], |a, b| a.inf(b));
@@ -24,8 +26,7 @@ fn pose(engine: &Engine, (x, y, heading): (f64, f64, f64)) -> Option<Pose> {
     fits.then_some(Pose { at, heading: Deg::of(heading) })
 }
 
-fn said_is_read(engine: &Engine, pose: Pose) -> Result<(), TestCaseError> {
-    let map = *engine.floors().unwrap().keys().next().unwrap();
+fn said_is_read(engine: &Engine, map: MapId, pose: Pose) -> Result<(), TestCaseError> {
     let Ok(found) = engine.locate(map, pose, true) else { return Ok(()) };
     for language in [Language::Russian, Language::English] {
         for detail in DETAILS {
@@ -33,6 +34,7 @@ fn said_is_read(engine: &Engine, pose: Pose) -> Result<(), TestCaseError> {
             let region = engine
                 .read_position(&text)
                 .map_err(|e| TestCaseError::fail(format!("{text}: {e}")))?;
+            prop_assert!(region.map == map, "{text} at {pose:?}: {region:?}");
             let holds = engine.region_contains(&region, pose).unwrap();
             prop_assert!(holds, "{text} at {pose:?}: {region:?}");
         }
@@ -42,22 +44,22 @@ fn said_is_read(engine: &Engine, pose: Pose) -> Result<(), TestCaseError> {
 
 fn check(world: World) {
     let engine = Engine::in_memory(world, None).unwrap();
-    let mut runner = TestRunner::new(ProptestConfig::with_cases(150));
+    let mut runner = TestRunner::new(ProptestConfig::with_cases(80));
     let mut told = std::collections::BTreeSet::new();
     let cell = std::cell::RefCell::new(&mut told);
+    let maps: Vec<MapId> = engine.floors().unwrap().keys().copied().collect();
     runner
-        .run(&(0.0..1.0, 0.0..1.0, 0.0..360.0), |shares| {
-            let Some(pose) = pose(&engine, shares) else {
+        .run(&(0..maps.len(), 0.0..1.0, 0.0..1.0, 0.0..360.0), |(n, x, y, heading)| {
+            let Some(pose) = pose(&engine, maps[n], (x, y, heading)) else {
                 return Err(TestCaseError::reject("not on the free floor"));
             };
-            let map = *engine.floors().unwrap().keys().next().unwrap();
-            if let Ok(found) = engine.locate(map, pose, true) {
+            if let Ok(found) = engine.locate(maps[n], pose, true) {
                 cell.borrow_mut().insert(found.position.say(Language::Russian));
             }
-            said_is_read(&engine, pose)
+            said_is_read(&engine, maps[n], pose)
         })
         .unwrap();
-    assert!(told.len() > 20, "the poses are told apart: {told:?}");
+    assert!(told.len() > 15, "the poses are told apart: {told:?}");
 }
 
 #[test]
@@ -68,6 +70,52 @@ fn what_is_said_of_a_pose_is_read_as_a_region_that_holds_it() {
 #[test]
 fn so_it_is_in_a_mirrored_renamed_and_turned_world() {
     check(rotated(&renamed(&mirrored(&rb2())), Deg::of(200.0)));
+}
+
+#[test]
+fn namesakes_on_one_floor_are_told_apart() {
+    check(unnumbered(&rb2()));
+}
+
+#[test]
+fn namesakes_on_two_floors_are_told_apart() {
+    check(doubled(&rb2()));
+    check(doubled(&unnumbered(&rb2())));
+}
+
+/// Houses of others, as they are and with every number taken off their names.
+#[test]
+fn poses_in_imported_houses_are_told_apart() {
+    let Some(folder) = shared("procthor") else { return };
+    let house = |n: u32| {
+        let path = folder.join(format!("house_{n}.json"));
+        read(&path, &Options::default()).expect("the house reads").world
+    };
+    check(house(4));
+    check(unnumbered(&house(1)));
+    check(doubled(&house(7)));
+}
+
+/// Nothing is said that is not needed: a room that has no namesake is told by its name, one on another floor by the
+/// floor, one on the same floor by what lies beside it.
+#[test]
+fn the_shortest_description_that_is_unique_is_taken() {
+    let room = |world: World| {
+        let named = |a: &&orthoframe::map::Area| a.name == "Комната-Z";
+        let area = world.areas.values().find(named).unwrap().id;
+        let engine = Engine::in_memory(world, None).unwrap();
+        let (map, at) = engine.relations().unwrap().area_centre(area).unwrap();
+        let found = engine.locate(map, Pose { at, heading: Deg::ZERO }, false).unwrap();
+        found.position.say_in(Language::Russian, Detail::Region)
+    };
+    assert_eq!(room(rb2()), "Я нахожусь в Комнате-Z.");
+    assert_eq!(room(doubled(&rb2())), "Я нахожусь на Первом этаже в Комнате-Z.");
+    let mut twins = rb2();
+    let other = area_named(&twins, "Комната-Y");
+    let twin = twins.areas.get_mut(&other).unwrap();
+    (twin.name, twin.name_en) = ("Комната-Z".into(), "Room Z".into());
+    twin.forms.clear();
+    assert_eq!(room(twins), "Я нахожусь в Комнате-Z, соседней с Комнатой-В.");
 }
 
 #[test]

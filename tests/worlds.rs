@@ -97,6 +97,58 @@ pub(crate) fn rotated(world: &World, angle: Deg) -> World {
     world
 }
 
+/// Every room and thing under the name of its kind alone: «Комната», «Стул», as in a building that nobody numbered.
+pub(crate) fn unnumbered(world: &World) -> World {
+    let mut world = world.clone();
+    let bare = |name: &mut String| {
+        let cut = name.find(['-', ' ']).filter(|cut| name[*cut + 1..].chars().count() < 3);
+        name.truncate(cut.unwrap_or(name.len()));
+    };
+    for area in world.areas.values_mut() {
+        [&mut area.name, &mut area.name_en].into_iter().for_each(bare);
+        area.forms.clear();
+    }
+    for replica in world.replicas.values_mut() {
+        [&mut replica.name, &mut replica.name_en].into_iter().for_each(bare);
+        replica.forms.clear();
+    }
+    world
+}
+
+/// The only Map twice, one floor above the other: all names but those of the floors and doors are borne twice.
+pub(crate) fn doubled(world: &World) -> World {
+    const ABOVE: u32 = 10_000;
+    let mut world = world.clone();
+    let map = world.maps.values_mut().next().expect("a Map");
+    (map.name, map.name_en) = ("Первый этаж".into(), "First floor".into());
+    let mut above = map.clone();
+    above.id = MapId(map.id.0 + ABOVE);
+    (above.name, above.name_en) = ("Второй этаж".into(), "Second floor".into());
+    above.key.push_str("-2");
+    above.items.iter_mut().for_each(|item| item.area.0 += ABOVE);
+    for link in &mut above.links {
+        (link.area.0, link.to_area.0) = (link.area.0 + ABOVE, link.to_area.0 + ABOVE);
+    }
+    world.maps.insert(above.id, above);
+    for area in world.areas.clone().into_values() {
+        let mut area = Area { id: AreaId(area.id.0 + ABOVE), ..area };
+        area.key.push_str("-2");
+        area.doors.iter_mut().for_each(|mount| mount.door.0 += ABOVE);
+        world.areas.insert(area.id, area);
+    }
+    for door in world.doors.clone().into_values() {
+        let id = DoorId(door.id.0 + ABOVE);
+        let name = format!("{}0", door.name);
+        let name_en = format!("{}0", door.name_en);
+        world.doors.insert(id, Door { id, name, name_en, forms: Default::default(), ..door });
+    }
+    for replica in world.replicas.clone().into_values() {
+        let (id, area) = (ReplicaId(replica.id.0 + ABOVE), AreaId(replica.area.0 + ABOVE));
+        world.replicas.insert(id, Replica { id, area, ..replica });
+    }
+    world
+}
+
 /// The papers' flat with a fifth room, Комната-X, behind a new door in the east wall of the corridor.
 pub(crate) fn rb2_with_fifth_room() -> World {
     let mut world = rb2();

@@ -136,9 +136,9 @@ pub(super) enum Command {
         /// How the way is found
         #[arg(long, value_enum, default_value_t = RouteMethod::Shortest)]
         method: RouteMethod,
-        /// Say the way in sentences
-        #[arg(long)]
-        words: bool,
+        /// Say the way in sentences: rooms alone, doors and turns, or every stretch
+        #[arg(long, value_enum, value_name = "DETAIL", num_args = 0..=1, default_missing_value = "normal")]
+        words: Option<Detail>,
     },
     /// Directions through corridors by counting entrances (paper 4)
     Corridor(CorridorArgs),
@@ -160,6 +160,9 @@ pub(super) enum Command {
         /// Pose on the map, cm and degrees; the robot's when left out
         #[arg(long, value_name = "X,Y[,HEADING]", allow_hyphen_values = true)]
         at: Option<String>,
+        /// How much to say: the room, the spot, the heading too
+        #[arg(long, value_enum)]
+        detail: Option<Detail>,
         /// Read a report back: the region of which it is true, and whether the pose lies in it
         #[arg(long, value_name = "TEXT")]
         read: Option<String>,
@@ -170,6 +173,25 @@ pub(super) enum Command {
     Store(StoreCommand),
     /// Draw as SVG or PNG: a map or room, its floor, an Object, a route, the view from a pose
     Draw(DrawArgs),
+}
+
+/// How much is said of a place or a way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(super) enum Detail {
+    Brief,
+    Normal,
+    Full,
+}
+
+impl Detail {
+    pub(super) fn level(self) -> crate::language::report::Detail {
+        use crate::language::report::Detail as Level;
+        match self {
+            Self::Brief => Level::Region,
+            Self::Normal => Level::Spot,
+            Self::Full => Level::Heading,
+        }
+    }
 }
 
 #[derive(Debug, Args)]

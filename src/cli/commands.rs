@@ -8,10 +8,11 @@ use crate::engine::{
     Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, ride_in_words,
     uncertain_names,
 };
+use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase};
 use crate::map::MapErrors;
 
-use super::args::{Common, RouteMethod};
+use super::args::{Common, Detail, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
 
@@ -200,7 +201,7 @@ pub(super) fn route(
     from: &str,
     to: &str,
     method: RouteMethod,
-    words: bool,
+    words: Option<Detail>,
 ) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let method = match method {
@@ -213,12 +214,13 @@ pub(super) fn route(
     let language = common.lang.language();
     if common.json {
         let mut view = json::journey(world, &journey, language);
-        if words && found {
-            view["words"] = json!(engine.journey_in_words(&journey, language)?);
+        if let Some(detail) = words.filter(|_| found) {
+            view["words"] =
+                json!(engine.journey_in_words(&journey, None, language, detail.level())?);
         }
         say(&view.to_string())?;
-    } else if words && found {
-        say(&engine.journey_in_words(&journey, language)?.join("\n"))?;
+    } else if let Some(detail) = words.filter(|_| found) {
+        say(&engine.journey_in_words(&journey, None, language, detail.level())?.join("\n"))?;
     } else {
         let mut parts = Vec::new();
         for (k, leg) in journey.legs.iter().enumerate() {
@@ -237,6 +239,7 @@ pub(super) fn locate(
     common: &Common,
     map: Option<&str>,
     at: Option<&str>,
+    detail: Option<Detail>,
 ) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let (map, pose, facing) = match at {
@@ -246,11 +249,17 @@ pub(super) fn locate(
             (now.map, now.pose, true)
         }
     };
+    let level = detail.map(Detail::level);
+    let facing = level.map_or(facing, |level| level == Level::Heading);
     let found = engine.locate(map, pose, facing)?;
     if common.json {
         return say(&json::whereabout(engine.world()?, &found).to_string());
     }
-    say(&found.position.say(common.lang.language()))
+    let language = common.lang.language();
+    say(&match level {
+        Some(level) => found.position.say_in(language, level),
+        None => found.position.say(language),
+    })
 }
 
 pub(super) fn datalog(

@@ -83,8 +83,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Datalog { program, facts, output } => {
             commands::datalog(common, program, facts, output)
         }
-        Command::Where { map, at, read: None } => {
-            commands::locate(common, map.as_deref(), at.as_deref())
+        Command::Where { map, at, detail, read: None } => {
+            commands::locate(common, map.as_deref(), at.as_deref(), *detail)
         }
         Command::Where { at, read: Some(text), .. } => read::run(common, text, at.as_deref()),
         Command::Observe(command) => observe::run(common, command),

@@ -162,6 +162,7 @@ impl Engine {
     pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
         self.mind.take();
         self.forms.take();
+        self.present.take();
         let Some(before) = self.world.replace(after) else {
             self.forget_derived();
             return Ok(());
@@ -209,6 +210,7 @@ impl Engine {
         self.floors.take();
         self.mind.take();
         self.forms.take();
+        self.present.take();
     }
 }
 

@@ -67,6 +67,7 @@ impl Engine {
             floors: Default::default(),
             mind: Default::default(),
             forms: Default::default(),
+            present: Default::default(),
             opened: self.opened,
         })
     }

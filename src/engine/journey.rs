@@ -1,12 +1,13 @@
 //! Ways over several floors, in legs and rides, and what would open a way where there is none.
 
 use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, across};
+use crate::language::report::Detail;
 use crate::language::{Case, Language};
 use crate::map::{Entity, World};
-use crate::units::{DoorId, ReplicaId};
+use crate::units::{Deg, DoorId, ReplicaId};
 
 use super::lexicon::named;
-use super::route::{RouteAnswer, stages};
+use super::route::{End, Located, RouteAnswer, stages};
 use super::{Engine, Error};
 
 /// A way from one place to another, over as many maps as it takes.
@@ -38,13 +39,26 @@ impl Engine {
     /// # Errors
     /// A name that means nothing. No way at all is an answer, not an error.
     pub fn journey(&self, from: &str, to: &str, method: Method) -> Result<Journey, Error> {
-        let world = self.world()?;
         let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
+        self.journey_between((from, start), (to, goal), method)
+    }
+
+    /// A way between two places that were found, with what they are called.
+    ///
+    /// # Errors
+    /// There is no map. No way at all is an answer, not an error.
+    pub fn journey_between(
+        &self,
+        (from, start): (&str, Located),
+        (to, goal): (&str, Located),
+        method: Method,
+    ) -> Result<Journey, Error> {
+        let world = self.world()?;
         let floors = self.floors()?;
         let ends = ((start.map, start.at), (goal.map, goal.target));
-        let answer = |map, from: &str, to: &str, route: Result<_, NoRoute>| {
+        let answer = |map, from: &str, (to, end): (&str, End), route: Result<_, NoRoute>| {
             let stages = route.as_ref().map(|r| stages(&floors[&map], r)).unwrap_or_default();
-            RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), route, stages }
+            RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), end, route, stages }
         };
         match across(world, floors, ends.0, ends.1, method) {
             Ok(found) => {
@@ -52,7 +66,8 @@ impl Engine {
                 let lift = |k: usize| rides.get(k).map(|r| world.domain.lifts[r.lift].0.as_str());
                 let leg = |(k, leg): (usize, Leg)| {
                     let from = k.checked_sub(1).and_then(lift).unwrap_or(from);
-                    answer(leg.map, from, lift(k).unwrap_or(to), Ok(leg.route))
+                    let to = lift(k).map_or((to, goal.end), |lift| (lift, End::Lift));
+                    answer(leg.map, from, to, Ok(leg.route))
                 };
                 let legs = found.into_iter().enumerate().map(leg).collect();
                 Ok(Journey { legs, rides, advice: None })
@@ -62,24 +77,32 @@ impl Engine {
                     .then(|| floors[&map].remedy(world, start.at, goal.target, &no))
                     .flatten()
                     .map(Advice::from);
-                Ok(Journey { legs: vec![answer(map, from, to, Err(no))], rides: vec![], advice })
+                let leg = answer(map, from, (to, goal.end), Err(no));
+                Ok(Journey { legs: vec![leg], rides: vec![], advice })
             }
         }
     }
 
-    /// A journey as sentences: those of its legs, and of the rides between them.
+    /// A journey as sentences: those of its legs, and of the rides between them. `heading` is how one stands at its
+    /// beginning, where that is known.
     ///
     /// # Errors
     /// There is no map.
     pub fn journey_in_words(
         &self,
         journey: &Journey,
+        heading: Option<Deg>,
         language: Language,
+        detail: Detail,
     ) -> Result<Vec<String>, Error> {
         let world = self.world()?;
         let mut sentences = Vec::new();
         for (k, leg) in journey.legs.iter().enumerate() {
-            sentences.extend(self.route_in_words(leg, language)?);
+            let heading = heading.filter(|_| k == 0);
+            let told = self.route_in_words(leg, heading, language, detail)?;
+            // Who stands before the lift already need not be told so.
+            let stays = leg.end == End::Lift && leg.stages.len() < 2;
+            sentences.extend(told.into_iter().filter(|_| !stays));
             if let Some(ride) = journey.rides.get(k) {
                 sentences.push(ride_in_words(world, ride, language));
             }

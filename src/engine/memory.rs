@@ -40,8 +40,31 @@ impl Engine {
     /// # Errors
     /// There is no map, or it does not say where the robot starts.
     pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
-        let mut world = self.world()?.clone();
         let memory = self.memory()?;
+        let mut world = self.believed(&memory, at)?;
+        let (mut held, mut handed_over) = (None, Vec::new());
+        for (thing, holder) in memory.carried {
+            match world.replicas.remove(&thing) {
+                Some(replica) if holder.is_empty() => held = Some(replica),
+                Some(replica) => handed_over.push((replica, holder)),
+                None => {}
+            }
+        }
+        // A map that was replaced since may not have this place any more.
+        let stands = |(map, pose): &(MapId, Pose)| {
+            world.maps.contains_key(map)
+                && self.floor(*map).is_ok_and(|floor| floor.locate(pose.at).is_some())
+        };
+        let last = memory.pose.filter(stands);
+        let goes_on = last.is_some();
+        let start = last.or_else(|| starting_pose(&world));
+        let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
+        Ok(Now { world, map, pose, held, handed_over, goes_on })
+    }
+
+    /// The map with the doors, devices and places of things as they are believed to be; what is carried still in it.
+    pub(super) fn believed(&self, memory: &RobotMemory, at: Timestamp) -> Result<World, Error> {
+        let mut world = self.world()?.clone();
         for (door, state) in &memory.doors {
             if let Some(door) = world.doors.get_mut(door) {
                 door.state = *state;
@@ -62,24 +85,7 @@ impl Engine {
                 switch(&mut replica.properties, *on);
             }
         }
-        let (mut held, mut handed_over) = (None, Vec::new());
-        for (thing, holder) in memory.carried {
-            match world.replicas.remove(&thing) {
-                Some(replica) if holder.is_empty() => held = Some(replica),
-                Some(replica) => handed_over.push((replica, holder)),
-                None => {}
-            }
-        }
-        // A map that was replaced since may not have this place any more.
-        let stands = |(map, pose): &(MapId, Pose)| {
-            world.maps.contains_key(map)
-                && self.floor(*map).is_ok_and(|floor| floor.locate(pose.at).is_some())
-        };
-        let last = memory.pose.filter(stands);
-        let goes_on = last.is_some();
-        let start = last.or_else(|| starting_pose(&world));
-        let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
-        Ok(Now { world, map, pose, held, handed_over, goes_on })
+        Ok(world)
     }
 
     fn memory(&self) -> Result<RobotMemory, Error> {
@@ -127,6 +133,7 @@ impl Engine {
     /// # Errors
     /// The disk refused.
     pub fn remember(&mut self, answer: &TaskAnswer, at: Timestamp) -> Result<(), Error> {
+        self.present.take();
         let Some(after) = &answer.after else { return Ok(()) };
         let Some(store) = &mut self.store else { return Ok(()) };
         let seen: Vec<Observation> = after
@@ -148,6 +155,7 @@ impl Engine {
     /// # Errors
     /// The disk refused.
     pub fn reset_robot(&mut self, change: &Change) -> Result<(), Error> {
+        self.present.take();
         let Some(store) = &mut self.store else { return Ok(()) };
         let reader = store.reader();
         if !reader.robot_memory()?.is_empty() {

@@ -16,6 +16,7 @@
 //! derived anew when that map changes.
 
 mod deeds;
+mod directions;
 mod drawing;
 mod edit;
 mod error;
@@ -29,6 +30,7 @@ mod memory;
 mod observe;
 mod plan;
 mod position;
+mod present;
 mod reading;
 mod route;
 mod rules;
@@ -54,7 +56,7 @@ pub use observe::{Believed, Proposal, Source, Station};
 pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};
 pub use position::Whereabout;
 pub use reading::Region;
-pub use route::{Located, RouteAnswer, Stage, parse_pose};
+pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use upkeep::{check_store, restore_store};
@@ -83,6 +85,7 @@ use crate::store::{ImportReport, OpenReport, Store, StoreError};
 use crate::units::{MapId, nearest_name};
 
 use lexicon::form_index;
+use present::Present;
 
 /// The knowledge of one building, and what follows from it.
 #[derive(Debug)]
@@ -96,6 +99,8 @@ pub struct Engine {
     mind: OnceCell<Mind>,
     /// The names of the map in all their forms, for commands.
     forms: OnceCell<FormIndex<Entity>>,
+    /// The world as it is believed to be now, where that differs from the map.
+    present: OnceCell<Option<Box<Present>>>,
     /// What opening the store found and mended.
     pub opened: OpenReport,
 }
@@ -138,6 +143,7 @@ impl Engine {
             floors: OnceCell::new(),
             mind: OnceCell::new(),
             forms: OnceCell::new(),
+            present: OnceCell::new(),
             opened,
         })
     }
@@ -158,6 +164,7 @@ impl Engine {
             floors: OnceCell::new(),
             mind: OnceCell::new(),
             forms: OnceCell::new(),
+            present: OnceCell::new(),
             opened,
         })
     }
@@ -186,6 +193,7 @@ impl Engine {
             floors: OnceCell::new(),
             mind: OnceCell::new(),
             forms: OnceCell::new(),
+            present: OnceCell::new(),
             opened: OpenReport::default(),
         })
     }

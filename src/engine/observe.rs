@@ -121,6 +121,7 @@ impl Engine {
                 Some(Seen { area, frame })
             }
         };
+        self.present.take();
         let observation =
             Observation { replica: id, at, seen, sure, observer: observer.to_owned() };
         Ok(self.writable()?.observe(&[observation])?)
@@ -178,6 +179,7 @@ impl Engine {
     /// As [`Engine::thing`]; the disk refused.
     pub fn reject(&mut self, name: &str, change: &Change) -> Result<(), Error> {
         let id = self.thing(name)?.id;
+        self.present.take();
         Ok(self.writable()?.reject(id, change)?)
     }
 

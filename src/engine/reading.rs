@@ -3,7 +3,9 @@
 use crate::geometry::{Bounds, FloorPlan};
 use crate::language::FormIndex;
 use crate::language::names::hints;
-use crate::language::report::read::{SaidDoorway, SaidFacing, SaidPosition, SaidSpot, read};
+use crate::language::report::read::{
+    SaidDoorway, SaidFacing, SaidMark, SaidPosition, SaidSpot, read,
+};
 use crate::language::report::{Beside, Opening};
 use crate::map::{Entity, Permeability, World};
 use crate::semantics::{Claim, Located, Nearness, Relations, Way, claim_bounds, claim_holds};
@@ -150,7 +152,10 @@ fn is_meant(said: &SaidDoorway<Entity>, way: Way) -> bool {
 }
 
 /// The regions that a report may mean, one for each Area that it may speak of.
-fn regions(relations: &Relations, said: &SaidPosition<Entity>) -> Result<Vec<Region>, Error> {
+pub(super) fn regions(
+    relations: &Relations,
+    said: &SaidPosition<Entity>,
+) -> Result<Vec<Region>, Error> {
     let measured = relations.measurements();
     let near = Nearness::default();
     let areas = match (&said.spot, said.area.is_empty()) {
@@ -162,15 +167,43 @@ fn regions(relations: &Relations, said: &SaidPosition<Entity>) -> Result<Vec<Reg
         let Entity::Area(area) = *area else { continue };
         let Some((map, bounds)) = claim_bounds(measured, area, &near) else { continue };
         let on_map = |names: &Vec<Entity>| names.contains(&Entity::Map(map));
-        if !said.within.iter().all(on_map) {
+        let is_marked = said.mark.as_ref().is_none_or(|mark| bears(relations, area, mark));
+        if !said.within.iter().all(on_map) || !is_marked {
             continue;
         }
         for claim in claims(relations, area, said.spot.as_ref())? {
             let facing = said.facing.clone();
+            // A doorway between namesakes is one place, from whichever side it is told.
+            let told = |other: &Region| {
+                other.claim == claim && matches!(claim, Claim::InDoorway(_)) && other.map == map
+            };
+            if found.iter().any(told) {
+                continue;
+            }
             found.push(Region { map, area, claim, facing, bounds });
         }
     }
     Ok(found)
+}
+
+/// Whether an Area has what a report says to tell it from its namesakes.
+fn bears(relations: &Relations, area: AreaId, mark: &SaidMark<Entity>) -> bool {
+    let of_area = |o: &&crate::semantics::Opening| o.area == area || o.leads_to() == Some(area);
+    let mut openings = relations.openings().iter().filter(of_area);
+    match mark {
+        SaidMark::Adjoining(names) => openings.any(|o| {
+            let sides = [Some(o.area), o.leads_to()].into_iter().flatten();
+            sides.filter(|side| *side != area).any(|side| names.contains(&Entity::Area(side)))
+        }),
+        SaidMark::With(names) => {
+            let has = |name: &Entity| match name {
+                Entity::Replica(id) => relations.area_of(*id) == Some(area),
+                _ => false,
+            };
+            names.iter().any(has)
+                || openings.any(|o| o.door.is_some_and(|d| names.contains(&Entity::Door(d))))
+        }
+    }
 }
 
 /// What a spot claims of an Area: nothing where the map has no such doorway or thing there.

@@ -13,9 +13,21 @@ pub struct RouteAnswer {
     pub map: MapId,
     pub from: String,
     pub to: String,
+    /// What `to` names.
+    pub end: End,
     pub route: Result<Route, NoRoute>,
     /// Names of the Areas passed, in order, and of the doors between them.
     pub stages: Vec<Stage>,
+}
+
+/// What a way leads to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    Entity(Entity),
+    /// Coordinates.
+    Point,
+    /// A lift or stairs, from where the way goes on elsewhere.
+    Lift,
 }
 
 /// A part of a way within one Area.
@@ -33,6 +45,7 @@ pub struct Located {
     /// A point at it, where a way may begin.
     pub at: Point,
     pub target: Target,
+    pub end: End,
 }
 
 impl Engine {
@@ -49,7 +62,8 @@ impl Engine {
         let floor = self.floor(start.map)?;
         let route = floor.route(world, start.at, goal.target, method);
         let stages = route.as_ref().map(|r| stages(floor, r)).unwrap_or_default();
-        Ok(RouteAnswer { map: start.map, from: from.to_owned(), to: to.to_owned(), route, stages })
+        let (map, end) = (start.map, goal.end);
+        Ok(RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), end, route, stages })
     }
 
     /// Where a named place is, or a point written as `X,Y`.
@@ -57,27 +71,44 @@ impl Engine {
     /// # Errors
     /// A name that means nothing, or something where one cannot stand.
     pub fn locate_name(&self, name: &str) -> Result<Located, Error> {
-        let world = self.world()?;
         if is_pair(name) {
             let pose = parse_pose(name)?;
-            let map = self.map_named(None)?;
-            let floor = self.floor(map)?;
-            if floor.locate(pose.at).is_none() {
-                return Err(nowhere_on(world, floor, pose.at).into());
-            }
-            return Ok(Located { map, at: pose.at, target: Target::Point(pose.at) });
+            return self.locate_point(self.map_named(None)?, pose.at);
         }
-        let nowhere = || Error::from(RequestError::NotAPlace { name: name.to_owned() });
-        match self.find(name)? {
+        self.locate_entity(self.find(name)?)
+    }
+
+    /// A point of a Map, as an end of a way.
+    ///
+    /// # Errors
+    /// It lies in no Area.
+    pub fn locate_point(&self, map: MapId, at: Point) -> Result<Located, Error> {
+        let floor = self.floor(map)?;
+        if floor.locate(at).is_none() {
+            return Err(nowhere_on(self.world()?, floor, at).into());
+        }
+        Ok(Located { map, at, target: Target::Point(at), end: End::Point })
+    }
+
+    /// Where an entity is, as an end of a way.
+    ///
+    /// # Errors
+    /// It is something where one cannot stand.
+    pub fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
+        let world = self.world()?;
+        let nowhere =
+            || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
+        let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
+        match entity {
             Entity::Map(_) => Err(nowhere()),
             Entity::Place(id) => {
                 let place = &world.places[&id];
                 let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;
-                Ok(Located { map, at: frame.apply(place.at), target: Target::Place(id) })
+                located(map, frame.apply(place.at), Target::Place(id))
             }
             Entity::Area(id) => {
                 let (map, at) = self.middle_of(world, id).ok_or_else(nowhere)?;
-                Ok(Located { map, at, target: Target::Area(id) })
+                located(map, at, Target::Area(id))
             }
             Entity::Replica(id) => {
                 let (map, _) = world.placement(world.replicas[&id].area).ok_or_else(nowhere)?;
@@ -88,13 +119,13 @@ impl Engine {
                 // In front of the thing, where there is a way to that; else beside it.
                 let standing = floor.route(world, middle, target, Method::Shortest).ok();
                 let at = standing.and_then(|r| r.points.last().copied()).unwrap_or(middle);
-                Ok(Located { map, at, target })
+                located(map, at, target)
             }
             Entity::Door(door) => {
                 let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
                 let (map, _) = world.placement(area).ok_or_else(nowhere)?;
                 let at = self.floor(map)?.stand_before(world, door, area).ok_or_else(nowhere)?.at;
-                Ok(Located { map, at, target: Target::Door { door, area } })
+                located(map, at, Target::Door { door, area })
             }
         }
     }

@@ -5,13 +5,16 @@ use crate::language::Language;
 use crate::language::question::{
     Answer, Asker, Fact, Memory, Mind, Past, Senses, Sighting, Thing, Unanswered, Way,
 };
+use crate::language::report::Detail;
 use crate::map::{Entity, World};
 use crate::robot::starting_pose;
-use crate::semantics::{Profile, derive};
+use crate::semantics::{Profile, Relations, derive};
 use crate::store::Seen;
 use crate::units::{MapId, Pose, ReplicaId};
 
+use super::journey::Journey;
 use super::position::describe;
+use super::route::Located;
 use super::{Engine, Error};
 
 /// How far the robot is taken to see, cm.
@@ -68,7 +71,15 @@ impl Engine {
     }
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
-        Ok(Asker { world: self.world()?, relations: self.relations()?, mind: self.mind()?, senses })
+        Ok(match self.present()? {
+            Some(now) => {
+                Asker { world: &now.world, relations: &now.relations, mind: now.mind(), senses }
+            }
+            None => {
+                let (world, relations) = (self.world()?, self.relations()?);
+                Asker { world, relations, mind: self.mind()?, senses }
+            }
+        })
     }
 
     /// The nouns of the map, read when first asked for.
@@ -101,24 +112,51 @@ struct RobotSenses<'e> {
 
 impl RobotSenses<'_> {
     fn world(&self) -> Option<&World> {
-        self.engine.world.as_ref()
+        match self.engine.present() {
+            Ok(Some(now)) => Some(&now.world),
+            _ => self.engine.world.as_ref(),
+        }
     }
 
-    /// The name by which the engine finds a thing, or its point.
-    fn locatable(&self, thing: Option<Thing>) -> Option<String> {
-        match thing {
-            Some(Thing::Entity(entity)) => Some(self.world()?.name(entity).to_owned()),
-            Some(Thing::Robot) | None => {
-                let (_, pose) = self.engine.robot_pose()?;
-                Some(format!("{},{}", pose.at.x, pose.at.y))
-            }
+    fn relations(&self) -> Option<&Relations> {
+        match self.engine.present() {
+            Ok(Some(now)) => Some(&now.relations),
+            _ => self.engine.relations().ok(),
+        }
+    }
+
+    /// Where a thing is, as an end of a way; the robot without one.
+    fn located(&self, thing: Option<Thing>) -> Result<Option<Located>, Error> {
+        let engine = self.engine;
+        Ok(Some(match thing {
+            Some(Thing::Entity(entity)) => engine.locate_entity(entity)?,
+            Some(Thing::Robot) | None => match engine.robot_pose() {
+                Some((map, pose)) => engine.locate_point(map, pose.at)?,
+                None => return Ok(None),
+            },
             Some(Thing::Opening(n)) => {
-                let opening = self.engine.relations().ok()?.openings().get(n as usize)?;
-                let (a, b) = opening.ends;
-                let middle = nalgebra::center(&a, &b);
-                Some(format!("{},{}", middle.x, middle.y))
+                let opening = &engine.relations()?.openings()[n as usize];
+                let Some((map, _)) = engine.world()?.placement(opening.area) else {
+                    return Ok(None);
+                };
+                engine.locate_point(map, nalgebra::center(&opening.ends.0, &opening.ends.1))?
             }
-            Some(Thing::Window(_)) => None,
+            Some(Thing::Window(_)) => return Ok(None),
+        }))
+    }
+
+    fn journey(&self, from: Option<Thing>, to: Thing) -> Result<Option<Journey>, Error> {
+        let (Some(start), Some(goal)) = (self.located(from)?, self.located(Some(to))?) else {
+            return Ok(None);
+        };
+        let goal = (self.called(to), goal);
+        self.engine.journey_between(("", start), (&goal.0, goal.1), Method::Shortest).map(Some)
+    }
+
+    fn called(&self, thing: Thing) -> String {
+        match (thing, self.world()) {
+            (Thing::Entity(entity), Some(world)) => world.name(entity).to_owned(),
+            _ => String::new(),
         }
     }
 }
@@ -128,39 +166,40 @@ impl Senses for RobotSenses<'_> {
         self.engine.robot_pose()
     }
 
-    fn position(&self, language: Language) -> Option<String> {
+    fn position(&self, language: Language, detail: Detail) -> Option<String> {
         let (map, pose) = self.engine.robot_pose()?;
-        let found = describe(self.world()?, self.engine.relations().ok()?, map, pose, None)?;
-        Some(found.position.say(language))
+        let floor = (detail == Detail::Heading).then(|| self.engine.floor(map)).transpose().ok()?;
+        let scene = floor.map(|f| f.scene());
+        let found = describe(self.world()?, self.relations()?, map, pose, scene)?;
+        Some(found.position.say_in(language, detail))
     }
 
-    fn way(&self, from: Option<Thing>, to: Thing, language: Language) -> Result<Way, String> {
-        let unknown = || match language {
+    fn way(
+        &self,
+        from: Option<Thing>,
+        to: Thing,
+        language: Language,
+        detail: Detail,
+    ) -> Result<Way, String> {
+        let journey = self.journey(from, to).map_err(|e| e.to_string())?;
+        let journey = journey.ok_or_else(|| match language {
             Language::Russian => "место неизвестно".to_owned(),
             Language::English => "the place is unknown".to_owned(),
-        };
-        let from = self.locatable(from).ok_or_else(unknown)?;
-        let to = self.locatable(Some(to)).ok_or_else(unknown)?;
-        let answer = self.engine.route(&from, &to, Method::Shortest).map_err(|e| e.to_string())?;
-        let sentences = self.engine.route_in_words(&answer, language);
-        match answer.route {
-            Ok(route) => {
-                let mut sentences = sentences.unwrap_or_default();
-                // The last one names the goal, which the question has named already.
-                let names_goal =
-                    |s: &String| s.starts_with("Цель: ") || s.starts_with("The goal: ");
-                if sentences.len() > 1 && sentences.last().is_some_and(names_goal) {
-                    sentences.pop();
-                }
-                Ok(Way { length: route.length, sentences })
-            }
-            Err(why) => Err(why.to_string()),
+        })?;
+        let mut length = 0.0;
+        for leg in &journey.legs {
+            length += leg.route.as_ref().map_err(ToString::to_string)?.length;
         }
+        // Only of itself does the robot know how it stands.
+        let own = matches!(from, None | Some(Thing::Robot));
+        let heading = self.engine.robot_pose().filter(|_| own).map(|(_, pose)| pose.heading);
+        let sentences = self.engine.journey_in_words(&journey, heading, language, detail);
+        Ok(Way { length, sentences: sentences.map_err(|e| e.to_string())? })
     }
 
     fn visible(&self) -> Vec<ReplicaId> {
         let Some((map, pose)) = self.engine.robot_pose() else { return Vec::new() };
-        let Ok(relations) = self.engine.relations() else { return Vec::new() };
+        let Some(relations) = self.relations() else { return Vec::new() };
         let Some(area) = relations.measurements().area_at(map, pose.at) else { return Vec::new() };
         let (sin, cos) = pose.heading.sin_cos();
         let mut seen: Vec<(f64, ReplicaId)> = Vec::new();
@@ -178,6 +217,16 @@ impl Senses for RobotSenses<'_> {
         }
         seen.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         seen.into_iter().map(|(_, id)| id).collect()
+    }
+
+    fn holder(&self, thing: ReplicaId) -> Option<String> {
+        self.engine.present().ok()??.holders.get(&thing).cloned()
+    }
+
+    fn held(&self) -> Vec<ReplicaId> {
+        let Ok(Some(now)) = self.engine.present() else { return Vec::new() };
+        let own = now.holders.iter().filter(|(_, holder)| holder.is_empty());
+        own.map(|(id, _)| *id).collect()
     }
 
     fn sightings(&self, thing: ReplicaId) -> Vec<Sighting> {

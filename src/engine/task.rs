@@ -233,7 +233,8 @@ impl Engine {
     /// What was not understood, which candidates there are, or what the map lacks.
     pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
         let settled = self.settle(sentence, &Memory::default())?;
-        Ok(Listener::new(self.forms()?).hear(&settled)?)
+        let nearest = |all: &[Entity]| self.nearest(all);
+        Ok(Listener::new(self.forms()?).choosing(&nearest).hear(&settled)?)
     }
 
     /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
@@ -250,13 +251,35 @@ impl Engine {
             Some(Thing::Entity(entity)) => Some(entity),
             _ => None,
         };
-        let commands = Listener::new(self.forms()?).remembering(last).hear(&settled)?;
+        let nearest = |all: &[Entity]| self.nearest(all);
+        let listener = Listener::new(self.forms()?).remembering(last).choosing(&nearest);
+        let commands = listener.hear(&settled)?;
         for command in &commands {
             if let Some(entity) = thing_of(command) {
                 memory.mention(Thing::Entity(entity));
             }
         }
         Ok(commands)
+    }
+
+    /// Of several things the one nearest to the robot, in its own room before all others; the first where it is not
+    /// known how far they are.
+    fn nearest(&self, all: &[Entity]) -> Option<Entity> {
+        let relations = self.relations().ok()?;
+        let (map, pose) = self.robot_pose()?;
+        let here = relations.measurements().area_at(map, pose.at);
+        let away = |entity: &Entity| match entity {
+            Entity::Replica(id) => {
+                let far = relations.distance_to_point(*id, map, pose.at).unwrap_or(f64::INFINITY);
+                (relations.area_of(*id) != here, far)
+            }
+            _ => (true, f64::INFINITY),
+        };
+        let order = |a: &&Entity, b: &&Entity| {
+            let ((here_a, far_a), (here_b, far_b)) = (away(a), away(b));
+            here_a.cmp(&here_b).then(far_a.total_cmp(&far_b))
+        };
+        all.iter().min_by(order).copied()
     }
 
     /// What is to hold when a command is done. `here` is the place where it was given.

@@ -10,6 +10,7 @@
 //! ```
 
 pub mod command;
+pub mod directions;
 pub(crate) mod names;
 pub mod question;
 pub mod report;

@@ -78,6 +78,12 @@ impl Symbols {
         self.of.get(&subject).expect("every subject of the world has a symbol")
     }
 
+    /// The symbol of a subject, where these symbols name it.
+    #[must_use]
+    pub fn known(&self, subject: Subject) -> Option<&Arc<str>> {
+        self.of.get(&subject)
+    }
+
     /// What a name means, spelled as people spell: case and ё do not matter.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<Subject> {

@@ -84,7 +84,7 @@ pub fn whereabouts(
     }
     let area = here?;
     let spot = at_door(openings, area, pose.at, near)
-        .or_else(|| next_to(measured, area, pose.at, near))
+        .or_else(|| next_to(world, measured, area, pose.at, near))
         .unwrap_or_else(|| by_walls(world, measured, area, pose.at, near));
     Some(Whereabouts { area, spot, heading: pose.heading })
 }
@@ -130,17 +130,27 @@ fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Opt
     (distance <= near.door).then(|| Spot::AtDoor { way: way(opening, area), distance })
 }
 
-/// The nearest thing that stands on the floor and is the only one of its kind in the Area.
-fn next_to(measured: &Measurements, area: AreaId, p: Point, near: &Nearness) -> Option<Spot> {
+/// The nearest thing that stands on the floor and is the only one of its kind and of its name in the Area.
+fn next_to(
+    world: &World,
+    measured: &Measurements,
+    area: AreaId,
+    p: Point,
+    near: &Nearness,
+) -> Option<Spot> {
     const FLOOR: i64 = 800;
     let stands = |id: &ReplicaId| matches!(measured.singles[id].place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR);
     let bodies: Vec<_> = measured.bodies.values().filter(|b| stands(&b.id)).collect();
+    let name = |id: ReplicaId| world.replicas.get(&id).map(|r| r.name.as_str());
     let distance = |outline: &[Footprint]| {
         outline.iter().map(|f| f.distance_to(p)).fold(f64::INFINITY, f64::min)
     };
     bodies
         .iter()
-        .filter(|b| bodies.iter().filter(|c| c.object == b.object).count() == 1)
+        .filter(|b| {
+            let mut others = bodies.iter().filter(|c| c.id != b.id);
+            others.all(|c| c.object != b.object && name(c.id) != name(b.id))
+        })
         .map(|b| (distance(&b.outline), b.id))
         .filter(|(d, _)| *d <= near.object)
         .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))

@@ -250,6 +250,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             let place = (roles.at.as_ref(), roles.to.as_ref());
             let objects = match &argument.reference {
                 Reference::Known(hits) if argument.all => self.choose(hits, &cases, place),
+                Reference::Known(hits) if verb == Verb::Find => {
+                    let ids = self.choose(hits, &cases, place);
+                    match self.listener.any.and_then(|any| any(&ids)) {
+                        Some(chosen) => vec![chosen],
+                        None => vec![self.resolve(argument, &cases, place)?],
+                    }
+                }
                 _ => vec![self.resolve(argument, &cases, place)?],
             };
             roles.objects.extend(objects);

@@ -191,11 +191,15 @@ pub struct Listener<'i, T> {
     index: &'i FormIndex<T>,
     last: Option<T>,
     narrow: Option<&'i Narrow<T>>,
+    any: Option<&'i Any<'i, T>>,
 }
 
 /// Of several things that a word may mean, those that may be meant: where the thing is said to be, and whither it is
 /// said to lead or to go.
 pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>, Option<&Placement<T>>) -> Vec<T>;
+
+/// Of several things any of which will do, the one to take: the nearest, say.
+pub type Any<'a, T> = dyn Fn(&[T]) -> Option<T> + 'a;
 
 impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     /// Characters of the longest command that is read.
@@ -203,7 +207,7 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: None, narrow: None }
+        Self { index, last: None, narrow: None, any: None }
     }
 
     /// The thing that «её» or "it" means when the sentence itself has named none.
@@ -216,6 +220,13 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     #[must_use]
     pub fn narrowing(self, narrow: &'i Narrow<T>) -> Self {
         Self { narrow: Some(narrow), ..self }
+    }
+
+    /// Lets the caller choose where any of several things will do: «Найди чашку» is done when one is found, while
+    /// «Принеси чашку» is asked back.
+    #[must_use]
+    pub fn choosing(self, any: &'i Any<'i, T>) -> Self {
+        Self { any: Some(any), ..self }
     }
 
     /// The commands of a sentence, in the order in which they are to be done; at least one.

@@ -15,6 +15,10 @@ struct Rule<'k, 'a> {
     variables: usize,
     /// Rules of relations that a negation needs.
     helpers: Vec<String>,
+    /// The description is of doors and passages.
+    of_gates: bool,
+    /// Something of the question is measured, which the rule does not say.
+    measured: bool,
 }
 
 const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
@@ -22,13 +26,25 @@ const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
 impl Knowledge<'_> {
     /// `ответ(X) :- …`, or a remark where a question is one of geometry or history, which no rule answers.
     pub(super) fn rule(&self, query: &Query) -> String {
-        let mut rule =
-            Rule { knowledge: self, atoms: Vec::new(), variables: 0, helpers: Vec::new() };
+        let mut rule = Rule {
+            knowledge: self,
+            atoms: Vec::new(),
+            variables: 0,
+            helpers: Vec::new(),
+            of_gates: false,
+            measured: false,
+        };
         let head = match self.language {
             Language::Russian => "ответ",
             Language::English => "answer",
         };
         let (arguments, remark) = rule.read(query);
+        let measured = self.pick("остальное измерено", "the rest is measured");
+        let remark = match (rule.measured, remark.is_empty()) {
+            (true, true) => measured.to_owned(),
+            (true, false) if remark != measured => format!("{remark}; {measured}"),
+            _ => remark,
+        };
         let remark = if remark.is_empty() { String::new() } else { format!("   // {remark}") };
         let text = match rule.atoms.is_empty() {
             true if arguments.is_empty() => format!("// {}", query.kind()),
@@ -154,7 +170,7 @@ impl Rule<'_, '_> {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
             Query::Distance { from, to }
-            | Query::Way { from, to }
+            | Query::Way { from, to, .. }
             | Query::CanReach { from, to } => {
                 let from = from.as_ref().map(|n| self.noun(n));
                 let to = self.noun(to);
@@ -168,7 +184,7 @@ impl Rule<'_, '_> {
                 let terms = [what, near, than].map(|n| self.noun(n));
                 (terms.join(", "), pick("расстояния сравниваются", "distances are compared"))
             }
-            Query::WhichMore { of, .. } | Query::Same { of, .. } => {
+            Query::WhichMore { of, .. } | Query::Same { of, .. } | Query::MoreOf { of, .. } => {
                 let terms = [&of[0], &of[1]].map(|n| self.noun(n));
                 (terms.join(", "), pick("сравнение", "compared"))
             }
@@ -179,9 +195,10 @@ impl Rule<'_, '_> {
             Query::LastSeen(noun) | Query::Before(noun) => {
                 (self.noun(noun), pick("по истории хранилища", "from the store's history"))
             }
-            Query::Why { .. } | Query::WhereAreYou | Query::WhatDoYouSee | Query::WhatDoYouHold => {
-                (String::new(), String::new())
-            }
+            Query::Why { .. }
+            | Query::WhereAreYou(_)
+            | Query::WhatDoYouSee
+            | Query::WhatDoYouHold => (String::new(), String::new()),
         }
     }
 
@@ -205,6 +222,8 @@ impl Rule<'_, '_> {
             return self.quoted(only);
         }
         let term = self.variable();
+        let is_gates = self.is_gates(noun);
+        let gates = std::mem::replace(&mut self.of_gates, is_gates);
         match named {
             Some(only) => {
                 let name = self.quoted(only);
@@ -222,7 +241,15 @@ impl Rule<'_, '_> {
         for restriction in &noun.restrictions {
             self.restriction(&term, restriction);
         }
+        self.of_gates = gates;
         term
+    }
+
+    fn is_gates(&self, noun: &Noun) -> bool {
+        noun.head.kinds.iter().any(|k| {
+            let extension = &self.knowledge.lexicon().kind(*k).extension;
+            matches!(extension, Extension::Doors | Extension::Passages | Extension::DoorType(_))
+        })
     }
 
     fn kinds(&mut self, term: &str, noun: &Noun) {
@@ -331,31 +358,90 @@ impl Rule<'_, '_> {
             self.atoms.push(format!("stands_on_floor({term}, _)"));
             return;
         }
+        self.measured |= restriction.anchors.iter().any(|a| self.is_measured(restriction.rel, a));
+        if restriction.rel == Rel::Between {
+            let ends: Vec<String> = restriction.anchors.iter().map(|a| self.noun(a)).collect();
+            let joins = self.relation("JOINS");
+            self.atoms.push(format!("{joins}({term}, {})", ends.join(", ")));
+            return;
+        }
         if !restriction.negated {
-            let other = self.noun(anchor);
-            return self.related(restriction.rel, term, &other, false);
+            let before = std::mem::take(&mut self.atoms);
+            let mut choices: Vec<String> = Vec::new();
+            for anchor in &restriction.anchors {
+                let other = self.noun(anchor);
+                self.related(restriction.rel, term, &other, self.is_room(anchor));
+                choices.push(std::mem::take(&mut self.atoms).join(", "));
+            }
+            self.atoms = before;
+            choices.retain(|choice| !choice.is_empty());
+            match &choices[..] {
+                [] => {}
+                [only] => self.atoms.push(only.clone()),
+                // «в спальне и коридоре»: in either of them.
+                several => self.atoms.push(format!("({})", several.join(" ; "))),
+            }
+            return;
         }
         // "no wardrobe" speaks of all wardrobes: a relation of its own says which rooms have one.
         let before = std::mem::take(&mut self.atoms);
-        let other = self.noun(anchor);
-        if self.atoms.is_empty() {
-            self.atoms = before;
-            return self.related(restriction.rel, term, &other, true);
+        for anchor in &restriction.anchors {
+            let other = self.noun(anchor);
+            self.related(restriction.rel, term, &other, self.is_room(anchor));
         }
-        self.related(restriction.rel, term, &other, false);
         let body = std::mem::replace(&mut self.atoms, before).join(", ");
         let name = self.knowledge.pick("есть", "has_one");
         self.helpers.push(format!(".decl {name}(x: Any)\n{name}({term}) :- {body}."));
         self.atoms.push(format!("!{name}({term})"));
     }
 
-    fn related(&mut self, rel: Rel, term: &str, other: &str, negated: bool) {
-        let not = if negated { "!" } else { "" };
-        if matches!(rel, Rel::From | Rel::To | Rel::Through) {
-            let joins = self.relation("JOINS");
-            self.atoms.push(format!("{not}{joins}({term}, {other}, _)"));
-            return;
+    /// Whether a restriction is answered by measuring, so that no relation says the same.
+    fn is_measured(&self, rel: Rel, anchor: &Noun) -> bool {
+        let things = self.knowledge.find(anchor, true).unwrap_or_default();
+        let no_body = |t: &Thing| {
+            matches!(
+                t,
+                Thing::Robot
+                    | Thing::Window(_)
+                    | Thing::Opening(_)
+                    | Thing::Entity(Entity::Door(_) | Entity::Place(_))
+            )
+        };
+        match rel {
+            Rel::Outside => true,
+            Rel::Between => !things.iter().all(|t| t.area().is_some()),
+            Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf => things
+                .iter()
+                .any(|t| no_body(t) || self.knowledge.frame(*t) == super::knowledge::Frame::Viewer),
+            Rel::Near | Rel::NextTo | Rel::At | Rel::Under => things.iter().any(no_body),
+            _ => false,
         }
+    }
+
+    /// Whether a description is of rooms.
+    fn is_room(&self, noun: &Noun) -> bool {
+        let things = self.knowledge.find(noun, true).unwrap_or_default();
+        things.first().is_some_and(|t| t.area().is_some())
+    }
+
+    fn related(&mut self, rel: Rel, term: &str, other: &str, of_room: bool) {
+        let joins = self.relation("JOINS");
+        match rel {
+            // Doors are in the rooms that they join; one that leads out of the map stands in its room only.
+            Rel::From | Rel::To | Rel::Through => {
+                let atom = format!("({joins}({term}, {other}, _) ; mounts({term}, {other}))");
+                return self.atoms.push(atom);
+            }
+            Rel::In | Rel::On | Rel::Of | Rel::At if of_room && self.of_gates => {
+                let atom = format!("({joins}({term}, {other}, _) ; mounts({term}, {other}))");
+                return self.atoms.push(atom);
+            }
+            Rel::Near | Rel::NextTo if of_room => {
+                return self.atoms.push(format!("{joins}(_, {term}, {other})"));
+            }
+            _ => {}
+        }
+        let rel = if of_room && matches!(rel, Rel::On | Rel::Of | Rel::At) { Rel::In } else { rel };
         let atom = |basis: &super::knowledge::Basis| {
             let name = self.relation(basis.relation);
             let (a, b) = if basis.swapped { (other, term) } else { (term, other) };
@@ -363,14 +449,13 @@ impl Rule<'_, '_> {
                 true => format!(", {}({other}, \"support\")", self.relation("HAS_TRAIT")),
                 false => String::new(),
             };
-            format!("{not}{name}({a}, {b}){shelves}")
+            format!("{name}({a}, {b}){shelves}")
         };
         let atoms: Vec<String> = bases(rel).iter().map(atom).collect();
-        match (&atoms[..], negated) {
-            ([], _) => {}
-            ([only], _) => self.atoms.push(only.clone()),
-            (all, true) => self.atoms.extend(all.iter().cloned()),
-            (all, false) => self.atoms.push(format!("({})", all.join(" ; "))),
+        match &atoms[..] {
+            [] => self.measured = true,
+            [only] => self.atoms.push(only.clone()),
+            all => self.atoms.push(format!("({})", all.join(" ; "))),
         }
     }
 }

@@ -453,6 +453,7 @@ impl<'t> Sentence<'t> {
                 Modifier::Number(count) => noun.count = Some(count),
                 Modifier::Value(value, negated) => noun.filters.push(Filter { value, negated }),
                 Modifier::Best(extreme) => noun.best = Some(Best { extreme, anchor: None }),
+                Modifier::Rank(rank) => noun.rank = Some(rank),
             }
         }
         if let Some((rel, owner)) = owner {
@@ -470,6 +471,7 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::All) => Modifier::All,
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
+            Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Number(count) => Modifier::Number(count),
             Tok::Value(value) => Modifier::Value(value, false),
             Tok::Mark(Mark::Not) => {
@@ -568,6 +570,7 @@ enum Modifier {
     Number(u64),
     Value(ValueId, bool),
     Best(Extreme),
+    Rank(u64),
 }
 
 fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {

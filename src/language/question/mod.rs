@@ -27,6 +27,7 @@ pub use query::{
 };
 pub use values::{Property, ValueEntry, ValueId, Values};
 
+use crate::language::report::Detail;
 use crate::language::words::{Gender, Language, Number, alternatives, enumerate};
 use crate::map::World;
 use crate::semantics::Relations;
@@ -41,14 +42,24 @@ pub trait Senses {
     /// Where the robot stands.
     fn robot(&self) -> Option<(MapId, Pose)>;
     /// The report of its position.
-    fn position(&self, language: Language) -> Option<String>;
+    fn position(&self, language: Language, detail: Detail) -> Option<String>;
     /// A way for the robot; from where it stands when no start is given.
     ///
     /// # Errors
     /// Why there is none, in the language of the question.
-    fn way(&self, from: Option<Thing>, to: Thing, language: Language) -> Result<Way, String>;
+    fn way(
+        &self,
+        from: Option<Thing>,
+        to: Thing,
+        language: Language,
+        detail: Detail,
+    ) -> Result<Way, String>;
     /// What the robot sees, the nearest first.
     fn visible(&self) -> Vec<ReplicaId>;
+    /// Who has a thing that was taken off the map; an empty name for the robot itself.
+    fn holder(&self, thing: ReplicaId) -> Option<String>;
+    /// What the robot carries.
+    fn held(&self) -> Vec<ReplicaId>;
     /// What was observed of a thing, the oldest first.
     fn sightings(&self, thing: ReplicaId) -> Vec<Sighting>;
     /// Where the map had a thing before, the oldest first; the present place is not among them.

@@ -3,6 +3,7 @@
 //! A [`Noun`] is a conjunctive query in the shape of a tree: a kind or names, values of properties, and relations to
 //! other such trees. [`Query`] puts on top what is asked: the place, the number, whether there is one, a measure.
 
+use crate::language::report::Detail;
 use crate::map::Entity;
 use crate::units::{AreaId, ReplicaId};
 
@@ -52,7 +53,9 @@ pub enum Extreme {
     Longest,
     LeftMost,
     RightMost,
+    /// Having the most of something; the anchor of the superlative tells of what.
     Most,
+    Fewest,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -143,6 +146,8 @@ pub struct Noun {
     /// «другие», "other": not those spoken of.
     pub other: bool,
     pub count: Option<u64>,
+    /// «вторая по величине»: the place in the order of the superlative; none is the first.
+    pub rank: Option<u64>,
     pub filters: Vec<Filter>,
     pub restrictions: Vec<Restriction>,
     pub best: Option<Best>,
@@ -154,7 +159,7 @@ pub struct Noun {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Best {
     pub extreme: Extreme,
-    /// Of nearness: to what; none means to the robot.
+    /// Of nearness: to what; none means to the robot. Of having the most: what is counted.
     pub anchor: Option<Box<Noun>>,
 }
 
@@ -213,6 +218,7 @@ pub enum Query {
     Way {
         from: Option<Noun>,
         to: Noun,
+        detail: Detail,
     },
     CanReach {
         from: Option<Noun>,
@@ -242,6 +248,12 @@ pub enum Query {
         extreme: Extreme,
         to: Option<Noun>,
     },
+    /// Of which there are more; `asks` which, else whether it is the first.
+    MoreOf {
+        of: [Noun; 2],
+        extreme: Extreme,
+        asks: bool,
+    },
     /// Have both the same value.
     Same {
         property: Property,
@@ -257,7 +269,7 @@ pub enum Query {
     },
     LastSeen(Noun),
     Before(Noun),
-    WhereAreYou,
+    WhereAreYou(Detail),
     WhatDoYouSee,
     WhatDoYouHold,
     Describe(Noun),
@@ -323,7 +335,9 @@ impl Query {
                 what.iter_mut().for_each(|n| n.each(act));
             }
             Self::Property { of, .. } | Self::Size { of, .. } => of.each(act),
-            Self::Way { from, to } | Self::CanReach { from, to } | Self::Distance { from, to } => {
+            Self::Way { from, to, .. }
+            | Self::CanReach { from, to }
+            | Self::Distance { from, to } => {
                 from.iter_mut().for_each(|n| n.each(act));
                 to.each(act);
             }
@@ -338,7 +352,9 @@ impl Query {
                 than.each(act);
                 to.iter_mut().for_each(|n| n.each(act));
             }
-            Self::Same { of, .. } => of.iter_mut().for_each(|n| n.each(act)),
+            Self::Same { of, .. } | Self::MoreOf { of, .. } => {
+                of.iter_mut().for_each(|n| n.each(act))
+            }
             Self::Place { what, within, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
                 within.iter_mut().flat_map(|r| &mut r.anchors).for_each(|n| n.each(act));
@@ -348,7 +364,7 @@ impl Query {
                     query.each_noun(act);
                 }
             }
-            Self::WhereAreYou | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
+            Self::WhereAreYou(_) | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
         }
     }
 
@@ -374,12 +390,13 @@ impl Query {
             Self::Closer { .. } => "closer",
             Self::WhichMore { .. } => "which_more",
             Self::Larger { .. } => "larger",
+            Self::MoreOf { .. } => "more_of",
             Self::Same { .. } => "same",
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
-            Self::WhereAreYou => "where_are_you",
+            Self::WhereAreYou(_) => "where_are_you",
             Self::WhatDoYouSee => "what_do_you_see",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",

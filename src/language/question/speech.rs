@@ -351,38 +351,6 @@ fn window_of(area: &str) -> String {
     format!("{article}window of {area}")
 }
 
-/// «40 см», «1,5 м», "1.5 m"
-pub(super) fn length(cm: f64, language: Language) -> String {
-    let metres = cm >= 100.0;
-    let (value, unit) = match (metres, language) {
-        (true, Language::Russian) => (cm / 100.0, "м"),
-        (true, Language::English) => (cm / 100.0, "m"),
-        (false, Language::Russian) => (cm, "см"),
-        (false, Language::English) => (cm, "cm"),
-    };
-    let text = if metres { trimmed(value, 2) } else { trimmed(value, 0) };
-    let text = if language == Language::Russian { text.replace('.', ",") } else { text };
-    format!("{text} {unit}")
-}
-
-/// «12,3 м²»
-pub(super) fn area(cm2: f64, language: Language) -> String {
-    let text = trimmed(cm2 / 10_000.0, 2);
-    match language {
-        Language::Russian => format!("{} м²", text.replace('.', ",")),
-        Language::English => format!("{text} m²"),
-    }
-}
-
-fn trimmed(value: f64, digits: usize) -> String {
-    let text = format!("{value:.digits$}");
-    if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.').to_owned()
-    } else {
-        text
-    }
-}
-
 /// A text with a capital at its beginning and a stop at its end.
 pub(super) fn sentence(text: &str) -> String {
     let text = text.trim();

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::query::{Closeness, Dimension, Extreme, Rel};
+use crate::language::report::Detail;
 use crate::units::name_key;
 
 /// What a word or phrase does in a question.
@@ -86,6 +87,10 @@ pub(super) enum Mark {
     Link(Rel),
     Nearer(Closeness),
     Best(Extreme),
+    /// «вторая» before «по величине», "second" before "biggest"
+    Rank(u64),
+    /// «подробно», "in detail"
+    Detail(Detail),
     /// «больше», "bigger": of two
     More(Extreme),
     /// «такого же цвета», "the same colour"
@@ -357,11 +362,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Nearest),
-        "ближайший|ближайшая|ближайшее|ближайшие|ближайшего|ближайшую|ближайшей|ближайшем|ближайшему|ближайших|самый близкий|самая близкая|самое близкое|самые близкие|самую близкую|ближе всего|ближе всех|наиболее близкий|nearest|closest",
+        "ближайший|ближайшая|ближайшее|ближайшие|ближайшего|ближайшую|ближайшей|ближайшем|ближайшему|ближайших|самый близкий|самая близкая|самое близкое|самые близкие|самую близкую|ближе всего|ближе всех|наиболее близкий|по близости|nearest|closest",
     ),
     (
         Mark::Best(Extreme::Farthest),
-        "самый дальний|самая дальняя|самое дальнее|самые дальние|самую дальнюю|дальше всего|дальше всех|наиболее удалённый|самый далёкий|самая далёкая|самое далёкое|самый удалённый|самая удалённая|самое удалённое|farthest|furthest|most distant|farthest away|furthest away",
+        "самый дальний|самая дальняя|самое дальнее|самые дальние|самую дальнюю|дальше всего|дальше всех|наиболее удалённый|самый далёкий|самая далёкая|самое далёкое|самый удалённый|самая удалённая|самое удалённое|по удалённости|по дальности|farthest|furthest|most distant|farthest away|furthest away",
     ),
     (Mark::BestTo(Extreme::Nearest), "nearest to|closest to|the nearest to|the closest to"),
     (
@@ -370,15 +375,15 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Biggest),
-        "самый большой|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|больше всего|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
+        "самый большой|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|по величине|по размеру|по площади|by size|in size|by area|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
     ),
     (
         Mark::Best(Extreme::Smallest),
-        "самый маленький|самая маленькая|самое маленькое|самые маленькие|самую маленькую|самого маленького|самой маленькой|самых маленьких|меньше всех|меньше всего|наименьший|наименьшая|самый малый|самая малая|самый мелкий|самая мелкая|самое мелкое|smallest|littlest|tiniest|least",
+        "самый маленький|самая маленькая|самое маленькое|самые маленькие|самую маленькую|самого маленького|самой маленькой|самых маленьких|меньше всех|наименьший|наименьшая|самый малый|самая малая|самый мелкий|самая мелкая|самое мелкое|smallest|littlest|tiniest",
     ),
     (
         Mark::Best(Extreme::Tallest),
-        "самый высокий|самая высокая|самое высокое|самые высокие|самую высокую|самого высокого|самой высокой|выше всех|выше всего|tallest|highest",
+        "самый высокий|самая высокая|самое высокое|самые высокие|самую высокую|самого высокого|самой высокой|выше всех|выше всего|по высоте|by height|in height|tallest|highest",
     ),
     (
         Mark::Best(Extreme::Lowest),
@@ -386,7 +391,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Widest),
-        "самый широкий|самая широкая|самое широкое|самую широкую|самые широкие|шире всех|widest|broadest",
+        "самый широкий|самая широкая|самое широкое|самую широкую|самые широкие|шире всех|по ширине|by width|widest|broadest",
     ),
     (
         Mark::Best(Extreme::Narrowest),
@@ -394,7 +399,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Longest),
-        "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|longest",
+        "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|по длине|by length|longest",
     ),
     (
         Mark::Best(Extreme::LeftMost),
@@ -404,7 +409,34 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Best(Extreme::RightMost),
         "самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost",
     ),
-    (Mark::Best(Extreme::Most), "больше всего всего|the most|most"),
+    (
+        Mark::Best(Extreme::Most),
+        "больше всего|наибольшее количество|наибольшее число|самое большое количество|the most|most|the largest number of|the greatest number of|the highest number of",
+    ),
+    (
+        Mark::Best(Extreme::Fewest),
+        "меньше всего|наименьшее количество|наименьшее число|самое маленькое количество|the fewest|fewest|the least|least|the smallest number of|the lowest number of",
+    ),
+    (Mark::More(Extreme::Most), "more"),
+    (Mark::More(Extreme::Fewest), "fewer|less"),
+    (
+        Mark::Rank(2),
+        "второй|вторая|второе|вторые|второго|вторую|вторых|вторым|втором|second|2nd|2 nd",
+    ),
+    (Mark::Rank(3), "третий|третья|третье|третьи|третьего|третьей|третью|третьих|third|3rd|3 rd"),
+    (
+        Mark::Rank(4),
+        "четвёртый|четвёртая|четвёртое|четвёртые|четвёртого|четвёртой|четвёртую|fourth|4th|4 th",
+    ),
+    (Mark::Rank(5), "пятый|пятая|пятое|пятые|пятого|пятой|пятую|fifth|5th|5 th"),
+    (
+        Mark::Detail(Detail::Region),
+        "коротко|кратко|вкратце|в двух словах|покороче|briefly|in short|in brief|in a few words|in a nutshell",
+    ),
+    (
+        Mark::Detail(Detail::Heading),
+        "подробно|подробнее|поподробнее|детально|во всех подробностях|в подробностях|в деталях|шаг за шагом|по шагам|пошагово|in detail|in details|in full detail|in more detail|detailed|step by step|precisely how",
+    ),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
     (Mark::More(Extreme::Tallest), "выше|taller|higher"),

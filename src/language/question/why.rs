@@ -6,8 +6,8 @@ use crate::language::words::{Case, Language, enumerate};
 use super::answer::Draft;
 use super::knowledge::Knowledge;
 use super::query::Query;
-use super::speech::length;
 use super::{Doubt, Fact, Said};
+use crate::language::words::length;
 
 /// Measurements said in one sentence, at most.
 const SAID: usize = 4;

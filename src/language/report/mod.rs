@@ -232,13 +232,32 @@ pub enum Detail {
     Heading,
 }
 
+/// What tells a room from its namesakes on one floor.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Mark {
+    /// The room that lies beside it: «в Ванной, соседней со Спальней».
+    Adjoining(Named),
+    /// Something that it has: «в Ванной с Душем», «в Палате с Дверью-17».
+    With(Named),
+}
+
+/// What an Area lies in and by what it is told from others of its name, as far as needed.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Context {
+    /// Narrow before wide: storey, building.
+    pub within: Vec<Named>,
+    pub mark: Option<Mark>,
+}
+
 /// A pose as geometry understood it, ready to be said.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Position {
     /// None when the pose is on no Area of the map.
     pub area: Option<Named>,
-    /// What the Area lies in, narrow before wide, as far as needed to tell it from others: storey, building.
-    pub within: Vec<Named>,
+    /// What tells the Area from others where nothing else is said.
+    pub context: Context,
+    /// The same where the spot is said too, which may tell enough by itself.
+    pub spot_context: Context,
     /// All that holds; the strongest is said, of two equals the first.
     pub spots: Vec<Spot>,
     pub facing: Option<Facing>,
@@ -249,7 +268,8 @@ impl Position {
     pub fn new(area: Named, spots: impl IntoIterator<Item = Spot>) -> Self {
         Self {
             area: Some(area),
-            within: Vec::new(),
+            context: Context::default(),
+            spot_context: Context::default(),
             spots: spots.into_iter().collect(),
             facing: None,
         }
@@ -286,11 +306,23 @@ impl Position {
         format!("{start} {place}{heading}.")
     }
 
+    fn context(&self, spot: Option<&Spot>) -> &Context {
+        if spot.is_some() { &self.spot_context } else { &self.context }
+    }
+
     fn russian(&self, spot: Option<&Spot>) -> String {
         let Some(area) = &self.area else { return "вне карты".into() };
         let area = &area.russian;
-        let at = russian::where_at(area);
-        let of = area.case(Case::Genitive);
+        let context = self.context(spot);
+        let mark = |case| context.mark.as_ref().map(|m| m.russian(area, case)).unwrap_or_default();
+        // A mark set off by a comma ends with one where the sentence goes on.
+        let at = format!("{}{}", russian::where_at(area), mark(Case::Prepositional));
+        let at = if spot.is_none() { at.trim_end_matches(',').to_owned() } else { at };
+        let of = format!("{}{}", area.case(Case::Genitive), mark(Case::Genitive));
+        let of = match spot {
+            Some(Spot::InCorner(Some(_))) => of,
+            _ => of.trim_end_matches(',').to_owned(),
+        };
         let near = |thing: &Option<Named>| {
             thing
                 .as_ref()
@@ -312,13 +344,16 @@ impl Position {
             }
             Some(Spot::InMiddle) => format!("в середине {of}"),
         };
-        let wider = self.within.iter().rev().map(|wide| russian::where_at(&wide.russian) + " ");
+        let wider = context.within.iter().rev();
+        let wider = wider.map(|wide| russian::where_at(&wide.russian) + " ");
         wider.chain([place]).collect()
     }
 
     fn english(&self, spot: Option<&Spot>) -> String {
         let Some(area) = &self.area else { return "off the map".into() };
-        let (at, of) = (area.english_place(), area.english());
+        let context = self.context(spot);
+        let mark = context.mark.as_ref().map(Mark::english).unwrap_or_default();
+        let (at, of) = (area.english_place() + &mark, area.english() + &mark);
         let near = |thing: &Option<Named>| {
             thing.as_ref().map(|thing| format!(" by {}", thing.english())).unwrap_or_default()
         };
@@ -335,8 +370,31 @@ impl Position {
             }
             Some(Spot::InMiddle) => format!("in the middle of {of}"),
         };
-        let wider = self.within.iter().map(|wide| format!(", {}", wide.english_place()));
+        let wider = context.within.iter().map(|wide| format!(", {}", wide.english_place()));
         std::iter::once(place).chain(wider).collect()
+    }
+}
+
+impl Mark {
+    /// «, соседней со Спальней,», « с Душем»
+    fn russian(&self, area: &NounPhrase, case: Case) -> String {
+        match self {
+            Self::Adjoining(room) => {
+                let beside = russian::agreeing("соседний", case, area.number(), area.gender());
+                let room = russian::with(Preposition::S, Case::Instrumental, &room.russian);
+                format!(", {beside} {room},")
+            }
+            Self::With(thing) => {
+                format!(" {}", russian::with(Preposition::S, Case::Instrumental, &thing.russian))
+            }
+        }
+    }
+
+    fn english(&self) -> String {
+        match self {
+            Self::Adjoining(room) => format!(" adjoining {}", room.english()),
+            Self::With(thing) => format!(" with {}", thing.english()),
+        }
     }
 }
 
@@ -521,7 +579,8 @@ mod tests {
     fn heading_and_wider_context_on_request() {
         let mut position = at("Палата 3", Spot::Object(Beside::InFrontOf, name("Кровать")));
         position.facing = Some(Facing::Object(name("Тумбочка-1")));
-        position.within = vec![name("2-й этаж"), name("Корпус 1")];
+        position.context.within = vec![name("2-й этаж"), name("Корпус 1")];
+        position.spot_context = position.context.clone();
         check(
             &position,
             &expect![[r#"
@@ -542,8 +601,34 @@ mod tests {
     }
 
     #[test]
+    fn a_namesake_on_the_same_floor_is_told_by_a_mark() {
+        let mut position = at("Ванная", Spot::AlongWall(None));
+        position.spot_context.mark = Some(Mark::Adjoining(name("Спальня")));
+        check(
+            &position,
+            &expect![[r#"
+            Я нахожусь в Ванной, соседней со Спальней, у стены.
+            I am in the bathroom adjoining the bedroom by the wall."#]],
+        );
+        position.context.mark = Some(Mark::Adjoining(name("Коридор")));
+        assert_eq!(
+            position.say_in(Language::Russian, Detail::Region),
+            "Я нахожусь в Ванной, соседней с Коридором."
+        );
+        let mut position = Position::new(name("Палата"), [Spot::InMiddle]);
+        position.spot_context.mark = Some(Mark::With(name("Дверь-17")));
+        check(
+            &position,
+            &expect![[r#"
+                Я нахожусь в середине Палаты с Дверью-17.
+                I am in the middle of the ward with Door-17."#]],
+        );
+    }
+
+    #[test]
     fn a_pose_on_no_area_is_said_to_be_off_the_map() {
-        let position = Position { area: None, within: vec![], spots: vec![], facing: None };
+        let (context, spot_context) = (Context::default(), Context::default());
+        let position = Position { area: None, context, spot_context, spots: vec![], facing: None };
         check(
             &position,
             &expect![[r#"

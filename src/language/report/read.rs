@@ -63,6 +63,13 @@ pub enum SaidFacing<T> {
     Inward,
 }
 
+/// What a report says of a room to tell it from its namesakes.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum SaidMark<T> {
+    Adjoining(Vec<T>),
+    With(Vec<T>),
+}
+
 /// A report in terms. Empty `area`: in a doorway, whose two sides are told, or off the map.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SaidPosition<T> {
@@ -70,6 +77,7 @@ pub struct SaidPosition<T> {
     pub area: Vec<T>,
     /// Storey, building: narrow before wide.
     pub within: Vec<Vec<T>>,
+    pub mark: Option<SaidMark<T>>,
     pub spot: Option<SaidSpot<T>>,
     pub facing: Option<SaidFacing<T>>,
 }
@@ -84,7 +92,7 @@ pub fn read<T: Clone + Eq + Hash>(
 ) -> Result<SaidPosition<T>, Unread> {
     let words = word_ranges(text);
     let lower = words.iter().map(|range| text[range.clone()].to_lowercase()).collect();
-    let mut reader = Reader { text, words, lower, index, at: 0, farthest: 0 };
+    let mut reader = Reader { text, words, lower, index, mark: None, at: 0, farthest: 0 };
     let found = match Language::of(text) {
         Language::Russian => reader.russian(),
         Language::English => reader.english(),
@@ -103,6 +111,7 @@ struct Reader<'t, T> {
     words: Vec<Range<usize>>,
     lower: Vec<String>,
     index: &'t FormIndex<T>,
+    mark: Option<SaidMark<T>>,
     at: usize,
     /// The first word that could not be read on the way that led farthest.
     farthest: usize,
@@ -184,13 +193,15 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             .or_else(|| self.maybe(Self::russian_part))
             .or_else(|| {
                 let area = self.russian_place()?;
+                self.mark = self.maybe(Self::russian_mark);
                 Some((area, self.maybe(Self::russian_spot)))
             })?;
         let facing = match self.is_at_end() {
             true => None,
             false => Some(self.russian_facing(spot.as_ref())?),
         };
-        Some(SaidPosition { language: Language::Russian, area, within, spot, facing })
+        let mark = self.mark.take();
+        Some(SaidPosition { language: Language::Russian, area, within, mark, spot, facing })
     }
 
     fn russian_place(&mut self) -> Option<Vec<T>> {
@@ -202,6 +213,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     fn russian_part(&mut self) -> Option<(Vec<T>, Option<SaidSpot<T>>)> {
         if self.all_of("в углу").is_some() {
             let area = self.name()?;
+            self.mark = self.maybe(Self::russian_mark);
             let thing = self.maybe(|r| {
                 r.one_of(&["у"])?;
                 r.name()
@@ -209,7 +221,17 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             return Some((area, Some(SaidSpot::InCorner(thing))));
         }
         self.all_of("в середине")?;
-        Some((self.name()?, Some(SaidSpot::InMiddle)))
+        let area = self.name()?;
+        self.mark = self.maybe(Self::russian_mark);
+        Some((area, Some(SaidSpot::InMiddle)))
+    }
+
+    /// What tells a room from its namesakes: «соседней со Спальней», «с Душем».
+    fn russian_mark(&mut self) -> Option<SaidMark<T>> {
+        let adjoining = self.one_of(&["соседней", "соседнем", "соседнего", "соседних"]).is_some();
+        self.one_of(&["с", "со"])?;
+        let name = self.name()?;
+        Some(if adjoining { SaidMark::Adjoining(name) } else { SaidMark::With(name) })
     }
 
     /// What follows the Area: «у двери, ведущей …», «у стены возле Дивана», «рядом со Шкафом».
@@ -331,6 +353,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             .or_else(|| self.maybe(Self::english_part))
             .or_else(|| {
                 let area = self.english_place()?;
+                self.mark = self.maybe(Self::english_mark);
                 Some((area, self.maybe(Self::english_spot)))
             })?;
         let mut within = Vec::new();
@@ -341,7 +364,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             true => None,
             false => Some(self.english_facing(spot.as_ref())?),
         };
-        Some(SaidPosition { language: Language::English, area, within, spot, facing })
+        let mark = self.mark.take();
+        Some(SaidPosition { language: Language::English, area, within, mark, spot, facing })
     }
 
     fn english_place(&mut self) -> Option<Vec<T>> {
@@ -353,6 +377,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     fn english_part(&mut self) -> Option<(Vec<T>, Option<SaidSpot<T>>)> {
         if self.all_of("in the corner of").is_some() {
             let area = self.name()?;
+            self.mark = self.maybe(Self::english_mark);
             let thing = self.maybe(|r| {
                 r.one_of(&["by"])?;
                 r.name()
@@ -360,7 +385,19 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             return Some((area, Some(SaidSpot::InCorner(thing))));
         }
         self.all_of("in the middle of")?;
-        Some((self.name()?, Some(SaidSpot::InMiddle)))
+        let area = self.name()?;
+        self.mark = self.maybe(Self::english_mark);
+        Some((area, Some(SaidSpot::InMiddle)))
+    }
+
+    /// "adjoining the bedroom", "with the shower"
+    fn english_mark(&mut self) -> Option<SaidMark<T>> {
+        let adjoining = self.one_of(&["adjoining"]).is_some();
+        if !adjoining {
+            self.one_of(&["with"])?;
+        }
+        let name = self.name()?;
+        Some(if adjoining { SaidMark::Adjoining(name) } else { SaidMark::With(name) })
     }
 
     fn english_spot(&mut self) -> Option<SaidSpot<T>> {
@@ -465,7 +502,8 @@ impl<T: Clone> SaidFacing<T> {
 
 impl<T> SaidPosition<T> {
     fn off_the_map(language: Language) -> Self {
-        Self { language, area: Vec::new(), within: Vec::new(), spot: None, facing: None }
+        let (area, within) = (Vec::new(), Vec::new());
+        Self { language, area, within, mark: None, spot: None, facing: None }
     }
 
     /// Whether the report says that the pose is on no Area.

@@ -85,12 +85,13 @@ impl Number {
     /// «единственное», «множественное», or in English, or their first letters.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let of = |russian, english| abbreviates(name, russian) || abbreviates(name, english);
-        match () {
-            () if of("единственное", "singular") => Some(Self::Singular),
-            () if of("множественное", "plural") => Some(Self::Plural),
-            () => None,
-        }
+        one_of(
+            name,
+            [
+                (["единственное", "singular"], Self::Singular),
+                (["множественное", "plural"], Self::Plural),
+            ],
+        )
     }
 
     pub(crate) fn index(self) -> usize {
@@ -110,13 +111,14 @@ impl Gender {
     /// «мужской», «женский», «средний», or in English, or their first letters.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let of = |russian, english| abbreviates(name, russian) || abbreviates(name, english);
-        match () {
-            () if of("мужской", "masculine") => Some(Self::Masculine),
-            () if of("женский", "feminine") => Some(Self::Feminine),
-            () if of("средний", "neuter") => Some(Self::Neuter),
-            () => None,
-        }
+        one_of(
+            name,
+            [
+                (["мужской", "masculine"], Self::Masculine),
+                (["женский", "feminine"], Self::Feminine),
+                (["средний", "neuter"], Self::Neuter),
+            ],
+        )
     }
 }
 
@@ -132,12 +134,13 @@ impl Animacy {
     /// «одушевлённое», «неодушевлённое», or in English, or their first letters.
     #[must_use]
     pub fn named(name: &str) -> Option<Self> {
-        let of = |russian, english| abbreviates(name, russian) || abbreviates(name, english);
-        match () {
-            () if of("одушевлённое", "animate") => Some(Self::Animate),
-            () if of("неодушевлённое", "inanimate") => Some(Self::Inanimate),
-            () => None,
-        }
+        one_of(
+            name,
+            [
+                (["одушевлённое", "animate"], Self::Animate),
+                (["неодушевлённое", "inanimate"], Self::Inanimate),
+            ],
+        )
     }
 }
 
@@ -176,6 +179,12 @@ pub struct WordHints {
     pub place: Option<PlaceSense>,
     /// Whole forms of the whole name, taken as they are.
     pub forms: BTreeMap<(Number, Case), String>,
+}
+
+/// The first of these whose Russian or English name a text is, or begins.
+fn one_of<T, const N: usize>(text: &str, named: [([&str; 2], T); N]) -> Option<T> {
+    let fits = |(names, _): &([&str; 2], T)| names.iter().any(|whole| abbreviates(text, whole));
+    named.into_iter().find(fits).map(|(_, value)| value)
 }
 
 /// Whether `short` is `whole` or begins it; case and ё do not matter.

@@ -18,17 +18,19 @@
 //! assert_eq!(index.near("Комнту-Z", 1), ["Комната-Z"]);
 //! ```
 
-use std::collections::HashMap;
-use std::hash::Hash;
-use std::ops::Range;
-
-use unicode_normalization::UnicodeNormalization;
+mod near;
+mod spelled;
 
 use super::english;
 use super::grammar::{Case, Number, WordHints};
-use super::letters::cyrillic_twin;
 use super::list::Language;
 use super::phrase::NounPhrase;
+use spelled::Spelled;
+use spelled::split_tag;
+use std::collections::HashMap;
+use std::hash::Hash;
+use std::ops::Range;
+use unicode_normalization::UnicodeNormalization;
 
 /// Which cases and numbers a form may be.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Hash)]
@@ -407,71 +409,11 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
         }
     }
 
-    /// Names like `text`, the nearest first: a slip of the pen in any form, or a name that holds all its words.
-    #[must_use]
-    pub fn near(&self, text: &str, limit: usize) -> Vec<&str> {
-        let wanted = Letters::of(Spelled::of(text).key);
-        let mut best: Vec<(f64, u32)> = Vec::new();
-        if wanted.length == 0 || wanted.length > 4 * self.longest_key.max(8) || limit == 0 {
-            return Vec::new();
-        }
-        // With very many names only those are compared whose stem is like the beginning of the text.
-        let many = self.names.len() > MANY_NAMES;
-        let mut joined = String::new();
-        for (key, postings) in &self.forms {
-            let stem_is_like = || {
-                let head: String = wanted.key.chars().take(key.chars().count() + 1).collect();
-                Letters::of(head).likeness(key, 0.7).is_some()
-            };
-            if many && !stem_is_like() {
-                continue;
-            }
-            for posting in postings {
-                let stem = &self.stems[posting.stem as usize];
-                if posting.part {
-                    let needed = if best.len() == limit { best[limit - 1].0 } else { 0.6 };
-                    let Some(likeness) = wanted.likeness(key, needed) else { continue };
-                    for &name in stem.all.iter().take(limit) {
-                        self.keep(&mut best, limit, likeness, name);
-                    }
-                    continue;
-                }
-                for (tag, members) in &stem.members {
-                    let needed = if best.len() == limit { best[limit - 1].0 } else { 0.6 };
-                    joined.clear();
-                    joined.push_str(key);
-                    if !tag.is_empty() {
-                        joined.push(' ');
-                        joined.push_str(tag);
-                    }
-                    let Some(likeness) = wanted.likeness(&joined, needed) else { continue };
-                    for &name in members {
-                        self.keep(&mut best, limit, likeness, name);
-                    }
-                }
-            }
-        }
-        best.into_iter().map(|(_, name)| self.shown(name)).collect()
-    }
-
     /// The title of a name's id, in the language of that name.
     fn shown(&self, name: u32) -> &str {
         let Name { text: own, id, .. } = &self.names[name as usize];
         let title = &self.names[self.titles[id] as usize].text;
         if Language::of(own) == Language::of(title) { title } else { own }
-    }
-
-    /// Keeps the best names, each id once, in order; equal ones by the order of insertion.
-    fn keep(&self, best: &mut Vec<(f64, u32)>, limit: usize, likeness: f64, name: u32) {
-        let id = &self.names[name as usize].id;
-        match best.iter().position(|(_, other)| self.names[*other as usize].id == *id) {
-            Some(at) if best[at].0 >= likeness => return,
-            Some(at) => drop(best.remove(at)),
-            None => {}
-        }
-        best.push((likeness, name));
-        best.sort_by(|(a, x), (b, y)| b.total_cmp(a).then(x.cmp(y)));
-        best.truncate(limit);
     }
 
     /// The title of every id, in the order in which they were first inserted: for completion of what is typed.
@@ -484,187 +426,6 @@ impl<T: Clone + Eq + Hash> FormIndex<T> {
     #[must_use]
     pub fn size(&self) -> (usize, usize) {
         (self.names.len(), self.forms.len())
-    }
-}
-
-/// From so many names on, near misses are sought among those of a like stem only.
-const MANY_NAMES: usize = 5_000;
-
-/// «Стул-17» is «Стул» and «-17», «Палата-3-б» is «Палата» and «-3-б»: the tag holds digits, capitals and single
-/// letters, which no case changes. A name without a word of small letters before its tag has none.
-fn split_tag(name: &str) -> (&str, &str) {
-    let runs = super::letters::runs(name);
-    let is_tag = |run: &super::letters::Run<'_>| {
-        let letters = run.text.chars().count();
-        let digits = run.text.starts_with(|c: char| c.is_ascii_digit());
-        let capitals = letters <= 3 && run.text.chars().all(|c| c.is_uppercase() || c.is_numeric());
-        !run.is_word || digits || capitals
-    };
-    let cut = runs.iter().rposition(|run| !is_tag(run)).map_or(0, |last| last + 1);
-    // A tag after a hyphen or blank only: «2-й» is a word, «к305» is spelled as one.
-    let is_joint = runs.get(cut).is_some_and(|run| run.is_hyphen() || run.text == " ");
-    let whole = runs[..cut].last().is_none_or(|run| run.text.chars().count() < 3);
-    if cut == 0 || cut + 1 >= runs.len() || !is_joint || whole {
-        return (name, "");
-    }
-    let at = runs[cut].at;
-    // An odd word before the tag may decline only together with it, as «5-й этаж» does.
-    let odd = runs[..cut].iter().any(|run| run.text.chars().any(|c| c.is_ascii_digit()));
-    if odd { (name, "") } else { name.split_at(at) }
-}
-
-/// A text under its three equalities, found in one pass.
-struct Spelled {
-    /// What all spellings share: words of small letters with a blank between them, ё as е, Latin twins as Cyrillic.
-    ///
-    /// A digit beside a letter begins a word, and so does a tag of capitals at the end: «К305», «КомнатаВ». Other
-    /// joints matter: without them «комнату» would be «Комнат-У».
-    key: String,
-    /// Mark of the spelling up to case and ё, as [`crate::units::name_key`] has it.
-    exact: u32,
-    /// Mark of the same words in the alphabet they are typed in.
-    spaced: u32,
-}
-
-impl Spelled {
-    /// How faithfully a text is spelled that has the key of a form with a tag.
-    fn likeness_to(&self, text: &str, form: &str, tag: &str, part: bool) -> Spelling {
-        if part {
-            return Spelling::Part;
-        }
-        // Mostly the name is written as the map has it.
-        if text.strip_prefix(form) == Some(tag) {
-            return Spelling::Exact;
-        }
-        let own = Self::of(&format!("{form}{tag}"));
-        match () {
-            () if self.exact == own.exact => Spelling::Exact,
-            () if self.spaced == own.spaced => Spelling::Spaced,
-            () => Spelling::LookAlike,
-        }
-    }
-
-    fn of(text: &str) -> Self {
-        // A text without combining marks and compatibility letters is in NFC already.
-        if text.chars().all(|c| (c as u32) < 0x300 || ('\u{400}'..='\u{4ff}').contains(&c)) {
-            Self::of_nfc(text)
-        } else {
-            Self::of_nfc(&text.nfc().collect::<String>())
-        }
-    }
-
-    fn of_nfc(text: &str) -> Self {
-        let mut key = String::with_capacity(text.len());
-        let (mut exact, mut spaced) = (Mark::new(), Mark::new());
-        let (mut blank, mut joint) = (false, false);
-        let (mut before, mut small_before) = (' ', 0_usize);
-        for (at, c) in text.char_indices() {
-            if c.is_whitespace() {
-                (blank, joint) = (!key.is_empty(), true);
-                continue;
-            }
-            if std::mem::take(&mut blank) {
-                exact.add(' ');
-            }
-            joint |= !c.is_alphanumeric() || is_joint(before, small_before, &text[at..]);
-            before = c;
-            small_before = if c.is_lowercase() { small_before + 1 } else { 0 };
-            for small in c.to_lowercase().map(without_yo) {
-                exact.add(small);
-                if !c.is_alphanumeric() {
-                    continue;
-                }
-                if std::mem::take(&mut joint) && !key.is_empty() {
-                    key.push(' ');
-                    spaced.add(' ');
-                }
-                spaced.add(small);
-                let twin = cyrillic_twin(small.to_ascii_uppercase()).filter(|_| small.is_ascii());
-                key.extend(
-                    twin.map_or(small, |twin| twin.to_lowercase().next().unwrap_or(twin))
-                        .to_lowercase(),
-                );
-            }
-        }
-        Self { key, exact: exact.0, spaced: spaced.0 }
-    }
-}
-
-fn without_yo(c: char) -> char {
-    if c == 'ё' { 'е' } else { c }
-}
-
-/// Whether a word ends between two letters that nothing separates.
-fn is_joint(before: char, small_before: usize, rest: &str) -> bool {
-    let Some(next) = rest.chars().next() else { return false };
-    if before.is_numeric() != next.is_numeric()
-        && before.is_alphanumeric()
-        && next.is_alphanumeric()
-    {
-        return true;
-    }
-    // «КомнатаВ», not «вZ»: three capitals at most after a word, and nothing small after them.
-    small_before > 2 && next.is_uppercase() && {
-        let tag = rest.chars().take_while(|c| c.is_alphanumeric()).take(4);
-        tag.clone().count() < 4 && tag.clone().all(|c| !c.is_lowercase())
-    }
-}
-
-/// FNV-1a over characters: a mark by which two spellings of one key are told apart.
-struct Mark(u32);
-
-impl Mark {
-    fn new() -> Self {
-        Self(0x811c_9dc5)
-    }
-
-    fn add(&mut self, c: char) {
-        self.0 = (self.0 ^ c as u32).wrapping_mul(0x0100_0193);
-    }
-}
-
-/// A key with its letters counted, so that most others are seen to be far without comparing.
-struct Letters {
-    key: String,
-    length: usize,
-    counts: [u8; 64],
-}
-
-impl Letters {
-    fn of(key: String) -> Self {
-        let (counts, length) = Self::count(&key);
-        Self { key, length, counts }
-    }
-
-    fn count(key: &str) -> ([u8; 64], usize) {
-        let mut counts = [0_u8; 64];
-        let mut length = 0;
-        for c in key.chars() {
-            let slot = &mut counts[c as usize % 64];
-            *slot = slot.saturating_add(1);
-            length += 1;
-        }
-        (counts, length)
-    }
-
-    /// How alike two keys are, from 0 to 1; none when surely not more than `needed`.
-    fn likeness(&self, other: &str, needed: f64) -> Option<f64> {
-        let (counts, length) = Self::count(other);
-        let longest = self.length.max(length) as f64;
-        let holds = self.length >= 3
-            && (other.contains(&self.key) || (length >= 4 && self.key.contains(other)));
-        if holds {
-            let likeness = 0.75 + 0.2 * self.length.min(length) as f64 / longest;
-            return (likeness >= needed).then_some(likeness);
-        }
-        let missing: u32 =
-            self.counts.iter().zip(&counts).map(|(a, b)| u32::from(a.abs_diff(*b))).sum();
-        // An edit mends two of these differences at most.
-        if 1.0 - f64::from(missing.div_ceil(2)) / longest < needed {
-            return None;
-        }
-        let likeness = strsim::normalized_damerau_levenshtein(&self.key, other);
-        (likeness >= needed).then_some(likeness)
     }
 }
 

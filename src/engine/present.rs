@@ -1,0 +1,71 @@
+//! What questions are asked of: the map as the robot believes it to be now.
+//!
+//! A door that a task has closed is closed, a lamp that it has switched on is on, and what it carries is in its hand. Where
+//! nothing of that differs from the survey, the survey itself is asked, and nothing is derived anew.
+//!
+//! Invariant: the map of the store is never changed by this; what is carried stands in no relation to anything.
+
+use std::cell::OnceCell;
+use std::collections::BTreeMap;
+
+use crate::language::question::Mind;
+use crate::map::World;
+use crate::semantics::{Profile, Relations, derive};
+use crate::units::ReplicaId;
+
+use super::{Engine, Error};
+
+/// The world now, where it is not as surveyed.
+#[derive(Debug)]
+pub(super) struct Present {
+    /// With what is carried, so that it can be spoken of.
+    pub(super) world: World,
+    /// Of all that is not carried.
+    pub(super) relations: Relations,
+    /// Who has what was taken off the map; an empty name for the robot itself.
+    pub(super) holders: BTreeMap<ReplicaId, String>,
+    mind: OnceCell<Mind>,
+}
+
+impl Present {
+    pub(super) fn mind(&self) -> &Mind {
+        self.mind.get_or_init(|| Mind::of(&self.world))
+    }
+}
+
+impl Engine {
+    /// What differs from the survey, at the moment when it is first asked for after a change.
+    ///
+    /// # Errors
+    /// There is no map, or its relations cannot be derived.
+    pub(super) fn present(&self) -> Result<Option<&Present>, Error> {
+        if let Some(present) = self.present.get() {
+            return Ok(present.as_deref());
+        }
+        let found = self.find_present()?;
+        Ok(self.present.get_or_init(|| found.map(Box::new)).as_deref())
+    }
+
+    fn find_present(&self) -> Result<Option<Present>, Error> {
+        let Some(store) = &self.store else { return Ok(None) };
+        let reader = store.reader();
+        let memory = reader.robot_memory()?;
+        let unmoved = memory.doors.is_empty()
+            && memory.devices.is_empty()
+            && memory.carried.is_empty()
+            && reader.observed()?.is_empty();
+        if unmoved {
+            return Ok(None);
+        }
+        let surveyed = self.world()?;
+        let mut world = self.believed(&memory, std::time::SystemTime::now().into())?;
+        let gone: Vec<_> =
+            memory.carried.keys().filter_map(|id| world.replicas.remove(id)).collect();
+        if gone.is_empty() && world == *surveyed {
+            return Ok(None);
+        }
+        let relations = derive(&world, &self.rules.relations, Profile::Surveyed)?;
+        world.replicas.extend(gone.into_iter().map(|replica| (replica.id, replica)));
+        Ok(Some(Present { world, relations, holders: memory.carried, mind: OnceCell::new() }))
+    }
+}

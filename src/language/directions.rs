@@ -1,0 +1,513 @@
+//! A way in words: the doors to go through, the turns on the way, how far, and what stands beside it.
+//!
+//! Which way one turns and what one passes is geometry's to find; how people tell it is here. Three levels of detail, as
+//! of a position report: the rooms alone, doors and turns, and every stretch with its length and landmarks.
+//!
+//! Invariant: the sentences depend on the values alone, and no turn is told that is not among them.
+//!
+//! ```
+//! use orthoframe::language::Language;
+//! use orthoframe::language::directions::{Directions, Exit, Goal, Passage, Stretch};
+//! use orthoframe::language::report::{Detail, Named, Opening};
+//! let stretch = |angle| Stretch { angle, at: None, length: 200.0, passed: vec![] };
+//! let exit = Exit { opening: Opening::Door, name: Some(Named::plain("Дверь-ВZ")), angle: 0.0 };
+//! let first = Passage { room: Named::plain("Комната-В"), stretches: vec![stretch(None)], exit: Some(exit) };
+//! let last = Passage { room: Named::plain("Комната-Z"), stretches: vec![stretch(Some(90.0))], exit: None };
+//! let way = Directions { passages: vec![first, last], goal: Goal::Thing(Named::plain("Точка-К")) };
+//! assert_eq!(
+//!     way.say_in(Language::Russian, Detail::Spot).join(" "),
+//!     "Выйдите из Комнаты-В через Дверь-ВZ в Комнату-Z. Поверните налево и дойдите до Точки-К."
+//! );
+//! ```
+
+use super::report::{Detail, Named, Opening};
+use super::words::russian::{self, Preposition};
+use super::words::{Case, Gender, Language, Number, enumerate, length};
+
+/// A change of direction, as people name it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Turn {
+    Straight,
+    SlightlyLeft,
+    Left,
+    SlightlyRight,
+    Right,
+    Round,
+}
+
+impl Turn {
+    /// Up to here one goes straight on, degrees.
+    pub const STRAIGHT: f64 = 25.0;
+    /// Up to here one bears left or right, degrees.
+    pub const SLIGHT: f64 = 55.0;
+    /// From here on one turns round, degrees.
+    pub const ROUND: f64 = 150.0;
+
+    /// The name of an angle in degrees, counter-clockwise, from -180 to 180.
+    #[must_use]
+    pub fn of(angle: f64) -> Self {
+        match (angle.abs(), angle > 0.0) {
+            (a, _) if a < Self::STRAIGHT => Self::Straight,
+            (a, true) if a < Self::SLIGHT => Self::SlightlyLeft,
+            (a, false) if a < Self::SLIGHT => Self::SlightlyRight,
+            (a, _) if a > Self::ROUND => Self::Round,
+            (_, true) => Self::Left,
+            (_, false) => Self::Right,
+        }
+    }
+
+    /// «поверните налево», "turn left"; nothing for straight on.
+    fn imperative(self, language: Language) -> Option<&'static str> {
+        let (russian, english) = match self {
+            Self::Straight => return None,
+            Self::SlightlyLeft => ("возьмите левее", "bear left"),
+            Self::Left => ("поверните налево", "turn left"),
+            Self::SlightlyRight => ("возьмите правее", "bear right"),
+            Self::Right => ("поверните направо", "turn right"),
+            Self::Round => ("развернитесь", "turn round"),
+        };
+        Some(if language == Language::Russian { russian } else { english })
+    }
+}
+
+/// On which hand something is for one who goes the way.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Side {
+    Left,
+    Right,
+}
+
+/// A straight part of a way within a room.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Stretch {
+    /// The turn at its beginning, degrees counter-clockwise; none where it is not known how one stands.
+    pub angle: Option<f64>,
+    /// What stands where one turns.
+    pub at: Option<Named>,
+    /// cm
+    pub length: f64,
+    /// What one passes, in order.
+    pub passed: Vec<(Side, Named)>,
+}
+
+/// How a room is left.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Exit {
+    pub opening: Opening,
+    pub name: Option<Named>,
+    /// The turn into the opening, degrees counter-clockwise.
+    pub angle: f64,
+}
+
+/// A way's part in one room.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Passage {
+    pub room: Named,
+    pub stretches: Vec<Stretch>,
+    /// None in the last room.
+    pub exit: Option<Exit>,
+}
+
+/// What the way leads to.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Goal {
+    /// The last room itself.
+    Room,
+    /// A thing, a place, a door in the last room.
+    Thing(Named),
+    /// Coordinates, as they were given.
+    Point(String),
+}
+
+/// A way from room to room on one Map.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Directions {
+    /// One at least.
+    pub passages: Vec<Passage>,
+    pub goal: Goal,
+}
+
+impl Directions {
+    /// The way as sentences, with as much as is asked for.
+    #[must_use]
+    pub fn say_in(&self, language: Language, detail: Detail) -> Vec<String> {
+        let mut sentences = match detail {
+            Detail::Region => vec![self.rooms(language)],
+            _ => (0..self.passages.len())
+                .filter_map(|n| self.say_passage(n, language, detail))
+                .collect(),
+        };
+        if sentences.is_empty() {
+            sentences.push(self.already_there(language));
+        }
+        sentences
+    }
+
+    /// One room's part of the way as a sentence; none where nothing is left to do.
+    #[must_use]
+    pub fn say_passage(&self, n: usize, language: Language, detail: Detail) -> Option<String> {
+        let passage = &self.passages[n];
+        let next = self.passages.get(n + 1).map(|p| &p.room);
+        let told = Told { language, passage, first: n == 0, next, goal: &self.goal };
+        let text = if detail == Detail::Heading { told.stretches()? } else { told.turns()? };
+        Some(sentence(&text))
+    }
+
+    fn already_there(&self, language: Language) -> String {
+        let room = self.passages.last().map(|p| &p.room);
+        match (room, language) {
+            (Some(room), Language::Russian) => {
+                format!("Вы уже {}.", russian::where_at(room.phrase()))
+            }
+            (Some(room), Language::English) => format!("You are already in {}.", room.english()),
+            (None, Language::Russian) => "Вы уже на месте.".to_owned(),
+            (None, Language::English) => "You are already there.".to_owned(),
+        }
+    }
+
+    /// «Пройдите из Комнаты-В через Комнату-Z в Комнату-Y, к Точке-К.»
+    fn rooms(&self, language: Language) -> String {
+        let rooms: Vec<&Named> = self.passages.iter().map(|p| &p.room).collect();
+        let (first, last, between) = match &rooms[..] {
+            [first, between @ .., last] => (*first, *last, between),
+            _ => {
+                let target = self.target(language);
+                return match (target, language) {
+                    (None, _) => self.already_there(language),
+                    (Some(to), Language::Russian) => {
+                        format!("Пройдите {} {to}.", russian::where_at(rooms[0].phrase()))
+                    }
+                    (Some(to), Language::English) => {
+                        format!("In {}, go to {to}.", rooms[0].english())
+                    }
+                };
+            }
+        };
+        let to = self.target(language);
+        match language {
+            Language::Russian => {
+                let through: Vec<String> =
+                    between.iter().map(|r| r.phrase().case(Case::Accusative)).collect();
+                let through = if through.is_empty() {
+                    String::new()
+                } else {
+                    format!(" через {}", enumerate(&through, language))
+                };
+                let to = to.map(|to| format!(", {to}")).unwrap_or_default();
+                let (from, into) =
+                    (russian::whence(first.phrase()), russian::whither(last.phrase()));
+                format!("Пройдите {from}{through} {into}{to}.")
+            }
+            Language::English => {
+                let through: Vec<String> = between.iter().map(|r| r.english()).collect();
+                let through = if through.is_empty() {
+                    String::new()
+                } else {
+                    format!(" through {}", enumerate(&through, language))
+                };
+                let to = to.map(|to| format!(", to {to}")).unwrap_or_default();
+                format!("Go from {}{through} to {}{to}.", first.english(), last.english())
+            }
+        }
+    }
+
+    /// «к Точке-К», "Point K"
+    fn target(&self, language: Language) -> Option<String> {
+        match (&self.goal, language) {
+            (Goal::Room, _) => None,
+            (Goal::Thing(thing), Language::Russian) => {
+                Some(russian::with(Preposition::K, Case::Dative, thing.phrase()))
+            }
+            (Goal::Thing(thing), Language::English) => Some(thing.english()),
+            (Goal::Point(at), Language::Russian) => Some(format!("к точке {at}")),
+            (Goal::Point(at), Language::English) => Some(format!("the point {at}")),
+        }
+    }
+}
+
+/// One room's part of a way, about to be said.
+#[derive(Clone, Copy)]
+struct Told<'a> {
+    language: Language,
+    passage: &'a Passage,
+    first: bool,
+    next: Option<&'a Named>,
+    goal: &'a Goal,
+}
+
+impl Told<'_> {
+    fn is_russian(&self) -> bool {
+        self.language == Language::Russian
+    }
+
+    fn pick<'a>(&self, russian: &'a str, english: &'a str) -> &'a str {
+        if self.is_russian() { russian } else { english }
+    }
+
+    /// Doors and turns: «Поверните налево, затем направо и выйдите через Дверь-ZY в Комнату-Y.»
+    fn turns(&self) -> Option<String> {
+        let end = self.end()?;
+        // How one stands in the first room is mostly unknown, and the door is in sight.
+        if self.first
+            && self.passage.exit.is_some()
+            && self.passage.stretches.first().is_none_or(|s| s.angle.is_none())
+        {
+            return Some(end);
+        }
+        let turns = self.main_turns();
+        let Some((first, rest)) = turns.split_first() else {
+            return Some(match (self.first, self.is_russian()) {
+                (true, _) => end,
+                (false, true) => format!("идите прямо и {end}"),
+                (false, false) => format!("go straight on and {end}"),
+            });
+        };
+        let mut text = first.imperative(self.language).unwrap_or_default().to_owned();
+        for turn in rest {
+            text.push_str(self.pick(", затем ", ", then "));
+            text.push_str(turn.imperative(self.language).unwrap_or_default());
+        }
+        Some(format!("{text}{}{end}", self.pick(" и ", " and ")))
+    }
+
+    /// The turns of the room that are worth a word: slight ones to one side are one turn, lone slight ones none but
+    /// the first.
+    fn main_turns(&self) -> Vec<Turn> {
+        let inner = self.passage.stretches.iter().filter_map(|s| s.angle);
+        let angles = inner.chain(self.passage.exit.iter().map(|e| e.angle));
+        let mut merged: Vec<f64> = Vec::new();
+        for angle in angles.filter(|a| a.abs() >= Turn::STRAIGHT) {
+            let slight = |a: f64| a.abs() < Turn::SLIGHT;
+            match merged.last_mut() {
+                Some(last) if slight(angle) && slight(*last) && (*last > 0.0) == (angle > 0.0) => {
+                    *last += angle
+                }
+                _ => merged.push(angle),
+            }
+        }
+        let mut turns: Vec<Turn> = merged.into_iter().map(Turn::of).collect();
+        if turns.iter().any(|t| !is_slight(*t)) {
+            turns.retain(|t| !is_slight(*t));
+        }
+        // A bend to one side and back is a way round something, not a way to remember.
+        if turns.iter().all(|t| is_slight(*t)) {
+            turns.truncate(1);
+        }
+        turns
+    }
+
+    /// Every stretch: «В Комнате-Z поверните налево, пройдите 2 м мимо Стола (он слева) и выйдите через …».
+    fn stretches(&self) -> Option<String> {
+        // The room stands at the beginning of the sentence already.
+        let end = Told { first: false, ..*self }.end();
+        let mut clauses: Vec<String> = Vec::new();
+        for stretch in &self.passage.stretches {
+            if let Some(turn) = stretch.angle.and_then(|a| Turn::of(a).imperative(self.language)) {
+                clauses.push(match (&stretch.at, self.is_russian()) {
+                    (Some(at), true) => format!(
+                        "{} {turn}",
+                        russian::with(Preposition::U, Case::Genitive, at.phrase())
+                    ),
+                    (Some(at), false) => format!("{turn} at {}", at.english()),
+                    (None, _) => turn.to_owned(),
+                });
+            }
+            clauses.push(self.walk(stretch));
+        }
+        if clauses.is_empty() && end.is_none() {
+            return None;
+        }
+        let at = match self.is_russian() {
+            true => russian::where_at(self.passage.room.phrase()),
+            false => format!("in {},", self.passage.room.english()),
+        };
+        let end = end.into_iter().map(|end| match &self.passage.exit {
+            Some(exit) if Turn::of(exit.angle) != Turn::Straight => {
+                let turn = Turn::of(exit.angle).imperative(self.language).unwrap_or_default();
+                format!("{turn}{}{end}", self.pick(" и ", " and "))
+            }
+            _ => end,
+        });
+        let all: Vec<String> = clauses.into_iter().chain(end).collect();
+        let text = match all.last() {
+            // «… и выйдите», but «…, поверните налево и выйдите».
+            Some(last) if last.contains(self.pick(" и ", " and ")) => all.join(", "),
+            _ => enumerate(&all, self.language),
+        };
+        Some(format!("{at} {text}"))
+    }
+
+    fn walk(&self, stretch: &Stretch) -> String {
+        let far = length(round_length(stretch.length), self.language);
+        let passed: Vec<String> = stretch
+            .passed
+            .iter()
+            .map(|(side, thing)| match (side, self.is_russian()) {
+                (side, true) => {
+                    let phrase = thing.phrase();
+                    let it = match (phrase.number(), phrase.gender()) {
+                        (Number::Plural, _) => "они",
+                        (_, Gender::Feminine) => "она",
+                        (_, Gender::Neuter) => "оно",
+                        (_, Gender::Masculine) => "он",
+                    };
+                    let side = if *side == Side::Left { "слева" } else { "справа" };
+                    format!("{} ({it} {side})", phrase.case(Case::Genitive))
+                }
+                (Side::Left, false) => format!("{} (on your left)", thing.english()),
+                (Side::Right, false) => format!("{} (on your right)", thing.english()),
+            })
+            .collect();
+        let by = match (passed.is_empty(), self.is_russian()) {
+            (true, _) => String::new(),
+            (false, true) => format!(" мимо {}", enumerate(&passed, self.language)),
+            (false, false) => format!(" past {}", enumerate(&passed, self.language)),
+        };
+        format!("{} {far}{by}", self.pick("пройдите", "walk"))
+    }
+
+    /// «выйдите через Дверь-ВZ в Комнату-Z», «дойдите до Точки-К»; none where the room itself was the goal.
+    fn end(&self) -> Option<String> {
+        let (Some(exit), Some(next)) = (&self.passage.exit, self.next) else {
+            return match (self.goal, self.is_russian()) {
+                (Goal::Room, _) => None,
+                (Goal::Thing(thing), true) => Some(format!(
+                    "дойдите {}",
+                    russian::with(Preposition::Do, Case::Genitive, thing.phrase())
+                )),
+                (Goal::Thing(thing), false) => Some(format!("walk up to {}", thing.english())),
+                (Goal::Point(at), true) => Some(format!("дойдите до точки {at}")),
+                (Goal::Point(at), false) => Some(format!("walk to the point {at}")),
+            };
+        };
+        Some(match self.is_russian() {
+            true => {
+                let door = match (&exit.name, exit.opening) {
+                    (Some(name), _) => name.phrase().case(Case::Accusative),
+                    (None, Opening::Door) => "дверь".to_owned(),
+                    (None, Opening::Passage) => "проход".to_owned(),
+                };
+                let from = if self.first {
+                    format!(" {}", russian::whence(self.passage.room.phrase()))
+                } else {
+                    String::new()
+                };
+                format!("выйдите{from} через {door} {}", russian::whither(next.phrase()))
+            }
+            false => {
+                let door = match (&exit.name, exit.opening) {
+                    (Some(name), _) => name.english(),
+                    (None, Opening::Door) => "the door".to_owned(),
+                    (None, Opening::Passage) => "the passage".to_owned(),
+                };
+                match self.first {
+                    true => format!(
+                        "leave {} through {door} into {}",
+                        self.passage.room.english(),
+                        next.english()
+                    ),
+                    false => format!("go through {door} into {}", next.english()),
+                }
+            }
+        })
+    }
+}
+
+fn is_slight(turn: Turn) -> bool {
+    matches!(turn, Turn::SlightlyLeft | Turn::SlightlyRight)
+}
+
+/// Nobody counts centimetres of a way: tenths of a metre, and below one metre tens of centimetres.
+fn round_length(cm: f64) -> f64 {
+    (cm / 10.0).round().max(1.0) * 10.0
+}
+
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::language::words::WordHints;
+    use expect_test::{Expect, expect};
+
+    fn name(name: &str) -> Named {
+        Named::plain(name)
+    }
+
+    fn stretch(angle: Option<f64>, length: f64) -> Stretch {
+        Stretch { angle, at: None, length, passed: vec![] }
+    }
+
+    fn check(way: &Directions, expected: &Expect) {
+        let mut text = String::new();
+        for language in [Language::Russian, Language::English] {
+            for detail in [Detail::Region, Detail::Spot, Detail::Heading] {
+                text.push_str(&way.say_in(language, detail).join(" "));
+                text.push('\n');
+            }
+        }
+        expected.assert_eq(&text);
+    }
+
+    #[test]
+    fn three_levels_in_two_languages() {
+        let door = |door: &str, angle| {
+            Some(Exit { opening: Opening::Door, name: Some(name(door)), angle })
+        };
+        let office =
+            Named::new("Кабинет директора", &WordHints::default(), Some("director's office"));
+        let mut last = stretch(Some(-80.0), 213.0);
+        last.at = Some(name("Кресло у окна"));
+        last.passed = vec![(Side::Left, name("Письменный стол"))];
+        let way = Directions {
+            passages: vec![
+                Passage {
+                    room: name("Комната-В"),
+                    stretches: vec![stretch(None, 320.0)],
+                    exit: door("Дверь-ВZ", 30.0),
+                },
+                Passage {
+                    room: name("Кухня"),
+                    stretches: vec![stretch(Some(40.0), 95.0), stretch(Some(-35.0), 55.0)],
+                    exit: door("Дверь-ZY", 45.0),
+                },
+                Passage {
+                    room: office,
+                    stretches: vec![last],
+                    exit: None,
+                },
+            ],
+            goal: Goal::Thing(name("Точка-К")),
+        };
+        check(
+            &way,
+            &expect![[r#"
+            Пройдите из Комнаты-В через Кухню в Кабинет директора, к Точке-К.
+            Выйдите из Комнаты-В через Дверь-ВZ на Кухню. Поверните налево и выйдите через Дверь-ZY в Кабинет директора. Поверните направо и дойдите до Точки-К.
+            В Комнате-В пройдите 3,2 м, возьмите левее и выйдите из Комнаты-В через Дверь-ВZ на Кухню. На Кухне возьмите левее, пройдите 1 м, пройдите 60 см, возьмите левее и выйдите через Дверь-ZY в Кабинет директора. В Кабинете директора у Кресла у окна поверните направо, пройдите 2,1 м мимо Письменного стола (он слева) и дойдите до Точки-К.
+            Go from Room-B through the kitchen to Director's office, to Point K.
+            Leave Room-B through Door VZ into the kitchen. Turn left and go through Door ZY into Director's office. Turn right and walk up to Point K.
+            "#]],
+        );
+    }
+
+    #[test]
+    fn who_is_there_already_is_told_so() {
+        let here = Passage { room: name("Кухня"), stretches: vec![], exit: None };
+        check(
+            &Directions { passages: vec![here], goal: Goal::Room },
+            &expect![[r#"
+            Вы уже на Кухне.
+            Вы уже на Кухне.
+            Вы уже на Кухне.
+            You are already in the kitchen.
+            You are already in the kitchen.
+            You are already in the kitchen.
+        "#]],
+        );
+    }
+}

@@ -1,0 +1,330 @@
+//! Whether something is so: claims of a thing judged one by one, and said with what is so instead.
+//!
+//! Invariant: a claim that fails names the fact that would have to hold.
+
+use super::Draft;
+use super::property::status_word;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Claim, Noun, Rel, Restriction, Thing};
+use crate::language::question::values::Property;
+use crate::language::question::{Doubt, Fact, Said};
+use crate::language::words::{Case, Number, enumerate};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    /// Whether a claim holds of a thing, with the fact that says so or would have to.
+    fn judge(&self, thing: Thing, claim: &Claim) -> Result<(bool, Vec<Fact>, Vec<Thing>), Doubt> {
+        match claim {
+            Claim::Related(restriction) => self.judge_related(thing, restriction),
+            Claim::Value(filter) => {
+                let holds = self.has_value(thing, filter.value) != filter.negated;
+                let entry = self.lexicon().values.entry(filter.value);
+                let own = self.values(thing).into_iter().find(|(p, _, _)| *p == entry.property);
+                let fact = match (self.statuses(thing).first(), thing) {
+                    (Some((status, _)), Thing::Entity(Entity::Door(_)))
+                        if entry.property == Property::State =>
+                    {
+                        Some(Fact::holding(
+                            "DOOR_IS",
+                            vec![self.symbol(thing), status_word(*status).to_owned()],
+                        ))
+                    }
+                    _ => own.map(|(_, _, text)| {
+                        let property = self.property_name(thing, &entry.property);
+                        Fact::holding("HAS", vec![self.symbol(thing), property, text])
+                    }),
+                };
+                Ok((holds, fact.into_iter().collect(), Vec::new()))
+            }
+            Claim::Kind(noun) => {
+                let of_kind = self.find(noun, true)?;
+                Ok((of_kind.contains(&thing), Vec::new(), Vec::new()))
+            }
+        }
+    }
+
+    fn judge_related(
+        &self,
+        thing: Thing,
+        restriction: &Restriction,
+    ) -> Result<(bool, Vec<Fact>, Vec<Thing>), Doubt> {
+        if restriction.rel == Rel::Between || restriction.anchors.iter().any(|a| self.is_floor(a)) {
+            let mut noun = Noun::default();
+            noun.head.things = Some(vec![thing]);
+            noun.restrictions.push(restriction.clone());
+            let holds = !self.find(&noun, false)?.is_empty();
+            let mut anchors = Vec::new();
+            for anchor in restriction.anchors.iter().filter(|a| !self.is_floor(a)) {
+                anchors.extend(self.definite(anchor)?);
+            }
+            return Ok((holds, Vec::new(), anchors));
+        }
+        let Some(noun) = restriction.anchors.first() else {
+            return Ok((false, Vec::new(), Vec::new()));
+        };
+        let mut anchors = Vec::new();
+        for noun in &restriction.anchors {
+            anchors.extend(self.find(noun, true)?);
+        }
+        if anchors.is_empty() {
+            return Err(self.none_such(noun));
+        }
+        if restriction.rel == Rel::To || restriction.rel == Rel::Of {
+            let joins = |a: &Thing| {
+                let area = a.area();
+                self.gate(thing).is_some_and(|g| area.is_some_and(|id| g.areas.contains(&id)))
+                    || self.related(restriction.rel, *a).contains(&thing)
+            };
+            let holds = anchors.iter().copied().find(joins);
+            return Ok((holds.is_some(), Vec::new(), holds.map_or(anchors, |a| vec![a])));
+        }
+        if let Some(&hit) = anchors.iter().find(|a| self.holds(restriction.rel, thing, **a)) {
+            let fact = self.fact(restriction.rel, thing, hit);
+            return Ok((true, fact.into_iter().collect(), vec![hit]));
+        }
+        let fact = anchors.first().and_then(|a| self.missing(restriction.rel, thing, *a));
+        Ok((false, fact.into_iter().collect(), anchors))
+    }
+
+    pub(super) fn say_holds(
+        &self,
+        subject: &Noun,
+        claims: &[Claim],
+        negated: bool,
+    ) -> Result<Draft, Doubt> {
+        let found = self.subject(subject)?;
+        if let (&[thing], [Claim::Value(filter)]) = (&found[..], claims)
+            && self.own_value(thing, filter.value).is_none()
+        {
+            let property = self.lexicon().values.entry(filter.value).property.clone();
+            let text = self.no_property(&property, thing);
+            return Ok(Draft::new(Said::Unknown, text).with(found));
+        }
+        let mut facts = Vec::new();
+        let mut topic = Vec::new();
+        let mut failed: Vec<Thing> = Vec::new();
+        let mut spoken: Option<(usize, Vec<Thing>)> = None;
+        for &thing in &found {
+            for (n, claim) in claims.iter().enumerate() {
+                let (holds, why, anchors) = self.judge(thing, claim)?;
+                facts.extend(why);
+                if spoken.is_none() || !holds {
+                    spoken = Some((n, anchors.clone()));
+                }
+                topic.extend(anchors);
+                if !holds && !failed.contains(&thing) {
+                    failed.push(thing);
+                }
+            }
+        }
+        let all = failed.is_empty();
+        let yes = all != negated;
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let text = if found.len() > 1 {
+            self.several_hold(&found, &failed, claims)
+        } else {
+            let thing = found[0];
+            let parts: Vec<String> =
+                claims.iter().map(|c| self.claim_words(thing, c)).collect::<Result<_, _>>()?;
+            format!("{} {}", self.name(thing), enumerate(&parts, self.language))
+        };
+        let said = if all { Said::Yes } else { Said::No };
+        topic.truncate(4);
+        facts.sort_by_key(|f| f.holds == all);
+        facts.reverse();
+        Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(found) }.about(&topic))
+    }
+
+    /// The subject of a claim: one thing, or all of several.
+    pub(super) fn subject(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
+        match self.definite(noun) {
+            Ok(found) => Ok(found),
+            Err(doubt) => Err(doubt),
+        }
+    }
+
+    fn several_hold(&self, found: &[Thing], failed: &[Thing], claims: &[Claim]) -> String {
+        let fit: Vec<Thing> = found.iter().copied().filter(|t| !failed.contains(t)).collect();
+        let words = |things: &[Thing]| -> String {
+            let parts: Vec<String> = claims
+                .iter()
+                .map(|c| match c {
+                    Claim::Value(filter) => {
+                        let entry = self.lexicon().values.entry(filter.value);
+                        match self.is_russian() {
+                            true => self.lexicon().values.predicate(
+                                filter.value,
+                                crate::language::Gender::Masculine,
+                                if things.len() > 1 { Number::Plural } else { Number::Singular },
+                            ),
+                            false => format!("{} {}", self.is(things), entry.english),
+                        }
+                    }
+                    Claim::Related(r) => {
+                        let mut noun = Noun::default();
+                        noun.restrictions.push(r.clone());
+                        format!("{} {}", self.is(things), self.restrictions(&noun))
+                    }
+                    Claim::Kind(noun) => self.none_of(noun),
+                })
+                .collect();
+            enumerate(&parts, self.language)
+        };
+        match (fit.is_empty(), failed.is_empty(), self.is_russian()) {
+            (_, true, true) => format!("все {}: {}", words(found), self.list(found)),
+            (_, true, false) => format!("all of them: {}", self.list(found)),
+            (true, _, true) => format!("ни одно из них: {}", self.list(found)),
+            (true, _, false) => format!("none of them: {}", self.list(found)),
+            (false, false, true) => {
+                format!(
+                    "не все: {} {}, а {} – нет",
+                    words(&fit),
+                    self.list(&fit),
+                    self.list(failed)
+                )
+            }
+            (false, false, false) => {
+                format!(
+                    "not all: {} {}, but not {}",
+                    self.list(&fit),
+                    words(&fit),
+                    self.list(failed)
+                )
+            }
+        }
+    }
+
+    /// «находится на Столе-1», «не находится на Столе-1: он находится в Комнате-В», «открыта»
+    fn claim_words(&self, thing: Thing, claim: &Claim) -> Result<String, Doubt> {
+        let (holds, _, anchors) = self.judge(thing, claim)?;
+        Ok(match claim {
+            Claim::Related(restriction) => {
+                let place = match anchors.len() {
+                    0 | 1 => self.place(restriction.rel, &anchors),
+                    _ if holds || restriction.rel == Rel::Between => {
+                        self.place(restriction.rel, &anchors)
+                    }
+                    _ => {
+                        let mut noun = Noun::default();
+                        noun.restrictions.push(restriction.clone());
+                        self.restrictions(&noun)
+                    }
+                };
+                let place = match restriction.anchors.first() {
+                    Some(anchor) if self.is_floor(anchor) => {
+                        self.pick("на полу", "on the floor").to_owned()
+                    }
+                    _ => place,
+                };
+                let verb = match (restriction.rel, self.is_russian()) {
+                    (Rel::To, true) => "ведёт",
+                    (Rel::To, false) => "leads",
+                    _ => self.is(&[thing]),
+                };
+                let frame = anchors
+                    .first()
+                    .map(|a| self.frame_words(restriction.rel, *a))
+                    .unwrap_or_default();
+                match (holds, self.is_russian()) {
+                    (true, _) => format!("{verb} {place}{frame}"),
+                    (false, true) => match self.instead(thing, restriction.rel) {
+                        instead if instead.is_empty() => format!("не {verb} {place}{frame}"),
+                        instead => format!("{verb} не {place}{instead}"),
+                    },
+                    (false, false) if restriction.rel == Rel::To => {
+                        format!("does not lead {place}")
+                    }
+                    (false, false) => {
+                        format!("{verb} not {place}{frame}{}", self.instead(thing, restriction.rel))
+                    }
+                }
+            }
+            Claim::Value(filter) => {
+                let own = self.own_value(thing, filter.value);
+                let asked = self.value(filter.value, thing);
+                match (holds, own, self.is_russian()) {
+                    (true, own, true) => own.unwrap_or(asked),
+                    (true, own, false) => format!("{} {}", self.is(&[thing]), own.unwrap_or(asked)),
+                    (false, Some(own), true) => own,
+                    (false, Some(own), false) => format!("{} {own}", self.is(&[thing])),
+                    (false, None, true) => format!("не {asked}: на карте такого свойства нет"),
+                    (false, None, false) => {
+                        format!("{} not {asked}, as far as the map says", self.is(&[thing]))
+                    }
+                }
+            }
+            Claim::Kind(noun) => {
+                let (phrase, english) = self.kind_phrase(noun);
+                let name =
+                    crate::language::question::lexicon::lower_first(&phrase.case(Case::Nominative));
+                match (holds, self.is_russian()) {
+                    (true, true) => format!("– это {name}"),
+                    (false, true) => format!("– не {name}"),
+                    (true, false) => format!("is {}", crate::language::english::a(&english)),
+                    (false, false) => format!("is not {}", crate::language::english::a(&english)),
+                }
+            }
+        })
+    }
+
+    /// The value that a thing has of the property asked about.
+    fn own_value(
+        &self,
+        thing: Thing,
+        asked: crate::language::question::values::ValueId,
+    ) -> Option<String> {
+        let values = &self.lexicon().values;
+        let property = &values.entry(asked).property;
+        let all = self.values(thing);
+        let same = all.iter().find(|(_, v, _)| v.is_some_and(|v| values.is(v, asked)));
+        let same = same.or_else(|| all.iter().find(|(p, _, _)| p == property));
+        same.map(|(_, value, text)| match value {
+            Some(value) => self.value(*value, thing),
+            None => text.to_lowercase(),
+        })
+    }
+
+    /// «: она на Столе-1 в Комнате-В»
+    fn instead(&self, thing: Thing, rel: Rel) -> String {
+        if !matches!(rel, Rel::On | Rel::In | Rel::Under) || thing.replica().is_none() {
+            return String::new();
+        }
+        let place = self.short_place(thing, &mut Vec::new());
+        match self.is_russian() {
+            true => format!(", а {place}"),
+            false => format!(" but {place}"),
+        }
+    }
+
+    pub(super) fn choose(&self, subject: &Noun, claims: &[Claim]) -> Result<Draft, Doubt> {
+        let found = self.subject(subject)?;
+        let mut facts = Vec::new();
+        let mut parts = Vec::new();
+        let mut any = false;
+        for &thing in &found {
+            let mut fits = Vec::new();
+            for claim in claims {
+                let (holds, why, _) = self.judge(thing, claim)?;
+                if holds {
+                    facts.extend(why);
+                    fits.push(self.claim_words(thing, claim)?);
+                }
+            }
+            any |= !fits.is_empty();
+            parts.push(match (fits.is_empty(), self.is_russian()) {
+                (false, _) => format!("{} {}", self.name(thing), enumerate(&fits, self.language)),
+                (true, true) => {
+                    let own = self.claim_words(thing, &claims[0])?;
+                    format!("{} – ни то, ни другое: {own}", self.name(thing))
+                }
+                (true, false) => {
+                    let own = self.claim_words(thing, &claims[0])?;
+                    format!("neither: {} {own}", self.name(thing))
+                }
+            });
+        }
+        let said = if any { Said::Found } else { Said::Nothing };
+        let text = parts.join(self.pick("; ", "; "));
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) })
+    }
+}

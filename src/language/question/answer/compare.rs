@@ -1,0 +1,333 @@
+//! Superlatives and comparisons: by size, by distance, by a property.
+//!
+//! Invariant: what cannot be measured is not compared; equal ones are said to be equal.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Closeness, Extreme, Noun, Thing};
+use crate::language::question::values::Property;
+use crate::language::question::{Doubt, Said};
+use crate::language::words::{Case, russian};
+use crate::language::words::{area, length};
+
+impl Knowledge<'_> {
+    pub(super) fn say_best(&self, noun: &Noun, found: Vec<Thing>) -> Draft {
+        let Some(best) = &noun.best else { return Draft::default() };
+        let Some(&first) = found.first() else {
+            let text = self.nothing_found(noun, &self.restrictions(noun));
+            return Draft::new(Said::Nothing, text);
+        };
+        let anchor = best.anchor.as_ref().and_then(|a| self.find(a, true).ok());
+        let anchor = anchor.and_then(|a| a.first().copied()).unwrap_or(Thing::Robot);
+        let list = self.list(&found);
+        let how = match best.extreme {
+            Extreme::Nearest | Extreme::Farthest => {
+                let away = self.distance(first, anchor).map(|d| length(d, self.language));
+                let away = away.unwrap_or_default();
+                let form = self.form(anchor, Case::Genitive);
+                match self.is_russian() {
+                    true => format!(
+                        "{away} {} {form}",
+                        russian::preposition(russian::Preposition::Ot, &form)
+                    ),
+                    false => format!("{away} from {form}"),
+                }
+            }
+            Extreme::Most | Extreme::Fewest => match &best.anchor {
+                Some(counted) => {
+                    let all = self.find(counted, true).unwrap_or_default().into_iter().collect();
+                    self.counted(counted, self.having(&all, first))
+                }
+                None => String::new(),
+            },
+            extreme => self.measure_words(extreme, first),
+        };
+        let counts = matches!(best.extreme, Extreme::Most | Extreme::Fewest);
+        let place = self.in_room(first).filter(|_| first.area().is_none());
+        let place = place.map(|p| format!(" {p}")).unwrap_or_default();
+        let text = match (found.len(), self.is_russian()) {
+            (1, true) => {
+                let how = if how.is_empty() { String::new() } else { format!(" ({how})") };
+                format!("это {list}{place}{how}")
+            }
+            (1, false) => {
+                let how = if how.is_empty() { String::new() } else { format!(" ({how})") };
+                format!("it is {list}{place}{how}")
+            }
+            (_, true) if counts => format!("это {list} (по {how})"),
+            (_, false) if counts => format!("these are {list} ({how} each)"),
+            (_, true) => format!("это {list}"),
+            (_, false) => format!("these are {list}"),
+        };
+        Draft::new(Said::Found, text).with(found)
+    }
+
+    fn measure_words(&self, extreme: Extreme, thing: Thing) -> String {
+        let Some(measure) = self.measure(extreme, thing) else { return String::new() };
+        let is_area = thing.area().is_some();
+        match extreme {
+            Extreme::Biggest | Extreme::Smallest if is_area => area(measure, self.language),
+            Extreme::Biggest | Extreme::Smallest if thing.replica().is_some() => {
+                self.sizes(thing).unwrap_or_default()
+            }
+            Extreme::Tallest | Extreme::Lowest => match self.is_russian() {
+                true => format!("высота {}", length(measure, self.language)),
+                false => format!("{} high", length(measure, self.language)),
+            },
+            Extreme::LeftMost | Extreme::RightMost | Extreme::Most | Extreme::Fewest => {
+                String::new()
+            }
+            _ => match self.is_russian() {
+                true => format!("ширина {}", length(measure, self.language)),
+                false => format!("{} wide", length(measure, self.language)),
+            },
+        }
+    }
+
+    pub(super) fn closer(
+        &self,
+        what: &Noun,
+        near: &Noun,
+        than: &Noun,
+        closeness: Closeness,
+    ) -> Result<Draft, Doubt> {
+        let (what, near, than) = (self.one(what)?, self.one(near)?, self.one(than)?);
+        let (Some(a), Some(b)) = (self.distance(what, near), self.distance(what, than)) else {
+            return Ok(self.apart(&[what, near, than]));
+        };
+        let nearer = a < b;
+        let yes = nearer == (closeness == Closeness::Nearer) && (a - b).abs() > 1e-9;
+        let lang = self.language;
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let text = match self.is_russian() {
+            true => {
+                let to = |t: Thing| self.form(t, Case::Genitive);
+                format!(
+                    "{head}{} {} {} {}, а {} {} {}",
+                    russian::preposition(russian::Preposition::Ot, &to(what)),
+                    to(what),
+                    format_args!("до {}", to(near)),
+                    length(a, lang),
+                    "до",
+                    to(than),
+                    length(b, lang)
+                )
+            }
+            false => format!(
+                "{head}it is {} from {} to {} and {} to {}",
+                length(a, lang),
+                self.name(what),
+                self.name(near),
+                length(b, lang),
+                self.name(than)
+            ),
+        };
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Draft::new(said, text).with(vec![what]).about(&[near, than]))
+    }
+
+    fn apart(&self, things: &[Thing]) -> Draft {
+        let list = self.list(things);
+        let text = match self.is_russian() {
+            true => format!("сравнить нельзя: {list} – на разных картах или не имеют размеров"),
+            false => {
+                format!("they cannot be compared: {list} are on different maps or have no size")
+            }
+        };
+        Draft::new(Said::Unknown, text)
+    }
+
+    fn compared(&self, thing: Thing, extreme: Extreme, to: Option<Thing>) -> Option<f64> {
+        match extreme {
+            Extreme::Nearest | Extreme::Farthest => {
+                self.distance(thing, to.unwrap_or(Thing::Robot))
+            }
+            other => self.measure(other, thing),
+        }
+    }
+
+    fn compared_words(&self, thing: Thing, extreme: Extreme, value: f64) -> String {
+        match extreme {
+            Extreme::Nearest | Extreme::Farthest => length(value, self.language),
+            other => self.measure_words(other, thing),
+        }
+    }
+
+    pub(super) fn which_more(
+        &self,
+        of: &[Noun; 2],
+        extreme: Extreme,
+        to: Option<&Noun>,
+    ) -> Result<Draft, Doubt> {
+        let (a, b) = (self.one(&of[0])?, self.one(&of[1])?);
+        let to = to.map(|noun| self.one(noun)).transpose()?;
+        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
+        else {
+            return Ok(self.apart(&[a, b]));
+        };
+        let less = matches!(
+            extreme,
+            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
+        );
+        let first = (x < y) == less;
+        let (winner, best, other, rest) = if first { (a, x, b, y) } else { (b, y, a, x) };
+        if (x - y).abs() < 1e-6 {
+            let text = self.pick("они одинаковы", "they are equal").to_owned();
+            return Ok(Draft::new(Said::Nothing, text).with(vec![a, b]));
+        }
+        let (best, rest) =
+            (self.compared_words(winner, extreme, best), self.compared_words(other, extreme, rest));
+        let (name, other_name) = (self.name(winner), self.name(other));
+        let comparative = self.comparative(extreme);
+        let text = match self.is_russian() {
+            true => format!("{comparative} {name} ({best}; {other_name} – {rest})"),
+            false => format!("{name} is {comparative} ({best}; {other_name}: {rest})"),
+        };
+        Ok(Draft::new(Said::Found, text).with(vec![winner]).about(&[other]))
+    }
+
+    fn comparative(&self, extreme: Extreme) -> &'static str {
+        match extreme {
+            Extreme::Nearest => self.pick("ближе", "closer"),
+            Extreme::Farthest => self.pick("дальше", "farther"),
+            Extreme::Smallest => self.pick("меньше", "smaller"),
+            Extreme::Tallest => self.pick("выше", "taller"),
+            Extreme::Lowest => self.pick("ниже", "lower"),
+            Extreme::Widest => self.pick("шире", "wider"),
+            Extreme::Narrowest => self.pick("уже", "narrower"),
+            Extreme::Longest => self.pick("длиннее", "longer"),
+            _ => self.pick("больше", "bigger"),
+        }
+    }
+
+    pub(super) fn larger(
+        &self,
+        what: &Noun,
+        than: &Noun,
+        extreme: Extreme,
+        to: Option<&Noun>,
+    ) -> Result<Draft, Doubt> {
+        let (a, b) = (self.one(what)?, self.one(than)?);
+        let to = to.map(|noun| self.one(noun)).transpose()?;
+        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
+        else {
+            return Ok(self.apart(&[a, b]));
+        };
+        let less = matches!(
+            extreme,
+            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
+        );
+        let yes = (x - y).abs() > 1e-9 && (x < y) == less;
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let words = |t, v| self.compared_words(t, extreme, v);
+        let text =
+            format!("{head}{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Draft::new(said, text).with(vec![a]).about(&[b]))
+    }
+
+    /// «стульев в Кухне (4) больше, чем в Спальне (2)»
+    pub(super) fn more_of(
+        &self,
+        of: &[Noun; 2],
+        extreme: Extreme,
+        asks: bool,
+    ) -> Result<Draft, Doubt> {
+        // A place that is not there has nothing to count.
+        for noun in of {
+            for restriction in &noun.restrictions {
+                for anchor in &restriction.anchors {
+                    self.anchors(restriction, anchor, false)?;
+                }
+            }
+        }
+        let found = [self.find(&of[0], true)?, self.find(&of[1], true)?];
+        let numbers = [found[0].len(), found[1].len()];
+        let (fewer, equal) = (extreme == Extreme::Fewest, numbers[0] == numbers[1]);
+        let first = if fewer { numbers[0] <= numbers[1] } else { numbers[0] >= numbers[1] };
+        let (best, other) = if first { (0, 1) } else { (1, 0) };
+        let one_kind = of[0].head == of[1].head;
+        let kinds = of.each_ref().map(|noun| self.none_of(noun));
+        let place = |n: usize| {
+            let place = self.restrictions(&of[n]);
+            if place.is_empty() { place } else { format!(" {place}") }
+        };
+        let (a, b) = (numbers[best], numbers[other]);
+        let more = match fewer {
+            true => self.pick("меньше", "fewer"),
+            false => self.pick("больше", "more"),
+        };
+        let text = match (one_kind, equal, self.is_russian()) {
+            (true, true, true) => {
+                format!("поровну: {}{} и{} – по {a}", kinds[0], place(0), place(1))
+            }
+            (false, true, true) => {
+                format!("поровну: {} и {}{} – по {a}", kinds[0], kinds[1], place(0))
+            }
+            (true, true, false) => {
+                format!("equally many: {a} {}{} and {b}{}", kinds[0], place(0), place(1))
+            }
+            (false, true, false) => {
+                format!("equally many: {a} {} and {b} {}{}", kinds[0], kinds[1], place(0))
+            }
+            (true, false, true) => {
+                format!("{}{} ({a}) {more}, чем{} ({b})", kinds[0], place(best), place(other))
+            }
+            (false, false, true) => {
+                format!("{}{} ({a}) {more}, чем {} ({b})", kinds[best], place(best), kinds[other])
+            }
+            (true, false, false) => format!(
+                "there are {more} {}{} ({a}) than{} ({b})",
+                kinds[0],
+                place(best),
+                place(other)
+            ),
+            (false, false, false) => format!(
+                "there are {more} {} ({a}) than {} ({b}){}",
+                kinds[best],
+                kinds[other],
+                place(best)
+            ),
+        };
+        let (said, head) = match (asks, first && !equal) {
+            (true, _) if equal => (Said::Nothing, ""),
+            (true, _) => (Said::Found, ""),
+            (false, true) => (Said::Yes, self.pick("да, ", "yes, ")),
+            (false, false) => (Said::No, self.pick("нет, ", "no, ")),
+        };
+        let things = match (equal, one_kind) {
+            (true, _) => Vec::new(),
+            (false, true) => self.anchor_things(&of[best]),
+            (false, false) => found[best].clone(),
+        };
+        Ok(Draft::new(said, format!("{head}{text}")).with(things).number(a as f64))
+    }
+
+    pub(super) fn same(&self, property: &Property, of: &[Noun; 2]) -> Result<Draft, Doubt> {
+        let (a, b) = (self.one(&of[0])?, self.one(&of[1])?);
+        let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
+        let (Some((_, x, first)), Some((_, y, second))) = (own(a), own(b)) else {
+            let missing = if own(a).is_none() { a } else { b };
+            return Ok(
+                Draft::new(Said::Unknown, self.no_property(property, missing)).with(vec![a, b])
+            );
+        };
+        let yes = if x.is_some() { x == y } else { first == second };
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let words =
+            |t: Thing, v: Option<crate::language::question::values::ValueId>, text: &str| match v {
+                Some(v) => self.value_of(property, v, t),
+                None => text.to_lowercase(),
+            };
+        let dash = self.pick("", "is ");
+        let text = format!(
+            "{head}{} {dash}{}, {} {dash}{}",
+            self.name(a),
+            words(a, x, &first),
+            self.name(b),
+            words(b, y, &second)
+        );
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Draft::new(said, text).with(vec![a, b]))
+    }
+}

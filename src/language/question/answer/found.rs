@@ -1,0 +1,334 @@
+//! What fits a description, how many there are, and whether there is any: lists in the words of the question.
+//!
+//! Invariant: the things of the answer are those that the description finds, whatever the sentence leaves out.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Doubt, Said};
+use crate::language::words::length;
+use crate::language::words::{Language, enumerate, russian};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let found = self.find(noun, false)?;
+        let facts = self.facts_of(noun, &found);
+        if noun.best.is_some() {
+            return Ok(Draft { facts, ..self.say_best(noun, found) });
+        }
+        if let Some(text) = self.neighbours(noun, &found) {
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
+        let place = self.restrictions(noun);
+        let anchors = self.anchor_things(noun);
+        let frame = self.frame_of(noun);
+        let text = if found.is_empty() {
+            self.nothing_found(noun, &place)
+        } else {
+            let list = self.with_details(noun, &found);
+            let general = noun.head.anything || noun.head.kinds.is_empty();
+            match (self.is_russian(), place.is_empty()) {
+                (true, true) => {
+                    let counted = self.counted(noun, found.len());
+                    if general { list } else { format!("{counted}: {list}") }
+                }
+                (true, false) if self.is_having(noun) => {
+                    format!("{}: {list}", self.capital_count(noun, found.len()))
+                }
+                (true, false) if self.is_leading(noun) => {
+                    let leads = if found.len() > 1 { "ведут" } else { "ведёт" };
+                    let list = if self.leads_both(noun) { self.list(&found) } else { list };
+                    format!("{place} {leads} {list}")
+                }
+                (false, false) if self.is_leading(noun) => {
+                    let leads = if found.len() > 1 { "lead" } else { "leads" };
+                    match self.leads_both(noun) {
+                        true => format!(
+                            "{} {leads} {}",
+                            self.list(&found),
+                            place.replace("out of", "from")
+                        ),
+                        false => format!("{list} {leads} {place}"),
+                    }
+                }
+                (true, false) => format!("{place}{frame} {} {list}", self.is(&found)),
+                (false, true) => {
+                    if general {
+                        list
+                    } else {
+                        format!("{}: {list}", self.counted(noun, found.len()))
+                    }
+                }
+                (false, false) if self.is_having(noun) => {
+                    format!("{}: {list}", self.counted(noun, found.len()))
+                }
+                (false, false) => format!("{list} {} {place}{frame}", self.is(&found)),
+            }
+        };
+        let said = if found.is_empty() { Said::Nothing } else { Said::Found };
+        let text = format!("{text}{}", self.also(noun, &found));
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&anchors))
+    }
+
+    /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
+    fn neighbours(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let near = noun.restrictions.iter().find(|r| r.rel == Rel::Near)?;
+        let from = self.find(near.anchors.first()?, true).ok()?;
+        let rooms = !found.is_empty() && found.iter().chain(&from).all(|t| t.area().is_some());
+        let list: Vec<String> = found.iter().map(|t| self.place(Rel::To, &[*t])).collect();
+        let list = enumerate(&list, self.language);
+        rooms.then(|| match self.is_russian() {
+            true => format!("{} можно попасть {list}", self.place(Rel::From, &from)),
+            false => format!("from {} one can get {list}", self.list(&from)),
+        })
+    }
+
+    fn is_leading(&self, noun: &Noun) -> bool {
+        noun.restrictions.iter().any(|r| matches!(r.rel, Rel::From | Rel::To))
+    }
+
+    /// From one room to another.
+    fn leads_both(&self, noun: &Noun) -> bool {
+        let has = |rel| noun.restrictions.iter().any(|r| r.rel == rel);
+        has(Rel::From) && has(Rel::To)
+    }
+
+    fn is_having(&self, noun: &Noun) -> bool {
+        noun.restrictions.iter().any(|r| {
+            matches!(r.rel, Rel::Has | Rel::Bears)
+                || (r.rel == Rel::Near
+                    && noun.head.kinds.iter().any(|k| self.lexicon().is_area(*k)))
+        })
+    }
+
+    /// «2 помещения, где есть стулья»
+    fn capital_count(&self, noun: &Noun, number: usize) -> String {
+        let counted = self.counted(noun, number);
+        let place = self.restrictions(noun);
+        format!("{counted} {place}")
+    }
+
+    /// Passages beside doors, and what lies inside beside what stands on top.
+    fn also(&self, noun: &Noun, found: &[Thing]) -> String {
+        let doors =
+            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
+        let of_area =
+            noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
+        let Some(restriction) =
+            of_area.filter(|_| doors && noun.filters.is_empty() && !self.leads_both(noun))
+        else {
+            return String::new();
+        };
+        let Some(anchor) = restriction.anchors.first() else { return String::new() };
+        let Ok(areas) = self.find(anchor, true) else { return String::new() };
+        let passages: Vec<Thing> = self
+            .gates()
+            .iter()
+            .filter(|g| g.is_passage && !found.contains(&g.thing))
+            .filter(|g| areas.iter().filter_map(|a| a.area()).any(|a| g.areas.contains(&a)))
+            .map(|g| g.thing)
+            .collect();
+        match (passages.is_empty(), self.is_russian()) {
+            (true, _) => String::new(),
+            (false, true) => format!("; кроме того, есть {}", self.list(&passages)),
+            (false, false) => format!("; besides, there is {}", self.list(&passages)),
+        }
+    }
+
+    /// Names; of doors with where they lead, of left and right with how far they are.
+    fn with_details(&self, noun: &Noun, found: &[Thing]) -> String {
+        let measured = noun.restrictions.iter().find(|r| {
+            matches!(
+                r.rel,
+                Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf | Rel::NextTo | Rel::Near
+            )
+        });
+        let anchor =
+            measured.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
+        let from = noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::Of));
+        let from = from.and_then(|r| self.find(r.anchors.first()?, true).ok()?.first().copied());
+        let mut found = found.to_vec();
+        if let Some(anchor) = anchor {
+            found.sort_by(|a, b| {
+                let away = |t: &Thing| self.distance(*t, anchor).unwrap_or(f64::INFINITY);
+                away(a).total_cmp(&away(b)).then(a.cmp(b))
+            });
+        }
+        let detail = |thing: &Thing| -> String {
+            let name = self.name(*thing);
+            if let (Some(gate), Some(Thing::Entity(Entity::Area(here)))) = (self.gate(*thing), from)
+            {
+                let others: Vec<Thing> = gate
+                    .areas
+                    .iter()
+                    .filter(|a| **a != here)
+                    .map(|a| Thing::Entity(Entity::Area(*a)))
+                    .collect();
+                return match (others.is_empty(), self.is_russian()) {
+                    (false, _) => format!("{name} ({})", self.place(Rel::To, &others)),
+                    (true, true) => format!("{name} (наружу)"),
+                    (true, false) => format!("{name} (outside)"),
+                };
+            }
+            let away = anchor.and_then(|a| self.distance(*thing, a)).filter(|d| *d >= 1.0);
+            match away {
+                Some(d) if thing.replica().is_some() => {
+                    format!("{name} ({})", length(d, self.language))
+                }
+                _ => name,
+            }
+        };
+        if (anchor.is_none() && from.is_none()) || found.len() > 12 {
+            return self.list(&found);
+        }
+        let parts: Vec<String> = found.iter().map(detail).collect();
+        enumerate(&parts, self.language)
+    }
+
+    /// The things that places of a description name.
+    pub(super) fn anchor_things(&self, noun: &Noun) -> Vec<Thing> {
+        let anchors = noun.restrictions.iter().flat_map(|r| &r.anchors);
+        anchors.filter_map(|a| self.find(a, true).ok()).filter(|f| f.len() == 1).flatten().collect()
+    }
+
+    fn frame_of(&self, noun: &Noun) -> String {
+        let side = noun.restrictions.iter().find_map(|r| {
+            let anchor = self.find(r.anchors.first()?, true).ok()?;
+            let words = self.frame_words(r.rel, *anchor.first()?);
+            (!words.is_empty()).then_some(words)
+        });
+        side.unwrap_or_default()
+    }
+
+    pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
+        let frame = self.frame_of(noun);
+        let general = noun.head.anything;
+        match (self.is_russian(), general) {
+            (true, true) => format!("{place}{frame} ничего нет"),
+            (false, true) => format!("there is nothing {place}{frame}"),
+            (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
+            (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
+            (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
+            (false, false) if place.is_empty() => {
+                format!("there are no {} on the map", self.none_of(noun))
+            }
+            (false, false) => format!("there are no {} {place}{frame}", self.none_of(noun)),
+        }
+    }
+
+    pub(super) fn count(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let found = self.find(noun, false)?;
+        let facts = self.facts_of(noun, &found);
+        let place = self.restrictions(noun);
+        let anchors = self.anchor_things(noun);
+        let number = found.len();
+        let text = if number == 0 {
+            self.nothing_found(noun, &place)
+        } else {
+            let counted = match noun.head.anything {
+                true => {
+                    let (phrase, english) = self.kind_phrase(noun);
+                    match self.language {
+                        Language::Russian => russian::count(number as u64, &phrase),
+                        Language::English => {
+                            crate::language::words::english::count(number as u64, &english)
+                        }
+                    }
+                }
+                false => self.counted(noun, number),
+            };
+            let list =
+                if number <= 12 { format!(": {}", self.list(&found)) } else { String::new() };
+            match (self.is_russian(), place.is_empty()) {
+                (true, true) => format!("на карте {counted}{list}"),
+                (true, false) if self.is_having(noun) => format!("{counted} {place}{list}"),
+                (true, false) => format!("{place} {counted}{list}"),
+                (false, true) => {
+                    format!("there {} {counted}{list}", if number == 1 { "is" } else { "are" })
+                }
+                (false, false) => {
+                    format!(
+                        "there {} {counted} {place}{list}",
+                        if number == 1 { "is" } else { "are" }
+                    )
+                }
+            }
+        };
+        let said = if number == 0 { Said::Nothing } else { Said::Found };
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }
+            .about(&anchors)
+            .number(number as f64))
+    }
+
+    pub(super) fn exists(
+        &self,
+        what: &[Noun],
+        either: bool,
+        negated: bool,
+    ) -> Result<Draft, Doubt> {
+        let mut found: Vec<Vec<Thing>> = Vec::new();
+        for noun in what {
+            found.push(self.find(noun, true)?);
+        }
+        let have = |n: usize| !found[n].is_empty();
+        let any = (0..what.len()).any(have);
+        let all = (0..what.len()).all(have);
+        let holds = if either { any } else { all };
+        let mut parts: Vec<String> = Vec::new();
+        for (noun, things) in what.iter().zip(&found) {
+            parts.push(self.existing(noun, things));
+        }
+        let join = self.pick(", но ", ", but ");
+        let join = if all || !any { self.pick(", и ", " and ") } else { join };
+        let text = parts.join(join);
+        // «В комнате нет стула?» is answered by «Да, нет» only in words that cannot mislead.
+        let yes = holds != negated;
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
+        let facts = what.iter().zip(&found).flat_map(|(n, f)| self.facts_of(n, f)).collect();
+        let things: Vec<Thing> = found.concat();
+        let anchors = self.anchor_things(&what[0]);
+        let said = if holds { Said::Yes } else { Said::No };
+        Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
+            .about(&anchors))
+    }
+
+    /// «в Комнате-В есть 2 стула: Стул-1 и Стул-2», «в Комнате-В нет стульев»
+    fn existing(&self, noun: &Noun, things: &[Thing]) -> String {
+        let place = self.restrictions(noun);
+        let blank = if place.is_empty() { String::new() } else { format!("{place} ") };
+        if things.is_empty() {
+            let none = self.none_of(noun);
+            return match (self.is_russian(), noun.head.anything) {
+                (true, true) => format!("{blank}ничего нет"),
+                (false, true) => format!("there is nothing {place}"),
+                (true, false) if place.is_empty() => format!("на карте нет {none}"),
+                (true, false) => format!("{blank}нет {none}"),
+                (false, false) if place.is_empty() => format!("there are no {none} on the map"),
+                (false, false) => format!("there are no {none} {place}"),
+            };
+        }
+        let list = self.list(things);
+        let general = noun.head.anything || noun.head.kinds.is_empty();
+        let unplaced = place.is_empty() && things.len() == 1;
+        let room = things.first().filter(|_| unplaced).and_then(|t| self.in_room(*t));
+        let room = room
+            .filter(|_| things[0].area().is_none())
+            .map(|r| format!(" {r}"))
+            .unwrap_or_default();
+        match (self.is_russian(), general || things.len() == 1) {
+            (true, true) => format!("{blank}есть {list}{room}"),
+            (true, false) => format!("{blank}есть {}: {list}", self.counted(noun, things.len())),
+            (false, true) => {
+                let verb = if things.len() == 1 { "is" } else { "are" };
+                format!("there {verb} {list}{room} {place}")
+            }
+            (false, false) => {
+                format!("there are {} {place}: {list}", self.counted(noun, things.len()))
+            }
+        }
+        .trim_end()
+        .replace(" :", ":")
+    }
+}

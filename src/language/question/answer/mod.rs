@@ -1,0 +1,141 @@
+//! From a query to its answer: what was found, the facts it rests on, and the sentence.
+
+mod claim;
+mod compare;
+mod found;
+mod place;
+mod property;
+mod senses;
+mod size;
+mod usable;
+mod way;
+
+use super::knowledge::Knowledge;
+use super::query::{Noun, Query, Rel, Thing};
+use super::speech::sentence;
+use super::{Answer, Doubt, Fact, Said};
+
+/// An answer on its way: what is known of it beside its words.
+#[derive(Debug, Default)]
+pub(super) struct Draft {
+    said: Option<Said>,
+    text: String,
+    things: Vec<Thing>,
+    facts: Vec<Fact>,
+    /// What pronouns mean from now on, beside the things.
+    topic: Vec<Thing>,
+    number: Option<f64>,
+}
+
+impl Draft {
+    fn new(said: Said, text: String) -> Self {
+        Self { said: Some(said), text, ..Self::default() }
+    }
+
+    pub(super) fn plain(said: Said, text: String) -> Self {
+        Self::new(said, text)
+    }
+
+    pub(super) fn rest_on(&mut self, fact: Fact) {
+        self.facts.push(fact);
+    }
+
+    fn with(mut self, things: Vec<Thing>) -> Self {
+        self.things = things;
+        self
+    }
+
+    fn about(mut self, topic: &[Thing]) -> Self {
+        self.topic.extend_from_slice(topic);
+        self
+    }
+
+    fn number(mut self, number: f64) -> Self {
+        self.number = Some(number);
+        self
+    }
+}
+
+impl Knowledge<'_> {
+    /// # Errors
+    /// A description that fits several things where one is meant, or none.
+    pub(super) fn answer(&self, query: &Query) -> Result<Answer, Doubt> {
+        let draft = match query {
+            Query::Where(noun) => self.say_where(noun)?,
+            Query::RoomOf(noun) => self.room_of(noun)?,
+            Query::Find(noun) => self.say_found(noun)?,
+            Query::Count(noun) => self.count(noun)?,
+            Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
+            Query::Holds { subject, claims, negated } => {
+                self.say_holds(subject, claims, *negated)?
+            }
+            Query::Choice { subject, claims } => self.choose(subject, claims)?,
+            Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,
+            Query::Property { property, of } => self.property(property, of)?,
+            Query::Size { dimension, of } => self.size(*dimension, of)?,
+            Query::Parts(noun) => self.parts(noun)?,
+            Query::Leads(noun) => self.leads(noun)?,
+            Query::Way { from, to, detail } => self.way(from.as_ref(), to, Some(*detail))?,
+            Query::CanReach { from, to } => self.way(from.as_ref(), to, None)?,
+            Query::Distance { from, to } => self.say_distance(from.as_ref(), to)?,
+            Query::Closer { what, near, than, closeness } => {
+                self.closer(what, near, than, *closeness)?
+            }
+            Query::WhichMore { of, extreme, to } => self.which_more(of, *extreme, to.as_ref())?,
+            Query::Larger { what, than, extreme, to } => {
+                self.larger(what, than, *extreme, to.as_ref())?
+            }
+            Query::MoreOf { of, extreme, asks } => self.more_of(of, *extreme, *asks)?,
+            Query::Same { property, of } => self.same(property, of)?,
+            Query::Free(noun) => self.free(noun)?,
+            Query::Place { use_for, what, within } => {
+                self.usable(*use_for, what.as_ref(), within)?
+            }
+            Query::LastSeen(noun) => self.last_seen(noun)?,
+            Query::Before(noun) => self.before(noun)?,
+            Query::WhereAreYou(detail) => self.where_are_you(*detail),
+            Query::WhatDoYouSee => self.what_do_you_see(),
+            Query::WhatDoYouHold => self.what_do_you_hold(),
+            Query::Describe(noun) => self.describe(noun)?,
+            Query::Why { negated, about } => self.why(*negated, about.as_deref())?,
+        };
+        let mut topic = draft.things.clone();
+        topic.extend(draft.topic);
+        Ok(Answer {
+            query: query.clone(),
+            language: self.language,
+            said: draft.said.unwrap_or(Said::Found),
+            text: sentence(&draft.text),
+            symbols: draft.things.iter().map(|t| self.symbol(*t)).collect(),
+            things: draft.things,
+            facts: draft.facts,
+            number: draft.number,
+            topic,
+        })
+    }
+
+    fn fact(&self, rel: Rel, x: Thing, y: Thing) -> Option<Fact> {
+        let (relation, a, b) = self.tuple(rel, x, y)?;
+        Some(Fact::holding(relation, vec![self.symbol(a), self.symbol(b)]))
+    }
+
+    /// The fact that would have to hold.
+    fn missing(&self, rel: Rel, x: Thing, y: Thing) -> Option<Fact> {
+        let basis = super::knowledge::bases(rel).first()?;
+        let (a, b) = if basis.swapped { (y, x) } else { (x, y) };
+        let args = vec![self.symbol(a), self.symbol(b)];
+        Some(Fact { relation: basis.relation.to_owned(), args, holds: false })
+    }
+
+    fn facts_of(&self, noun: &Noun, found: &[Thing]) -> Vec<Fact> {
+        let mut facts = Vec::new();
+        for restriction in &noun.restrictions {
+            let Some(anchor) = restriction.anchors.first() else { continue };
+            let Ok(anchors) = self.find(anchor, true) else { continue };
+            for thing in found.iter().take(50) {
+                facts.extend(anchors.iter().find_map(|a| self.fact(restriction.rel, *thing, *a)));
+            }
+        }
+        facts
+    }
+}

@@ -1,0 +1,403 @@
+//! Where a thing is: on what, in which room, beside what; where a door stands and what a room lies next to.
+//!
+//! Invariant: every place that is said rests on a fact that is handed out with it.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Doubt, Fact, Said};
+use crate::language::report::{Detail, Named};
+use crate::language::words::length;
+use crate::language::words::{Case, enumerate, russian};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    pub(super) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let found = self.definite(noun)?;
+        let mut facts = Vec::new();
+        if let [only] = found[..] {
+            let text = self.where_one(only, &mut facts);
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
+        // Several: by place, those in one place together.
+        let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();
+        for &thing in &found {
+            let place = self.short_place(thing, &mut facts);
+            match groups.iter_mut().find(|(p, _)| *p == place) {
+                Some((_, things)) => things.push(thing),
+                None => groups.push((place, vec![thing])),
+            }
+        }
+        let parts: Vec<String> = groups
+            .iter()
+            .map(|(place, things)| match self.is_russian() {
+                true => format!("{place} – {}", self.list(things)),
+                false => format!("{} {} {place}", self.list(things), self.is(things)),
+            })
+            .collect();
+        let text =
+            if self.is_russian() { parts.join("; ") } else { enumerate(&parts, self.language) };
+        Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) })
+    }
+
+    /// «на Столе-1 в Комнате-В»
+    pub(in crate::language::question) fn short_place(
+        &self,
+        thing: Thing,
+        facts: &mut Vec<Fact>,
+    ) -> String {
+        if let Some(holder) = thing.replica().and_then(|id| self.senses.holder(id)) {
+            return self.in_hand(&holder);
+        }
+        let mut parts: Vec<String> = Vec::new();
+        if let Some(id) = thing.replica()
+            && let Some(support) = self.relations.support_of(id)
+        {
+            let support = Thing::Entity(Entity::Replica(support));
+            let inside = self.tuple(Rel::In, thing, support).is_some();
+            let rel = if inside { Rel::In } else { Rel::On };
+            parts.push(self.place(rel, &[support]));
+            facts.extend(self.fact(rel, thing, support));
+        }
+        if let Some(area) = self.area_of(thing) {
+            let area = Thing::Entity(Entity::Area(area));
+            parts.push(self.place(Rel::In, &[area]));
+            facts.extend(self.fact(Rel::In, thing, area));
+        }
+        if parts.is_empty() {
+            return self.pick("неизвестно где", "at an unknown place").to_owned();
+        }
+        parts.join(" ")
+    }
+
+    /// «у меня в руках», «у Оператора»
+    fn in_hand(&self, holder: &str) -> String {
+        if holder.is_empty() {
+            return self.pick("у меня в руках", "in my hands").to_owned();
+        }
+        let holder = Named::plain(holder);
+        match self.is_russian() {
+            true => russian::with(russian::Preposition::U, Case::Genitive, holder.phrase()),
+            false => format!("with {}", holder.english()),
+        }
+    }
+
+    pub(super) fn where_one(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
+        let name = self.name(thing);
+        match thing {
+            Thing::Entity(Entity::Area(id)) => self.where_area(id),
+            Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => self.where_gate(thing),
+            Thing::Entity(Entity::Map(_)) => {
+                let domain = &self.world.domain;
+                match self.is_russian() {
+                    true => format!("{name} – карта домейна «{}»", domain.name),
+                    false => {
+                        let title =
+                            if domain.name_en.is_empty() { &domain.name } else { &domain.name_en };
+                        format!("{name} is a map of \"{title}\"")
+                    }
+                }
+            }
+            Thing::Robot => self.senses.position(self.language, Detail::Spot).unwrap_or_default(),
+            _ => {
+                let place = self.short_place(thing, facts);
+                let near = self.beside(thing, facts);
+                format!("{name} {} {place}{near}", self.is(&[thing]))
+            }
+        }
+    }
+
+    /// «, в 12 см перед Письменным столом»: where a thing stands on the floor, told by what is nearest.
+    pub(super) fn beside(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
+        let Some(id) = thing.replica() else { return String::new() };
+        let russian = self.is_russian();
+        let over = self.related_of(Rel::Under, thing);
+        if self.relations.support_of(id).is_some() {
+            return String::new();
+        }
+        if let Some(&above) = over
+            .iter()
+            .find(|t| self.tuple(Rel::Under, thing, **t).is_some_and(|(r, _, _)| r == "UNDER"))
+        {
+            facts.extend(self.fact(Rel::Under, thing, above));
+            return format!(", {}", self.place(Rel::Under, &[above]));
+        }
+        let mut near: Vec<(f64, Thing)> = self
+            .related(Rel::NextTo, thing)
+            .into_iter()
+            .filter(|t| t.replica().is_some_and(|r| !self.has_trait(r, "portable")))
+            .filter_map(|t| Some((self.distance(thing, t)?, t)))
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let Some(&(distance, anchor)) = near.first() else { return String::new() };
+        facts.extend(self.fact(Rel::NextTo, thing, anchor));
+        let side = [Rel::LeftOf, Rel::RightOf, Rel::InFrontOf, Rel::Behind]
+            .into_iter()
+            .find(|rel| self.tuple(*rel, thing, anchor).is_some());
+        if let Some(side) = side {
+            facts.extend(self.fact(side, thing, anchor));
+        }
+        let place = self.place(side.unwrap_or(Rel::NextTo), &[anchor]);
+        let exact = match (distance >= 1.0, russian) {
+            (true, true) => format!("в {} ", length(distance, self.language)),
+            (true, false) => format!("{} ", length(distance, self.language)),
+            (false, true) if side.is_some() => "вплотную ".to_owned(),
+            _ => String::new(),
+        };
+        let frame = side.filter(|s| matches!(s, Rel::LeftOf | Rel::RightOf));
+        let frame = frame.map(|s| self.frame_words(s, anchor)).unwrap_or_default();
+        match (side.is_some(), distance >= 1.0, russian) {
+            (false, true, true) => {
+                let form = self.form(anchor, Case::Genitive);
+                let from = russian::preposition(russian::Preposition::Ot, &form);
+                format!(", в {} {from} {form}", length(distance, self.language))
+            }
+            (false, true, false) => {
+                format!(", {} from {}", length(distance, self.language), self.name(anchor))
+            }
+            _ => format!(", {exact}{place}{frame}"),
+        }
+    }
+
+    /// Things to which a thing lies so: the other end of a relation.
+    fn related_of(&self, rel: Rel, thing: Thing) -> Vec<Thing> {
+        match rel {
+            Rel::In if thing.replica().is_some() => {
+                let mut found = self.related(Rel::Has, thing);
+                found.sort_unstable();
+                found
+            }
+            Rel::On => self
+                .related(Rel::Bears, thing)
+                .into_iter()
+                .filter(|t| self.tuple(Rel::On, thing, *t).is_some())
+                .collect(),
+            Rel::Under => {
+                let mut found = self.related(Rel::Above, thing);
+                found.extend(self.related(Rel::On, thing));
+                found.retain(|t| self.tuple(Rel::Under, thing, *t).is_some());
+                found
+            }
+            Rel::Above => {
+                let mut found = self.related(Rel::Under, thing);
+                found.retain(|t| self.tuple(Rel::Above, thing, *t).is_some());
+                found
+            }
+            Rel::NextTo | Rel::Near | Rel::At => self.related(rel, thing),
+            _ => self.others_with(rel, thing),
+        }
+    }
+
+    /// Anchors of relations that are looked up one way only, among the things of the room.
+    fn others_with(&self, rel: Rel, thing: Thing) -> Vec<Thing> {
+        let Some(area) = self.area_of(thing) else { return Vec::new() };
+        let here = self.related(Rel::In, Thing::Entity(Entity::Area(area)));
+        here.into_iter().filter(|t| *t != thing && self.tuple(rel, thing, *t).is_some()).collect()
+    }
+
+    fn where_area(&self, id: crate::units::AreaId) -> String {
+        let thing = Thing::Entity(Entity::Area(id));
+        let name = self.name(thing);
+        let map = self.world.placement(id).map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let several = self.world.maps.len() > 1;
+        let gates: Vec<_> = self.gates().iter().filter(|g| g.areas.contains(&id)).collect();
+        let next: Vec<String> = gates
+            .iter()
+            .filter_map(|g| {
+                let other = g.areas.iter().find(|a| **a != id)?;
+                let other = self.place(Rel::To, &[Thing::Entity(Entity::Area(*other))]);
+                Some(format!("{other} ({})", self.name(g.thing)))
+            })
+            .collect();
+        let mut text = match (map, self.is_russian()) {
+            (Some(map), true) => {
+                let floor = self.form(map, Case::Genitive);
+                let _ = several;
+                format!("{name} – помещение {floor}")
+            }
+            (Some(map), false) => format!("{name} is a room of {}", self.name(map)),
+            (None, true) => format!("{name} – помещение"),
+            (None, false) => format!("{name} is a room"),
+        };
+        if !next.is_empty() {
+            let list = enumerate(&next, self.language);
+            text = match self.is_russian() {
+                true => format!("{text}; оттуда можно попасть {list}"),
+                false => format!("{text}; from there one gets {list}"),
+            };
+        }
+        text
+    }
+
+    fn where_gate(&self, thing: Thing) -> String {
+        let name = self.name(thing);
+        let Some(gate) = self.gate(thing) else {
+            return self.where_object_door(thing);
+        };
+        let areas: Vec<Thing> =
+            gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect();
+        match (&areas[..], self.is_russian()) {
+            ([_, _, ..], true) => {
+                format!("{name} {} {}", self.find_is(thing), self.place(Rel::Between, &areas))
+            }
+            ([_, _, ..], false) => format!("{name} is {}", self.place(Rel::Between, &areas)),
+            ([only], true) => {
+                format!(
+                    "{name} {} {} и ведёт за пределы карты",
+                    self.find_is(thing),
+                    self.place(Rel::In, &[*only])
+                )
+            }
+            ([only], false) => {
+                format!("{name} is {} and leads out of the map", self.place(Rel::In, &[*only]))
+            }
+            ([], true) => format!("{name}: помещение неизвестно"),
+            ([], false) => format!("{name}: its room is unknown"),
+        }
+    }
+
+    fn find_is(&self, thing: Thing) -> &'static str {
+        self.is(&[thing])
+    }
+
+    /// A door of a wardrobe is where its wardrobes are.
+    fn where_object_door(&self, thing: Thing) -> String {
+        let Thing::Entity(Entity::Door(door)) = thing else { return self.name(thing) };
+        let has = |r: &&crate::map::Replica| {
+            let object = self.world.objects.get(&r.object);
+            object.is_some_and(|o| o.doors.iter().any(|m| m.door == door))
+        };
+        let owners: Vec<Thing> = self
+            .world
+            .replicas
+            .values()
+            .filter(has)
+            .map(|r| Thing::Entity(Entity::Replica(r.id)))
+            .collect();
+        let name = self.name(thing);
+        match (owners.is_empty(), self.is_russian()) {
+            (true, true) => format!("{name}: место неизвестно"),
+            (true, false) => format!("{name}: its place is unknown"),
+            (false, true) => {
+                let own = self.names(&owners, Case::Genitive);
+                format!("{name} – часть {own}")
+            }
+            (false, false) => format!("{name} is part of {}", self.list(&owners)),
+        }
+    }
+
+    pub(super) fn room_of(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let found = self.definite(noun)?;
+        let mut rooms: Vec<Thing> = Vec::new();
+        let mut parts: Vec<String> = Vec::new();
+        let mut facts = Vec::new();
+        let several = self.world.maps.len() > 1;
+        for &thing in &found {
+            let areas: Vec<Thing> = match self.gate(thing) {
+                Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
+                None => match thing {
+                    Thing::Entity(Entity::Area(id)) => {
+                        let map =
+                            self.world.placement(id).map(|(m, _)| Thing::Entity(Entity::Map(m)));
+                        map.into_iter().collect()
+                    }
+                    _ => self
+                        .area_of(thing)
+                        .map(|a| Thing::Entity(Entity::Area(a)))
+                        .into_iter()
+                        .collect(),
+                },
+            };
+            let name = self.name(thing);
+            let Some(&first) = areas.first() else {
+                parts.push(match self.is_russian() {
+                    true => format!("{name}: помещение неизвестно"),
+                    false => format!("the room of {name} is unknown"),
+                });
+                continue;
+            };
+            facts.extend(self.fact(Rel::In, thing, first));
+            let place = if areas.len() > 1 {
+                self.place(Rel::Between, &areas)
+            } else {
+                self.place(Rel::In, &areas)
+            };
+            let mut part = format!("{name} {} {place}", self.is(&[thing]));
+            if several && let Some((map, _)) = first.area().and_then(|a| self.world.placement(a)) {
+                let map = Thing::Entity(Entity::Map(map));
+                part = match self.is_russian() {
+                    true => format!("{part} ({})", self.name(map)),
+                    false => format!("{part} ({})", self.name(map)),
+                };
+            }
+            parts.push(part);
+            for area in areas {
+                if !rooms.contains(&area) {
+                    rooms.push(area);
+                }
+            }
+        }
+        let text = parts.join("; ");
+        let said = if rooms.is_empty() { Said::Unknown } else { Said::Found };
+        Ok(Draft { facts, ..Draft::new(said, text).with(rooms) }.about(&found))
+    }
+
+    /// What a thing stands on, lies in, is beside: the other end of a relation.
+    pub(super) fn anchor(&self, rel: Rel, of: &Noun, what: Option<&Noun>) -> Result<Draft, Doubt> {
+        let thing = self.one(of)?;
+        let mut found = match rel {
+            Rel::On => {
+                let id = thing.replica();
+                let support = id.and_then(|id| self.relations.support_of(id));
+                support.map(|s| Thing::Entity(Entity::Replica(s))).into_iter().collect()
+            }
+            Rel::In => self.holder(thing),
+            Rel::From | Rel::Of | Rel::To => self.related(Rel::Near, thing),
+            rel => self.related_of(rel, thing),
+        };
+        let floor = rel == Rel::On && found.is_empty();
+        if let Some(what) = what.filter(|w| !w.head.kinds.is_empty() && !self.is_floor(w)) {
+            let kinds =
+                self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
+            found.retain(|t| kinds.contains(t));
+        }
+        let facts: Vec<Fact> = found.iter().filter_map(|y| self.fact(rel, thing, *y)).collect();
+        let name = self.name(thing);
+        let verb = self.is(&[thing]);
+        if found.is_empty() {
+            let text = match (floor, self.is_russian()) {
+                (true, true) => {
+                    let room = self.in_room(thing).map(|r| format!(" {r}")).unwrap_or_default();
+                    format!("{name} {verb} на полу{room}")
+                }
+                (true, false) => {
+                    let room = self.in_room(thing).map(|r| format!(" {r}")).unwrap_or_default();
+                    format!("{name} {verb} on the floor{room}")
+                }
+                (false, true) => {
+                    format!("такого на карте нет: {}", self.where_one(thing, &mut Vec::new()))
+                }
+                (false, false) => {
+                    format!("there is no such thing: {}", self.where_one(thing, &mut Vec::new()))
+                }
+            };
+            let said = if floor { Said::Found } else { Said::Nothing };
+            return Ok(Draft::new(said, text).about(&[thing]));
+        }
+        // In a container is not on it, though people ask so.
+        let shown = match rel {
+            Rel::On if self.tuple(Rel::In, thing, found[0]).is_some() => Rel::In,
+            rel => rel,
+        };
+        let frame = self.frame_words(rel, found[0]);
+        let text = format!("{name} {verb} {}{frame}", self.place(shown, &found));
+        Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) }.about(&[thing]))
+    }
+
+    /// The nearest thing that holds another, else its room.
+    fn holder(&self, thing: Thing) -> Vec<Thing> {
+        let all = self.related(Rel::Has, thing);
+        let things: Vec<Thing> = all.iter().copied().filter(|t| t.replica().is_some()).collect();
+        if things.is_empty() { all } else { things }
+    }
+}

@@ -1,0 +1,210 @@
+//! Colour, material, state and all other properties; what a thing is as a whole.
+//!
+//! Invariant: a property that the map does not give is said to be missing, never guessed.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::speech::sentence;
+use crate::language::question::values::Property;
+use crate::language::question::{Doubt, Fact, Said};
+use crate::language::words::{Case, Language, enumerate};
+use crate::map::{DoorStatus, Entity};
+
+impl Knowledge<'_> {
+    /// The map's own name of a property.
+    pub(super) fn property_name(&self, thing: Thing, property: &Property) -> String {
+        let find = |properties: &crate::map::Properties| {
+            properties.keys().find(|name| Property::of(name) == *property).cloned()
+        };
+        let found = match thing {
+            Thing::Entity(Entity::Replica(id)) => self.world.replicas.get(&id).and_then(|r| {
+                find(&r.properties)
+                    .or_else(|| self.world.objects.get(&r.object).and_then(|o| find(&o.properties)))
+            }),
+            Thing::Entity(Entity::Door(id)) => {
+                self.world.doors.get(&id).and_then(|d| find(&d.properties))
+            }
+            Thing::Entity(Entity::Area(id)) => {
+                self.world.areas.get(&id).and_then(|a| find(&a.properties))
+            }
+            _ => None,
+        };
+        found.unwrap_or_else(|| property.noun(Language::Russian).to_uppercase())
+    }
+
+    pub(super) fn property(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+        let found = self.definite(of)?;
+        let mut parts: Vec<String> = Vec::new();
+        let mut facts = Vec::new();
+        let mut known = false;
+        for &thing in &found {
+            let name = self.name(thing);
+            let own: Vec<_> =
+                self.values(thing).into_iter().filter(|(p, _, _)| p == property).collect();
+            if own.is_empty() {
+                parts.push(self.no_property(property, thing));
+                continue;
+            }
+            known = true;
+            let words: Vec<String> = own
+                .iter()
+                .map(|(_, value, text)| match value {
+                    Some(value) => self.value_of(property, *value, thing),
+                    None => text.to_lowercase(),
+                })
+                .collect();
+            for (_, _, text) in &own {
+                facts.push(match (thing, self.statuses(thing).first(), property) {
+                    (Thing::Entity(Entity::Door(_)), Some((status, _)), Property::State) => {
+                        Fact::holding(
+                            "DOOR_IS",
+                            vec![self.symbol(thing), status_word(*status).to_owned()],
+                        )
+                    }
+                    _ => {
+                        let name = self.property_name(thing, property);
+                        Fact::holding("HAS", vec![self.symbol(thing), name, text.clone()])
+                    }
+                });
+            }
+            let words = enumerate(&words, self.language);
+            parts.push(match (self.is_russian(), property) {
+                (
+                    true,
+                    Property::Colour | Property::State | Property::Surface | Property::Orientation,
+                ) => {
+                    let dash =
+                        if words.ends_with(['н', 'т', 'а', 'о', 'ы']) { "" } else { "– " };
+                    let _ = dash;
+                    format!("{name} {words}")
+                }
+                (true, Property::Material) => format!("{name} {words}"),
+                (true, other) => format!("{name}: {} – {words}", other.noun(Language::Russian)),
+                (false, Property::Material) => format!("{name} is made of {}", material(&words)),
+                (false, Property::Other(key)) => format!("{key} of {name}: {words}"),
+                (false, _) => format!("{name} is {words}"),
+            });
+        }
+        let said = if known { Said::Found } else { Said::Unknown };
+        let text = parts.join("; ");
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) })
+    }
+
+    pub(super) fn no_property(&self, property: &Property, thing: Thing) -> String {
+        let noun = property.noun(self.language);
+        match self.is_russian() {
+            true => format!(
+                "{} {} на карте не {}",
+                noun,
+                self.form(thing, Case::Genitive),
+                match property {
+                    Property::State => "указано",
+                    Property::Surface | Property::Shape | Property::Orientation => "указана",
+                    _ => "указан",
+                }
+            ),
+            false => format!("the map does not give the {noun} of {}", self.name(thing)),
+        }
+    }
+
+    pub(super) fn describe(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(noun)?;
+        let name = self.name(thing);
+        let mut facts = Vec::new();
+        let mut parts: Vec<String> = Vec::new();
+        let kind = self.kind_name(thing);
+        parts.push(match (kind, self.is_russian()) {
+            (Some(kind), true) => format!("{name} – {kind}"),
+            (Some(kind), false) => format!("{name} is {}", crate::language::english::a(&kind)),
+            (None, _) => name,
+        });
+        parts.push(self.where_one(thing, &mut facts));
+        let values: Vec<String> = self
+            .values(thing)
+            .iter()
+            // The id that a foreign file gave is nothing to tell.
+            .filter(|(_, value, text)| value.is_some() && !text.contains('|'))
+            .map(|(property, value, text)| match value {
+                Some(value) => self.value_of(property, *value, thing),
+                None => format!("{} – {text}", property.noun(self.language)),
+            })
+            .collect();
+        if !values.is_empty() {
+            parts.push(match self.is_russian() {
+                true => format!("свойства: {}", enumerate(&values, self.language)),
+                false => format!("properties: {}", enumerate(&values, self.language)),
+            });
+        }
+        if let Some(sizes) = self.sizes(thing) {
+            parts.push(match self.is_russian() {
+                true => format!("размеры {sizes}"),
+                false => format!("size {sizes}"),
+            });
+        }
+        if thing.area().is_some() {
+            let here: Vec<Thing> = self
+                .related(Rel::In, thing)
+                .into_iter()
+                .filter(|t| t.replica().is_some())
+                .collect();
+            if !here.is_empty() {
+                parts.push(match self.is_russian() {
+                    true => format!("здесь {} {}", self.is(&here), self.list(&here)),
+                    false => format!("here {} {}", self.is(&here), self.list(&here)),
+                });
+            }
+        }
+        Ok(Draft {
+            facts,
+            ..Draft::new(
+                Said::Found,
+                parts.iter().map(|p| sentence(p)).collect::<Vec<_>>().join(" "),
+            )
+            .with(vec![thing])
+        })
+    }
+
+    /// «стул», "chair": the type of a thing.
+    pub(in crate::language::question) fn kind_name(&self, thing: Thing) -> Option<String> {
+        let entry = match thing {
+            Thing::Entity(Entity::Replica(id)) => {
+                let object = self.world.objects.get(&self.world.replicas.get(&id)?.object)?;
+                self.world.types.object.get(object.object_type)
+            }
+            Thing::Entity(Entity::Area(id)) => {
+                self.world.types.area.get(self.world.areas.get(&id)?.area_type)
+            }
+            Thing::Entity(Entity::Door(id)) => {
+                let door = self.world.doors.get(&id)?;
+                return Some(match (door.kind, self.is_russian()) {
+                    (crate::map::DoorKind::Passage, true) => "проход".to_owned(),
+                    (crate::map::DoorKind::Passage, false) => "passage".to_owned(),
+                    (_, true) => "дверь".to_owned(),
+                    (_, false) => "door".to_owned(),
+                });
+            }
+            _ => None,
+        }?;
+        Some(match self.is_russian() || entry.name_en.is_empty() {
+            true => crate::language::question::lexicon::lower_first(&entry.name),
+            false => entry.name_en.clone(),
+        })
+    }
+}
+
+/// "wood" for "wooden".
+fn material(words: &str) -> String {
+    match words {
+        "wooden" => "wood".to_owned(),
+        other => other.to_owned(),
+    }
+}
+
+pub(super) fn status_word(status: DoorStatus) -> &'static str {
+    match status {
+        DoorStatus::Open => "open",
+        DoorStatus::Closed => "closed",
+        DoorStatus::Locked => "locked",
+    }
+}

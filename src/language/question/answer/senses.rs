@@ -1,0 +1,123 @@
+//! What the robot itself knows: where it stands, what it sees, what it saw when, and where things were before.
+//!
+//! Invariant: what was not seen is told as being by the map.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Doubt, Said};
+use crate::language::report::Detail;
+use crate::language::words::{Case, Number};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    pub(super) fn last_seen(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(noun)?;
+        let sightings = thing.replica().map(|id| self.senses.sightings(id)).unwrap_or_default();
+        let name = self.name(thing);
+        let Some(last) = sightings.iter().rev().find(|s| s.place.is_some()) else {
+            let place = self.short_place(thing, &mut Vec::new());
+            let text = match self.is_russian() {
+                true => {
+                    let seen = self.form(thing, Case::Genitive);
+                    format!("сам я {seen} не видел; по карте {name} {} {place}", self.is(&[thing]))
+                }
+                false => format!("I have not seen {name} myself; by the map it is {place}"),
+            };
+            return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
+        };
+        let place = last.place.map(|a| self.place(Rel::In, &[Thing::Entity(Entity::Area(a))]));
+        let place = place.unwrap_or_default();
+        let text = match self.is_russian() {
+            true => {
+                let seen = self.form(thing, Case::Accusative);
+                format!("последний раз я видел {seen} {} {place}", last.at)
+            }
+            false => format!("I last saw {name} {} {place}", last.at),
+        };
+        Ok(Draft::new(Said::Found, text).with(vec![thing]))
+    }
+
+    pub(super) fn before(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(noun)?;
+        let past = thing.replica().map(|id| self.senses.past(id)).unwrap_or_default();
+        let name = self.name(thing);
+        let Some(last) = past.last() else {
+            let text = match self.is_russian() {
+                true => format!(
+                    "других мест {} в истории нет: {}",
+                    self.form(thing, Case::Genitive),
+                    self.where_one(thing, &mut Vec::new())
+                ),
+                false => format!(
+                    "the history knows no other place: {}",
+                    self.where_one(thing, &mut Vec::new())
+                ),
+            };
+            return Ok(Draft::new(Said::Nothing, text).with(vec![thing]));
+        };
+        let mut parts = Vec::new();
+        if let Some(support) = last.support {
+            let support = Thing::Entity(Entity::Replica(support));
+            parts.push(self.place(Rel::On, &[support]));
+        }
+        if let Some(area) = last.area {
+            parts.push(self.place(Rel::In, &[Thing::Entity(Entity::Area(area))]));
+        }
+        let place = parts.join(" ");
+        let until = &last.until;
+        let (gender, number) = self.gender(thing);
+        let text = match self.is_russian() {
+            true => {
+                let verb = match (number, gender) {
+                    (Number::Plural, _) => "находились",
+                    (_, crate::language::Gender::Feminine) => "находилась",
+                    (_, crate::language::Gender::Neuter) => "находилось",
+                    _ => "находился",
+                };
+                format!("до {until} {name} {verb} {place}")
+            }
+            false => format!("until {until} {name} was {place}"),
+        };
+        Ok(Draft::new(Said::Found, text).with(vec![thing]))
+    }
+
+    pub(super) fn where_are_you(&self, detail: Detail) -> Draft {
+        let unknown =
+            || self.pick("я не знаю, где нахожусь", "I do not know where I am").to_owned();
+        let text = self.senses.position(self.language, detail);
+        let said = if text.is_some() { Said::Found } else { Said::Unknown };
+        let room = self.area_of(Thing::Robot).map(|a| Thing::Entity(Entity::Area(a)));
+        Draft::new(said, text.unwrap_or_else(unknown)).with(room.into_iter().collect())
+    }
+
+    pub(super) fn what_do_you_hold(&self) -> Draft {
+        let held: Vec<Thing> =
+            self.senses.held().into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect();
+        let text = match (held.is_empty(), self.is_russian()) {
+            (true, true) => "в руках у меня ничего нет".to_owned(),
+            (true, false) => "I am holding nothing".to_owned(),
+            (false, true) => format!("в руках у меня {}", self.list(&held)),
+            (false, false) => format!("I am holding {}", self.list(&held)),
+        };
+        let said = if held.is_empty() { Said::Nothing } else { Said::Found };
+        Draft::new(said, text).with(held)
+    }
+
+    pub(super) fn what_do_you_see(&self) -> Draft {
+        let seen: Vec<Thing> = self
+            .senses
+            .visible()
+            .into_iter()
+            .map(|id| Thing::Entity(Entity::Replica(id)))
+            .collect();
+        let text = match (seen.is_empty(), self.is_russian()) {
+            (true, true) => "передо мной ничего нет".to_owned(),
+            (true, false) => "I see nothing before me".to_owned(),
+            (false, true) => format!("я вижу {}", self.names(&seen, Case::Accusative)),
+            (false, false) => format!("I see {}", self.list(&seen)),
+        };
+        let said = if seen.is_empty() { Said::Nothing } else { Said::Found };
+        Draft::new(said, text).with(seen)
+    }
+}

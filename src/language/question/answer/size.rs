@@ -1,0 +1,210 @@
+//! How big a thing is, and which parts it consists of.
+//!
+//! Lengths in cm, areas in cm².
+//! Invariant: the number of the answer is the measure that the sentence says.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Dimension, Noun, Thing};
+use crate::language::question::{Doubt, Fact, Said};
+use crate::language::words::{Case, Number, enumerate};
+use crate::language::words::{area, length};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    /// «90×30×190 см»
+    pub(super) fn sizes(&self, thing: Thing) -> Option<String> {
+        let extent = match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
+            Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
+            _ => return None,
+        };
+        let unit = self.pick("см", "cm");
+        Some(format!("{:.0}×{:.0}×{:.0} {unit}", extent.width, extent.depth, extent.height))
+    }
+
+    pub(super) fn size(&self, dimension: Dimension, of: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(of)?;
+        let name = self.name(thing);
+        let lang = self.language;
+        let extent = match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.extent(id),
+            Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id),
+            _ => None,
+        };
+        let door = match thing {
+            Thing::Entity(Entity::Door(id)) => self.world.doors.get(&id),
+            _ => None,
+        };
+        let (text, number) = match (extent, door) {
+            (Some(e), _) => match dimension {
+                Dimension::All if thing.area().is_some() => {
+                    let (area, height) = (area(e.base, lang), length(e.height, lang));
+                    let text = match self.is_russian() {
+                        true => format!("{name}: площадь {area}, высота {height}"),
+                        false => format!("{name} has a floor area of {area} and is {height} high"),
+                    };
+                    (text, e.base)
+                }
+                Dimension::All => {
+                    let sizes = self.sizes(thing).unwrap_or_default();
+                    let text = match self.is_russian() {
+                        true => format!(
+                            "размеры {}: {sizes} (ширина, глубина, высота)",
+                            self.form(thing, Case::Genitive)
+                        ),
+                        false => format!("{name} measures {sizes} (width, depth, height)"),
+                    };
+                    (text, e.height)
+                }
+                Dimension::Height => self.say_measure(thing, dimension, e.height),
+                Dimension::Width => self.say_measure(thing, dimension, e.width),
+                Dimension::Length => self.say_measure(thing, dimension, e.width.max(e.depth)),
+                Dimension::Area => self.say_measure(thing, dimension, e.base),
+            },
+            (None, Some(door)) => {
+                let (width, height) = (door.width.get(), door.height.get());
+                match dimension {
+                    Dimension::Height => self.say_measure(thing, dimension, height),
+                    Dimension::Width => self.say_measure(thing, dimension, width),
+                    _ => {
+                        let (wide, high) = (length(width, lang), length(height, lang));
+                        let text = match self.is_russian() {
+                            true => format!("{name}: ширина {wide}, высота {high}"),
+                            false => format!("{name} is {wide} wide and {high} high"),
+                        };
+                        (text, width)
+                    }
+                }
+            }
+            (None, None) => {
+                let text = match self.is_russian() {
+                    true => {
+                        format!("размеры {} на карте не указаны", self.form(thing, Case::Genitive))
+                    }
+                    false => format!("the map does not give the size of {name}"),
+                };
+                return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
+            }
+        };
+        Ok(Draft::new(Said::Found, text).with(vec![thing]).number(number))
+    }
+
+    /// «высота Стола – 75 см», "the table is 75 cm high", with the number.
+    fn say_measure(&self, thing: Thing, dimension: Dimension, value: f64) -> (String, f64) {
+        let said = match dimension {
+            Dimension::Area => area(value, self.language),
+            _ => length(value, self.language),
+        };
+        let text = if self.is_russian() {
+            let what = match dimension {
+                Dimension::Height => "высота",
+                Dimension::Width => "ширина",
+                Dimension::Area => "площадь",
+                Dimension::Length | Dimension::All => "длина",
+            };
+            format!("{what} {} – {said}", self.form(thing, Case::Genitive))
+        } else {
+            let name = self.name(thing);
+            match dimension {
+                Dimension::Height => format!("{name} is {said} high"),
+                Dimension::Width => format!("{name} is {said} wide"),
+                Dimension::Area => format!("{name} has an area of {said}"),
+                Dimension::Length | Dimension::All => format!("{name} is {said} long"),
+            }
+        };
+        (text, value)
+    }
+
+    pub(super) fn parts(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(noun)?;
+        let items = match thing {
+            Thing::Entity(Entity::Replica(id)) => {
+                let object =
+                    self.world.replicas.get(&id).and_then(|r| self.world.objects.get(&r.object));
+                object.map(|o| &o.items)
+            }
+            Thing::Entity(Entity::Area(id)) => self.world.areas.get(&id).map(|a| &a.items),
+            _ => None,
+        };
+        let name = self.name(thing);
+        let Some(items) = items.filter(|i| !i.is_empty()) else {
+            let text = match self.is_russian() {
+                true => format!("части {} на карте не описаны", self.form(thing, Case::Genitive)),
+                false => format!("the map does not tell the parts of {name}"),
+            };
+            return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
+        };
+        let mut counted: Vec<(crate::units::OrFrId, usize)> = Vec::new();
+        for item in items {
+            match counted.iter_mut().find(|(id, _)| *id == item.orthoframe) {
+                Some((_, n)) => *n += 1,
+                None => counted.push((item.orthoframe, 1)),
+            }
+        }
+        let mut facts = Vec::new();
+        let parts: Vec<String> = counted
+            .iter()
+            .filter_map(|(id, n)| {
+                let part = self.world.orthoframes.get(id)?;
+                let symbol = self.relations.symbols().symbol(crate::semantics::Subject::Part(*id));
+                let whole = match thing {
+                    Thing::Entity(Entity::Replica(r)) => {
+                        let object = self.world.replicas.get(&r)?.object;
+                        self.relations
+                            .symbols()
+                            .symbol(crate::semantics::Subject::Object(object))
+                            .to_string()
+                    }
+                    other => self.symbol(other),
+                };
+                facts.push(Fact::holding("PART_OF", vec![symbol.to_string(), whole]));
+                let kind = self.world.types.orthoframe.get(part.frame_type);
+                let title = match (part.name.is_empty(), kind) {
+                    (false, _) => part.name.clone(),
+                    (true, Some(kind)) => kind.name.clone(),
+                    (true, None) => part.key.clone(),
+                };
+                let english = match (part.name_en.is_empty(), kind) {
+                    (false, _) => part.name_en.clone(),
+                    (true, Some(kind)) if !kind.name_en.is_empty() => kind.name_en.clone(),
+                    _ => crate::language::english::name_of(&title).unwrap_or_else(|| title.clone()),
+                };
+                let phrase = crate::language::NounPhrase::parse(
+                    &title,
+                    &crate::language::WordHints::default(),
+                );
+                Some(match (self.is_russian(), *n) {
+                    (true, 1) => crate::language::question::lexicon::lower_first(
+                        &phrase.case(Case::Genitive),
+                    ),
+                    (true, n) => genitive_count(n, &phrase),
+                    (false, 1) => crate::language::english::with_article(&english.to_lowercase()),
+                    (false, n) => {
+                        crate::language::english::count(n as u64, &english.to_lowercase())
+                    }
+                })
+            })
+            .collect();
+        let list = enumerate(&parts, self.language);
+        let number = items.len() as f64;
+        let text = match self.is_russian() {
+            true => format!("{name} состоит из {list}"),
+            false => format!("{name} consists of {list}"),
+        };
+        Ok(Draft { facts, ..Draft::new(Said::Found, text).with(vec![thing]) }.number(number))
+    }
+}
+
+/// «двух полок», as after «состоит из».
+fn genitive_count(n: usize, phrase: &crate::language::NounPhrase) -> String {
+    const WORDS: [&str; 11] =
+        ["", "", "двух", "трёх", "четырёх", "пяти", "шести", "семи", "восьми", "девяти", "десяти"];
+    let plural = crate::language::question::lexicon::lower_first(
+        &phrase.form(Case::Genitive, Number::Plural),
+    );
+    match WORDS.get(n) {
+        Some(word) => format!("{word} {plural}"),
+        None => format!("{n} {plural}"),
+    }
+}

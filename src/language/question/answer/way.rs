@@ -1,0 +1,149 @@
+//! Where doors lead, the way from one place to another, and how far it is.
+//!
+//! Invariant: a way is the one that the robot would drive; how far without a way is said to be a straight line.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Doubt, Fact, Said};
+use crate::language::report::Detail;
+use crate::language::words::length;
+use crate::language::words::{Case, russian};
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    pub(super) fn leads(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let thing = self.one(noun)?;
+        let name = self.name(thing);
+        let areas: Vec<Thing> = self
+            .gate(thing)
+            .map(|g| g.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect())
+            .unwrap_or_default();
+        let text = match (&areas[..], self.is_russian()) {
+            ([a, b, ..], true) => format!(
+                "{name} соединяет {} и {}",
+                self.form(*a, Case::Accusative),
+                self.form(*b, Case::Accusative)
+            ),
+            ([a, b, ..], false) => format!("{name} joins {} and {}", self.name(*a), self.name(*b)),
+            ([a], true) => {
+                format!("{name} ведёт {} за пределы карты", self.place(Rel::From, &[*a]))
+            }
+            ([a], false) => format!("{name} leads from {} out of the map", self.name(*a)),
+            ([], true) => format!("{name}: куда ведёт, на карте не указано"),
+            ([], false) => format!("the map does not tell where {name} leads"),
+        };
+        let facts = match &areas[..] {
+            [a, b, ..] => vec![Fact::holding(
+                "JOINS",
+                vec![self.symbol(thing), self.symbol(*a), self.symbol(*b)],
+            )],
+            _ => Vec::new(),
+        };
+        let said = if areas.is_empty() { Said::Unknown } else { Said::Found };
+        Ok(Draft { facts, ..Draft::new(said, text).with(areas) }.about(&[thing]))
+    }
+
+    /// A way with as much as is asked for; without that, only whether there is one.
+    pub(super) fn way(
+        &self,
+        from: Option<&Noun>,
+        to: &Noun,
+        detail: Option<Detail>,
+    ) -> Result<Draft, Doubt> {
+        let yes_or_no = detail.is_none();
+        let from = from.map(|noun| self.one(noun)).transpose()?;
+        let to = self.one(to)?;
+        let way = self.senses.way(from, to, self.language, detail.unwrap_or_default());
+        let topic = [to];
+        Ok(match way {
+            Ok(way) => {
+                let far = length(way.length, self.language);
+                let steps = way.sentences.join(" ");
+                let text = match (yes_or_no, self.is_russian()) {
+                    (true, true) => format!("да, путь есть, его длина {far}. {steps}"),
+                    (true, false) => format!("yes, there is a way of {far}. {steps}"),
+                    (false, true) => format!("{steps} Длина пути {far}"),
+                    (false, false) => format!("{steps} The way is {far} long"),
+                };
+                let said = if yes_or_no { Said::Yes } else { Said::Found };
+                Draft::new(said, text).about(&topic).number(way.length)
+            }
+            Err(why) => {
+                let text = match self.is_russian() {
+                    true => format!(
+                        "{}проехать туда нельзя: {why}",
+                        if yes_or_no { "нет, " } else { "" }
+                    ),
+                    false => {
+                        format!("{}there is no way: {why}", if yes_or_no { "no, " } else { "" })
+                    }
+                };
+                Draft::new(Said::No, text).about(&topic)
+            }
+        })
+    }
+
+    pub(super) fn say_distance(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
+        let from = from.map(|noun| self.one(noun)).transpose()?;
+        let to = self.one(to)?;
+        let start = from.unwrap_or(Thing::Robot);
+        let straight = self.distance(start, to);
+        let areas = |t: Thing| match self.gate(t) {
+            Some(gate) => gate.areas.clone(),
+            None => self.area_of(t).into_iter().collect(),
+        };
+        let own = areas(start);
+        let same_room = areas(to).iter().any(|a| own.contains(a));
+        let things = start.area().is_none() && to.area().is_none() && start != Thing::Robot;
+        let way = match same_room && things {
+            true => None,
+            false => {
+                self.senses.way(from, to, self.language, Detail::Region).ok().map(|w| w.length)
+            }
+        };
+        let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
+        let until = russian::preposition(russian::Preposition::Do, &b);
+        let of = russian::preposition(russian::Preposition::Ot, &a);
+        let lang = self.language;
+        let name = |t: Thing| self.name(t);
+        let text = match (way, straight, self.is_russian()) {
+            (Some(way), Some(d), true) => format!(
+                "{of} {a} {until} {b} {} пути, по прямой {}",
+                length(way, lang),
+                length(d, lang)
+            ),
+            (Some(way), None, true) => format!("{of} {a} {until} {b} {} пути", length(way, lang)),
+            (None, Some(d), true) => format!("{of} {a} {until} {b} {}", length(d, lang)),
+            (Some(way), Some(d), false) => format!(
+                "from {} to {} it is {} by way, {} in a straight line",
+                name(start),
+                name(to),
+                length(way, lang),
+                length(d, lang)
+            ),
+            (Some(way), None, false) => format!(
+                "from {} to {} the way is {} long",
+                name(start),
+                name(to),
+                length(way, lang)
+            ),
+            (None, Some(d), false) => {
+                format!("from {} to {} it is {}", name(start), name(to), length(d, lang))
+            }
+            (None, None, true) => {
+                format!("расстояние {of} {a} {until} {b} неизвестно: они на разных картах")
+            }
+            (None, None, false) => format!(
+                "the distance from {} to {} is unknown: they are on different maps",
+                name(start),
+                name(to)
+            ),
+        };
+        let number = way.or(straight);
+        let said = if number.is_some() { Said::Found } else { Said::Unknown };
+        let mut draft = Draft::new(said, text).about(&[to]);
+        draft.number = number;
+        Ok(draft)
+    }
+}

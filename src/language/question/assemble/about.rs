@@ -1,0 +1,120 @@
+//! Questions about the robot, history, what things are good for, parts and properties.
+//!
+//! Invariant: a rule answers only where one of its telling words stands.
+
+use super::Frame;
+use super::Spot;
+use crate::language::question::query::{Query, Rel, Restriction, Use};
+use crate::language::question::values::Property;
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    pub(super) fn of_robot(&self) -> Option<Query> {
+        if self.has(Mark::Hold) && self.nouns.is_empty() {
+            return Some(Query::WhatDoYouHold);
+        }
+        let rooms_only = self.nouns.iter().all(|s| self.is_rooms(&s.noun));
+        let others = !rooms_only || !self.spots.is_empty();
+        if self.has(Mark::See) && self.nouns.is_empty() && self.spots.is_empty() {
+            return Some(Query::WhatDoYouSee);
+        }
+        let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
+        let moves = self.has(Mark::Can) || self.has(Mark::HowGet) || self.has(Mark::Sit);
+        if self.you && asks && !others && !moves && !self.has(Mark::Before) {
+            return Some(Query::WhereAreYou(self.detail()));
+        }
+        None
+    }
+
+    pub(super) fn use_of_place(&self) -> Option<Query> {
+        let within = || -> Vec<Restriction> {
+            self.spots
+                .iter()
+                .filter(|s| !self.is_building(&s.nouns[0]))
+                .flat_map(Spot::restrictions)
+                .collect()
+        };
+        let asks = self.has(Mark::Where)
+            || self.asks()
+            || self.has(Mark::Can)
+            || self.has(Mark::Whither)
+            || self.has(Mark::Exists);
+        let use_for = match () {
+            () if self.has(Mark::Sit) => Some(Use::Sit),
+            () if self.has(Mark::LieDown) => Some(Use::Lie),
+            () if self.has(Mark::PutDown)
+                && (self.has(Mark::Where) || self.has(Mark::Whither) || self.has(Mark::Can)) =>
+            {
+                Some(Use::Put)
+            }
+            () => None,
+        };
+        if let (Some(use_for), true) = (use_for, asks) {
+            return Some(Query::Place { use_for, what: self.first(), within: within() });
+        }
+        if !self.has(Mark::Free) {
+            return None;
+        }
+        let place = self.spots.first().map(|s| s.nouns[0].clone()).or_else(|| self.first())?;
+        if self.is_area(&place) && self.spots.len() < 2 {
+            // "free chairs in the kitchen", «свободно ли в комнате» are no questions about a top.
+            let at = self.spots.first().map(|s| s.at);
+            let noun = self.first()?;
+            return self
+                .has(Mark::HowMany)
+                .then(|| Query::Free(self.with_rest(noun, &at.into_iter().collect::<Vec<_>>())));
+        }
+        let mut place = place;
+        for spot in self.spots.iter().skip(1) {
+            self.attach(&mut place, spot);
+        }
+        Some(Query::Free(place))
+    }
+
+    pub(super) fn history(&self) -> Option<Query> {
+        let noun = || self.first().map(|n| self.with_rest(n, &[]));
+        if self.has(Mark::When) || self.has(Mark::LastSeen) {
+            return noun().map(Query::LastSeen);
+        }
+        if self.has(Mark::Before) && (self.has(Mark::Where) || self.asks()) {
+            return noun().map(Query::Before);
+        }
+        None
+    }
+
+    pub(super) fn made_of(&self) -> Option<Query> {
+        let of = || {
+            let noun = self.first().map(|n| (n, Vec::new()));
+            let spot = self.spots.first();
+            let (noun, without) =
+                noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
+            Some(self.with_rest(noun, &without))
+        };
+        if self.has(Mark::Parts) {
+            return of().map(Query::Parts);
+        }
+        let made = self.has(Mark::MadeOf);
+        if made
+            && self.values.is_empty()
+            && (self.asks()
+                || self.has(Mark::How)
+                || self.place_of(Mark::MadeOf) == Some(0)
+                || !self.links.is_empty())
+        {
+            return of().map(|of| Query::Property { property: Property::Material, of });
+        }
+        None
+    }
+
+    pub(super) fn property(&self) -> Option<Query> {
+        let (property, at) = self.property.clone()?;
+        if !self.values.is_empty() && !self.has(Mark::Or) {
+            return None;
+        }
+        let noun = self.nouns.first().map(|s| (s.noun.clone(), Vec::new()));
+        let owner = self.spot(&[Rel::NextTo, Rel::Of]).map(|s| (s.nouns[0].clone(), vec![s.at]));
+        let spot = self.spots.iter().find(|s| s.at > at).map(|s| (s.nouns[0].clone(), vec![s.at]));
+        let (noun, without) = noun.or(owner).or(spot)?;
+        Some(Query::Property { property, of: self.with_rest(noun, &without) })
+    }
+}

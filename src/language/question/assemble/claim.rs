@@ -1,0 +1,168 @@
+//! Questions whether something is so or exists, and why.
+//!
+//! Invariant: a sentence that claims nothing is no such question.
+
+use super::Frame;
+use super::Spot;
+use super::Subject;
+use crate::language::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    pub(super) fn why(&self) -> Query {
+        let negated = self.has(Mark::WhyNot) || self.negated;
+        let about = match self.nouns.is_empty() {
+            true => None,
+            false => self.exists_or_holds(),
+        };
+        Query::Why { negated, about: about.map(Box::new) }
+    }
+
+    fn exists_or_holds(&self) -> Option<Query> {
+        self.holds().or_else(|| self.exists())
+    }
+
+    pub(super) fn exists(&self) -> Option<Query> {
+        let none = self.has(Mark::Not)
+            && self.values.is_empty()
+            && self.nouns.iter().any(|s| !s.nominative);
+        let seen = self.has(Mark::See) && !self.nouns.is_empty();
+        let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none;
+        if !exists {
+            return None;
+        }
+        let mut subjects: Vec<&Subject> = self.nouns.iter().collect();
+        let mut within = Vec::new();
+        // "Does the kitchen have a fridge?"
+        if self.has(Mark::Have) && subjects.len() > 1 {
+            let owner = subjects.remove(0);
+            if !self.is_building(&owner.noun) {
+                let rel = if self.is_area(&owner.noun) { Rel::In } else { Rel::On };
+                within.push(Restriction { rel, anchors: vec![owner.noun.clone()], negated: false });
+            }
+        }
+        let mut what: Vec<Noun> = Vec::new();
+        for subject in &subjects {
+            // «Есть ли в доме комната с диваном?» has its sofa in a place already.
+            let mut noun = subject.noun.clone();
+            noun.indefinite = true;
+            noun.restrictions.extend(within.iter().cloned());
+            if !noun.head.kinds.is_empty() {
+                noun.head.named.retain(|_| noun.head.kinds.is_empty());
+            }
+            what.push(self.with_rest(noun, &[]));
+        }
+        if what.is_empty() {
+            let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
+            noun.head.anything = true;
+            noun.restrictions = within;
+            if self.spots.is_empty() && self.there.is_none() && self.values.is_empty() {
+                return None;
+            }
+            what.push(self.with_rest(noun, &[]));
+        }
+        let either = self.has(Mark::Or);
+        Some(Query::Exists { what, either, negated: none && !self.has(Mark::Exists) })
+    }
+
+    pub(super) fn holds(&self) -> Option<Query> {
+        if self.has(Mark::Anything) && self.nouns.is_empty() && !self.spots.is_empty() {
+            let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
+            noun.head.anything = true;
+            let what = vec![self.with_rest(noun, &[])];
+            return Some(Query::Exists { what, either: false, negated: self.negated });
+        }
+        let at = self.nouns.iter().position(|s| s.nominative).unwrap_or(0);
+        let first = self.nouns.get(at)?;
+        let mut subject = first.noun.clone();
+        let mut claims: Vec<Claim> = Vec::new();
+        // A room said before another place or a value tells which thing is meant.
+        let mut spots: Vec<&Spot> = self.spots.iter().collect();
+        let has_more = !self.values.is_empty() || spots.len() > 1;
+        if has_more {
+            let values = !self.values.is_empty();
+            spots.retain(|spot| {
+                let room = spot.rel == Rel::In && self.is_area(&spot.nouns[0]);
+                let tells = values || room;
+                if tells && !spot.negated && !spot.either {
+                    self.attach(&mut subject, spot);
+                    return false;
+                }
+                true
+            });
+            if spots.is_empty() && !values {
+                spots = self.spots.iter().collect();
+                subject = first.noun.clone();
+            }
+        }
+        let mut chained: Vec<Restriction> = Vec::new();
+        let mut holder = Noun::default();
+        for spot in &spots {
+            if spot.either {
+                chained.extend(spot.each());
+            } else {
+                self.attach(&mut holder, spot);
+            }
+        }
+        chained.extend(holder.restrictions);
+        let lead = self.has(Mark::Lead) || self.is_doors(&subject);
+        for mut restriction in chained {
+            if self.is_building(&restriction.anchors[0]) {
+                continue;
+            }
+            if lead
+                && self.has(Mark::Lead)
+                && matches!(restriction.rel, Rel::In | Rel::On | Rel::At)
+            {
+                restriction.rel = Rel::To;
+            }
+            restriction.negated = false;
+            claims.push(Claim::Related(restriction));
+        }
+        for (value, _, _) in &self.values {
+            claims.push(Claim::Value(Filter { value: *value, negated: false }));
+        }
+        for (n, other) in self.nouns.iter().enumerate().filter(|(n, _)| *n != at) {
+            let _ = n;
+            // "Does Door VZ join Room V and Room Z?"
+            if self.has(Mark::Lead) && self.is_area(&other.noun) {
+                let anchors = vec![other.noun.clone()];
+                claims.push(Claim::Related(Restriction { rel: Rel::Of, anchors, negated: false }));
+            } else {
+                claims.push(Claim::Kind(other.noun.clone()));
+            }
+        }
+        if claims.is_empty() {
+            return None;
+        }
+        // «Лежит ли на комоде книга?» asks for any book; «Книга на комоде?» for the one.
+        let places = claims.iter().all(|c| matches!(c, Claim::Related(_)));
+        let later = self.spots.iter().all(|s| s.at < first.at) && !self.spots.is_empty();
+        let general = subject.head.named.is_empty() && subject.head.things.is_none();
+        if self.sentence.language == crate::language::Language::Russian
+            && places
+            && later
+            && general
+            && !self.negated
+        {
+            let mut noun = first.noun.clone();
+            noun.indefinite = true;
+            let what = vec![self.with_rest(noun, &[])];
+            return Some(Query::Exists { what, either: false, negated: false });
+        }
+        let either = self.has(Mark::Or) || self.spots.iter().any(|s| s.either);
+        let values = self.values.len() > 1 || (self.values.len() == 1 && claims.len() > 1);
+        if either && (values || claims.len() > 1) {
+            return Some(Query::Choice { subject, claims });
+        }
+        if let (true, [Claim::Value(only)]) = (either, &claims[..]) {
+            let filter = only.clone();
+            return Some(Query::Holds {
+                subject,
+                claims: vec![Claim::Value(filter)],
+                negated: self.negated,
+            });
+        }
+        Some(Query::Holds { subject, claims, negated: self.negated })
+    }
+}

@@ -1,0 +1,206 @@
+//! Questions that compare: nearer, bigger, the same; how big, and the biggest.
+//!
+//! Invariant: two things are compared by one measure only.
+
+use super::Frame;
+use super::Spot;
+use super::Subject;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{
+    Best, Closeness, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
+};
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    /// «В какой комнате больше всего стульев?», "Which table has the most books?"
+    pub(super) fn most(&self) -> Option<Query> {
+        let counts = |noun: &Noun| {
+            let best = noun.best.as_ref();
+            best.is_some_and(|b| matches!(b.extreme, Extreme::Most | Extreme::Fewest))
+        };
+        let alone = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Best(extreme @ (Extreme::Most | Extreme::Fewest)) => Some(*extreme),
+            _ => None,
+        });
+        let counted = self.nouns.iter().find(|s| counts(&s.noun)).or_else(|| {
+            // «Где стульев больше всего?»
+            alone.and_then(|_| self.nouns.iter().find(|s| s.noun.plural && !self.is_area(&s.noun)))
+        })?;
+        let extreme = counted.noun.best.as_ref().map(|b| b.extreme).or(alone)?;
+        let mut what = Noun { best: None, plural: true, indefinite: true, ..counted.noun.clone() };
+        what.filters.extend(self.filters());
+        let asked = self.nouns.iter().find(|s| s.at != counted.at);
+        let mut asked = match asked {
+            Some(subject) => subject.noun.clone(),
+            None if self.has(Mark::Where) => {
+                let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
+                Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() }
+            }
+            None => return None,
+        };
+        if !asked.head.kinds.is_empty() {
+            asked.head.named.clear();
+        }
+        for spot in &self.spots {
+            self.attach(&mut asked, spot);
+        }
+        asked.rank = asked.rank.or(what.rank.take());
+        asked.best = Some(Best { extreme, anchor: Some(Box::new(what)) });
+        Some(Query::Find(Noun { indefinite: true, ..asked }))
+    }
+
+    /// The values of the sentence that stand by themselves.
+    fn filters(&self) -> impl Iterator<Item = Filter> + '_ {
+        self.values.iter().map(|(value, _, negated)| Filter { value: *value, negated: *negated })
+    }
+
+    /// «Где больше стульев, в кухне или в спальне?», "Are there more chairs than tables in the kitchen?"
+    pub(super) fn more_of(&self) -> Option<Query> {
+        let (extreme, at) = self.marks.iter().find_map(|(mark, at)| match mark {
+            Mark::More(Extreme::Biggest | Extreme::Most) => Some((Extreme::Most, *at)),
+            Mark::More(Extreme::Smallest | Extreme::Fewest) => Some((Extreme::Fewest, *at)),
+            _ => None,
+        })?;
+        let is_counted = |s: &&Subject| s.noun.plural && !self.is_area(&s.noun);
+        let counted: Vec<&Subject> = self.nouns.iter().filter(is_counted).collect();
+        // Places that are compared, or rooms that stand without a preposition.
+        let in_places = self.spots.iter().filter(|s| matches!(s.rel, Rel::In | Rel::On));
+        let places: Vec<(Rel, &Noun)> =
+            in_places.flat_map(|s| s.nouns.iter().map(move |n| (s.rel, n))).collect();
+        let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
+        let rooms: Vec<(Rel, &Noun)> = rooms.map(|s| (Rel::In, &s.noun)).collect();
+        let asks = self.has(Mark::Where) || self.asks() || self.has(Mark::Or);
+        let within = |noun: &Noun, place: Option<&(Rel, &Noun)>| {
+            let mut noun = Noun { plural: true, indefinite: true, ..noun.clone() };
+            noun.filters.extend(self.filters());
+            if !noun.head.kinds.is_empty() {
+                noun.head.named.clear();
+            }
+            let place = place.map(|(rel, place)| Restriction {
+                rel: *rel,
+                anchors: vec![(*place).clone()],
+                negated: false,
+            });
+            noun.restrictions.extend(place);
+            noun
+        };
+        let of = match (&counted[..], &places[..], &rooms[..]) {
+            ([what], [first, second], _) | ([what], [], [first, second]) => {
+                [within(&what.noun, Some(first)), within(&what.noun, Some(second))]
+            }
+            // «Стулья больше, чем столы?» compares sizes: what is counted follows its word.
+            ([first, second], place @ ([] | [_]), []) if first.at > at || self.has(Mark::What) => {
+                [within(&first.noun, place.first()), within(&second.noun, place.first())]
+            }
+            _ => return None,
+        };
+        Some(Query::MoreOf { of, extreme, asks })
+    }
+
+    pub(super) fn compared(&self) -> Option<Query> {
+        let nearer = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Nearer(closeness) => Some(*closeness),
+            _ => None,
+        });
+        let more = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::More(extreme) => Some(*extreme),
+            _ => None,
+        });
+        let than = self.place_of(Mark::Than);
+        let than_to = self.place_of(Mark::ThanTo);
+        if let Some(closeness) = nearer {
+            let extreme = match closeness {
+                Closeness::Nearer => Extreme::Nearest,
+                Closeness::Farther => Extreme::Farthest,
+            };
+            let anchors: Vec<&Spot> = self
+                .spots
+                .iter()
+                .filter(|s| matches!(s.rel, Rel::To | Rel::From | Rel::NextTo | Rel::Near))
+                .collect();
+            let within: Vec<Restriction> = self
+                .spots
+                .iter()
+                .filter(|s| matches!(s.rel, Rel::In | Rel::On) && self.is_area(&s.nouns[0]))
+                .flat_map(Spot::restrictions)
+                .collect();
+            let placed = |mut noun: Noun| {
+                if !self.is_area(&noun) && noun.head.things.is_none() {
+                    noun.restrictions.extend(within.iter().cloned());
+                }
+                noun
+            };
+            if let (Some(cut), Some(near)) = (than_to.or(than), anchors.first()) {
+                let before: Vec<&Subject> = self.nouns.iter().filter(|s| s.at < cut).collect();
+                let after: Vec<&Subject> = self.nouns.iter().filter(|s| s.at > cut).collect();
+                let what = before.first()?.noun.clone();
+                let other_anchor = anchors.iter().find(|s| s.at > cut).map(|s| s.nouns[0].clone());
+                let near = near.nouns[0].clone();
+                if let Some(than) =
+                    other_anchor.or_else(|| than_to.and(after.first().map(|s| s.noun.clone())))
+                {
+                    return Some(Query::Closer {
+                        what: placed(what),
+                        near: placed(near),
+                        than: placed(than),
+                        closeness,
+                    });
+                }
+                let than = placed(after.first()?.noun.clone());
+                return Some(Query::Larger {
+                    what: placed(what),
+                    than,
+                    extreme,
+                    to: Some(placed(near)),
+                });
+            }
+            let [.., first, second] = &self.nouns[..] else { return None };
+            let to = anchors.first().map(|s| placed(s.nouns[0].clone()));
+            return Some(Query::WhichMore {
+                of: [placed(first.noun.clone()), placed(second.noun.clone())],
+                extreme,
+                to,
+            });
+        }
+        if self.has(Mark::Same)
+            && let Some((property, _)) = &self.property
+        {
+            let mut of: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();
+            of.extend(self.spots.iter().flat_map(|s| s.nouns.clone()));
+            let [first, second] = <[Noun; 2]>::try_from(of).ok()?;
+            return Some(Query::Same { property: property.clone(), of: [first, second] });
+        }
+        let extreme = more?;
+        let [.., first, second] = &self.nouns[..] else { return None };
+        let (what, other) = (first.noun.clone(), second.noun.clone());
+        if self.asks() || (self.has(Mark::Or) && than.is_none()) {
+            return Some(Query::WhichMore { of: [what, other], extreme, to: None });
+        }
+        Some(Query::Larger { what, than: other, extreme, to: None })
+    }
+
+    pub(super) fn size(&self) -> Option<Query> {
+        let dimension = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::HowBig(dimension) => Some(*dimension),
+            _ => None,
+        })?;
+        let of = self.first().or_else(|| self.spot_noun(&[Rel::NextTo, Rel::Of, Rel::In]))?;
+        let without: Vec<usize> = match self.nouns.is_empty() {
+            true => self.spots.iter().take(1).map(|s| s.at).collect(),
+            false => Vec::new(),
+        };
+        Some(Query::Size { dimension, of: self.with_rest(of, &without) })
+    }
+
+    /// «Самая большая комната?»
+    pub(super) fn superlative(&self) -> Option<Query> {
+        let [only] = &self.nouns[..] else { return None };
+        let alone = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)));
+        if only.noun.best.is_none() && !alone {
+            return None;
+        }
+        let mut noun = only.noun.clone();
+        noun.head.named.clear();
+        Some(Query::Find(Noun { indefinite: true, ..self.with_rest(noun, &[]) }))
+    }
+}

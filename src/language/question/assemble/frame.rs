@@ -1,0 +1,346 @@
+//! The items of a sentence sorted by what they are, and places handed to the nouns that they belong to.
+//!
+//! Invariant: no item is lost; what nothing knows ends the reading with a doubt.
+
+use super::Frame;
+use super::Referent;
+use super::Spot;
+use super::Subject;
+use super::things;
+use crate::language::question::Doubt;
+use crate::language::question::grammar::{Item, Phrase, Sentence};
+use crate::language::question::lexicon::{Extension, Lexicon};
+use crate::language::question::query::{
+    Best, Closeness, Extreme, Filter, Noun, Rel, Restriction, Thing,
+};
+use crate::language::question::vocabulary::{Mark, Pronoun};
+use crate::language::report::Detail;
+
+impl<'s, 't> Frame<'s, 't> {
+    pub(super) fn of(
+        sentence: &'s Sentence<'t>,
+        lexicon: &'s Lexicon,
+        items: &[Item],
+        referent: &Referent<'_>,
+    ) -> Result<Self, Doubt> {
+        let mut frame = Self {
+            sentence,
+            lexicon,
+            marks: Vec::new(),
+            nouns: Vec::new(),
+            spots: Vec::new(),
+            links: Vec::new(),
+            values: Vec::new(),
+            property: None,
+            you: false,
+            there: None,
+            negated: false,
+            except: Vec::new(),
+        };
+        let mut not = false;
+        let mut without = false;
+        for (at, item) in items.iter().enumerate() {
+            match item {
+                Item::Mark(Mark::Not) => {
+                    not = true;
+                    frame.negated = true;
+                    frame.marks.push((Mark::Not, at));
+                }
+                Item::Mark(Mark::Except) => without = true,
+                Item::Mark(mark) => frame.marks.push((*mark, at)),
+                Item::Noun(phrase) => {
+                    let Some(noun) = frame.noun(phrase, referent)? else { continue };
+                    if std::mem::take(&mut without) {
+                        frame.except.push(noun);
+                        continue;
+                    }
+                    let first = frame.nouns.is_empty();
+                    let negated = not && !first && std::mem::take(&mut not);
+                    let nominative = phrase.nominative;
+                    frame.nouns.push(Subject { noun, at, negated, nominative });
+                }
+                Item::Place { rel, nouns, either } => {
+                    let mut anchors = Vec::new();
+                    for phrase in nouns {
+                        anchors.extend(frame.noun(phrase, referent)?);
+                        if phrase.person == Some(Mark::You) {
+                            anchors.push(things(vec![Thing::Robot], "you"));
+                        }
+                    }
+                    if anchors.is_empty() {
+                        let words = nouns[0].words.clone();
+                        let me = nouns[0].person == Some(Mark::Me);
+                        // «у меня есть …», "for me" say nothing of a place.
+                        if me && matches!(rel, Rel::NextTo | Rel::To | Rel::Of) {
+                            continue;
+                        }
+                        return Err(Doubt::not_understood(sentence.said(&words)));
+                    }
+                    let (rel, either) = (*rel, *either);
+                    let negated = std::mem::take(&mut not);
+                    frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
+                }
+                Item::Link(rel) => frame.links.push((*rel, at)),
+                Item::Value(value) => {
+                    frame.values.push((*value, at, std::mem::take(&mut not)));
+                }
+                Item::Property(property) => {
+                    frame.property.get_or_insert((property.clone(), at));
+                }
+                Item::Number(number) => {
+                    frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at))
+                }
+                Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
+            }
+        }
+        Ok(frame)
+    }
+
+    /// Words that nothing knows: a name that the map lacks, or no word at all.
+    fn unknown(&self, words: &std::ops::Range<usize>, next: Option<&Item>) -> Doubt {
+        // «Комната-X»: the noun before the hyphen belongs to the name that is not there.
+        let mut words = words.clone();
+        while words.start > 0 {
+            let gap =
+                self.sentence.words[words.start - 1].end..self.sentence.words[words.start].start;
+            if !self.sentence.text[gap].chars().all(crate::language::words::is_hyphen) {
+                break;
+            }
+            words.start -= 1;
+        }
+        let said = self.sentence.said(&words);
+        let near: Vec<String> =
+            self.lexicon.nouns.near(said, 3).into_iter().map(str::to_owned).collect();
+        let near: Vec<String> = near.into_iter().fold(Vec::new(), |mut kept, name| {
+            if !kept.contains(&name) {
+                kept.push(name);
+            }
+            kept
+        });
+        let before_noun = matches!(next, Some(Item::Noun(_)));
+        if near.is_empty() && (before_noun || !crate::language::question::may_be_noun(said)) {
+            return Doubt::not_understood(said);
+        }
+        if before_noun && near.is_empty() {
+            return Doubt::not_understood(said);
+        }
+        Doubt::Unknown { reference: said.to_owned(), near }
+    }
+
+    pub(super) fn noun(
+        &mut self,
+        phrase: &Phrase,
+        referent: &Referent<'_>,
+    ) -> Result<Option<Noun>, Doubt> {
+        match (phrase.pronoun, phrase.person) {
+            (Some(pronoun), _) => {
+                let meant = referent(pronoun);
+                if meant.is_empty() {
+                    return Err(Doubt::NoReferent { word: phrase.noun.text.clone() });
+                }
+                Ok(Some(things(meant, &phrase.noun.text)))
+            }
+            (_, Some(Mark::You)) => {
+                self.you = true;
+                Ok(None)
+            }
+            (_, Some(Mark::There)) => {
+                let meant = referent(Pronoun::Any);
+                let noun = (!meant.is_empty()).then(|| things(meant, &phrase.noun.text));
+                self.there = noun;
+                Ok(None)
+            }
+            (_, Some(_)) => Ok(None),
+            _ => Ok(Some(phrase.noun.clone())),
+        }
+    }
+
+    pub(super) fn has(&self, wanted: Mark) -> bool {
+        self.marks.iter().any(|(mark, _)| *mark == wanted)
+    }
+
+    /// How much of a way or a place is asked for.
+    pub(super) fn detail(&self) -> Detail {
+        let asked = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Detail(detail) => Some(*detail),
+            _ => None,
+        });
+        asked.unwrap_or_default()
+    }
+
+    pub(super) fn place_of(&self, wanted: Mark) -> Option<usize> {
+        self.marks.iter().find(|(mark, _)| *mark == wanted).map(|(_, at)| *at)
+    }
+
+    pub(super) fn asks(&self) -> bool {
+        self.has(Mark::What) || self.has(Mark::Which)
+    }
+
+    fn is_kind(&self, noun: &Noun, wanted: impl Fn(&Extension) -> bool) -> bool {
+        noun.head.kinds.iter().any(|k| wanted(&self.lexicon.kind(*k).extension))
+    }
+
+    /// Rooms and storeys, named or not.
+    pub(super) fn is_area(&self, noun: &Noun) -> bool {
+        let named = |e: &crate::map::Entity| {
+            matches!(e, crate::map::Entity::Area(_) | crate::map::Entity::Map(_))
+        };
+        let meant = |things: &Vec<Thing>| things.iter().any(|t| t.area().is_some());
+        (!noun.head.named.is_empty() && noun.head.named.iter().all(named))
+            || noun.head.things.as_ref().is_some_and(meant)
+            || noun.head.kinds.iter().any(|k| self.lexicon.is_area(*k))
+    }
+
+    pub(super) fn is_rooms(&self, noun: &Noun) -> bool {
+        noun.head.named.is_empty()
+            && self.is_kind(noun, |e| {
+                matches!(e, Extension::Rooms | Extension::AreaType(_) | Extension::Storeys)
+            })
+    }
+
+    pub(super) fn is_storeys(&self, noun: &Noun) -> bool {
+        self.is_kind(noun, |e| matches!(e, Extension::Storeys))
+    }
+
+    pub(super) fn is_building(&self, noun: &Noun) -> bool {
+        self.is_kind(noun, |e| matches!(e, Extension::Building))
+    }
+
+    pub(super) fn is_doors(&self, noun: &Noun) -> bool {
+        let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Door(_));
+        let meant = |things: &Vec<Thing>| {
+            things.iter().any(|t| {
+                matches!(t, Thing::Opening(_) | Thing::Entity(crate::map::Entity::Door(_)))
+            })
+        };
+        noun.head.named.iter().any(named)
+            || noun.head.things.as_ref().is_some_and(meant)
+            || self.is_kind(noun, |e| {
+                matches!(e, Extension::Doors | Extension::Passages | Extension::DoorType(_))
+            })
+    }
+
+    pub(super) fn spot(&self, wanted: &[Rel]) -> Option<&Spot> {
+        self.spots.iter().find(|s| wanted.contains(&s.rel))
+    }
+
+    pub(super) fn spot_noun(&self, wanted: &[Rel]) -> Option<Noun> {
+        self.spot(wanted).and_then(|s| s.nouns.first()).cloned()
+    }
+
+    /// The noun of the question, with «там» as its place.
+    pub(super) fn first(&self) -> Option<Noun> {
+        self.nouns.first().map(|s| s.noun.clone())
+    }
+
+    /// A noun with all places, values and superlatives of the sentence, but for the places left out.
+    pub(super) fn with_rest(&self, mut noun: Noun, without: &[usize]) -> Noun {
+        for spot in self.spots.iter().filter(|s| !without.contains(&s.at)) {
+            self.attach(&mut noun, spot);
+        }
+        for (value, _, negated) in &self.values {
+            noun.filters.push(Filter { value: *value, negated: *negated });
+        }
+        noun.except.extend(self.except.iter().cloned());
+        if let Some(there) = &self.there {
+            noun.restrictions.push(Restriction {
+                rel: Rel::In,
+                anchors: vec![there.clone()],
+                negated: false,
+            });
+        }
+        self.with_best(noun)
+    }
+
+    /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
+    pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
+        if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
+            return;
+        }
+        // «в комнате с диваном», «стол с лампой»
+        if spot.rel == Rel::Has {
+            let area = self.is_area(noun);
+            let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
+            match last {
+                Some(anchor) if self.is_area(anchor) => {
+                    anchor.restrictions.extend(spot.restrictions())
+                }
+                _ if area => noun.restrictions.extend(spot.restrictions()),
+                _ => {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    noun.restrictions.extend(spot.restrictions());
+                }
+            }
+            return;
+        }
+        let is_room =
+            matches!(spot.rel, Rel::In | Rel::On | Rel::Of) && self.is_area(&spot.nouns[0]);
+        if is_room && !self.is_area(noun) {
+            for restriction in &mut noun.restrictions {
+                for anchor in &mut restriction.anchors {
+                    if !self.is_area(anchor) && anchor.head.things.is_none() && !spot.negated {
+                        anchor.restrictions.extend(spot.restrictions());
+                    }
+                }
+            }
+        }
+        // «рядом со столом у окна»: the window tells which table.
+        let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
+        match last {
+            Some(anchor)
+                if !is_room
+                    && !self.is_area(anchor)
+                    && !self.is_kind(anchor, |e| *e == Extension::Floor)
+                    && anchor.head.things.is_none()
+                    && spot.at > 0
+                    && self.spots.iter().any(|s| s.at + 1 == spot.at)
+                    && spot.rel != Rel::To =>
+            {
+                anchor.restrictions.extend(spot.restrictions());
+            }
+            _ => noun.restrictions.extend(spot.restrictions()),
+        }
+    }
+
+    /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.
+    fn with_best(&self, mut noun: Noun) -> Noun {
+        let alone = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Best(extreme) | Mark::BestTo(extreme) => Some(*extreme),
+            Mark::Nearer(Closeness::Nearer) => Some(Extreme::Nearest),
+            Mark::Nearer(Closeness::Farther) => Some(Extreme::Farthest),
+            _ => None,
+        });
+        if noun.best.is_none() {
+            // «Какая комната больше всего?» compares rooms; what is counted stands after it.
+            let alone = alone.map(|extreme| match extreme {
+                Extreme::Most => Extreme::Biggest,
+                Extreme::Fewest => Extreme::Smallest,
+                other => other,
+            });
+            noun.best = alone.map(|extreme| Best { extreme, anchor: None });
+        }
+        if noun.rank.is_none() {
+            noun.rank = self.marks.iter().find_map(|(mark, _)| match mark {
+                Mark::Rank(rank) => Some(*rank),
+                _ => None,
+            });
+        }
+        let Some(best) = &mut noun.best else { return noun };
+        if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
+            let is_anchor = |r: &Restriction| {
+                matches!(r.rel, Rel::To | Rel::From | Rel::At | Rel::NextTo | Rel::Near)
+            };
+            let found = noun.restrictions.iter().position(is_anchor);
+            if let Some(at) = found {
+                let anchor = noun.restrictions.remove(at).anchors.into_iter().next();
+                // «ближайший ко мне»: to the robot, as when nothing is said.
+                best.anchor = anchor.map(Box::new);
+            } else if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
+                && let Some(second) = self.nouns.get(1)
+            {
+                best.anchor = Some(Box::new(second.noun.clone()));
+            }
+        }
+        noun
+    }
+}

@@ -1,0 +1,156 @@
+//! From items to a query: which question is asked, and what part each noun and place plays in it.
+//!
+//! Word order decides only where nothing else does. The rules stand in the order in which they are tried: the more
+//! telling a word is («ближе», "how far"), the earlier its rule.
+
+mod about;
+mod claim;
+mod compare;
+mod frame;
+mod way;
+mod which;
+
+use super::Doubt;
+use super::grammar::{Item, Sentence};
+use super::lexicon::Lexicon;
+use super::query::{Head, Noun, Query, Rel, Restriction, Thing};
+use super::values::{Property, ValueId};
+use super::vocabulary::{Mark, Pronoun};
+
+/// What a pronoun of the sentence means.
+pub(super) type Referent<'a> = dyn Fn(Pronoun) -> Vec<Thing> + 'a;
+
+/// Reads a query out of the items of a sentence.
+pub(super) fn query(
+    sentence: &Sentence<'_>,
+    lexicon: &Lexicon,
+    referent: &Referent<'_>,
+) -> Result<Query, Doubt> {
+    let items = sentence.items();
+    if items.is_empty() {
+        return Err(Doubt::Empty);
+    }
+    let frame = Frame::of(sentence, lexicon, &items, referent)?;
+    if let Some(query) = frame.read() {
+        return Ok(query);
+    }
+    Err(frame.not_understood(&items))
+}
+
+/// A sentence that is a description and nothing more: «красная», «та, что на столе».
+pub(super) fn fragment(sentence: &Sentence<'_>, lexicon: &Lexicon) -> Option<Noun> {
+    let items = sentence.items();
+    let frame = Frame::of(sentence, lexicon, &items, &|_| Vec::new()).ok()?;
+    let small = |mark: &Mark| {
+        matches!(mark, Mark::The | Mark::A | Mark::Be | Mark::One | Mark::Best(_) | Mark::And)
+    };
+    if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
+    {
+        return None;
+    }
+    Some(frame.with_rest(frame.first().unwrap_or_default(), &[]))
+}
+
+/// A noun of the question.
+#[derive(Debug, Clone)]
+struct Subject {
+    noun: Noun,
+    at: usize,
+    negated: bool,
+    nominative: bool,
+}
+
+/// A preposition with its nouns.
+#[derive(Debug, Clone)]
+struct Spot {
+    rel: Rel,
+    nouns: Vec<Noun>,
+    either: bool,
+    at: usize,
+    negated: bool,
+}
+
+impl Spot {
+    fn restrictions(&self) -> Vec<Restriction> {
+        if self.rel == Rel::Between {
+            return vec![Restriction {
+                rel: self.rel,
+                anchors: self.nouns.clone(),
+                negated: self.negated,
+            }];
+        }
+        // «в спальне и коридоре»: in either of them.
+        vec![Restriction { rel: self.rel, anchors: self.nouns.clone(), negated: self.negated }]
+    }
+
+    fn each(&self) -> impl Iterator<Item = Restriction> + '_ {
+        self.nouns.iter().map(|noun| Restriction {
+            rel: self.rel,
+            anchors: vec![noun.clone()],
+            negated: self.negated,
+        })
+    }
+}
+
+/// The items of a sentence by what they are.
+struct Frame<'s, 't> {
+    sentence: &'s Sentence<'t>,
+    lexicon: &'s Lexicon,
+    marks: Vec<(Mark, usize)>,
+    nouns: Vec<Subject>,
+    spots: Vec<Spot>,
+    links: Vec<(Rel, usize)>,
+    values: Vec<(ValueId, usize, bool)>,
+    property: Option<(Property, usize)>,
+    /// The robot is spoken to.
+    you: bool,
+    /// «там», "there"
+    there: Option<Noun>,
+    negated: bool,
+    /// «кроме лампы»
+    except: Vec<Noun>,
+}
+
+fn things(things: Vec<Thing>, text: &str) -> Noun {
+    let plural = things.len() > 1;
+    let head = Head { things: Some(things), ..Head::default() };
+    Noun { head, text: text.to_owned(), plural, all: plural, ..Noun::default() }
+}
+
+impl Frame<'_, '_> {
+    fn read(&self) -> Option<Query> {
+        if self.has(Mark::Why) || self.has(Mark::WhyNot) {
+            return Some(self.why());
+        }
+        self.of_robot()
+            .or_else(|| self.way())
+            .or_else(|| self.more_of())
+            .or_else(|| self.most())
+            .or_else(|| self.compared())
+            .or_else(|| self.size())
+            .or_else(|| self.use_of_place())
+            .or_else(|| self.history())
+            .or_else(|| self.counted())
+            .or_else(|| self.made_of())
+            .or_else(|| self.property())
+            .or_else(|| self.leads())
+            .or_else(|| self.where_is())
+            .or_else(|| self.which())
+            .or_else(|| self.listed())
+            .or_else(|| self.exists())
+            .or_else(|| self.superlative())
+            .or_else(|| self.holds())
+    }
+
+    /// What to say when no rule fits: the words that were understood, or nothing of it.
+    fn not_understood(&self, items: &[Item]) -> Doubt {
+        let about = self.first().map(|n| n.text);
+        match about {
+            Some(text) if items.len() <= 3 => Doubt::Incomplete { about: text },
+            _ => {
+                let all = 0..self.sentence.words.len();
+                Doubt::not_understood(self.sentence.said(&all))
+            }
+        }
+    }
+}

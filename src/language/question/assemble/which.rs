@@ -1,0 +1,253 @@
+//! Questions for things: where, which, how many, and commands to list or describe them.
+//!
+//! Invariant: every noun of the sentence is asked for or restricts what is.
+
+use super::Frame;
+use super::Subject;
+use crate::language::question::query::{Filter, Noun, Query, Rel, Restriction};
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    pub(super) fn counted(&self) -> Option<Query> {
+        let at = self.place_of(Mark::HowMany).or_else(|| self.place_of(Mark::Count));
+        let at = at?;
+        if self.has(Mark::Parts) {
+            return self.made_of();
+        }
+        // The noun right after «сколько» is counted, wherever it stands; else the first.
+        let counted = self.nouns.iter().find(|s| s.at > at).or_else(|| self.nouns.first());
+        let Some(counted) = counted else {
+            // «Сколько в комнате чёрных?», "how many are on the table"
+            let mut noun = Noun { plural: true, ..Noun::default() };
+            let of = self.spot(&[Rel::Of]).filter(|s| !self.is_area(&s.nouns[0]));
+            if let Some(of) = of {
+                return Some(Query::Count(self.with_rest(of.nouns[0].clone(), &[of.at])));
+            }
+            if self.spots.is_empty() && self.links.iter().any(|(rel, _)| *rel == Rel::In) {
+                return None;
+            }
+            noun.head.anything = true;
+            return (!self.spots.is_empty()).then(|| Query::Count(self.with_rest(noun, &[])));
+        };
+        let mut noun = counted.noun.clone();
+        noun.plural = true;
+        if let Some(kinds_first) = Some(&mut noun.head).filter(|h| !h.kinds.is_empty()) {
+            kinds_first.named.clear();
+        }
+        for other in self.nouns.iter().filter(|s| s.at != counted.at) {
+            self.relate(&mut noun, other);
+        }
+        Some(Query::Count(self.with_rest(noun, &[])))
+    }
+
+    /// A second noun: what rooms have, or the room that has them.
+    fn relate(&self, noun: &mut Noun, other: &Subject) {
+        if self.is_building(&other.noun) {
+            return;
+        }
+        if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_))) {
+            return;
+        }
+        let (rel, anchor) = match (self.is_area(noun), self.is_area(&other.noun)) {
+            (true, false) if self.is_doors(&other.noun) && self.has(Mark::Lead) => {
+                (Rel::Of, &other.noun)
+            }
+            (true, _) => (Rel::Has, &other.noun),
+            (false, true) => (Rel::In, &other.noun),
+            (false, false) => (Rel::Bears, &other.noun),
+        };
+        let mut anchor = anchor.clone();
+        anchor.indefinite |= rel == Rel::Has || rel == Rel::Bears;
+        noun.restrictions.push(Restriction {
+            rel,
+            anchors: vec![anchor],
+            negated: other.negated || (rel == Rel::Has && self.negated),
+        });
+    }
+
+    pub(super) fn where_is(&self) -> Option<Query> {
+        if self.has(Mark::Whither) && self.nouns.is_empty() {
+            let room = self.spots.iter().find(|s| self.is_area(&s.nouns[0]))?;
+            return Some(Query::Find(self.rooms_near(room.nouns[0].clone())));
+        }
+        if !self.has(Mark::Where) && !self.has(Mark::Whither) {
+            return None;
+        }
+        let mut nouns = self.nouns.iter();
+        let Some(first) = nouns.next() else {
+            // "Where is it" has a noun; «Где находится то, что на столе?» has not.
+            let mut noun = Noun { plural: true, ..Noun::default() };
+            noun.head.anything = true;
+            return (!self.spots.is_empty()).then(|| Query::Where(self.with_rest(noun, &[])));
+        };
+        let mut noun = first.noun.clone();
+        for other in nouns {
+            if !(self.has(Mark::And) || self.has(Mark::Or)) {
+                break;
+            }
+            noun.head.named.extend(other.noun.head.named.iter().copied());
+            noun.head.kinds.extend(other.noun.head.kinds.iter().copied());
+            noun.plural = true;
+        }
+        if self.has(Mark::Exists) || self.has(Mark::Can) {
+            noun.indefinite = true;
+        }
+        Some(Query::Where(self.with_rest(noun, &[])))
+    }
+
+    /// Whether the noun at an item stands right after «какой» or "which", but for small words.
+    pub(super) fn follows_which(&self, at: usize) -> bool {
+        let asked = self.marks.iter().filter(|(m, _)| matches!(m, Mark::Which | Mark::What));
+        let mut asked = asked.filter(|(_, mark_at)| *mark_at < at);
+        asked.any(|(_, mark_at)| {
+            (mark_at + 1..at).all(|between| {
+                self.marks.iter().any(|(m, a)| {
+                    *a == between
+                        && matches!(m, Mark::Be | Mark::Exists | Mark::Best(_) | Mark::The)
+                }) || self.values.iter().any(|(_, a, _)| *a == between)
+            })
+        })
+    }
+
+    pub(super) fn which(&self) -> Option<Query> {
+        if !self.asks() {
+            return None;
+        }
+        let question = self.place_of(Mark::Which).or_else(|| self.place_of(Mark::What))?;
+        // «на чём», «в какой комнате»: a preposition right before the word that asks; or stranded at the end.
+        let before = self.links.iter().find(|(_, at)| at + 1 == question);
+        let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
+        let link = before.or(stranded).map(|(rel, _)| *rel);
+        let asked = self.nouns.iter().find(|s| {
+            s.at > question && self.follows_which(s.at) && !self.nominal_subject(s, link)
+        });
+        let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
+        if let (Some(rel), Some(of)) = (link, other) {
+            let of_noun = self.with_rest(of.noun.clone(), &[]);
+            if let Some(asked) = asked {
+                let rooms = self.is_rooms(&asked.noun);
+                if rooms && matches!(rel, Rel::In | Rel::On) {
+                    let general = asked.noun.plural
+                        || self.has(Mark::Exists)
+                        || self.has(Mark::Have)
+                        || of.noun.plural
+                        || of.noun.indefinite;
+                    if general && !self.is_storeys(&asked.noun) {
+                        return Some(self.rooms_with(&asked.noun));
+                    }
+                    return Some(Query::RoomOf(of_noun));
+                }
+                return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
+            }
+            return Some(Query::Anchor { rel, of: of_noun, what: None });
+        }
+        if let Some(asked) = asked.or(other) {
+            let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
+            let rooms = self.is_rooms(&asked.noun);
+            if rooms && !others.is_empty() && asked.at < others[0].at {
+                let having = self.has(Mark::Have) || self.has(Mark::Exists);
+                if !having
+                    && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
+                    && !self.has(Mark::And)
+                {
+                    return Some(Query::RoomOf(self.with_rest(others[0].noun.clone(), &[])));
+                }
+                if having {
+                    return Some(self.rooms_with(&asked.noun));
+                }
+            }
+            let best = asked.noun.best.is_some()
+                || self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::BestTo(_)));
+            let mut noun = asked.noun.clone();
+            if self.has(Mark::Have) || (self.has(Mark::Exists) && others.len() == 1) {
+                for other in &others {
+                    self.relate(&mut noun, other);
+                }
+            }
+            let described = self.has(Mark::What)
+                && !self.has(Mark::Which)
+                && !best
+                && !noun.plural
+                && !self.follows_what_directly(asked.at)
+                && self.spots.is_empty()
+                && self.values.is_empty()
+                && !self.has(Mark::Exists)
+                && !self.has(Mark::Have);
+            let named =
+                !noun.head.named.is_empty() && noun.head.kinds.is_empty() && others.is_empty();
+            if described
+                || (named && self.spots.is_empty() && self.values.is_empty() && link.is_none())
+            {
+                return Some(Query::Describe(self.with_rest(noun, &[])));
+            }
+            if !noun.head.kinds.is_empty() && self.follows_which(asked.at) {
+                noun.head.named.clear();
+            }
+            let noun = self.with_rest(noun, &[]);
+            return Some(Query::Find(Noun { indefinite: true, ..noun }));
+        }
+        let mut noun = Noun { plural: true, ..Noun::default() };
+        noun.head.anything = true;
+        let something = !self.spots.is_empty() || !self.values.is_empty() || self.there.is_some();
+        let best = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::Nearer(_)));
+        (something || best).then(|| Query::Find(self.with_rest(noun, &[])))
+    }
+
+    /// "What is the table on?": the noun after "what is" is the subject, not what is asked for.
+    fn nominal_subject(&self, subject: &Subject, link: Option<Rel>) -> bool {
+        let what = self.has(Mark::What) && !self.has(Mark::Which);
+        link.is_some() && what && (self.nouns.len() == 1 || !self.follows_what_directly(subject.at))
+    }
+
+    /// "What objects …": no verb between.
+    fn follows_what_directly(&self, at: usize) -> bool {
+        at > 0
+            && self.marks.iter().any(|(m, a)| matches!(m, Mark::What | Mark::Which) && *a + 1 == at)
+    }
+
+    /// "Which rooms have a chair?"
+    fn rooms_with(&self, rooms: &Noun) -> Query {
+        let mut noun = rooms.clone();
+        noun.plural = true;
+        let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.noun != *rooms).collect();
+        for other in others {
+            let mut anchor = self.narrowed(other.noun.clone());
+            anchor.indefinite = true;
+            let negated = other.negated || self.negated;
+            noun.restrictions.push(Restriction { rel: Rel::Has, anchors: vec![anchor], negated });
+        }
+        Query::Find(noun)
+    }
+
+    /// A noun with the values and places of the sentence.
+    fn narrowed(&self, mut noun: Noun) -> Noun {
+        for (value, _, negated) in &self.values {
+            noun.filters.push(Filter { value: *value, negated: *negated });
+        }
+        for spot in &self.spots {
+            self.attach(&mut noun, spot);
+        }
+        noun
+    }
+
+    pub(super) fn listed(&self) -> Option<Query> {
+        if self.has(Mark::Describe) {
+            let spot = self.spots.first();
+            let noun = self.first().map(|n| (n, Vec::new()));
+            let (noun, without) =
+                noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
+            return Some(Query::Describe(self.with_rest(noun, &without)));
+        }
+        if !self.has(Mark::List) {
+            return None;
+        }
+        let mut noun = self.first().unwrap_or_default();
+        if self.nouns.is_empty() {
+            noun.head.anything = true;
+        } else if !noun.head.kinds.is_empty() {
+            noun.head.named.clear();
+        }
+        noun.plural = true;
+        Some(Query::Find(Noun { indefinite: true, ..self.with_rest(noun, &[]) }))
+    }
+}

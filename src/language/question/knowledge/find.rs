@@ -1,0 +1,325 @@
+//! From a description to the things that fit it: kinds, places, values, superlatives.
+//!
+//! Invariant: several where one is meant, and none at all, are doubts, never a choice.
+
+use super::Gate;
+use super::Knowledge;
+use crate::language::question::Doubt;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
+use crate::map::Entity;
+use crate::units::{ObjectId, ReplicaId, Vector};
+use std::collections::{BTreeSet, HashSet};
+
+impl Knowledge<'_> {
+    /// Everything of a kind.
+    pub(super) fn members(&self, extension: &Extension) -> Vec<Thing> {
+        let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));
+        let of_object = |object: ObjectId| {
+            let all = self.world.replicas.values().filter(move |r| r.object == object);
+            all.map(|r| Thing::Entity(Entity::Replica(r.id))).collect()
+        };
+        let with_trait = |wanted: &str| -> Vec<Thing> {
+            let kinds = self.by_type().iter();
+            let kinds = kinds.filter(|(kind, _)| self.world.types.object.has_trait(**kind, wanted));
+            let mut found: Vec<Thing> = kinds.flat_map(|(_, all)| all).map(replica).collect();
+            found.sort_unstable();
+            found
+        };
+        match extension {
+            Extension::ObjectType(kind) => {
+                self.by_type().get(&Some(*kind)).into_iter().flatten().map(replica).collect()
+            }
+            Extension::Object(object) => of_object(*object),
+            Extension::Trait(wanted) => with_trait(wanted),
+            Extension::Things => self.world.replicas.keys().map(replica).collect(),
+            Extension::Furniture => {
+                let all = self.world.replicas.keys();
+                all.filter(|id| !self.has_trait(**id, "portable")).map(replica).collect()
+            }
+            Extension::AreaType(kind) => {
+                let all = self.world.areas.values().filter(|a| a.area_type == Some(*kind));
+                all.map(|a| Thing::Entity(Entity::Area(a.id))).collect()
+            }
+            Extension::Rooms => {
+                self.world.areas.keys().map(|a| Thing::Entity(Entity::Area(*a))).collect()
+            }
+            Extension::DoorType(kind) => {
+                let all = self.world.doors.values().filter(|d| d.door_type == Some(*kind));
+                all.map(|d| Thing::Entity(Entity::Door(d.id))).collect()
+            }
+            Extension::Doors => {
+                self.gates().iter().filter(|g| !g.is_passage).map(|g| g.thing).collect()
+            }
+            Extension::Passages => {
+                self.gates().iter().filter(|g| g.is_passage).map(|g| g.thing).collect()
+            }
+            Extension::Windows => {
+                (0..self.lexicon().windows.len()).map(|n| Thing::Window(n as u32)).collect()
+            }
+            Extension::Places => {
+                self.world.places.keys().map(|p| Thing::Entity(Entity::Place(*p))).collect()
+            }
+            Extension::Storeys | Extension::Building => {
+                self.world.maps.keys().map(|m| Thing::Entity(Entity::Map(*m))).collect()
+            }
+            Extension::Robot => vec![Thing::Robot],
+            Extension::Floor | Extension::Walls => Vec::new(),
+        }
+    }
+
+    /// What the head alone may mean.
+    pub(in crate::language::question) fn base(&self, head: &Head) -> Vec<Thing> {
+        if let Some(things) = &head.things {
+            return things.clone();
+        }
+        if !head.named.is_empty() {
+            return head.named.iter().map(|e| Thing::Entity(*e)).collect();
+        }
+        if head.anything {
+            return self.members(&Extension::Things);
+        }
+        let mut found: BTreeSet<Thing> = BTreeSet::new();
+        for kind in &head.kinds {
+            found.extend(self.members(&self.lexicon().kind(*kind).extension));
+        }
+        found.into_iter().collect()
+    }
+
+    pub(in crate::language::question) fn is_floor(&self, noun: &Noun) -> bool {
+        let kinds = &noun.head.kinds;
+        kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Floor)
+            && noun.head.named.is_empty()
+    }
+
+    /// Everything that a description fits. `loose` lets an anchor be any of several things.
+    ///
+    /// # Errors
+    /// An anchor that may be several things, or none.
+    pub(in crate::language::question) fn find(
+        &self,
+        noun: &Noun,
+        loose: bool,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut found = self.base(&noun.head);
+        if noun.other {
+            found.retain(|t| !self.memory.spoken.contains(t));
+        }
+        for restriction in &noun.restrictions {
+            let related = self.related_to(restriction, loose)?;
+            // "What is in the kitchen" asks for things, "what is next to the kitchen" may ask for rooms.
+            if noun.head.anything
+                && !restriction.negated
+                && found.iter().all(|t| !related.contains(t))
+            {
+                let rooms = related.iter().filter(|t| t.area().is_some()).copied();
+                if restriction.rel == Rel::NextTo || restriction.rel == Rel::Near {
+                    found = rooms.collect();
+                    continue;
+                }
+            }
+            found.retain(|t| related.contains(t) != restriction.negated);
+        }
+        for filter in &noun.filters {
+            found.retain(|t| self.has_value(*t, filter.value) != filter.negated);
+        }
+        for except in &noun.except {
+            let without = self.find(except, true)?;
+            found.retain(|t| !without.contains(t));
+        }
+        match (&noun.best, noun.rank) {
+            (Some(best), rank) => {
+                let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
+                self.best(best, found, places, loose)
+            }
+            // «второй стул»: nothing says in which order.
+            (None, Some(_)) => Err(Doubt::NotUnderstood { words: noun.text.clone() }),
+            (None, None) => Ok(found),
+        }
+    }
+
+    /// The one thing, or the several where several are spoken of.
+    ///
+    /// # Errors
+    /// Several where one is meant; none at all.
+    pub(in crate::language::question) fn definite(&self, noun: &Noun) -> Result<Vec<Thing>, Doubt> {
+        let found = self.find(noun, false)?;
+        if found.is_empty() {
+            return Err(self.none_such(noun));
+        }
+        let several = noun.plural || noun.all || noun.count.is_some() || noun.indefinite;
+        if found.len() > 1 && !several && noun.head.things.is_none() {
+            return Err(self.ambiguous(noun, &found));
+        }
+        Ok(found)
+    }
+
+    /// # Errors
+    /// As [`Self::definite`]; several things are always one too many.
+    pub(in crate::language::question) fn one(&self, noun: &Noun) -> Result<Thing, Doubt> {
+        let found = self.find(noun, false)?;
+        match found[..] {
+            [only] => Ok(only),
+            [] => Err(self.none_such(noun)),
+            _ => Err(self.ambiguous(noun, &found)),
+        }
+    }
+
+    pub(in crate::language::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
+        Doubt::Ambiguous { reference: noun.text.clone(), candidates: found.to_vec() }
+    }
+
+    pub(in crate::language::question) fn none_such(&self, noun: &Noun) -> Doubt {
+        Doubt::NoneSuch { noun: Box::new(noun.clone()) }
+    }
+
+    /// What lies to some anchor as a restriction says.
+    fn related_to(&self, restriction: &Restriction, loose: bool) -> Result<HashSet<Thing>, Doubt> {
+        if restriction.rel == Rel::Between {
+            return self.between(restriction);
+        }
+        let Some(noun) = restriction.anchors.first() else { return Ok(HashSet::new()) };
+        if self.is_floor(noun) {
+            let on_floor = self.on_floor().iter().map(|id| Thing::Entity(Entity::Replica(*id)));
+            let mut found: HashSet<Thing> = on_floor.collect();
+            for inner in &noun.restrictions {
+                let within = self.related_to(inner, loose)?;
+                found.retain(|t| within.contains(t));
+            }
+            return Ok(found);
+        }
+        let mut found = HashSet::new();
+        for noun in &restriction.anchors {
+            for anchor in self.anchors(restriction, noun, loose)? {
+                found.extend(self.related(restriction.rel, anchor));
+            }
+        }
+        Ok(found)
+    }
+
+    /// # Errors
+    /// Several where one is meant; none at all.
+    pub(in crate::language::question) fn anchors(
+        &self,
+        restriction: &Restriction,
+        noun: &Noun,
+        loose: bool,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let any = loose || noun.indefinite || matches!(restriction.rel, Rel::Has | Rel::Bears);
+        let anchors = self.find(noun, any)?;
+        if anchors.is_empty() && !any {
+            return Err(self.none_such(noun));
+        }
+        let several = any || noun.plural || noun.all || noun.head.things.is_some();
+        if anchors.len() > 1 && !several {
+            return Err(self.ambiguous(noun, &anchors));
+        }
+        Ok(anchors)
+    }
+
+    pub(super) fn between(&self, restriction: &Restriction) -> Result<HashSet<Thing>, Doubt> {
+        let mut ends: Vec<Thing> = Vec::new();
+        for noun in &restriction.anchors {
+            ends.extend(self.definite(noun)?);
+        }
+        let [a, b] = ends[..] else {
+            return Err(match (&ends[..], &restriction.anchors[..]) {
+                ([], [noun, ..]) => self.none_such(noun),
+                (_, [noun, ..]) => self.ambiguous(noun, &ends),
+                _ => Doubt::Empty,
+            });
+        };
+        if let (Some(a), Some(b)) = (a.area(), b.area()) {
+            let joins = |g: &&Gate| g.areas.contains(&a) && g.areas.contains(&b);
+            return Ok(self.gates().iter().filter(joins).map(|g| g.thing).collect());
+        }
+        let (Some(a), Some(b)) = (a.replica(), b.replica()) else { return Ok(HashSet::new()) };
+        let between = self.relations.standing_between(a, b);
+        Ok(between.into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect())
+    }
+
+    /// The things at some places of a superlative's order: from the first place asked for, so many.
+    fn best(
+        &self,
+        best: &Best,
+        found: Vec<Thing>,
+        (rank, count): (u64, u64),
+        loose: bool,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut ranked: Vec<(f64, Thing)> = match best.extreme {
+            Extreme::Nearest | Extreme::Farthest => {
+                let anchors = match &best.anchor {
+                    Some(noun) => {
+                        let place = Restriction { rel: Rel::To, anchors: vec![], negated: false };
+                        self.anchors(&place, noun, loose)?
+                    }
+                    None => vec![Thing::Robot],
+                };
+                let sign = if best.extreme == Extreme::Nearest { 1.0 } else { -1.0 };
+                let away = |t: Thing| {
+                    let all =
+                        anchors.iter().filter(|a| **a != t).filter_map(|a| self.distance(t, *a));
+                    all.reduce(f64::min)
+                };
+                found.iter().filter_map(|t| Some((sign * away(*t)?, *t))).collect()
+            }
+            Extreme::LeftMost | Extreme::RightMost => self.outermost(&found, best.extreme),
+            Extreme::Most | Extreme::Fewest => {
+                let Some(counted) = &best.anchor else { return Ok(found) };
+                let all: HashSet<Thing> = self.find(counted, true)?.into_iter().collect();
+                let sign = if best.extreme == Extreme::Most { -1.0 } else { 1.0 };
+                let number = |t: Thing| self.having(&all, t) as f64;
+                found.iter().map(|t| (sign * number(*t), *t)).collect()
+            }
+            extreme => {
+                let up = matches!(
+                    extreme,
+                    Extreme::Biggest | Extreme::Tallest | Extreme::Widest | Extreme::Longest
+                );
+                let sign = if up { -1.0 } else { 1.0 };
+                found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()
+            }
+        };
+        ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let places = |n: u64| usize::try_from(n).unwrap_or(usize::MAX).max(1);
+        // The second biggest comes after all that are equally the biggest.
+        for _ in 1..places(rank) {
+            let Some(&(first, _)) = ranked.first() else { break };
+            ranked.retain(|(m, _)| *m > first + 1e-6);
+        }
+        let Some(limit) = ranked.get(places(count).min(ranked.len()).saturating_sub(1)) else {
+            return Ok(Vec::new());
+        };
+        let limit = limit.0;
+        // Equal ones are all the biggest.
+        Ok(ranked.into_iter().take_while(|(m, _)| *m <= limit + 1e-6).map(|(_, t)| t).collect())
+    }
+
+    /// How many of some things a room holds, or a thing bears.
+    pub(in crate::language::question) fn having(
+        &self,
+        counted: &HashSet<Thing>,
+        thing: Thing,
+    ) -> usize {
+        let rel = if self.is_place(thing) { Rel::In } else { Rel::On };
+        self.related(rel, thing).iter().filter(|t| counted.contains(t)).count()
+    }
+
+    fn is_place(&self, thing: Thing) -> bool {
+        matches!(thing, Thing::Entity(Entity::Area(_) | Entity::Map(_)))
+    }
+
+    /// Things in the order in which the robot sees them, from the left or from the right.
+    fn outermost(&self, found: &[Thing], extreme: Extreme) -> Vec<(f64, Thing)> {
+        let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
+        let placed: Vec<(Vector, Thing)> = found
+            .iter()
+            .filter_map(|t| {
+                self.point(*t).filter(|(m, _)| *m == map).map(|(_, p)| (p - pose.at, *t))
+            })
+            .collect();
+        let middle: Vector = placed.iter().filter_map(|(v, _)| v.try_normalize(1e-6)).sum();
+        let sign = if extreme == Extreme::LeftMost { -1.0 } else { 1.0 };
+        placed.iter().map(|(v, t)| (sign * middle.perp(v).atan2(middle.dot(v)), *t)).collect()
+    }
+}

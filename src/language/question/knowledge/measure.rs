@@ -1,0 +1,118 @@
+//! Places, distances and sizes. Lengths in cm, in the frame of the Map.
+//!
+//! Invariant: things on different Maps have no distance.
+
+use super::Knowledge;
+use crate::language::question::query::{Extreme, Thing};
+use crate::map::Entity;
+use crate::units::{AreaId, MapId, Point};
+
+impl Knowledge<'_> {
+    /// The room in which a thing is.
+    pub(in crate::language::question) fn area_of(&self, thing: Thing) -> Option<AreaId> {
+        match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.area_of(id),
+            Thing::Entity(Entity::Area(id)) => Some(id),
+            Thing::Entity(Entity::Place(id)) => self.world.places.get(&id).map(|p| p.area),
+            Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => {
+                self.gate(thing).and_then(|g| g.areas.first().copied())
+            }
+            Thing::Window(n) => Some(self.lexicon().windows[n as usize].area),
+            Thing::Robot => {
+                let (map, pose) = self.senses.robot()?;
+                self.relations.measurements().area_at(map, pose.at)
+            }
+            Thing::Entity(Entity::Map(_)) => None,
+        }
+    }
+
+    /// Where a thing is on its Map.
+    pub(in crate::language::question) fn point(&self, thing: Thing) -> Option<(MapId, Point)> {
+        match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.centre(id),
+            Thing::Entity(Entity::Area(id)) => self.relations.area_centre(id),
+            Thing::Entity(Entity::Place(id)) => {
+                let place = self.world.places.get(&id)?;
+                let (map, frame) = self.world.placement(place.area)?;
+                Some((map, frame.apply(place.at)))
+            }
+            Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => {
+                let gate = self.gate(thing)?;
+                let (map, _) = self.world.placement(*gate.areas.first()?)?;
+                Some((map, nalgebra::center(&gate.ends.0, &gate.ends.1)))
+            }
+            Thing::Window(n) => {
+                let window = &self.lexicon().windows[n as usize];
+                let (map, _) = self.world.placement(window.area)?;
+                Some((map, nalgebra::center(&window.ends.0, &window.ends.1)))
+            }
+            Thing::Robot => self.senses.robot().map(|(map, pose)| (map, pose.at)),
+            Thing::Entity(Entity::Map(_)) => None,
+        }
+    }
+
+    /// Straight distance between two things of one Map, cm: between surfaces, where both have any.
+    pub(in crate::language::question) fn distance(&self, a: Thing, b: Thing) -> Option<f64> {
+        let segment = |t: Thing| match t {
+            Thing::Window(n) => Some(self.lexicon().windows[n as usize].ends),
+            _ => self.gate(t).map(|g| g.ends),
+        };
+        match (a, b) {
+            (Thing::Entity(Entity::Replica(x)), Thing::Entity(Entity::Replica(y))) => {
+                self.relations.distance(x, y)
+            }
+            (Thing::Entity(Entity::Replica(x)), Thing::Entity(Entity::Area(y)))
+            | (Thing::Entity(Entity::Area(y)), Thing::Entity(Entity::Replica(x))) => {
+                self.relations.distance_to_area(x, y)
+            }
+            (Thing::Entity(Entity::Replica(x)), other)
+            | (other, Thing::Entity(Entity::Replica(x))) => match segment(other) {
+                Some(ends) => {
+                    let (map, _) = self.point(other)?;
+                    let own = self.relations.centre(x).map(|(m, _)| m);
+                    (own == Some(map))
+                        .then(|| self.relations.distance_to_segment(x, ends))
+                        .flatten()
+                }
+                None => {
+                    let (map, at) = self.point(other)?;
+                    self.relations.distance_to_point(x, map, at)
+                }
+            },
+            _ => {
+                let ((m, p), (n, q)) = (self.point(a)?, self.point(b)?);
+                (m == n).then(|| (p - q).norm())
+            }
+        }
+    }
+
+    /// What a superlative compares of a thing; more is more of it.
+    pub(in crate::language::question) fn measure(
+        &self,
+        extreme: Extreme,
+        thing: Thing,
+    ) -> Option<f64> {
+        let extent = match thing {
+            Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
+            Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
+            _ => {
+                let gate = self.gate(thing)?;
+                let width = (gate.ends.1 - gate.ends.0).norm();
+                return matches!(
+                    extreme,
+                    Extreme::Widest | Extreme::Narrowest | Extreme::Biggest | Extreme::Smallest
+                )
+                .then_some(width);
+            }
+        };
+        let is_area = thing.area().is_some();
+        Some(match extreme {
+            Extreme::Biggest | Extreme::Smallest if is_area => extent.base,
+            Extreme::Biggest | Extreme::Smallest => extent.base * extent.height,
+            Extreme::Tallest | Extreme::Lowest => extent.height,
+            Extreme::Narrowest => extent.width.min(extent.depth),
+            Extreme::Widest | Extreme::Longest => extent.width.max(extent.depth),
+            _ => return None,
+        })
+    }
+}

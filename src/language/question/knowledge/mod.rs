@@ -1,0 +1,249 @@
+//! What a description finds on the map: kinds, values and relations looked up, and things measured when that is asked.
+
+mod find;
+mod measure;
+mod relate;
+mod values;
+
+use super::lexicon::Lexicon;
+use super::query::{Rel, Thing};
+use super::{Memory, Senses};
+use crate::language::words::Language;
+use crate::map::{DoorKind, Entity, Permeability, World};
+use crate::semantics::{Relations, Subject};
+use crate::units::{AreaId, Point, ReplicaId, TypeId};
+use std::cell::OnceCell;
+use std::collections::{BTreeMap, HashMap, HashSet};
+
+/// The tuples of one relation, both ways.
+#[derive(Debug, Default)]
+struct Pairs {
+    forward: HashMap<Thing, Vec<Thing>>,
+    backward: HashMap<Thing, Vec<Thing>>,
+}
+
+/// A relation of the rule text that a preposition may stand for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Basis {
+    pub(super) relation: &'static str,
+    /// The anchor stands first in the tuple.
+    pub(super) swapped: bool,
+    /// Only where the anchor has shelves: on a bookcase is what stands in it.
+    pub(super) of_support: bool,
+}
+
+const fn basis(relation: &'static str) -> Basis {
+    Basis { relation, swapped: false, of_support: false }
+}
+
+const fn swapped(relation: &'static str) -> Basis {
+    Basis { relation, swapped: true, of_support: false }
+}
+
+/// The relations that a preposition stands for; what any of them gives counts.
+pub(super) fn bases(rel: Rel) -> &'static [Basis] {
+    const ON: &[Basis] =
+        &[basis("ON_TOP_OF"), Basis { relation: "INSIDE", swapped: false, of_support: true }];
+    const IN: &[Basis] = &[basis("INSIDE")];
+    const UNDER: &[Basis] = &[basis("UNDER"), swapped("ON_TOP_OF"), swapped("ABOVE")];
+    const ABOVE: &[Basis] = &[basis("ABOVE"), swapped("UNDER")];
+    const NEXT: &[Basis] =
+        &[basis("NEXT_TO"), basis("LEANING_AGAINST"), swapped("LEANING_AGAINST")];
+    const NEAR: &[Basis] = &[basis("CLOSE_TO")];
+    const LEFT: &[Basis] = &[basis("LEFT_OF")];
+    const RIGHT: &[Basis] = &[basis("RIGHT_OF")];
+    const BEHIND: &[Basis] = &[basis("BEHIND")];
+    const FRONT: &[Basis] = &[basis("IN_FRONT_OF")];
+    const LEANING: &[Basis] = &[basis("LEANING_AGAINST")];
+    const HAS: &[Basis] = &[swapped("INSIDE")];
+    const BEARS: &[Basis] = &[swapped("ON_TOP_OF"), swapped("INSIDE")];
+    match rel {
+        Rel::On => ON,
+        Rel::In | Rel::Of => IN,
+        Rel::Under => UNDER,
+        Rel::Above => ABOVE,
+        Rel::NextTo => NEXT,
+        Rel::Near | Rel::At => NEAR,
+        Rel::LeftOf => LEFT,
+        Rel::RightOf => RIGHT,
+        Rel::Behind => BEHIND,
+        Rel::InFrontOf => FRONT,
+        Rel::Leaning => LEANING,
+        Rel::Has => HAS,
+        Rel::Bears => BEARS,
+        Rel::Between | Rel::Outside | Rel::From | Rel::To | Rel::Through => &[],
+    }
+}
+
+const RELATIONS: [&str; 11] = [
+    "ON_TOP_OF",
+    "INSIDE",
+    "UNDER",
+    "ABOVE",
+    "NEXT_TO",
+    "LEANING_AGAINST",
+    "CLOSE_TO",
+    "LEFT_OF",
+    "RIGHT_OF",
+    "BEHIND",
+    "IN_FRONT_OF",
+];
+
+/// From whose side left and right are seen.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Frame {
+    /// The anchor's own front.
+    Own,
+    /// The robot's place.
+    Viewer,
+}
+
+/// A door or passage with what it joins.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Gate {
+    pub(super) thing: Thing,
+    pub(super) name: String,
+    pub(super) is_passage: bool,
+    /// The Areas that it joins; one for a door that leads out of the map.
+    pub(super) areas: Vec<AreaId>,
+    pub(super) ends: (Point, Point),
+    pub(super) clear_width: f64,
+}
+
+/// What is looked up once a map: nouns, relations both ways, doors. It belongs to one state of the relations.
+#[derive(Debug)]
+pub struct Mind {
+    pub lexicon: Lexicon,
+    pairs: [OnceCell<Pairs>; RELATIONS.len()],
+    gates: OnceCell<Vec<Gate>>,
+    by_type: OnceCell<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
+    on_floor: OnceCell<HashSet<ReplicaId>>,
+}
+
+impl Mind {
+    /// The nouns of a world; all else when it is first asked for.
+    #[must_use]
+    pub fn of(world: &World) -> Self {
+        Self {
+            lexicon: Lexicon::of(world),
+            pairs: std::array::from_fn(|_| OnceCell::new()),
+            gates: OnceCell::new(),
+            by_type: OnceCell::new(),
+            on_floor: OnceCell::new(),
+        }
+    }
+}
+
+/// The map, asked by someone who stands somewhere.
+#[derive(Clone, Copy)]
+pub(super) struct Knowledge<'a> {
+    pub(super) world: &'a World,
+    pub(super) relations: &'a Relations,
+    pub(super) mind: &'a Mind,
+    pub(super) senses: &'a dyn Senses,
+    pub(super) memory: &'a Memory,
+    pub(super) language: Language,
+}
+
+impl Knowledge<'_> {
+    pub(super) fn lexicon(&self) -> &Lexicon {
+        &self.mind.lexicon
+    }
+
+    fn pairs(&self, relation: &str) -> Option<&Pairs> {
+        let at = RELATIONS.iter().position(|r| *r == relation)?;
+        Some(self.mind.pairs[at].get_or_init(|| {
+            let mut pairs = Pairs::default();
+            let tuples = self.relations.derived().tuples(relation);
+            for tuple in tuples.into_iter().flatten() {
+                let thing = |column| self.thing(tuple.symbol(column)?);
+                if let (Some(x), Some(y)) = (thing(0), thing(1)) {
+                    pairs.forward.entry(x).or_default().push(y);
+                    pairs.backward.entry(y).or_default().push(x);
+                }
+            }
+            pairs
+        }))
+    }
+
+    pub(super) fn thing(&self, symbol: &str) -> Option<Thing> {
+        match self.relations.symbols().subject(symbol) {
+            Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
+            Some(_) => None,
+            None => self.gates().iter().find(|g| g.name == symbol).map(|g| g.thing),
+        }
+    }
+
+    /// The symbol by which the facts know a thing.
+    pub(super) fn symbol(&self, thing: Thing) -> String {
+        match thing {
+            Thing::Entity(entity) => {
+                // What is carried stands in no facts.
+                let known = self.relations.symbols().known(Subject::Entity(entity));
+                known.map_or_else(|| self.world.name(entity).to_owned(), ToString::to_string)
+            }
+            Thing::Opening(n) => self.relations.openings()[n as usize].name.clone(),
+            Thing::Window(n) => self.lexicon().windows[n as usize].name.clone(),
+            Thing::Robot => "РБ-2".to_owned(),
+        }
+    }
+
+    /// Doors and passages of Areas, each once.
+    pub(super) fn gates(&self) -> &[Gate] {
+        self.mind.gates.get_or_init(|| {
+            let mut gates: BTreeMap<String, Gate> = BTreeMap::new();
+            for (n, opening) in self.relations.openings().iter().enumerate() {
+                let kind = opening.door.and_then(|d| self.world.doors.get(&d)).map(|d| d.kind);
+                let is_passage = kind == Some(DoorKind::Passage)
+                    || (kind.is_none() && opening.permeability == Permeability::Permeable);
+                let thing = match opening.door {
+                    Some(door) => Thing::Entity(Entity::Door(door)),
+                    None => Thing::Opening(n as u32),
+                };
+                let gate = gates.entry(opening.name.clone()).or_insert_with(|| Gate {
+                    thing,
+                    name: opening.name.clone(),
+                    is_passage,
+                    areas: Vec::new(),
+                    ends: opening.ends,
+                    clear_width: opening.clear_width,
+                });
+                for area in [Some(opening.area), opening.leads_to()].into_iter().flatten() {
+                    if !gate.areas.contains(&area) {
+                        gate.areas.push(area);
+                    }
+                }
+            }
+            gates.into_values().collect()
+        })
+    }
+
+    pub(super) fn gate(&self, thing: Thing) -> Option<&Gate> {
+        self.gates().iter().find(|g| g.thing == thing)
+    }
+
+    fn by_type(&self) -> &HashMap<Option<TypeId>, Vec<ReplicaId>> {
+        self.mind.by_type.get_or_init(|| {
+            let mut by_type: HashMap<Option<TypeId>, Vec<ReplicaId>> = HashMap::new();
+            for replica in self.world.replicas.values() {
+                let kind = self.world.objects.get(&replica.object).and_then(|o| o.object_type);
+                by_type.entry(kind).or_default().push(replica.id);
+            }
+            by_type
+        })
+    }
+
+    fn on_floor(&self) -> &HashSet<ReplicaId> {
+        self.mind.on_floor.get_or_init(|| {
+            let tuples = self.relations.derived().tuples("stands_on_floor");
+            let things = tuples.into_iter().flatten();
+            things.filter_map(|t| self.thing(t.symbol(0)?)?.replica()).collect()
+        })
+    }
+
+    pub(super) fn has_trait(&self, replica: ReplicaId, wanted: &str) -> bool {
+        let object = self.world.replicas.get(&replica).map(|r| r.object);
+        let kind = object.and_then(|o| self.world.objects.get(&o)).and_then(|o| o.object_type);
+        self.world.types.object.has_trait(kind, wanted)
+    }
+}

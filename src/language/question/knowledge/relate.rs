@@ -1,0 +1,248 @@
+//! What lies to a thing as a preposition says, by the relations and, where no relation tells, by measuring.
+//!
+//! Invariant: what the relations tell is not measured again.
+
+use super::Frame;
+use super::Knowledge;
+use super::bases;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Rel, Thing};
+use crate::map::Entity;
+use crate::units::{AreaId, MapId, ReplicaId, Vector};
+use std::collections::{BTreeSet, HashSet};
+
+/// What stands this far from a door is at it, cm.
+const AT_DOOR: f64 = 100.0;
+
+impl Knowledge<'_> {
+    /// What lies to a thing as a preposition says.
+    pub(in crate::language::question) fn related(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+        match (rel, anchor) {
+            (Rel::In | Rel::On | Rel::Of | Rel::At, Thing::Entity(Entity::Map(map))) => {
+                self.on_map(map)
+            }
+            (Rel::In | Rel::On | Rel::At, Thing::Entity(Entity::Area(area))) => self.in_area(area),
+            (Rel::Of | Rel::From | Rel::To | Rel::Through, Thing::Entity(Entity::Area(area))) => {
+                let mut found = self.in_area(area);
+                if rel != Rel::Of {
+                    found.retain(|t| self.gate(*t).is_some());
+                }
+                found
+            }
+            (Rel::Outside, Thing::Entity(Entity::Area(area))) => {
+                let inside: HashSet<Thing> = self.in_area(area).into_iter().collect();
+                let all = self.members(&Extension::Things).into_iter();
+                all.filter(|t| !inside.contains(t)).collect()
+            }
+            (Rel::Near | Rel::NextTo, Thing::Entity(Entity::Area(area))) => {
+                let gates = self.gates().iter().filter(|g| g.areas.contains(&area));
+                let rooms: BTreeSet<AreaId> =
+                    gates.flat_map(|g| &g.areas).copied().filter(|a| *a != area).collect();
+                rooms.into_iter().map(|a| Thing::Entity(Entity::Area(a))).collect()
+            }
+            (
+                Rel::Near | Rel::NextTo | Rel::At,
+                Thing::Entity(Entity::Door(_)) | Thing::Opening(_),
+            ) => {
+                let Some(gate) = self.gate(anchor) else { return Vec::new() };
+                self.within_reach(&gate.areas, |id| {
+                    self.relations.distance_to_segment(id, gate.ends)
+                })
+            }
+            (Rel::Near | Rel::NextTo | Rel::At | Rel::Under, Thing::Window(n)) => {
+                let window = &self.lexicon().windows[n as usize];
+                self.within_reach(&[window.area], |id| {
+                    self.relations.distance_to_segment(id, window.ends)
+                })
+            }
+            (Rel::Near | Rel::NextTo | Rel::At, Thing::Entity(Entity::Place(_)) | Thing::Robot) => {
+                let Some((map, at)) = self.point(anchor) else { return Vec::new() };
+                let area = self.relations.measurements().area_at(map, at);
+                let areas: Vec<AreaId> = area.into_iter().collect();
+                self.within_reach(&areas, |id| self.relations.distance_to_point(id, map, at))
+            }
+            (Rel::Has, _) => self.holders(anchor),
+            (Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf, Thing::Robot) => {
+                self.beside_robot(rel)
+            }
+            (Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf, _) => {
+                match self.frame(anchor) {
+                    Frame::Own => self.by_relation(rel, anchor),
+                    Frame::Viewer => self.for_viewer(rel, anchor),
+                }
+            }
+            _ => self.by_relation(rel, anchor),
+        }
+    }
+
+    fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+        let mut found: Vec<Thing> = Vec::new();
+        for basis in bases(rel) {
+            if basis.of_support && anchor.replica().is_none_or(|id| !self.has_trait(id, "support"))
+            {
+                continue;
+            }
+            let Some(pairs) = self.pairs(basis.relation) else { continue };
+            let side = if basis.swapped { &pairs.forward } else { &pairs.backward };
+            for thing in side.get(&anchor).into_iter().flatten() {
+                if !found.contains(thing) {
+                    found.push(*thing);
+                }
+            }
+        }
+        found.sort_unstable();
+        found
+    }
+
+    /// The tuple that makes a relation hold: its name in the rule text and its arguments in order.
+    pub(in crate::language::question) fn tuple(
+        &self,
+        rel: Rel,
+        x: Thing,
+        y: Thing,
+    ) -> Option<(&'static str, Thing, Thing)> {
+        if let (Rel::Has, _) = (rel, y) {
+            return self.tuple(Rel::In, y, x);
+        }
+        bases(rel).iter().find_map(|basis| {
+            let (a, b) = if basis.swapped { (y, x) } else { (x, y) };
+            let pairs = self.pairs(basis.relation)?;
+            pairs.forward.get(&a)?.contains(&b).then_some((basis.relation, a, b))
+        })
+    }
+
+    /// Rooms and things that hold a thing.
+    fn holders(&self, thing: Thing) -> Vec<Thing> {
+        match thing {
+            Thing::Window(n) => {
+                vec![Thing::Entity(Entity::Area(self.lexicon().windows[n as usize].area))]
+            }
+            Thing::Entity(Entity::Place(id)) => self
+                .world
+                .places
+                .get(&id)
+                .map(|p| Thing::Entity(Entity::Area(p.area)))
+                .into_iter()
+                .collect(),
+            _ => match self.gate(thing) {
+                Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
+                None => self.by_relation(Rel::Has, thing),
+            },
+        }
+    }
+
+    fn in_area(&self, area: AreaId) -> Vec<Thing> {
+        let here = Thing::Entity(Entity::Area(area));
+        let mut found = self.by_relation(Rel::In, here);
+        found.extend(self.gates().iter().filter(|g| g.areas.contains(&area)).map(|g| g.thing));
+        let windows = self.lexicon().windows.iter().enumerate();
+        found.extend(windows.filter(|(_, w)| w.area == area).map(|(n, _)| Thing::Window(n as u32)));
+        let places = self.world.places.values().filter(|p| p.area == area);
+        found.extend(places.map(|p| Thing::Entity(Entity::Place(p.id))));
+        found
+    }
+
+    fn on_map(&self, map: MapId) -> Vec<Thing> {
+        let Some(map) = self.world.maps.get(&map) else { return Vec::new() };
+        let mut found: Vec<Thing> = Vec::new();
+        for item in &map.items {
+            found.push(Thing::Entity(Entity::Area(item.area)));
+            found.extend(self.in_area(item.area));
+        }
+        found.sort_unstable();
+        found.dedup();
+        found
+    }
+
+    fn within_reach(
+        &self,
+        areas: &[AreaId],
+        distance: impl Fn(ReplicaId) -> Option<f64>,
+    ) -> Vec<Thing> {
+        let rooms = areas.iter().map(|a| Thing::Entity(Entity::Area(*a)));
+        let mut near: Vec<(f64, Thing)> = rooms
+            .flat_map(|room| self.by_relation(Rel::In, room))
+            .filter_map(|t| Some((distance(t.replica()?)?, t)))
+            .filter(|(d, _)| *d <= AT_DOOR)
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.dedup_by_key(|(_, t)| *t);
+        near.into_iter().map(|(_, t)| t).collect()
+    }
+
+    /// From whose side left and right of a thing are told.
+    pub(in crate::language::question) fn frame(&self, anchor: Thing) -> Frame {
+        match anchor.replica() {
+            Some(id) if self.relations.has_front(id) => Frame::Own,
+            _ => Frame::Viewer,
+        }
+    }
+
+    fn for_viewer(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+        let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
+        let wanted = match rel {
+            Rel::LeftOf => "LEFT_FOR_VIEWER",
+            Rel::RightOf => "RIGHT_FOR_VIEWER",
+            Rel::Behind => "BEHIND_FOR_VIEWER",
+            _ => "IN_FRONT_FOR_VIEWER",
+        };
+        let symbol = self.symbol(anchor);
+        let seen = self.relations.seen_from(map, pose.at).unwrap_or_default();
+        let seen = seen.into_iter().filter(|s| s.relation_en == wanted && s.anchor == symbol);
+        seen.filter_map(|s| self.thing(&s.thing)).collect()
+    }
+
+    /// What is ahead of the robot, behind it or at its sides, in its room, within four metres, nearest first.
+    fn beside_robot(&self, rel: Rel) -> Vec<Thing> {
+        const REACH: f64 = 400.0;
+        let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
+        let Some(area) = self.relations.measurements().area_at(map, pose.at) else {
+            return Vec::new();
+        };
+        let (sin, cos) = pose.heading.sin_cos();
+        let (ahead, left) = (Vector::new(cos, sin), Vector::new(-sin, cos));
+        let mut found: Vec<(f64, Thing)> = Vec::new();
+        for thing in self.by_relation(Rel::In, Thing::Entity(Entity::Area(area))) {
+            let Some(id) = thing.replica() else { continue };
+            let Some((_, at)) = self.relations.centre(id) else { continue };
+            let Some(distance) = self.relations.distance_to_point(id, map, pose.at) else {
+                continue;
+            };
+            let (forward, sideways) = ((at - pose.at).dot(&ahead), (at - pose.at).dot(&left));
+            let fits = match rel {
+                Rel::InFrontOf => forward >= sideways.abs(),
+                Rel::Behind => -forward >= sideways.abs(),
+                Rel::LeftOf => sideways > forward.abs(),
+                _ => -sideways > forward.abs(),
+            };
+            if fits && distance <= REACH {
+                found.push((distance, thing));
+            }
+        }
+        found.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        found.into_iter().map(|(_, t)| t).collect()
+    }
+
+    /// Whether a relation holds of two things; being on and in is passed on by what stands between.
+    pub(in crate::language::question) fn holds(&self, rel: Rel, x: Thing, y: Thing) -> bool {
+        if self.related(rel, y).contains(&x) {
+            return true;
+        }
+        matches!(rel, Rel::On | Rel::In) && self.support_chain(x).contains(&y)
+    }
+
+    /// What a thing stands on or lies in, what that stands on, and so on.
+    pub(in crate::language::question) fn support_chain(&self, thing: Thing) -> Vec<Thing> {
+        let mut chain = Vec::new();
+        let mut at = thing.replica();
+        while let Some(id) = at.and_then(|id| self.relations.support_of(id)) {
+            let support = Thing::Entity(Entity::Replica(id));
+            if chain.contains(&support) {
+                break;
+            }
+            chain.push(support);
+            at = Some(id);
+        }
+        chain
+    }
+}

@@ -1,0 +1,82 @@
+//! Values of properties and states of doors, as the map has them.
+//!
+//! Invariant: what a thing itself says goes before what its object says.
+
+use super::Knowledge;
+use crate::language::question::query::Thing;
+use crate::language::question::values::{Property, ValueId};
+use crate::map::{DoorKind, DoorStatus, Entity};
+use crate::units::DoorId;
+
+impl Knowledge<'_> {
+    /// All values of a thing, with the map's own words for them.
+    pub(in crate::language::question) fn values(
+        &self,
+        thing: Thing,
+    ) -> Vec<(Property, Option<ValueId>, String)> {
+        let values = &self.lexicon().values;
+        let mut found: Vec<(Property, Option<ValueId>, String)> = Vec::new();
+        let mut add = |properties: &crate::map::Properties| {
+            for (name, value) in properties {
+                let property = Property::of(name);
+                if found.iter().all(|(other, _, _)| *other != property) {
+                    found.push((property, values.meaning(value), value.clone()));
+                }
+            }
+        };
+        match thing {
+            Thing::Entity(Entity::Replica(id)) => {
+                if let Some(replica) = self.world.replicas.get(&id) {
+                    add(&replica.properties);
+                    if let Some(object) = self.world.objects.get(&replica.object) {
+                        add(&object.properties);
+                    }
+                }
+            }
+            Thing::Entity(Entity::Area(id)) => {
+                self.world.areas.get(&id).iter().for_each(|a| add(&a.properties));
+            }
+            Thing::Entity(Entity::Door(id)) => {
+                self.world.doors.get(&id).iter().for_each(|d| add(&d.properties));
+            }
+            _ => {}
+        }
+        for (status, _) in self.statuses(thing) {
+            let value = values.of_door(status);
+            let word = value.map(|v| values.entry(v).russian.clone()).unwrap_or_default();
+            found.insert(0, (Property::State, value, word));
+        }
+        found
+    }
+
+    /// States of a door, or of the doors of a thing.
+    pub(in crate::language::question) fn statuses(
+        &self,
+        thing: Thing,
+    ) -> Vec<(DoorStatus, DoorId)> {
+        match thing {
+            Thing::Entity(Entity::Door(id)) => match self.world.doors.get(&id) {
+                Some(door) if door.kind != DoorKind::Passage => vec![(door.state.status, id)],
+                _ => Vec::new(),
+            },
+            Thing::Entity(Entity::Replica(id)) => {
+                let Some(replica) = self.world.replicas.get(&id) else { return Vec::new() };
+                let Some(object) = self.world.objects.get(&replica.object) else {
+                    return Vec::new();
+                };
+                let state = |door: DoorId| {
+                    let own = replica.door_states.get(&door).copied();
+                    own.or_else(|| self.world.doors.get(&door).map(|d| d.state))
+                };
+                let doors = object.doors.iter();
+                doors.filter_map(|m| Some((state(m.door)?.status, m.door))).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    pub(in crate::language::question) fn has_value(&self, thing: Thing, wanted: ValueId) -> bool {
+        let values = &self.lexicon().values;
+        self.values(thing).iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted)))
+    }
+}

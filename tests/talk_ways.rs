@@ -1,0 +1,213 @@
+//! Ways in words: what is told agrees with the route's geometry, in every world and both languages.
+
+use orthoframe::engine::{Engine, Method, RouteAnswer, World};
+use orthoframe::exchange::{Options, read};
+use orthoframe::language::Language;
+use orthoframe::language::directions::{Directions, Passage};
+use orthoframe::language::report::Detail;
+use orthoframe::map::Entity;
+use orthoframe::units::{Deg, Vector};
+
+use crate::scenes::shared;
+use crate::worlds::{mirrored, rb2, rotated};
+
+fn worlds() -> Vec<(String, World)> {
+    let mut worlds = vec![
+        ("rb2".to_owned(), rb2()),
+        ("mirrored".to_owned(), mirrored(&rb2())),
+        ("turned".to_owned(), rotated(&rb2(), Deg::of(123.0))),
+    ];
+    if let Some(houses) = shared("procthor") {
+        for n in [1, 4] {
+            let path = houses.join(format!("house_{n}.json"));
+            let house = read(&path, &Options::default()).expect("the house reads").world;
+            worlds.push((format!("house_{n}"), house));
+        }
+    }
+    worlds
+}
+
+/// Places, rooms and some things that ways lead to.
+fn ends(world: &World) -> Vec<String> {
+    let mut names: Vec<String> =
+        world.places.keys().map(|id| world.name(Entity::Place(*id)).to_owned()).collect();
+    names.extend(world.areas.values().map(|a| a.name.clone()));
+    names.extend(world.replicas.values().step_by(7).take(2).map(|r| r.name.clone()));
+    names.retain(|name| world.find(name).len() == 1);
+    names.truncate(8);
+    names
+}
+
+fn ways(engine: &Engine) -> Vec<(RouteAnswer, Directions)> {
+    let ends = ends(engine.world().unwrap());
+    let mut found = Vec::new();
+    for from in &ends {
+        for to in &ends {
+            let Ok(answer) = engine.route(from, to, Method::Shortest) else { continue };
+            let Some(way) = engine.directions(&answer, None).unwrap() else { continue };
+            found.push((answer, way));
+        }
+    }
+    found
+}
+
+fn turn(from: Vector, to: Vector) -> f64 {
+    from.perp(&to).atan2(from.dot(&to)).to_degrees()
+}
+
+/// The smallest difference of two angles, degrees.
+fn apart(a: f64, b: f64) -> f64 {
+    let difference = (a - b).rem_euclid(360.0);
+    difference.min(360.0 - difference)
+}
+
+/// How each doorway of a route is passed: across its line, to the side on which the route goes on.
+fn doorways(engine: &Engine, answer: &RouteAnswer) -> Vec<Vector> {
+    let route = answer.route.as_ref().unwrap();
+    let floor = &engine.floors().unwrap()[&answer.map];
+    let openings = engine.relations().unwrap().openings();
+    answer
+        .stages
+        .windows(2)
+        .map(|pair| {
+            let doorway = &floor.doorways()[pair[0].leaves_by.unwrap()];
+            let middle = doorway.at((doorway.span().0 + doorway.span().1) / 2.0, 0.0);
+            let nearest = openings.iter().min_by(|a, b| {
+                let away = |o: &orthoframe::semantics::Opening| {
+                    (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm()
+                };
+                away(a).total_cmp(&away(b))
+            });
+            let (a, b) = nearest.unwrap().ends;
+            let across = Vector::new(b.y - a.y, a.x - b.x).normalize();
+            // The route's point nearest to the doorway, and where it goes from there.
+            let side = |p: &orthoframe::units::Point| (p - middle).dot(&across);
+            let at = route.points.windows(2).find(|w| {
+                side(&w[0]) * side(&w[1]) <= 0.0
+                    && (nalgebra::center(&w[0], &w[1]) - middle).norm()
+                        <= (w[1] - w[0]).norm() / 2.0 + doorway.width()
+            });
+            match at {
+                Some(w) if side(&w[1]) < side(&w[0]) => -across,
+                _ => across,
+            }
+        })
+        .collect()
+}
+
+/// Turns that a sentence tells, in degrees.
+fn told(sentence: &str) -> Vec<f64> {
+    let words = [
+        ("налево", 90.0),
+        ("направо", -90.0),
+        ("левее", 45.0),
+        ("правее", -45.0),
+        ("развернитесь", 180.0),
+        ("turn left", 90.0),
+        ("turn right", -90.0),
+        ("bear left", 45.0),
+        ("bear right", -45.0),
+        ("turn round", 180.0),
+    ];
+    let text = sentence.to_lowercase();
+    let mut found: Vec<(usize, f64)> = Vec::new();
+    for (word, angle) in words {
+        found.extend(text.match_indices(word).map(|(at, _)| (at, angle)));
+    }
+    found.sort_by_key(|(at, _)| *at);
+    found.into_iter().map(|(_, angle)| angle).collect()
+}
+
+#[test]
+fn turns_add_up_to_the_angle_between_the_doors_and_lengths_to_the_route() {
+    let mut checked = 0;
+    for (name, world) in worlds() {
+        let engine = Engine::in_memory(world, None).unwrap();
+        for (answer, way) in ways(&engine) {
+            let doors = doorways(&engine, &answer);
+            let context = || format!("{name}: {} – {}: {way:#?}", answer.from, answer.to);
+            for (n, pair) in doors.windows(2).enumerate() {
+                let passage: &Passage = &way.passages[n + 1];
+                let inner = passage.stretches.iter().filter_map(|s| s.angle);
+                let all: f64 = inner.chain(passage.exit.iter().map(|e| e.angle)).sum();
+                let slack = 2.0 + 25.0 * passage.stretches.len() as f64;
+                assert!(apart(all, turn(pair[0], pair[1])) < slack, "{}", context());
+                checked += 1;
+            }
+            let told: f64 = way.passages.iter().flat_map(|p| &p.stretches).map(|s| s.length).sum();
+            let length = answer.route.as_ref().unwrap().length;
+            assert!(told <= length + 1.0, "{told} of {length}: {}", context());
+            assert!(told >= 0.8 * length - 80.0, "{told} of {length}: {}", context());
+        }
+    }
+    assert!(checked > 20, "{checked}");
+}
+
+#[test]
+fn the_turns_that_are_said_lead_to_the_next_door() {
+    let mut checked = 0;
+    for (name, world) in worlds() {
+        let engine = Engine::in_memory(world, None).unwrap();
+        for (answer, way) in ways(&engine) {
+            let doors = doorways(&engine, &answer);
+            for (n, pair) in doors.windows(2).enumerate() {
+                for language in [Language::Russian, Language::English] {
+                    for detail in [Detail::Spot, Detail::Heading] {
+                        let Some(text) = way.say_passage(n + 1, language, detail) else { continue };
+                        let turns = told(&text);
+                        // A turn of a quarter is said of up to 150°, and slight ones are passed over.
+                        let slack = if turns.len() < 2 { 80.0 } else { 140.0 };
+                        let off = apart(turns.iter().sum(), turn(pair[0], pair[1]));
+                        assert!(
+                            off < slack,
+                            "{name}: {} – {}: {off}: {text}\n{:#?}",
+                            answer.from,
+                            answer.to,
+                            way.passages[n + 1]
+                        );
+                        checked += 1;
+                    }
+                }
+            }
+        }
+    }
+    assert!(checked > 80, "{checked}");
+}
+
+#[test]
+fn in_a_mirror_left_is_right() {
+    let swap = |text: &str| {
+        text.replace("лев", "\u{1}")
+            .replace("прав", "лев")
+            .replace('\u{1}', "прав")
+            .replace("left", "\u{1}")
+            .replace("right", "left")
+            .replace('\u{1}', "right")
+            .replace("Лев", "Прав")
+            .replace("слева", "\u{1}")
+            .replace("справа", "слева")
+            .replace('\u{1}', "справа")
+    };
+    let (own, other) = (rb2(), mirrored(&rb2()));
+    let (own, other) =
+        (Engine::in_memory(own, None).unwrap(), Engine::in_memory(other, None).unwrap());
+    let (mut turns, mut alike, mut all) = (0, 0, 0);
+    for ((answer, a), (_, b)) in ways(&own).into_iter().zip(ways(&other)) {
+        for language in [Language::Russian, Language::English] {
+            let text = a.say_in(language, Detail::Spot).join(" ");
+            turns += told(&text).len();
+            let seen = b.say_in(language, Detail::Spot).join(" ");
+            all += 1;
+            // A way on the very edge of two words may be told by either.
+            alike += usize::from(swap(&seen) == text || seen == text && told(&text).is_empty());
+            assert!(
+                told(&seen).iter().map(|t| -t).eq(told(&text))
+                    || told(&text).iter().any(|t| t.abs() != 90.0),
+                "{} – {}: {text} | {seen}",
+                answer.from,
+                answer.to
+            );
+        }
+    }
+    assert!(turns > 20 && alike * 10 >= all * 9, "{turns} turns, {alike} of {all} alike");
+}
