@@ -9,8 +9,9 @@ use std::time::Instant;
 use cpu_time::ProcessTime;
 use criterion::{Criterion, criterion_group, criterion_main};
 use orthoframe::Engine;
-use orthoframe::engine::{Memory, Mode, World, change_now};
+use orthoframe::engine::{Memory, World, change_now};
 use orthoframe::language::question::Lexicon;
+use orthoframe::store::Store;
 use orthoframe::units::{Deg, Frame};
 
 const WARD: &str = r#"
@@ -86,12 +87,14 @@ fn timed<T>(what: &str, work: impl FnOnce() -> T) -> T {
 }
 
 /// The hospital in a store: from opening it to the first answer.
-fn first_question(world: World) {
+fn first_question(world: &World) {
     let dir = tempfile::tempdir().expect("a directory for the store");
     let dir = dir.path().join("store");
     let change = change_now("bench", "a hospital");
-    let mut engine = Engine::open(&dir, None).expect("a new store");
-    engine.edit_world(&change, Mode::Commit, |empty| *empty = world).expect("a sound map");
+    let (mut store, _) = Store::open(&dir).expect("a new store");
+    store.import(world, &change).expect("the store takes it");
+    drop(store);
+    let engine = Engine::open(&dir, None).expect("the store is sound");
     timed("relations derived and kept", || engine.relations().map(|_| ())).expect("they end");
     drop(engine);
     for round in 0..3 {
@@ -109,7 +112,7 @@ fn first_question(world: World) {
 
 fn talk(c: &mut Criterion) {
     let world = hospital(2_000);
-    first_question(world.clone());
+    first_question(&world);
     c.bench_function("talk/nouns of 40 000 things", |b| b.iter(|| Lexicon::of(&world)));
     let engine = Engine::in_memory(world, None).expect("the rules are sound");
     engine.relations().expect("they end");

@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words};
+use orthoframe::engine::{Memory, Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words};
 use orthoframe::geometry::Scene;
 use orthoframe::language::Language;
+use orthoframe::language::command::Command;
 use orthoframe::map::{Entity, World, is_on, switch};
 use orthoframe::robot::{Deed, Surprise};
 use orthoframe::semantics::{Profile, RelationRules, derive};
@@ -112,6 +113,48 @@ fn a_device_stays_as_the_last_task_left_it() {
     assert!(matches!(off.ending, TaskEnding::Done));
     assert_eq!(state(&engine), Some(false));
     assert!(off.after.unwrap().memory.devices.is_empty(), "it is as the map says again");
+}
+
+/// Questions are asked of the world as the last task left it, while the map stays as surveyed.
+#[test]
+fn questions_are_answered_as_the_robot_left_the_world() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    let said = |engine: &Engine, question: &str| {
+        engine.ask(question, &mut Memory::default()).unwrap().unwrap().text
+    };
+    assert_eq!(said(&engine, "Дверь-КY открыта?"), "Нет, Дверь-КY закрыта.");
+    assert_eq!(said(&engine, "Лампа-1 включена?"), "Да, Лампа-1 включена.");
+    for task in ["Открой Дверь-КY", "Выключи Лампу-1", "Возьми Книгу-5"]
+    {
+        perform_and_remember(&mut engine, task);
+    }
+    drop(engine);
+    let engine = Engine::open_existing(&dir.path().join("store"), None).unwrap();
+    for (question, answer) in [
+        ("Дверь-КY открыта?", "Да, Дверь-КY открыта."),
+        ("Is Door KY closed?", "No, Door KY is open."),
+        ("Лампа-1 включена?", "Нет, Лампа-1 выключена."),
+        ("Горит ли свет в Комнате-В?", "Нет, Торшер-1 выключен и Лампа-1 выключена."),
+        ("Где Книга-5?", "Книга-5 находится у меня в руках."),
+        ("What are you holding?", "I am holding Book 5."),
+        ("Сколько книг в Комнате-Y?", "В Комнате-Y нет книг."),
+        ("Книга-5 на комоде?", "Нет, Книга-5 находится не на Комоде-1, а у меня в руках."),
+    ] {
+        assert_eq!(said(&engine, question), answer, "{question}");
+    }
+    assert_eq!(engine.world().unwrap(), &rb2());
+}
+
+/// «Найди чашку» is done with any of them, the nearest; «Принеси чашку» is asked back.
+#[test]
+fn any_will_do_to_be_found_but_not_to_be_brought() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let found = engine.understand("Найди чашку").unwrap();
+    let [Command::Find(cup)] = &found[..] else { panic!("{found:?}") };
+    assert!(engine.world().unwrap().name(cup.id).starts_with("Чашка"));
+    assert!(engine.understand("Принеси чашку").is_err());
+    assert!(engine.understand("Find a cup").is_ok());
 }
 
 /// Searches for the red cup in a truth of its own: the answer, and the Areas where it was not seen.

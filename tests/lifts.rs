@@ -181,12 +181,18 @@ fn a_journey_is_told_floor_by_floor() {
     assert_eq!((journey.legs.len(), journey.rides.len()), (2, 1));
     let lift = &journey.rides[0];
     let name = ["Левый", "Правый"][lift.lift];
-    let text = engine.journey_in_words(&journey, None, Language::Russian, Detail::Spot).expect("a map").join("\n");
+    let text = engine
+        .journey_in_words(&journey, None, Language::Russian, Detail::Spot)
+        .expect("a map")
+        .join("\n");
     let ride = format!("Поднимитесь на лифте «{name}» на этаж «Второй этаж».");
     assert!(text.contains(&ride), "{text}");
     assert!(text.ends_with("в Холл-2."), "{text}");
     let back = engine.journey("Холл-2", "Холл-1", Method::Shortest).expect("both are known");
-    let text = engine.journey_in_words(&back, None, Language::English, Detail::Spot).expect("a map").join("\n");
+    let text = engine
+        .journey_in_words(&back, None, Language::English, Detail::Spot)
+        .expect("a map")
+        .join("\n");
     assert!(
         text.contains("down to the floor “Карта”") || text.contains("down to the floor “Map”"),
         "{text}"

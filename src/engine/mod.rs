@@ -15,6 +15,7 @@
 //! **Invariant.** Only the engine writes to the store; what it derives belongs to the map that it holds, and is
 //! derived anew when that map changes.
 
+mod barriers;
 mod deeds;
 mod directions;
 mod drawing;
@@ -44,6 +45,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+pub use barriers::no_way_in_words;
 pub use deeds::deeds_in_words;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};

@@ -12,6 +12,7 @@ use crate::semantics::{Profile, Relations, derive};
 use crate::store::Seen;
 use crate::units::{MapId, Pose, ReplicaId};
 
+use super::barriers::no_way_in_words;
 use super::journey::Journey;
 use super::position::describe;
 use super::route::Located;
@@ -188,7 +189,13 @@ impl Senses for RobotSenses<'_> {
         })?;
         let mut length = 0.0;
         for leg in &journey.legs {
-            length += leg.route.as_ref().map_err(ToString::to_string)?.length;
+            match &leg.route {
+                Ok(route) => length += route.length,
+                Err(no) => {
+                    let world = self.engine.world().map_err(|e| e.to_string())?;
+                    return Err(no_way_in_words(world, no, language));
+                }
+            }
         }
         // Only of itself does the robot know how it stands.
         let own = matches!(from, None | Some(Thing::Robot));

@@ -475,22 +475,19 @@ mod tests {
                     stretches: vec![stretch(Some(40.0), 95.0), stretch(Some(-35.0), 55.0)],
                     exit: door("Дверь-ZY", 45.0),
                 },
-                Passage {
-                    room: office,
-                    stretches: vec![last],
-                    exit: None,
-                },
+                Passage { room: office, stretches: vec![last], exit: None },
             ],
             goal: Goal::Thing(name("Точка-К")),
         };
         check(
             &way,
             &expect![[r#"
-            Пройдите из Комнаты-В через Кухню в Кабинет директора, к Точке-К.
-            Выйдите из Комнаты-В через Дверь-ВZ на Кухню. Поверните налево и выйдите через Дверь-ZY в Кабинет директора. Поверните направо и дойдите до Точки-К.
-            В Комнате-В пройдите 3,2 м, возьмите левее и выйдите из Комнаты-В через Дверь-ВZ на Кухню. На Кухне возьмите левее, пройдите 1 м, пройдите 60 см, возьмите левее и выйдите через Дверь-ZY в Кабинет директора. В Кабинете директора у Кресла у окна поверните направо, пройдите 2,1 м мимо Письменного стола (он слева) и дойдите до Точки-К.
-            Go from Room-B through the kitchen to Director's office, to Point K.
-            Leave Room-B through Door VZ into the kitchen. Turn left and go through Door ZY into Director's office. Turn right and walk up to Point K.
+                Пройдите из Комнаты-В через Кухню в Кабинет директора, к Точке-К.
+                Выйдите из Комнаты-В через Дверь-ВZ на Кухню. Возьмите левее и выйдите через Дверь-ZY в Кабинет директора. Поверните направо и дойдите до Точки-К.
+                В Комнате-В пройдите 3,2 м, возьмите левее и выйдите через Дверь-ВZ на Кухню. На Кухне возьмите левее, пройдите 1 м, возьмите правее, пройдите 60 см, возьмите левее и выйдите через Дверь-ZY в Кабинет директора. В Кабинете директора у Кресла у окна поверните направо, пройдите 2,1 м мимо Письменного стола (он слева) и дойдите до Точки-К.
+                Go from Room-B through the kitchen to director's office, to Point-K.
+                Leave Room-B through Door-BZ into the kitchen. Bear left and go through Door-ZY into director's office. Turn right and walk up to Point-K.
+                In Room-B, walk 3.2 m, bear left and go through Door-BZ into the kitchen. In the kitchen, bear left, walk 1 m, bear right, walk 60 cm, bear left and go through Door-ZY into director's office. In director's office, turn right at Кресло у окна, walk 2.1 m past the desk (on your left) and walk up to Point-K.
             "#]],
         );
     }

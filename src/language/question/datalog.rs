@@ -271,6 +271,7 @@ impl Rule<'_, '_> {
             add(format!("{term} = {}", self.quoted(thing)));
         }
         let world = self.knowledge.world;
+        let mut unknown = false;
         for kind in noun.head.kinds.iter().filter(|_| noun.head.named.is_empty()) {
             let instance = self.relation("INSTANCE_OF");
             let has_trait = self.relation("HAS_TRAIT");
@@ -286,6 +287,14 @@ impl Rule<'_, '_> {
                 }
                 Extension::Object(id) => add(object(*id)),
                 Extension::Trait(wanted) => add(format!("{has_trait}({term}, \"{wanted}\")")),
+                Extension::Lighting => {
+                    add(format!("{has_trait}({term}, \"light\")"));
+                    let switch = |o: &&crate::map::Object| {
+                        let entry = world.types.object.get(o.object_type);
+                        entry.is_some_and(super::lexicon::Lexicon::is_switch)
+                    };
+                    world.objects.values().filter(switch).map(|o| object(o.id)).for_each(&mut add);
+                }
                 Extension::Things => add(format!("replica({term}, _, _, _, _)")),
                 Extension::Furniture => {
                     add(format!("replica({term}, _, _, _, _), !{has_trait}({term}, \"portable\")"));
@@ -305,15 +314,17 @@ impl Rule<'_, '_> {
                 }
                 Extension::Doors => add(format!("opening({term}, \"door\", _, _)")),
                 Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
+                // Of these the facts know nothing.
                 Extension::Windows
                 | Extension::Places
                 | Extension::Storeys
                 | Extension::Building
                 | Extension::Floor
                 | Extension::Walls
-                | Extension::Robot => {}
+                | Extension::Robot => unknown = true,
             }
         }
+        self.measured |= unknown;
         match &choices[..] {
             [] => {}
             [only] => self.atoms.push(only.clone()),

@@ -260,8 +260,16 @@ impl<'t> Sentence<'t> {
         };
         let next = self.keys.get(at + 1).map(String::as_str);
         let ends = matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
-        let asks = self.keys[..at].iter().any(|k| ["what", "which"].contains(&k.as_str()));
-        (ends && !(asks && self.keys[at] == "on")).then(|| lexicon.values.meaning(word)).flatten()
+        let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
+        let nouns = self.tokens.iter().filter(|t| matches!(t.kind, Tok::Noun(_))).count();
+        // "Which lamps are on?", but "What is the lamp on?" and "Which table is the lamp on?"
+        let link = self.keys[at] == "on" && (said("what") || (said("which") && nouns != 1));
+        // "Is the light on in the kitchen?": a second preposition after it.
+        let placed = matches!(next, Some("in" | "at" | "inside"))
+            && nouns == 1
+            && !said("what")
+            && self.keys[..at].iter().any(|k| ["is", "are", "was", "were"].contains(&k.as_str()));
+        ((ends && !link) || placed).then(|| lexicon.values.meaning(word)).flatten()
     }
 
     /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В.
@@ -366,24 +374,31 @@ impl<'t> Sentence<'t> {
         let (rest, mut phrase) = self.phrase(input)?;
         let before =
             self.tokens.iter().rev().find(|t| input.0.first().is_some_and(|f| t.to <= f.from));
-        let governed = matches!(
-            before.map(|t| t.kind),
-            Some(
-                Tok::Property(_)
-                    | Tok::Noun(_)
-                    | Tok::Mark(
-                        Mark::HowBig(_)
-                            | Mark::Parts
-                            | Mark::Describe
-                            | Mark::Not
-                            | Mark::HowFar
-                            | Mark::HowGet
-                            | Mark::Except
-                            | Mark::Than
-                            | Mark::More(_)
-                    )
-            )
-        );
+        // «какого цвета чашки»: the property stands in the genitive itself, and governs nothing.
+        let of_what = matches!(before.map(|t| t.kind), Some(Tok::Property(n)) if {
+            let said = before.map(|t| self.keys[t.from as usize].as_str());
+            let own = self.properties[n as usize].noun(Language::Russian);
+            said.is_none_or(|said| said != name_key(&own))
+        });
+        let governed = !of_what
+            && matches!(
+                before.map(|t| t.kind),
+                Some(
+                    Tok::Property(_)
+                        | Tok::Noun(_)
+                        | Tok::Mark(
+                            Mark::HowBig(_)
+                                | Mark::Parts
+                                | Mark::Describe
+                                | Mark::Not
+                                | Mark::HowFar
+                                | Mark::HowGet
+                                | Mark::Except
+                                | Mark::Than
+                                | Mark::More(_)
+                        )
+                )
+            );
         if self.language == Language::Russian && phrase.only_plural_nominative && !governed {
             phrase.noun.plural = true;
         }

@@ -38,6 +38,8 @@ pub enum Extension {
     Floor,
     Walls,
     Robot,
+    /// What gives light, and the switches for it.
+    Lighting,
 }
 
 /// A kind with its words.
@@ -67,7 +69,7 @@ pub struct Window {
 /// General nouns: extension, Russian singular forms, English ones.
 const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Things, "вещь|предмет|объект|штука", "thing|object|item|stuff"),
-    (Extension::Furniture, "мебель|предмет мебели", "furniture|piece of furniture"),
+    (Extension::Furniture, "предмет мебели|мебель", "piece of furniture|furniture"),
     (Extension::Rooms, "комната|помещение", "room|area"),
     (Extension::Doors, "дверь", "door"),
     (Extension::Passages, "проход|проём", "passage|opening|doorway"),
@@ -79,11 +81,15 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Walls, "стена", "wall"),
     (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
     (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
-    (Extension::Trait("light"), "светильник|свет|освещение", "light|lighting"),
+    (Extension::Trait("light"), "светильник", "light fixture|luminaire"),
+    (Extension::Lighting, "свет|освещение", "light|lighting"),
     (Extension::Trait("device"), "прибор|устройство|техника", "device|appliance|gadget"),
     (Extension::Trait("support"), "поверхность", "surface"),
     (Extension::Trait("portable"), "ноша", "portable thing|small object|small thing"),
 ];
+
+/// Nouns of what is not counted, so that answers count by another noun of the same sort.
+const MASS: [&str; 6] = ["мебель", "свет", "освещение", "техника", "furniture", "lighting"];
 
 /// All nouns of a map.
 #[derive(Debug, Clone)]
@@ -262,6 +268,25 @@ impl Lexicon {
             self.kind(id).extension,
             Extension::AreaType(_) | Extension::Rooms | Extension::Storeys | Extension::Building
         )
+    }
+
+    /// The kind by whose words things are counted: «предмет мебели» for «мебель».
+    pub(super) fn counted(&self, id: KindId) -> &Kind {
+        let kind = self.kind(id);
+        let is_mass = |word: &str| MASS.contains(&&*name_key(word));
+        if !is_mass(kind.phrase.name()) && !is_mass(&kind.english) {
+            return kind;
+        }
+        let extension = match kind.extension {
+            Extension::Lighting => Extension::Trait("light"),
+            other => other,
+        };
+        self.kind_of(&extension).map_or(kind, |id| self.kind(id))
+    }
+
+    /// Whether something is a switch, by the name of its type.
+    pub(super) fn is_switch(entry: &TypeEntry) -> bool {
+        name_key(&entry.name) == "выключатель" || name_key(&entry.name_en) == "light switch"
     }
 
     /// The first kind of this extension, for words about it.

@@ -178,18 +178,19 @@ impl Knowledge<'_> {
 
     /// The words for what a description means, as a phrase that declines: «чёрный стул».
     pub(super) fn kind_phrase(&self, noun: &Noun) -> (NounPhrase, String) {
-        let kind = noun.head.kinds.first().map(|k| self.lexicon().kind(*k));
+        let kind = noun.head.kinds.first().map(|k| self.lexicon().counted(*k));
         let (base, english_base) = match kind {
-            Some(kind) => (kind.phrase.clone(), kind.english.clone()),
+            Some(kind) => match self.shared_head(noun) {
+                Some(head) if self.is_russian() => (head, kind.english.clone()),
+                Some(head) => (kind.phrase.clone(), head.name().to_owned()),
+                None => (kind.phrase.clone(), kind.english.clone()),
+            },
             None => {
-                let things = Extension::Things;
-                let id = self.lexicon().kind_of(&things);
-                let kind = id.map(|id| self.lexicon().kind(id));
-                let phrase = kind.map(|k| k.phrase.clone());
-                (
-                    phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default())),
-                    "thing".to_owned(),
-                )
+                let id = self.lexicon().kind_of(&Extension::Things);
+                let phrase = id.map(|id| self.lexicon().kind(id).phrase.clone());
+                let phrase =
+                    phrase.unwrap_or_else(|| NounPhrase::parse("вещь", &WordHints::default()));
+                (phrase, "thing".to_owned())
             }
         };
         let (mut russian_name, mut english_name) = (lower_first(base.name()), english_base);
@@ -209,6 +210,22 @@ impl Knowledge<'_> {
             }
         };
         (phrase, english_name)
+    }
+
+    /// «лампа» for ceiling lamps and table lamps together: the head that all kinds of a description share.
+    fn shared_head(&self, noun: &Noun) -> Option<NounPhrase> {
+        let head = |id: &super::lexicon::KindId| -> Option<String> {
+            let kind = self.lexicon().counted(*id);
+            Some(match self.is_russian() {
+                true => kind.phrase.head().unwrap_or(kind.phrase.name()).to_lowercase(),
+                false => english::kind(&kind.english).unwrap_or(&kind.english).to_lowercase(),
+            })
+        };
+        let mut heads = noun.head.kinds.iter().map(head);
+        let first = heads.next()??;
+        let several = noun.head.kinds.len() > 1;
+        (several && heads.all(|h| h.as_ref() == Some(&first)))
+            .then(|| NounPhrase::parse(&first, &WordHints::default()))
     }
 
     /// «2 чёрных стула», "2 black chairs"

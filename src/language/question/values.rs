@@ -256,6 +256,15 @@ impl Values {
         self.words.get(&name_key(text)).copied()
     }
 
+    /// The word for a value that is most like a mistyped one.
+    pub(super) fn near(&self, word: &str) -> Option<String> {
+        let key = name_key(word);
+        let likeness = |other: &str| strsim::normalized_damerau_levenshtein(&key, other);
+        let all = self.words.keys().map(|other| (likeness(other), other));
+        let best = all.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(a.1)));
+        best.filter(|(likeness, _)| *likeness >= 0.75).map(|(_, word)| word.clone())
+    }
+
     /// The longest value at the beginning of these words, with the number of words it takes.
     pub(super) fn longest(&self, words: &[String]) -> Option<(usize, ValueId)> {
         let most = self.longest.min(words.len());
@@ -295,6 +304,22 @@ impl Values {
                     | ("открытый" | "закрытый", "отпертый")
                     | ("стальной", "металлический")
             )
+    }
+
+    /// Whether two values answer one question: red and blue do, open and dirty do not.
+    #[must_use]
+    pub fn answer_one_question(&self, a: ValueId, b: ValueId) -> bool {
+        const STATES: [&[&str]; 6] = [
+            &["включённый", "выключенный"],
+            &["открытый", "закрытый", "запертый", "отпертый"],
+            &["грязный", "чистый"],
+            &["полный", "пустой"],
+            &["сломанный"],
+            &["занятый"],
+        ];
+        let (x, y) = (self.entry(a), self.entry(b));
+        let sort = |v: &ValueEntry| STATES.iter().position(|all| all.contains(&&*v.russian));
+        x.property == y.property && (x.property != Property::State || sort(x) == sort(y))
     }
 
     /// «чёрный», «чёрная», «чёрные»: the predicate about a noun of this gender and number.

@@ -89,6 +89,8 @@ pub(super) enum Mark {
     Best(Extreme),
     /// «вторая» before «по величине», "second" before "biggest"
     Rank(u64),
+    /// «куда ты смотришь», "what are you facing"
+    Heading,
     /// «подробно», "in detail"
     Detail(Detail),
     /// «больше», "bigger": of two
@@ -119,7 +121,7 @@ pub(super) enum Pronoun {
 const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Where,
-        "где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        "не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
         where can i find|where do i find|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
@@ -209,7 +211,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Be,
-        "ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        "ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висит|висят|висел|висела|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
         stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
@@ -221,7 +223,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -235,7 +237,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
+        "что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
     ),
     (
         Mark::List,
@@ -256,7 +258,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Free,
-        "свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|room on|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there free space|is there any free space",
+        "свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|room on|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there space for|is there room for|is there enough room for|is there enough space for|space for|место для|поместится|поместятся|уместится|влезет|помещается|fit|fits|is there free space|is there any free space",
     ),
     (
         Mark::Sit,
@@ -277,7 +279,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::You,
-        "ты|тебя|тебе|тобой|тобою|вы|вас|вам|робот|робота|роботу|роботом|роботе|рб|рб 2|you|yourself|robot|the robot|rb 2",
+        "собой|себя|себе|ты|тебя|тебе|тобой|тобою|вы|вас|вам|робот|робота|роботу|роботом|роботе|рб|рб 2|you|yourself|robot|the robot|rb 2",
     ),
     (Mark::Me, "я|мне|меня|мной|i|me|myself|us|we|нам|нас|мы"),
     (
@@ -430,6 +432,10 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (Mark::Rank(5), "пятый|пятая|пятое|пятые|пятого|пятой|пятую|fifth|5th|5 th"),
     (
+        Mark::Heading,
+        "куда ты смотришь|куда смотришь|куда ты повёрнут|в какую сторону ты смотришь|куда ты направлен|к чему ты повёрнут|what are you facing|which way are you facing|where are you facing|where are you looking|what direction are you facing",
+    ),
+    (
         Mark::Detail(Detail::Region),
         "коротко|кратко|вкратце|в двух словах|покороче|briefly|in short|in brief|in a few words|in a nutshell",
     ),
@@ -465,11 +471,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
-        please|tell me|tell us|show me|show us|say|could you|could you please|would you|would you please|will you|can you tell me|could you tell me|would you tell me|can you say|do you know|do you know if|do you know whether|i want to know|i would like to know|i d like to know|i wonder|i am wondering|wondering|i need to know|let me know|\
+        please|tell me|tell us|show me|show us|say|could you|could you please|would you|would you please|will you|can you tell me|could you tell me|would you tell me|can you say|do you know|do you know if|do you know whether|do you happen to know|happen to know|would you happen to know|i want to know|i would like to know|i d like to know|i wonder|i am wondering|wondering|i need to know|let me know|\
         hey|hello|hi|ok|okay|well|so|now|right now|at the moment|currently located|actually|exactly|precisely|really|just|also|too|if|whether|that is|which is|which are|that are|do|does|did|do i|do you|d|am|will|would|shall|should|must|thanks|thank you|kindly|here|in total|altogether|total|in all|all together|overall|it is true that|is it true that|is it true|true|is it the case that|\
         currently|ever|it is|most|кажется|кстати|уже|тогда|give me|want|find out|check|check if|check whether|проверь|узнай|i m looking for|i am looking for|looking for|im looking for|scene|in this scene|in the scene|in this picture|relative to|with respect to|related to|present|available|directly|directly to|right|immediately|object that is|things that are",
     ),

@@ -13,6 +13,15 @@ use crate::language::words::{area, length};
 impl Knowledge<'_> {
     pub(super) fn say_best(&self, noun: &Noun, found: Vec<Thing>) -> Draft {
         let Some(best) = &noun.best else { return Draft::default() };
+        let unranked = Noun { rank: None, ..noun.clone() };
+        if found.is_empty()
+            && noun.rank.is_some()
+            && self.find(&unranked, false).is_ok_and(|all| !all.is_empty())
+        {
+            let text =
+                self.pick("такого нет: все остальные равны", "there is none: the others are equal");
+            return Draft::new(Said::Nothing, text.to_owned());
+        }
         let Some(&first) = found.first() else {
             let text = self.nothing_found(noun, &self.restrictions(noun));
             return Draft::new(Said::Nothing, text);
@@ -153,22 +162,36 @@ impl Knowledge<'_> {
         }
     }
 
+    /// Of a kind that several things are of, the one that counts: «Что ближе к окну, стул или стол?» is about the
+    /// nearest chair. Of sizes only a certain thing can be meant.
+    fn champion(&self, noun: &Noun, extreme: Extreme, to: Option<Thing>) -> Result<Thing, Doubt> {
+        let by_distance = matches!(extreme, Extreme::Nearest | Extreme::Farthest);
+        let general = noun.head.named.is_empty() && noun.head.things.is_none();
+        if !(by_distance && general) {
+            return self.one(noun);
+        }
+        let found = self.find(noun, true)?;
+        let sign = if is_less(extreme) { 1.0 } else { -1.0 };
+        let measured = found
+            .into_iter()
+            .filter_map(|t| Some((sign * self.compared(t, extreme, to)?, t)))
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        measured.map(|(_, thing)| thing).ok_or_else(|| self.none_such(noun))
+    }
+
     pub(super) fn which_more(
         &self,
         of: &[Noun; 2],
         extreme: Extreme,
         to: Option<&Noun>,
     ) -> Result<Draft, Doubt> {
-        let (a, b) = (self.one(&of[0])?, self.one(&of[1])?);
         let to = to.map(|noun| self.one(noun)).transpose()?;
+        let (a, b) = (self.champion(&of[0], extreme, to)?, self.champion(&of[1], extreme, to)?);
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
             return Ok(self.apart(&[a, b]));
         };
-        let less = matches!(
-            extreme,
-            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
-        );
+        let less = is_less(extreme);
         let first = (x < y) == less;
         let (winner, best, other, rest) = if first { (a, x, b, y) } else { (b, y, a, x) };
         if (x - y).abs() < 1e-6 {
@@ -213,10 +236,7 @@ impl Knowledge<'_> {
         else {
             return Ok(self.apart(&[a, b]));
         };
-        let less = matches!(
-            extreme,
-            Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest
-        );
+        let less = is_less(extreme);
         let yes = (x - y).abs() > 1e-9 && (x < y) == less;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let words = |t, v| self.compared_words(t, extreme, v);
@@ -330,4 +350,9 @@ impl Knowledge<'_> {
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![a, b]))
     }
+}
+
+/// Whether less of the measure wins.
+fn is_less(extreme: Extreme) -> bool {
+    matches!(extreme, Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest)
 }

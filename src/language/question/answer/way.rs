@@ -61,6 +61,7 @@ impl Knowledge<'_> {
                 let far = length(way.length, self.language);
                 let steps = way.sentences.join(" ");
                 let text = match (yes_or_no, self.is_russian()) {
+                    (false, _) if way.length < 1.0 => steps,
                     (true, true) => format!("да, путь есть, его длина {far}. {steps}"),
                     (true, false) => format!("yes, there is a way of {far}. {steps}"),
                     (false, true) => format!("{steps} Длина пути {far}"),

@@ -7,11 +7,15 @@ use super::Spot;
 use crate::language::question::query::{Query, Rel, Restriction, Use};
 use crate::language::question::values::Property;
 use crate::language::question::vocabulary::Mark;
+use crate::language::report::Detail;
 
 impl Frame<'_, '_> {
     pub(super) fn of_robot(&self) -> Option<Query> {
         if self.has(Mark::Hold) && self.nouns.is_empty() {
             return Some(Query::WhatDoYouHold);
+        }
+        if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
+            return Some(Query::WhereAreYou(Detail::Heading));
         }
         let rooms_only = self.nouns.iter().all(|s| self.is_rooms(&s.noun));
         let others = !rooms_only || !self.spots.is_empty();

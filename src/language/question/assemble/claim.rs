@@ -32,6 +32,10 @@ impl Frame<'_, '_> {
             return None;
         }
         let mut subjects: Vec<&Subject> = self.nouns.iter().collect();
+        // «Есть ли дома растения?» asks for plants.
+        if subjects.iter().any(|s| !self.is_building(&s.noun)) && !self.has(Mark::Have) {
+            subjects.retain(|s| !self.is_building(&s.noun));
+        }
         let mut within = Vec::new();
         // "Does the kitchen have a fridge?"
         if self.has(Mark::Have) && subjects.len() > 1 {

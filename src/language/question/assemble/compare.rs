@@ -69,7 +69,8 @@ impl Frame<'_, '_> {
             in_places.flat_map(|s| s.nouns.iter().map(move |n| (s.rel, n))).collect();
         let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
         let rooms: Vec<(Rel, &Noun)> = rooms.map(|s| (Rel::In, &s.noun)).collect();
-        let asks = self.has(Mark::Where) || self.asks() || self.has(Mark::Or);
+        let either = self.spots.iter().any(|s| s.either);
+        let asks = self.has(Mark::Where) || self.asks() || self.has(Mark::Or) || either;
         let within = |noun: &Noun, place: Option<&(Rel, &Noun)>| {
             let mut noun = Noun { plural: true, indefinite: true, ..noun.clone() };
             noun.filters.extend(self.filters());

@@ -109,14 +109,18 @@ impl<'s, 't> Frame<'s, 't> {
             words.start -= 1;
         }
         let said = self.sentence.said(&words);
-        let near: Vec<String> =
-            self.lexicon.nouns.near(said, 3).into_iter().map(str::to_owned).collect();
-        let near: Vec<String> = near.into_iter().fold(Vec::new(), |mut kept, name| {
-            if !kept.contains(&name) {
-                kept.push(name);
+        // Letters that look alike make «тен» of "teh": a word is like those of its own alphabet.
+        let latin = |text: &str| text.starts_with(|c: char| c.is_ascii());
+        let alike = self.lexicon.nouns.near(said, 3).into_iter();
+        let mut near: Vec<String> = Vec::new();
+        for name in alike.filter(|name| latin(name) == latin(said)) {
+            if !near.iter().any(|n| n == name) {
+                near.push(name.to_owned());
             }
-            kept
-        });
+        }
+        if near.is_empty() {
+            near.extend(self.lexicon.values.near(said));
+        }
         let before_noun = matches!(next, Some(Item::Noun(_)));
         if near.is_empty() && (before_noun || !crate::language::question::may_be_noun(said)) {
             return Doubt::not_understood(said);

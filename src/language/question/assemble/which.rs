@@ -209,7 +209,8 @@ impl Frame<'_, '_> {
     fn rooms_with(&self, rooms: &Noun) -> Query {
         let mut noun = rooms.clone();
         noun.plural = true;
-        let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.noun != *rooms).collect();
+        let others = self.nouns.iter().filter(|s| s.noun != *rooms && !self.is_building(&s.noun));
+        let others: Vec<&Subject> = others.collect();
         for other in others {
             let mut anchor = self.narrowed(other.noun.clone());
             anchor.indefinite = true;

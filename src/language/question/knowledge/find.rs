@@ -32,6 +32,15 @@ impl Knowledge<'_> {
             }
             Extension::Object(object) => of_object(*object),
             Extension::Trait(wanted) => with_trait(wanted),
+            Extension::Lighting => {
+                let mut found = with_trait("light");
+                let types = &self.world.types.object;
+                let switches = self.by_type().iter().filter(|(kind, _)| {
+                    types.get(**kind).is_some_and(super::super::lexicon::Lexicon::is_switch)
+                });
+                found.extend(switches.flat_map(|(_, all)| all).map(replica));
+                found
+            }
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
             Extension::Furniture => {
                 let all = self.world.replicas.keys();
@@ -255,6 +264,9 @@ impl Knowledge<'_> {
                     }
                     None => vec![Thing::Robot],
                 };
+                if let (Extreme::Nearest, [anchor], 1) = (best.extreme, &anchors[..], rank) {
+                    return Ok(self.nearest(found, *anchor, count));
+                }
                 let sign = if best.extreme == Extreme::Nearest { 1.0 } else { -1.0 };
                 let away = |t: Thing| {
                     let all =
@@ -293,6 +305,38 @@ impl Knowledge<'_> {
         let limit = limit.0;
         // Equal ones are all the biggest.
         Ok(ranked.into_iter().take_while(|(m, _)| *m <= limit + 1e-6).map(|(_, t)| t).collect())
+    }
+
+    /// The things nearest to another, so many and those equally near. Distances between surfaces are measured only as
+    /// long as the middles of things are not too far apart for any nearer one.
+    fn nearest(&self, found: Vec<Thing>, anchor: Thing, count: u64) -> Vec<Thing> {
+        let reach = |t: Thing| {
+            let extent = t.replica().and_then(|id| self.relations.extent(id));
+            extent.map(|e| e.width.hypot(e.depth))
+        };
+        let middle = self.point(anchor).zip(reach(anchor));
+        let at_least = |t: Thing| match (middle, self.point(t), reach(t)) {
+            (Some(((map, at), own)), Some((other, p)), Some(reach)) if map == other => {
+                (p - at).norm() - own - reach
+            }
+            _ => 0.0,
+        };
+        let mut bounded: Vec<(f64, Thing)> =
+            found.into_iter().filter(|t| *t != anchor).map(|t| (at_least(t), t)).collect();
+        bounded.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let wanted = usize::try_from(count).unwrap_or(usize::MAX).max(1);
+        let mut measured: Vec<(f64, Thing)> = Vec::new();
+        for (least, thing) in bounded {
+            if measured.get(wanted - 1).is_some_and(|(worst, _)| least > worst + 1e-6) {
+                break;
+            }
+            let Some(distance) = self.distance(thing, anchor) else { continue };
+            let at = measured.partition_point(|(d, t)| (*d, *t) < (distance, thing));
+            measured.insert(at, (distance, thing));
+        }
+        let limit = measured.get(wanted.min(measured.len()).saturating_sub(1)).map(|(d, _)| *d);
+        let near = measured.into_iter().take_while(|(d, _)| limit.is_some_and(|l| *d <= l + 1e-6));
+        near.map(|(_, thing)| thing).collect()
     }
 
     /// How many of some things a room holds, or a thing bears.

@@ -1,0 +1,166 @@
+//! Why there is no way, in words of both languages.
+//!
+//! Invariant: every barrier that the route names is told, in the order of the way.
+
+use crate::geometry::{Barrier, Blocker, NoRoute};
+use crate::language::report::Named;
+use crate::language::{Case, Gender, Language, Number, enumerate};
+use crate::map::{DoorStatus, Entity, World};
+use crate::units::{AreaId, DoorId};
+
+use super::lexicon::named;
+
+/// «Дверь-ВZ заперта», "Door VZ is locked"; several barriers one after the other.
+#[must_use]
+pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> String {
+    let russian = language == Language::Russian;
+    match no {
+        NoRoute::Blocked { barriers, .. } if !barriers.is_empty() => {
+            let told: Vec<String> = barriers.iter().map(|b| barrier(world, b, language)).collect();
+            told.join("; ")
+        }
+        NoRoute::Blocked { text, .. } => text.clone(),
+        NoRoute::NoFloor if russian => {
+            "у начала или цели нет места, где робот помещается".to_owned()
+        }
+        NoRoute::NoFloor => "the robot does not fit near the start or the goal".to_owned(),
+        NoRoute::OtherMap { area } => {
+            let room = named(world, Entity::Area(*area));
+            match russian {
+                true => format!("{} находится на другой карте", room.phrase().name()),
+                false => format!("{} is on another map", room.english()),
+            }
+        }
+    }
+}
+
+fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
+    let russian = language == Language::Russian;
+    let of = |entity: Entity| named(world, entity);
+    let form = |name: &Named, case: Case| match russian {
+        true => name.phrase().case(case),
+        false => name.english(),
+    };
+    let room = |id: AreaId, case| form(&of(Entity::Area(id)), case);
+    let door = |id: DoorId| of(Entity::Door(id));
+    let pair = |areas: &[AreaId; 2]| {
+        let names = [room(areas[0], Case::Instrumental), room(areas[1], Case::Instrumental)];
+        enumerate(&names, language)
+    };
+    let list = |blockers: &[Blocker]| {
+        let leaf = |entity: Entity| match russian {
+            true => format!("створка {}", form(&of(entity), Case::Genitive)),
+            false => format!("a leaf of {}", form(&of(entity), Case::Nominative)),
+        };
+        let name = |b: &Blocker| match (b, russian) {
+            (Blocker::Replica { replica, .. }, _) => {
+                form(&of(Entity::Replica(*replica)), Case::Nominative)
+            }
+            (Blocker::DoorLeaf { door, .. }, _) => leaf(Entity::Door(*door)),
+            (Blocker::ReplicaLeaf { replica, .. }, _) => leaf(Entity::Replica(*replica)),
+            (Blocker::Wall { .. }, true) => "стена".to_owned(),
+            (Blocker::Wall { .. }, false) => "a wall".to_owned(),
+            (Blocker::Floor { .. }, true) => "ступень или низкий потолок".to_owned(),
+            (Blocker::Floor { .. }, false) => "a step or a low ceiling".to_owned(),
+        };
+        let mut names: Vec<String> = blockers.iter().map(name).collect();
+        names.dedup();
+        enumerate(&names, language)
+    };
+    let cm = |length: f64| {
+        // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
+        let tenth = (length * 10.0 + 1e-6).floor() / 10.0;
+        let text = format!("{tenth:.1}").trim_end_matches('0').trim_end_matches('.').to_owned();
+        if russian { text.replace('.', ",") + " см" } else { text + " cm" }
+    };
+    match barrier {
+        Barrier::Door { door: id, status } => {
+            let name = door(*id);
+            let locked = *status == DoorStatus::Locked;
+            match russian {
+                true => format!("{} {}", form(&name, Case::Nominative), shut(&name, locked)),
+                false if locked => format!("{} is locked", name.english()),
+                false => format!("{} is closed", name.english()),
+            }
+        }
+        Barrier::Narrow { door: id, areas, width, needed } => {
+            let what = match (id, russian) {
+                (Some(id), true) => format!("проём {}", form(&door(*id), Case::Genitive)),
+                (Some(id), false) => format!("the doorway of {}", door(*id).english()),
+                (None, true) => format!("проход между {}", pair(areas)),
+                (None, false) => format!("the passage between {}", pair(areas)),
+            };
+            match russian {
+                true => format!("{what} шириной {}, роботу нужно {}", cm(*width), cm(*needed)),
+                false => format!("{what} is {} wide, the robot needs {}", cm(*width), cm(*needed)),
+            }
+        }
+        Barrier::Low { door: id, height, needed } => match russian {
+            true => format!(
+                "высота {} – {}, а робота – {}",
+                form(&door(*id), Case::Genitive),
+                cm(*height),
+                cm(*needed)
+            ),
+            false => format!(
+                "{} is {} high, the robot {}",
+                door(*id).english(),
+                cm(*height),
+                cm(*needed)
+            ),
+        },
+        Barrier::Step { areas, rise } => match russian {
+            true => format!("ступень {} между {}", cm(rise.abs()), pair(areas)),
+            false => format!("there is a step of {} between {}", cm(rise.abs()), pair(areas)),
+        },
+        Barrier::Gap { area, width, needed, between } => match russian {
+            true => format!(
+                "промежуток {} – {}, роботу нужно {} ({})",
+                crate::language::russian::where_at(of(Entity::Area(*area)).phrase()),
+                cm(*width),
+                cm(*needed),
+                list(between)
+            ),
+            false => format!(
+                "a gap in {} is {} wide, the robot needs {} ({})",
+                room(*area, Case::Nominative),
+                cm(*width),
+                cm(*needed),
+                list(between)
+            ),
+        },
+        Barrier::Enclosed { area, by } => match (by.is_empty(), russian) {
+            (true, true) => format!("из {} выхода нет", room(*area, Case::Genitive)),
+            (true, false) => format!("{} has no way out", room(*area, Case::Nominative)),
+            (false, true) => format!(
+                "{} путь загораживают: {}",
+                crate::language::russian::where_at(of(Entity::Area(*area)).phrase()),
+                list(by)
+            ),
+            (false, false) => {
+                format!("in {} the way is shut off by {}", room(*area, Case::Nominative), list(by))
+            }
+        },
+        Barrier::Apart { areas } => match russian {
+            true => format!(
+                "{} и {} не соединены ни дверью, ни проходом",
+                room(areas[0], Case::Nominative),
+                room(areas[1], Case::Nominative)
+            ),
+            false => format!("no door or passage joins {}", pair(areas)),
+        },
+    }
+}
+
+fn shut(name: &Named, locked: bool) -> &'static str {
+    match (name.phrase().number(), name.phrase().gender(), locked) {
+        (Number::Plural, _, true) => "заперты",
+        (Number::Plural, _, false) => "закрыты",
+        (_, Gender::Feminine, true) => "заперта",
+        (_, Gender::Feminine, false) => "закрыта",
+        (_, Gender::Neuter, true) => "заперто",
+        (_, Gender::Neuter, false) => "закрыто",
+        (_, Gender::Masculine, true) => "заперт",
+        (_, Gender::Masculine, false) => "закрыт",
+    }
+}
