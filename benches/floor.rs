@@ -1,116 +1,281 @@
-//! Free floor and routes on generated floors: building, rebuilding one Fragment, asking the way.
+//! Free floor and routes on generated floors, beside Recast and polyanya in the same run.
+//!
+//! `cargo bench --bench floor [-- NAME]` prints three tables: building, asking the way, rebuilding after a move.
+//! Every program does its part of a floor in a process of its own, so that memory is told apart. Times are of the
+//! processor, of all threads together; a query's is the least of five on the clock. `-- --build NAME` builds one
+//! floor of ours over and over, for a profiler.
+#![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 #[path = "../tests/floors.rs"]
 #[allow(dead_code, reason = "shared with the tests")]
 mod floors;
+#[path = "floor/generated.rs"]
 mod generated;
+#[path = "floor/optimum.rs"]
+mod optimum;
+#[path = "floor/peers.rs"]
+mod peers;
 
+use std::collections::BTreeMap;
+use std::fmt::Write;
 use std::hint::black_box;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use cpu_time::ProcessTime;
 use generated::{Generated, building, room};
 use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
 use orthoframe::map::World;
-use orthoframe::units::{Cm, Frame, MapId, Point};
+use orthoframe::units::{Cm, Deg, Frame, MapId, Point, ReplicaId};
+
+/// Name, and Detour's mean of a query in µs in a WebAssembly build on floors of these sizes.
+const FLOORS: [(&str, f64); 4] =
+    [("room-20", 16.7), ("flat-80", 16.5), ("office-3000", 147.0), ("hospital-40000", 2423.0)];
+const RADIUS: f64 = 20.0;
+const QUERIES: usize = 200;
+
+fn floor(name: &str) -> Generated {
+    let mut floor = match name {
+        "room-20" => room(20),
+        "flat-80" => building(1, 3, 13),
+        "office-3000" => building(4, 25, 15),
+        _ => building(20, 50, 20),
+    };
+    floor.builder.world.robot.radius = Cm::of(RADIUS);
+    floor
+}
 
 fn plan(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
 }
 
-/// Time that this thread has run on a processor: other work on the machine does not count.
-fn cpu() -> Duration {
-    let text = std::fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    let nanoseconds = text.split(' ').next().and_then(|n| n.parse().ok()).unwrap_or(0);
-    Duration::from_nanos(nanoseconds)
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|a| a != "--bench").collect();
+    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    match arguments[..] {
+        ["--alone", program, name] => alone(program, name),
+        ["--build", name] => {
+            let floor = floor(name);
+            (0..10).for_each(|_| drop(black_box(plan(&floor.builder.world))));
+        }
+        _ => tables(arguments.first().copied().unwrap_or_default()),
+    }
 }
 
-fn floors() -> Vec<(&'static str, Generated)> {
-    let mut floors = vec![
-        ("room-20", room(20)),
-        ("flat-80", building(1, 3, 13)),
-        ("office-3000", building(4, 25, 15)),
-    ];
-    if std::env::var_os("FLOOR_LARGE").is_some() {
-        floors.push(("hospital-40000", building(20, 50, 20)));
-    }
-    for (_, floor) in &mut floors {
-        floor.builder.world.robot.radius = Cm::of(20.0);
-    }
-    floors
+/// What a child told of one program on one floor.
+#[derive(Default)]
+struct Told {
+    numbers: BTreeMap<String, f64>,
+    /// By query: µs and cm.
+    ways: BTreeMap<usize, (f64, f64)>,
 }
 
-/// Points of the floor where the robot fits, spread over the rooms.
-fn spots(plan: &FloorPlan, floor: &Generated) -> Vec<Point> {
-    let mut spots = Vec::new();
-    for (k, (area, middle)) in floor.rooms.iter().enumerate() {
-        let reach = if floor.rooms.len() == 1 { 370.0 } else { 150.0 };
-        for i in 0..(if floor.rooms.len() == 1 { 60 } else { 2 }) {
-            let angle = (k * 7 + i) as f64 * 2.399_963;
-            let far = reach * ((i % 10 + 1) as f64 / 10.0);
-            let at = middle + nalgebra::Vector2::new(angle.cos(), angle.sin()) * far;
-            if plan.fragment(*area).is_some_and(|f| f.fits(at)) {
-                spots.push(at);
+impl Told {
+    fn by(program: &str, name: &str) -> Self {
+        let own = std::env::current_exe().expect("a program knows its place");
+        let run = std::process::Command::new(own).args(["--alone", program, name]).output();
+        let run = run.expect("it runs once more");
+        let mut told = Self::default();
+        for line in String::from_utf8_lossy(&run.stdout).lines() {
+            let fields: Vec<&str> = line.split('\t').collect();
+            let number = |k: usize| fields.get(k).and_then(|f: &&str| f.parse::<f64>().ok());
+            match (fields[0], number(1), number(2), number(3)) {
+                ("way", Some(i), Some(time), Some(length)) => {
+                    told.ways.insert(i as usize, (time, length));
+                }
+                (key, Some(value), ..) => {
+                    told.numbers.insert(key.to_owned(), value);
+                }
+                _ => {}
             }
         }
+        told
     }
-    spots
-}
 
-fn measure(c: &mut Criterion) {
-    for (name, mut floor) in floors() {
-        let large = floor.rooms.len() > 50;
-        let before = cpu();
-        let mut built = plan(&floor.builder.world);
-        let once = cpu() - before;
-        let frames: usize = built.fragments().map(|f| f.passframes.len()).sum();
-        report(&format!("{name}: first build {once:?}, {frames} Passframes"));
-        let mut group = c.benchmark_group(name);
-        group.sample_size(10);
-        if !large {
-            group.bench_function("build", |b| b.iter(|| plan(black_box(&floor.builder.world))));
-        }
-        let spots = spots(&built, &floor);
-        let pairs: Vec<(Point, Point)> = (0..spots.len().min(200))
-            .map(|i| (spots[i], spots[(i * 37 + 11) % spots.len()]))
-            .collect();
-        let world = &floor.builder.world;
-        let mut times: Vec<f64> = Vec::new();
-        for &(from, to) in &pairs {
-            let start = cpu();
-            let found = built.route(world, from, Target::Point(to), Method::Shortest);
-            if black_box(found).is_ok() {
-                times.push((cpu() - start).as_secs_f64() * 1e6);
-            }
-        }
+    fn shown(&self, key: &str, digits: usize) -> String {
+        self.numbers.get(key).map_or("–".to_owned(), |v| format!("{v:.digits$}"))
+    }
+
+    fn times(&self) -> Vec<f64> {
+        let mut times: Vec<f64> = self.ways.values().map(|w| w.0).collect();
         times.sort_by(f64::total_cmp);
-        let mean = times.iter().sum::<f64>() / times.len().max(1) as f64;
-        report(&format!(
-            "{name}: {} of {} ways found, µs: mean {mean:.1}, median {:.1}, p99 {:.1}",
-            times.len(),
-            pairs.len(),
-            times[times.len() / 2],
-            times[times.len() * 99 / 100]
-        ));
-        let id = *floor.builder.world.replicas.keys().next().unwrap();
-        let area = floor.builder.world.replicas[&id].area;
-        let mut turn = 0.0;
-        group.bench_function("rebuild one Fragment", |b| {
-            b.iter(|| {
-                turn += 7.0;
-                let replica = floor.builder.world.replicas.get_mut(&id).unwrap();
-                replica.frame = Frame { angle: orthoframe::units::Deg::of(turn), ..replica.frame };
-                built.rebuild(&floor.builder.world, area);
-            });
-        });
-        group.finish();
+        times
     }
 }
 
-#[allow(clippy::print_stdout, reason = "a bench speaks to its user")]
-fn report(line: &str) {
-    println!("{line}");
+fn ratio(above: Option<&f64>, below: Option<&f64>) -> String {
+    above.zip(below).map_or("–".to_owned(), |(a, b)| format!("{:.1}", a / b))
 }
 
-criterion_group!(benches, measure);
-criterion_main!(benches);
+fn tables(wanted: &str) {
+    let mut build = String::from(
+        "| floor | build, ms | Recast, ms (without detail mesh) | times faster | polyanya, ms | Passframes | Recast's polygons | peak memory, MB | Recast's |\n|---|---|---|---|---|---|---|---|---|\n",
+    );
+    let mut query = String::from(
+        "| floor | ways | median, µs | p99 | polyanya, median | p99 | Detour's mean elsewhere | our median of it | over the optimum: mean | worst | polyanya's mean |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+    );
+    let mut rebuild = String::from("| floor | rebuild, ms: median | worst |\n|---|---|---|\n");
+    for (name, detour) in FLOORS.into_iter().filter(|(n, _)| n.contains(wanted)) {
+        let [ours, recast, polyanya, least] =
+            ["ours", "recast", "polyanya", "optimum"].map(|program| Told::by(program, name));
+        let (fast, slow) = (ours.numbers.get("build"), recast.numbers.get("build"));
+        let _ = writeln!(
+            build,
+            "| {name} | {} | {} ({}) | {} | {} | {} | {} | {} | {} |",
+            ours.shown("build", 2),
+            recast.shown("build", 1),
+            recast.shown("bare", 1),
+            ratio(slow, fast),
+            polyanya.shown("build", 1),
+            ours.shown("cells", 0),
+            recast.shown("cells", 0),
+            ours.shown("peak", 0),
+            recast.shown("peak", 0),
+        );
+        let (own, other) = (ours.times(), polyanya.times());
+        let at =
+            |times: &[f64], share: f64| times.get((times.len() as f64 * share) as usize).copied();
+        let shown = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.1}"));
+        let over = |told: &Told| {
+            let shares: Vec<f64> = least
+                .ways
+                .iter()
+                .filter_map(|(i, (_, least))| Some(told.ways.get(i)?.1 / least))
+                .collect();
+            let mean = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
+            (mean, shares.into_iter().fold(0.0, f64::max))
+        };
+        let _ = writeln!(
+            query,
+            "| {name} | {} | {} | {} | {} | {} | {detour} | {} | {:.5} | {:.5} | {:.5} |",
+            own.len(),
+            shown(at(&own, 0.5)),
+            shown(at(&own, 0.99)),
+            shown(at(&other, 0.5)),
+            shown(at(&other, 0.99)),
+            at(&own, 0.5).map_or("–".to_owned(), |m| format!("{:.2}", m / detour)),
+            over(&ours).0,
+            over(&ours).1,
+            over(&polyanya).0,
+        );
+        let _ = writeln!(
+            rebuild,
+            "| {name} | {} | {} |",
+            ours.shown("rebuild", 2),
+            ours.shown("rebuild worst", 2)
+        );
+    }
+    println!("{build}\n{query}\n{rebuild}");
+}
+
+/// One program on one floor; tells what it found in lines of numbers.
+fn alone(program: &str, name: &str) {
+    let mut floor = floor(name);
+    let pairs = floor.pairs(QUERIES, RADIUS);
+    // Small floors are built often, so that the clock can tell.
+    let times = match name {
+        "room-20" | "flat-80" => 40,
+        "office-3000" => 3,
+        _ => 1,
+    };
+    match program {
+        "ours" => {
+            let world = &floor.builder.world;
+            let (plan, build) = least(times, || plan(world));
+            println!("build\t{}\npeak\t{}", build * 1e3, peak());
+            println!("cells\t{}", plan.fragments().map(|f| f.passframes.len()).sum::<usize>());
+            ask(&pairs, |from, to| {
+                let found = plan.route(world, from, Target::Point(to), Method::Shortest).ok()?;
+                let at_ends = found.moved_start.is_none() && found.moved_goal.is_none();
+                at_ends.then_some(found.length)
+            });
+            rebuild(plan, &mut floor);
+        }
+        "recast" => {
+            let mesh = peers::triangles(&floor);
+            let (cells, build) = least(times.min(5), || peers::recast(&mesh, RADIUS, true));
+            println!("build\t{}\ncells\t{cells}\npeak\t{}", build * 1e3, peak());
+            let (_, bare) = least(times.min(5), || peers::recast(&mesh, RADIUS, false));
+            println!("bare\t{}", bare * 1e3);
+        }
+        "polyanya" => {
+            let outlines = peers::outlines(&plan(&floor.builder.world));
+            let (meshes, build) = least(1, || peers::polyanya(&outlines));
+            println!("build\t{}\npeak\t{}", build * 1e3, peak());
+            ask(&pairs, |from, to| meshes.iter().find_map(|mesh| peers::way(mesh, from, to)));
+        }
+        _ => {
+            // Beyond a building of this size the slow way takes too long.
+            if name == "hospital-40000" {
+                return;
+            }
+            let plan = plan(&floor.builder.world);
+            let sight = optimum::Sight::of(&floor, RADIUS);
+            let sample = if name == "office-3000" { 40 } else { QUERIES };
+            for (i, &(from, to)) in pairs.iter().enumerate().take(sample) {
+                let found =
+                    plan.route(&floor.builder.world, from, Target::Point(to), Method::Shortest);
+                let Ok(found) = found else { continue };
+                if let Some(length) = sight.shortest(from, to, found.length) {
+                    println!("way\t{i}\t0\t{length}");
+                }
+            }
+        }
+    }
+}
+
+/// The result and the least processor time of several runs, in seconds.
+fn least<T>(times: usize, mut work: impl FnMut() -> T) -> (T, f64) {
+    let mut run = || {
+        let start = ProcessTime::now();
+        let made = black_box(work());
+        (made, start.elapsed().as_secs_f64())
+    };
+    let mut best = run();
+    for _ in 1..times {
+        let next = run();
+        if next.1 < best.1 {
+            best = next;
+        }
+    }
+    best
+}
+
+fn ask(pairs: &[(Point, Point)], way: impl Fn(Point, Point) -> Option<f64>) {
+    for (i, &(from, to)) in pairs.iter().enumerate() {
+        let mut best = Duration::MAX;
+        let mut length = None;
+        for _ in 0..5 {
+            let start = Instant::now();
+            length = black_box(way(from, to));
+            best = best.min(start.elapsed());
+        }
+        if let Some(length) = length {
+            println!("way\t{i}\t{}\t{length}", best.as_secs_f64() * 1e6);
+        }
+    }
+}
+
+/// One thing after another turns, all over the floor.
+fn rebuild(mut plan: FloorPlan, floor: &mut Generated) {
+    let world = &mut floor.builder.world;
+    let ids: Vec<ReplicaId> = world.replicas.keys().copied().collect();
+    let mut times: Vec<f64> = Vec::new();
+    for k in 0..40 {
+        let id = ids[k * 7919 % ids.len()];
+        let replica = world.replicas.get_mut(&id).expect("one of its own");
+        replica.frame = Frame { angle: Deg::of(7.0 * (k + 1) as f64), ..replica.frame };
+        let start = ProcessTime::now();
+        plan.rebuild(world, &[id]);
+        times.push(start.elapsed().as_secs_f64() * 1e3);
+    }
+    times.sort_by(f64::total_cmp);
+    println!("rebuild\t{}\nrebuild worst\t{}", times[times.len() / 2], times[times.len() - 1]);
+}
+
+/// The most memory that this process has held, in MB.
+fn peak() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).unwrap_or_default();
+    let kilobytes = line.split_whitespace().next().and_then(|n| n.parse::<f64>().ok());
+    kilobytes.unwrap_or(f64::NAN) / 1024.0
+}

@@ -597,8 +597,8 @@ fn a_gap_is_opened_by_the_smallest_push() {
     let target = Target::Point(p(RIGHT.0, RIGHT.1));
     let no = plan.route(&b.world, p(LEFT.0, LEFT.1), target, Method::Shortest).unwrap_err();
     match plan.remedy(&b.world, p(LEFT.0, LEFT.1), target, &no) {
-        Some(Remedy::Move { replica, by }) => {
-            assert_eq!(replica, ids[1]);
+        Some(Remedy::Move { replica, by, open }) => {
+            assert_eq!((replica, open), (ids[1], vec![]));
             assert!((by.norm() - 2.0).abs() < 1e-9 && by.y > 1.9, "{by:?}");
         }
         other => panic!("{other:?}"),

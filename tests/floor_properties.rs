@@ -299,8 +299,7 @@ fn rebuilding_after_any_move_equals_building_anew() {
                 0.0,
                 Deg::of(random.between(0.0, 360.0)),
             );
-            let area = replica.area;
-            plan.rebuild(&b.world, area);
+            plan.rebuild(&b.world, &[id]);
             let fresh = build(&b);
             for (old, new) in plan.fragments().zip(fresh.fragments()) {
                 assert!(old == new, "seed {seed}: Area {:?}", old.area);

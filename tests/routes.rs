@@ -331,7 +331,7 @@ fn a_moved_thing_rebuilds_to_what_building_anew_gives() {
     let chair = b.put(one, 330.0, 120.0, 45.0, 45.0, 10.0, 90.0);
     let mut plan_before = plan(&b);
     b.world.replicas.get_mut(&chair).unwrap().frame = Frame::new(100.0, 100.0, 0.0, Deg::of(40.0));
-    plan_before.rebuild(&b.world, one);
+    plan_before.rebuild(&b.world, &[chair]);
     let fresh = plan(&b);
     for (a, b) in plan_before.fragments().zip(fresh.fragments()) {
         assert_eq!(a, b);

@@ -4,7 +4,7 @@
 use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
-use crate::map::{BaseVector, DoorStatus, Permeability, TypeEntry, World};
+use crate::map::{BaseVector, DoorStatus, Permeability, RobotProfile, TypeEntry, World};
 use crate::units::{AreaId, Language, Point, Pose, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
@@ -80,8 +80,6 @@ pub struct RouteLayer {
     /// The directives by number, listed beside the plan.
     pub directives: Vec<(usize, String)>,
     pub start: Option<Pose>,
-    /// Radius of the robot's disc, cm.
-    pub robot_radius: f64,
 }
 
 /// A door leaf where it stands, and the floor that it passes over when it shuts.
@@ -292,7 +290,7 @@ impl PlanDrawing<'_> {
         for &(a, b) in &self.view.seen {
             canvas.segment(a, b, SEEN.thick(pen));
         }
-        robot(canvas, eye, self.world.robot.radius.get(), pen);
+        robot(canvas, eye, &self.world.robot, pen);
     }
 
     fn route(&self, canvas: &mut Canvas, pen: f64) {
@@ -300,7 +298,7 @@ impl PlanDrawing<'_> {
             canvas.polyline(leg, ROUTE.thick(pen));
         }
         if let Some(pose) = self.route.start {
-            robot(canvas, pose, self.route.robot_radius, pen);
+            robot(canvas, pose, &self.world.robot, pen);
         }
     }
 
@@ -463,11 +461,18 @@ fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
     canvas.polygon(&door.leaf, style.thick(pen), None);
 }
 
-fn robot(canvas: &mut Canvas, pose: Pose, radius: f64, pen: f64) {
+fn robot(canvas: &mut Canvas, pose: Pose, profile: &RobotProfile, pen: f64) {
     let (sin, cos) = pose.heading.sin_cos();
-    let radius = radius.max(6.0 * pen);
+    let at = |p: Point| pose.at + Vector::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos);
     let style = Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85).thick(pen);
-    canvas.circle(pose.at, radius, style);
-    let nose = pose.at + Vector::new(cos, sin) * radius;
-    canvas.segment(pose.at, nose, Style::line("#1f5fbf", 2.5).thick(pen));
+    let ahead = profile.footprint.iter().map(|p| p.x).reduce(f64::max);
+    let nose = ahead.unwrap_or(profile.radius.get()).max(6.0 * pen);
+    if profile.footprint.is_empty() {
+        canvas.circle(pose.at, nose, style);
+    } else {
+        let outline = profile.footprint.iter().map(|&p| at(p)).collect();
+        canvas.polygon(&Polygon::new(outline), style, None);
+    }
+    let style = Style::line("#1f5fbf", 2.5).thick(pen);
+    canvas.segment(pose.at, at(Point::new(nose, 0.0)), style);
 }

@@ -66,7 +66,6 @@ impl Engine {
                 legs: drawing.legs.clone(),
                 directives: drawing.directives.clone(),
                 start: drawing.robot,
-                robot_radius: world.robot.radius.get(),
             },
             view: drawing.view.map(|lens| view_layer(world, floor, lens)).unwrap_or_default(),
             places: places(world, map, only, drawing.language),
@@ -238,10 +237,11 @@ fn places(
     only: Option<AreaId>,
     language: Language,
 ) -> Vec<(Point, String)> {
+    let placements = world.placements();
     let shown = world.places.values().filter(|p| only.is_none_or(|a| a == p.area));
     shown
         .filter_map(|place| {
-            let (on, frame) = world.placement(place.area)?;
+            let &(on, frame) = placements.get(&place.area)?;
             let english = language == Language::English && !place.name_en.is_empty();
             let name = if english { &place.name_en } else { &place.name };
             (on == map).then(|| (frame.apply(place.at), name.clone()))

@@ -2,11 +2,11 @@
 //!
 //! **Invariant.** After an edit, relations and floors are those that deriving anew from the edited map would give.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
 use crate::store::{self, Change, Difference, ImportReport, Table};
-use crate::units::{AreaId, ReplicaId, Source};
+use crate::units::{ReplicaId, Source};
 
 use super::lexicon::form_index;
 use super::{Engine, Error, load};
@@ -173,17 +173,18 @@ impl Engine {
             return Ok(());
         };
         if let Some(floors) = self.floors.get_mut() {
-            let areas: BTreeSet<AreaId> = changed
-                .iter()
-                .flat_map(|id| [before.replicas.get(id), after.replicas.get(id)])
-                .flatten()
-                .map(|r| r.area)
-                .collect();
-            for area in areas {
-                if let Some((map, _)) = after.placement(area)
-                    && let Some(floor) = floors.get_mut(&map)
-                {
-                    floor.rebuild(after, area);
+            // A thing may leave one Map for another: each takes over what it now says of its own.
+            for floor in floors.values_mut() {
+                let is_on = |r: Option<&map::Replica>| {
+                    r.is_some_and(|r| floor.scene().areas.contains_key(&r.area))
+                };
+                let own: Vec<ReplicaId> = changed
+                    .iter()
+                    .copied()
+                    .filter(|id| is_on(before.replicas.get(id)) || is_on(after.replicas.get(id)))
+                    .collect();
+                if !own.is_empty() {
+                    floor.rebuild(after, &own);
                 }
             }
         }

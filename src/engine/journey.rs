@@ -30,6 +30,8 @@ pub enum Advice {
         replica: ReplicaId,
         distance: f64,
         by: (f64, f64),
+        /// Once these doors are open.
+        open: Vec<DoorId>,
     },
 }
 
@@ -148,8 +150,8 @@ impl From<Remedy> for Advice {
     fn from(remedy: Remedy) -> Self {
         match remedy {
             Remedy::Open(doors) => Self::Open(doors),
-            Remedy::Move { replica, by } => {
-                Self::Move { replica, distance: by.norm(), by: (by.x, by.y) }
+            Remedy::Move { replica, by, open } => {
+                Self::Move { replica, distance: by.norm(), by: (by.x, by.y), open }
             }
         }
     }
@@ -166,17 +168,20 @@ impl Advice {
                 Language::English => name.english(),
             }
         };
-        match (self, language) {
-            (Self::Open(doors), _) => {
-                let doors: Vec<String> = doors.iter().map(|&d| thing(Entity::Door(d))).collect();
-                let verb = if language == Language::Russian { "откройте" } else { "open" };
-                format!("{verb} {}", doors.join(", "))
-            }
-            (Self::Move { replica, distance, .. }, Language::Russian) => {
-                format!("подвиньте {} на {distance:.0} см", thing(Entity::Replica(*replica)))
-            }
-            (Self::Move { replica, distance, .. }, Language::English) => {
-                format!("move {} by {distance:.0} cm", thing(Entity::Replica(*replica)))
+        let opening = |doors: &[DoorId]| {
+            let doors: Vec<String> = doors.iter().map(|&d| thing(Entity::Door(d))).collect();
+            let verb = if language == Language::Russian { "откройте" } else { "open" };
+            format!("{verb} {}", doors.join(", "))
+        };
+        match self {
+            Self::Open(doors) => opening(doors),
+            Self::Move { replica, distance, open, .. } => {
+                let thing = thing(Entity::Replica(*replica));
+                let (push, and) = match language {
+                    Language::Russian => (format!("подвиньте {thing} на {distance:.0} см"), "и"),
+                    Language::English => (format!("move {thing} by {distance:.0} cm"), "and"),
+                };
+                if open.is_empty() { push } else { format!("{} {and} {push}", opening(open)) }
             }
         }
     }

@@ -99,17 +99,11 @@ impl Engine {
     pub(super) fn floor_now(&self, now: &Now) -> Result<FloorPlan, Error> {
         let before = self.world()?;
         let mut floor = self.floor(now.map)?.clone();
-        let mut areas = std::collections::BTreeSet::new();
-        for (id, replica) in &before.replicas {
-            let is = now.world.replicas.get(id);
-            if is != Some(replica) {
-                areas.insert(replica.area);
-                areas.extend(is.map(|r| r.area));
-            }
-        }
-        for area in areas {
-            floor.rebuild(&now.world, area);
-        }
+        let differs =
+            |(id, replica): &(&ReplicaId, &Replica)| now.world.replicas.get(id) != Some(replica);
+        let changed: Vec<ReplicaId> =
+            before.replicas.iter().filter(differs).map(|r| *r.0).collect();
+        floor.rebuild(&now.world, &changed);
         let doors: DoorStates = now
             .world
             .doors

@@ -11,6 +11,7 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
+use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;
 use super::route::things;
@@ -65,18 +66,15 @@ impl NoRoute {
     }
 }
 
-/// A piece of centre space: Fragment, component.
-type Piece = (u32, u32);
-
 /// Names what stands between a cell and the nearest of some others.
 pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[CellKey]) -> NoRoute {
     let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
     let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
     let start = piece(from);
-    let mut between = Between { plan, world, pieces: plan.pieces(), gaps: HashMap::new() };
+    let mut between = Between { plan, world, pieces: plan.network.pieces(), gaps: HashMap::new() };
     let ends = [
-        BTreeSet::from([plan.region_of(start)]),
-        goals.iter().map(|&g| plan.region_of(g)).collect(),
+        BTreeSet::from([plan.network.region(start)]),
+        goals.iter().map(|&g| plan.network.region(g)).collect(),
     ];
     let mut barriers = between.fewest(ends).unwrap_or_default();
     if barriers.is_empty() {
@@ -159,7 +157,7 @@ impl Between<'_> {
                     (before(plan, index, side), before(plan, index, 1 - side))
                     && near == (number, component)
                 {
-                    found.push((plan.region_of(far), barrier_at(plan, self.world, index)));
+                    found.push((plan.network.region(far), barrier_at(plan, self.world, index)));
                 }
             }
             let gaps = self.gaps.entry(number).or_insert_with(|| gaps(plan, number));
@@ -169,7 +167,7 @@ impl Between<'_> {
                     c if c == *b => *a,
                     _ => continue,
                 };
-                found.push((plan.region_of((number, other)), barrier.clone()));
+                found.push((plan.network.region((number, other)), barrier.clone()));
             }
         }
         found.retain(|(other, _)| *other != region);
@@ -213,7 +211,7 @@ fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Barrier {
         door: doorway.door,
         areas: doorway.areas,
         width: doorway.clear_width(door, state),
-        needed: 2.0 * plan.reach(),
+        needed: plan.robot().passing_width(),
     }
 }
 
@@ -239,7 +237,7 @@ fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
                 let barrier = Barrier::Gap {
                     area: floor.area,
                     width,
-                    needed: 2.0 * plan.reach(),
+                    needed: plan.robot().passing_width(),
                     between: things(&zone.owners),
                 };
                 found.push((a, b, barrier));

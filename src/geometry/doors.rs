@@ -16,6 +16,7 @@
 //! A hinged leaf turns about the corner of its jamb on the face towards which it opens; closed, it lies within
 //! the wall. A sliding leaf runs along the doorway's line into its pocket.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use crate::map::{
@@ -24,8 +25,9 @@ use crate::map::{
 };
 use crate::units::{AreaId, DoorId, MapId, Point, Vector};
 
+use super::buckets::Buckets;
 use super::scene::{PlacedArea, Scene};
-use super::{Polygon, nearest_on_segment};
+use super::{Bounds, Polygon, nearest_on_segment};
 
 /// An opening between two Areas of a Map.
 #[derive(Debug, Clone, PartialEq)]
@@ -110,7 +112,7 @@ impl Doorway {
     /// What the leaves occupy.
     #[must_use]
     pub fn leaves(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
-        let bay = Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap };
+        let bay = self.bay();
         leaves(door)
             .map(|(leaf, share)| bay.leaf(door, leaf, share, self.opens_to, state))
             .collect()
@@ -119,53 +121,59 @@ impl Doorway {
     /// What the leaves occupy outside of their pockets in the wall: the obstacles that they are.
     #[must_use]
     pub fn leaf_obstacles(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
-        let leaves = self.leaves(door, state);
-        match door.kind {
-            DoorKind::Hinged | DoorKind::Passage => leaves,
-            DoorKind::Sliding => {
-                leaves.iter().filter_map(|leaf| self.between_jambs(leaf)).collect()
-            }
-        }
-    }
-
-    fn between_jambs(&self, leaf: &Polygon) -> Option<Polygon> {
-        let corners: Vec<Point> = leaf
-            .corners
-            .iter()
-            .map(|&p| {
-                let v = p - self.origin;
-                self.at(v.dot(&self.along).clamp(self.span.0, self.span.1), v.dot(&self.out()))
-            })
-            .collect();
-        let cut = Polygon::new(corners);
-        (cut.signed_area().abs() > 1e-6).then_some(cut)
+        self.bay().obstacles(door, self.opens_to, state)
     }
 
     /// All that a leaf passes over between closed and fully open.
     #[must_use]
     pub fn swept(&self, door: &Door) -> Vec<Polygon> {
-        let bay = Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap };
-        leaves(door).map(|(leaf, share)| bay.swept(door, leaf, share, self.opens_to)).collect()
+        self.swept_between(door, (0.0, 100.0))
+    }
+
+    /// All that a leaf passes over, outside of its pocket, between two openings in per cent.
+    #[must_use]
+    pub fn swept_between(&self, door: &Door, openings: (f64, f64)) -> Vec<Polygon> {
+        let bay = self.bay();
+        leaves(door)
+            .filter_map(|(leaf, share)| bay.swept(door, leaf, share, self.opens_to, openings))
+            .collect()
     }
 
     /// The widest gap that the leaves leave between each other and the jambs, in cm; the width for a passage.
     #[must_use]
     pub fn clear_width(&self, door: Option<&Door>, state: DoorState) -> f64 {
-        let Some(door) = door else { return self.width() };
-        if door.kind == DoorKind::Passage {
-            return self.width();
-        }
-        if state.status != DoorStatus::Open {
-            return 0.0;
-        }
-        let jamb = |t: f64| Polygon::new(vec![self.at(t, 0.0), self.at(t, self.gap)]);
-        let solids: Vec<Polygon> = std::iter::once(jamb(self.span.0))
-            .chain(self.leaf_obstacles(door, state))
-            .chain([jamb(self.span.1)])
-            .collect();
-        let gaps = solids.windows(2).map(|pair| distance(&pair[0], &pair[1]));
-        gaps.fold(0.0, f64::max).min(self.width())
+        door.map_or(self.width(), |door| clear_width(door, state, self.width(), self.gap))
     }
+
+    fn bay(&self) -> Bay {
+        Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap }
+    }
+}
+
+/// The widest gap that a door's leaves leave between each other and the jambs of an opening `width` wide in a wall
+/// `gap` thick, in cm: what a disc of that diameter passes.
+#[must_use]
+pub fn clear_width(door: &Door, state: DoorState, width: f64, gap: f64) -> f64 {
+    if door.kind == DoorKind::Passage {
+        return width;
+    }
+    if opening_of(state) <= 0.0 {
+        return 0.0;
+    }
+    let bay = Bay { origin: Point::origin(), along: Vector::x(), span: (0.0, width), gap };
+    let jamb = |t: f64| Polygon::new(vec![bay.at(t, 0.0), bay.at(t, gap)]);
+    let solids: Vec<Polygon> = std::iter::once(jamb(0.0))
+        .chain(bay.obstacles(door, 0, state))
+        .chain([jamb(width)])
+        .collect();
+    let gaps = solids.windows(2).map(|pair| distance(&pair[0], &pair[1]));
+    gaps.fold(0.0, f64::max).min(width)
+}
+
+/// How far leaves stand open, in per cent.
+#[must_use]
+pub fn opening_of(state: DoorState) -> f64 {
+    if state.status == DoorStatus::Open { state.opening } else { 0.0 }
 }
 
 /// Leaves of a door fixed to a side of an Object's placed Orthoframe: a wardrobe's. They open outwards or inwards
@@ -219,7 +227,7 @@ impl Bay {
         opens_to: usize,
         state: DoorState,
     ) -> Polygon {
-        let opening = if state.status == DoorStatus::Open { state.opening / 100.0 } else { 0.0 };
+        let opening = opening_of(state) / 100.0;
         match door.kind {
             DoorKind::Hinged => {
                 let swing = self.swing(leaf, share, opens_to);
@@ -255,14 +263,52 @@ impl Bay {
         Polygon::new(vec![self.at(t0, s0), self.at(t0, s1), self.at(t1, s1), self.at(t1, s0)])
     }
 
-    fn swept(&self, door: &Door, leaf: &DoorLeaf, share: (f64, f64), opens_to: usize) -> Polygon {
+    /// The leaves outside of their pockets.
+    fn obstacles(&self, door: &Door, opens_to: usize, state: DoorState) -> Vec<Polygon> {
+        let placed =
+            leaves(door).map(|(leaf, share)| self.leaf(door, leaf, share, opens_to, state));
         match door.kind {
-            DoorKind::Hinged => self
-                .swing(leaf, share, opens_to)
-                .sector(leaf.max_open.to_radians(), leaf.thickness.get()),
-            DoorKind::Sliding | DoorKind::Passage => self.slid(leaf, share, 0.0),
+            DoorKind::Hinged | DoorKind::Passage => placed.collect(),
+            DoorKind::Sliding => placed.filter_map(|leaf| self.between_jambs(&leaf)).collect(),
         }
-        .counter_clockwise()
+    }
+
+    fn between_jambs(&self, leaf: &Polygon) -> Option<Polygon> {
+        let out = Vector::new(self.along.y, -self.along.x);
+        let corners = leaf.corners.iter().map(|&p| {
+            let v = p - self.origin;
+            self.at(v.dot(&self.along).clamp(self.span.0, self.span.1), v.dot(&out))
+        });
+        let cut = Polygon::new(corners.collect());
+        (cut.signed_area().abs() > 1e-6).then_some(cut)
+    }
+
+    /// A leaf's way between two openings in per cent: a sector of a circle, or the stretch that it slides over.
+    fn swept(
+        &self,
+        door: &Door,
+        leaf: &DoorLeaf,
+        share: (f64, f64),
+        opens_to: usize,
+        (from, to): (f64, f64),
+    ) -> Option<Polygon> {
+        let (least, most) = (from.min(to) / 100.0, from.max(to) / 100.0);
+        match door.kind {
+            DoorKind::Hinged => {
+                let angle = |opening: f64| (leaf.max_open * opening).to_radians();
+                let swing = self.swing(leaf, share, opens_to);
+                Some(swing.sector(angle(least), angle(most), leaf.thickness.get()))
+            }
+            DoorKind::Sliding | DoorKind::Passage => {
+                let at = |opening: f64| self.slid(leaf, share, leaf.max_open / 100.0 * opening);
+                let ends = [at(least), at(most)];
+                // Both are the same rectangle, moved along the doorway: corners 0 and 1 lie to the right.
+                let [right, left] = if leaf.hinge == HingeSide::Right { [1, 0] } else { [0, 1] };
+                let (right, left) = (&ends[right].corners, &ends[left].corners);
+                self.between_jambs(&Polygon::new(vec![right[0], right[1], left[2], left[3]]))
+            }
+        }
+        .map(Polygon::counter_clockwise)
     }
 }
 
@@ -285,17 +331,19 @@ impl Swing {
         Polygon::new(vec![self.hinge, tip, tip + back, self.hinge + back])
     }
 
-    /// The leaf's way, its arc by tangents from outside.
-    fn sector(&self, angle: f64, thickness: f64) -> Polygon {
+    /// The leaf's way between two angles, its arc by tangents from outside.
+    fn sector(&self, from: f64, to: f64, thickness: f64) -> Polygon {
         let reach = self.length.hypot(thickness);
-        let steps = (angle / (PI / 12.0)).ceil().max(1.0);
-        let half = angle / steps / 2.0;
+        // The back of the leaf trails behind its face.
+        let from = from - (thickness / self.length.max(1e-9)).atan();
+        let steps = ((to - from) / (PI / 12.0)).ceil().max(1.0);
+        let half = (to - from) / steps / 2.0;
         let ray = |a: f64, r: f64| self.hinge + (self.closed * a.cos() + self.opens * a.sin()) * r;
-        let mut corners = vec![self.hinge, ray(0.0, reach)];
+        let mut corners = vec![self.hinge, ray(from, reach)];
         corners.extend(
-            (0..steps as usize).map(|k| ray(half * (2 * k + 1) as f64, reach / half.cos())),
+            (0..steps as usize).map(|k| ray(from + half * (2 * k + 1) as f64, reach / half.cos())),
         );
-        corners.push(ray(angle, reach));
+        corners.push(ray(to, reach));
         Polygon::new(corners)
     }
 }
@@ -349,43 +397,52 @@ struct OpenSide {
 pub fn doorways(world: &World, scene: &Scene, map: MapId) -> Vec<Doorway> {
     let mut open: Vec<Option<OpenSide>> =
         scene.areas.values().flat_map(|area| open_sides(world, area)).map(Some).collect();
-    let position = |open: &[Option<OpenSide>], area: AreaId, side: &SideRef| {
-        open.iter().position(|o| o.as_ref().is_some_and(|o| o.area == area && o.side == *side))
-    };
     let mut found = Vec::new();
     let mut pair = |open: &mut Vec<Option<OpenSide>>, i: usize, j: usize| {
         let (Some(a), Some(b)) = (open[i].as_ref(), open[j].as_ref()) else { return };
-        if let Some(doorway) = join(world, a, b) {
+        if a.area != b.area
+            && let Some(doorway) = join(world, a, b)
+        {
             found.push(doorway);
             open[i] = None;
             open[j] = None;
         }
     };
+    let mut places: BTreeMap<(AreaId, SideRef), usize> = BTreeMap::new();
+    let mut by_door: BTreeMap<DoorId, Vec<usize>> = BTreeMap::new();
+    for (i, side) in open.iter().enumerate() {
+        let Some(side) = side else { continue };
+        places.entry((side.area, side.side.clone())).or_insert(i);
+        if let Some(mount) = &side.mount {
+            by_door.entry(mount.door).or_default().push(i);
+        }
+    }
     for link in world.maps.get(&map).map_or(&[][..], |m| &m.links) {
-        let ends =
-            (position(&open, link.area, &link.side), position(&open, link.to_area, &link.to_side));
-        if let (Some(i), Some(j)) = ends {
+        let place = |area, side: &SideRef| places.get(&(area, side.clone())).copied();
+        if let (Some(i), Some(j)) =
+            (place(link.area, &link.side), place(link.to_area, &link.to_side))
+        {
             pair(&mut open, i, j);
         }
     }
-    for same_door in [true, false] {
-        for i in 0..open.len() {
-            for j in i + 1..open.len() {
-                let matches = match (&open[i], &open[j]) {
-                    (Some(a), Some(b)) if a.area != b.area => {
-                        let doors =
-                            (a.mount.as_ref().map(|m| m.door), b.mount.as_ref().map(|m| m.door));
-                        if same_door {
-                            doors.0.is_some() && doors.0 == doors.1
-                        } else {
-                            face_each_other(a, b)
-                        }
-                    }
-                    _ => false,
-                };
-                if matches {
-                    pair(&mut open, i, j);
-                }
+    for sides in by_door.values() {
+        for (k, &i) in sides.iter().enumerate() {
+            sides[k + 1..].iter().for_each(|&j| pair(&mut open, i, j));
+        }
+    }
+    let boxes: Vec<Bounds> = open
+        .iter()
+        .map(|o| o.as_ref().map_or(Bounds::EMPTY, |o| Bounds::of([o.start, o.end])))
+        .map(|b| if b.min.x > b.max.x { b } else { b.grown(THICKEST_WALL + 1.0) })
+        .collect();
+    let (buckets, mut near) = (Buckets::of(&boxes), Vec::new());
+    for i in 0..open.len() {
+        buckets.meeting(&boxes[i], &mut near);
+        for &j in near.iter().filter(|&&j| j as usize > i) {
+            let j = j as usize;
+            let faces = open[i].as_ref().zip(open[j].as_ref());
+            if faces.is_some_and(|(a, b)| face_each_other(a, b)) {
+                pair(&mut open, i, j);
             }
         }
     }

@@ -35,6 +35,9 @@ use super::{Bounds, Polygon, Region, nearest_on_segment};
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
 pub const SLACK: f64 = 0.004;
 
+/// Rounds in which fewer Passframes are looked for in vain.
+const PATIENCE: usize = 1;
+
 /// An edge of the centre space on a doorway's line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Exit {
@@ -172,8 +175,8 @@ impl FragmentFloor {
         );
         let free = smooth(free);
 
-        let cells = Mesh::of(&grid, &centre);
-        let frames = Mesh::of(&grid, &free);
+        let cells = Mesh::of(&grid, &centre, 0);
+        let frames = Mesh::of(&grid, &free, PATIENCE);
         let exits = exits(&cells, &open);
         let walls = walls(site, placed);
         let dead_zones = dead_zones(&grid, &dead, area, &obstacles, &storey.sides, reach);
@@ -241,28 +244,38 @@ impl Doorway {
 /// The floor through an open doorway as far as a disc on its line reaches.
 fn stub(site: &Site<'_>, grid: &Grid, doorway: &Doorway, side: usize, reach: f64) -> Vec<Contour> {
     let other = doorway.areas[1 - side];
-    let gap = grid.contour(&doorway.rectangle(-THIN, doorway.gap + THIN, 0.0));
+    let gap = doorway.rectangle(-THIN, doorway.gap + THIN, 0.0);
     let depth = doorway.gap / 2.0 + reach + 2.0;
     let ahead = doorway.rectangle(doorway.past(side, 0.0), doorway.past(side, depth), 0.0);
     let near = ahead.bounds();
-    let mut floor = vec![gap.clone()];
+    let mut holes = vec![gap.clone()];
     let mut others = vec![other];
     // Beyond a threshold that is less deep than the robot its next doorway counts too.
     for (_, next, at) in site.doorways_of(other) {
         let hole = next.rectangle(-THIN, next.gap + THIN, 0.0);
         if hole.bounds().meets(&near) && next != doorway && site.is_open(next) {
-            floor.push(grid.contour(&hole));
+            holes.push(hole);
             others.push(next.areas[1 - at]);
         }
     }
-    for area in others.into_iter().filter_map(|a| site.scene.areas.get(&a)) {
-        // A long corridor need not be overlaid whole for one of its doors.
-        let parts = Storey::of(site, area).floor.into_iter().map(|p| p.clipped(&near.grown(1.0)));
-        floor.extend(parts.filter(|p| p.corners.len() > 2).map(|p| grid.contour(&p)));
+    let areas = others.into_iter().filter_map(|a| site.scene.areas.get(&a));
+    let parts: Vec<Polygon> = areas.flat_map(|a| Storey::of(site, a).floor).collect();
+    if parts.iter().all(|p| p.is_convex(1e-9)) {
+        // Two convex polygons need no overlay.
+        let cut = holes.into_iter().chain(parts).map(|p| p.within_convex(&ahead));
+        return cut
+            .chain([gap])
+            .filter(|p| p.corners.len() > 2)
+            .map(|p| grid.contour(&p))
+            .collect();
     }
+    // A long corridor need not be overlaid whole for one of its doors.
+    let parts = parts.into_iter().map(|p| p.clipped(&near.grown(1.0)));
+    let solid = holes.into_iter().chain(parts).filter(|p| p.corners.len() > 2);
+    let floor: Vec<Contour> = solid.map(|p| grid.contour(&p)).collect();
     let mut cut: Vec<Contour> =
         intersection(&floor, &[grid.contour(&ahead)]).into_iter().flatten().collect();
-    cut.push(gap);
+    cut.push(grid.contour(&gap));
     cut
 }
 

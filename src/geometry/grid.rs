@@ -6,6 +6,8 @@
 //!
 //! **Invariant**: a [`Grid`] maps grid points to cm and back without loss; its unit is a power of two.
 
+use std::cell::RefCell;
+
 use i_overlay::core::extract::BooleanExtractionBuffer;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{Overlay, ShapeType};
@@ -158,7 +160,16 @@ pub(super) fn overlay(
     rule: OverlayRule,
     fill: FillRule,
 ) -> Shapes {
-    overlaid(subject, clip).overlay(rule, fill)
+    KEPT.with_borrow_mut(|(overlay, _)| {
+        fill_in(overlay, subject, clip);
+        overlay.overlay(rule, fill)
+    })
+}
+
+thread_local! {
+    /// What i_overlay allocates for one overlay serves the next: a Fragment needs several, a building thousands.
+    static KEPT: RefCell<(Overlay<i32>, BooleanExtractionBuffer<i32>)> =
+        RefCell::new((Overlay::new(512), BooleanExtractionBuffer::default()));
 }
 
 /// Several results of one overlay, for little more than the work of one.
@@ -168,24 +179,23 @@ pub(super) fn overlays<const N: usize>(
     rules: [OverlayRule; N],
     fill: FillRule,
 ) -> [Shapes; N] {
-    let mut overlay = overlaid(subject, clip);
-    let mut buffer = BooleanExtractionBuffer::default();
-    match overlay.build_graph_view(fill) {
-        Some(graph) => rules.map(|rule| graph.extract_shapes(rule, &mut buffer)),
-        None => rules.map(|_| Shapes::new()),
-    }
+    KEPT.with_borrow_mut(|(overlay, buffer)| {
+        fill_in(overlay, subject, clip);
+        match overlay.build_graph_view(fill) {
+            Some(graph) => rules.map(|rule| graph.extract_shapes(rule, buffer)),
+            None => rules.map(|_| Shapes::new()),
+        }
+    })
 }
 
-fn overlaid(subject: &[Contour], clip: &[Contour]) -> Overlay<i32> {
-    let edges = subject.iter().chain(clip).map(Vec::len).sum();
-    let mut overlay = Overlay::new(edges);
+fn fill_in(overlay: &mut Overlay<i32>, subject: &[Contour], clip: &[Contour]) {
+    overlay.clear();
     for contour in subject {
         overlay.add_contour(contour, ShapeType::Subject);
     }
     for contour in clip {
         overlay.add_contour(contour, ShapeType::Clip);
     }
-    overlay
 }
 
 #[cfg(test)]

@@ -1,21 +1,13 @@
-//! Convex partition of a floor, and what is needed to walk over it.
-//!
-//! Constrained Delaunay triangulation (i_triangle), then every edge is dropped whose removal leaves both of its
-//! ends convex, those first that serve no inward corner well (after Hertel and Mehlhorn 1983; never more than
-//! four times the fewest possible cells). All decisions are made on the integer grid, hence exact.
+//! A floor cut into convex cells (see [`super::half_edge`]), and what is needed to walk over it.
 //!
 //! **Invariant**: cells are convex and counter-clockwise, do not overlap, and fill the floor; where two share a
 //! border, both have it as one edge with the same two corners.
 
-use i_overlay::core::solver::Solver;
-use i_triangle::advanced::delaunay::IntDelaunay;
-use i_triangle::int::triangulator::IntTriangulator;
-use i_triangle::int::validation::Validation;
-
 use crate::units::Point;
 
 use super::buckets::Buckets;
-use super::grid::{Grid, Node, Shapes};
+use super::grid::{Grid, Shapes};
+use super::half_edge::HalfEdges;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// No cell: the edge is a border of the floor.
@@ -33,6 +25,8 @@ pub(super) struct Mesh {
     across: Vec<u32>,
     /// Which cells hang together.
     pub(super) component: Vec<u32>,
+    /// How many components there are.
+    pub(super) components: u32,
     /// The cell that a branch of cells hangs on: a way enters the branch over it alone, and leaves it there again.
     /// [`NONE`] for cells in a ring, and for the last of a tree.
     pub(super) trunk: Vec<u32>,
@@ -40,12 +34,14 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    pub(super) fn of(grid: &Grid, shapes: &Shapes) -> Self {
+    /// `patience` is how hard to try for few cells; see [`HalfEdges::pair_up`].
+    pub(super) fn of(grid: &Grid, shapes: &Shapes, patience: usize) -> Self {
         if shapes.is_empty() {
             return Self::default();
         }
         let mut edges = HalfEdges::of(shapes);
         edges.merge();
+        edges.pair_up(patience);
         let faces = edges.faces();
         let vertices = edges.nodes.iter().map(|&n| grid.point(n)).collect();
         let mut mesh = Self { vertices, starts: vec![0], ..Self::default() };
@@ -63,7 +59,7 @@ impl Mesh {
             mesh.starts.push(mesh.ring.len() as u32);
         }
         mesh.is_corner = edges.corners();
-        mesh.component = mesh.components();
+        (mesh.component, mesh.components) = mesh.find_components();
         mesh.trunk = mesh.trunks();
         mesh.buckets = Buckets::of(&mesh.boxes());
         mesh
@@ -226,7 +222,7 @@ impl Mesh {
         trunk
     }
 
-    fn components(&self) -> Vec<u32> {
+    fn find_components(&self) -> (Vec<u32>, u32) {
         let mut component = vec![NONE; self.len()];
         let mut count = 0;
         for seed in self.cells() {
@@ -245,236 +241,14 @@ impl Mesh {
             }
             count += 1;
         }
-        component
-    }
-}
-
-/// Positive when a, b, c turn left; exact, since the grid leaves two bits of 32 free.
-fn orientation(a: Node, b: Node, c: Node) -> i64 {
-    let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
-    d(b.x, a.x) * d(c.y, b.y) - d(b.y, a.y) * d(c.x, b.x)
-}
-
-fn triangulate(shapes: &Shapes) -> IntDelaunay<i32> {
-    let count = shapes.iter().flatten().map(Vec::len).sum();
-    let mut triangulator =
-        IntTriangulator::<i32, u32>::new(count, Validation::default(), Solver::AUTO);
-    let mut found = IntDelaunay { triangles: Vec::new(), points: Vec::new() };
-    triangulator.uncheck_delaunay_shapes_into(shapes, &mut found);
-    found
-}
-
-/// A planar subdivision whose edges can be dropped.
-struct HalfEdges {
-    nodes: Vec<Node>,
-    origin: Vec<u32>,
-    next: Vec<u32>,
-    prev: Vec<u32>,
-    /// The other half; [`NONE`] for a border of the floor.
-    twin: Vec<u32>,
-    dropped: Vec<bool>,
-}
-
-impl HalfEdges {
-    /// The triangles of the shapes.
-    fn of(shapes: &Shapes) -> Self {
-        let found = triangulate(shapes);
-        let n = 3 * found.triangles.len();
-        let mut edges = Self {
-            nodes: found.points,
-            origin: Vec::with_capacity(n),
-            next: (0..n as u32).map(|h| if h % 3 == 2 { h - 2 } else { h + 1 }).collect(),
-            prev: (0..n as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect(),
-            twin: vec![NONE; n],
-            dropped: vec![false; n],
-        };
-        for triangle in &found.triangles {
-            let [a, b, c] = triangle.vertices.map(|v| v.index as u32);
-            let turns_right = orientation(edges.node(a), edges.node(b), edges.node(c)) < 0;
-            edges.origin.extend(if turns_right { [a, c, b] } else { [a, b, c] });
-        }
-        for (t, triangle) in found.triangles.iter().enumerate() {
-            for h in 3 * t as u32..3 * t as u32 + 3 {
-                let ends = (edges.node(edges.origin[h as usize]), edges.node(edges.end(h)));
-                // Shapes that touch in a point have that corner twice: it is places that are compared.
-                edges.twin[h as usize] = triangle
-                    .neighbors
-                    .iter()
-                    .filter(|&&other| other < found.triangles.len())
-                    .flat_map(|&other| 3 * other as u32..3 * other as u32 + 3)
-                    .find(|&k| {
-                        (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends
-                    })
-                    .unwrap_or(NONE);
-            }
-        }
-        for h in 0..n {
-            let twin = edges.twin[h];
-            if twin != NONE && edges.twin[twin as usize] != h as u32 {
-                edges.twin[h] = NONE;
-            }
-        }
-        edges
-    }
-
-    fn end(&self, h: u32) -> u32 {
-        self.origin[self.next[h as usize] as usize]
-    }
-
-    fn node(&self, vertex: u32) -> Node {
-        self.nodes[vertex as usize]
-    }
-
-    /// Drops every edge that convexity does not need: first those that straighten no inward corner, last those
-    /// that straighten one at each end; the longer of equals first.
-    fn merge(&mut self) {
-        let borders = self.borders();
-        let inner = (0..self.origin.len() as u32)
-            .filter(|&h| self.twin[h as usize] != NONE && h < self.twin[h as usize]);
-        let mut ranked: Vec<_> = inner
-            .map(|h| {
-                let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
-                let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
-                let service =
-                    self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
-                let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
-                (
-                    service,
-                    std::cmp::Reverse(length),
-                    (a.y, a.x).min((b.y, b.x)),
-                    (a.y, a.x).max((b.y, b.x)),
-                    h,
-                )
-            })
-            .collect();
-        ranked.sort_unstable();
-        for (.., h) in ranked {
-            if self.is_needless(h) {
-                self.drop_edge(h);
-            }
-        }
-    }
-
-    /// For each vertex the border edges that arrive and leave.
-    fn borders(&self) -> Vec<(u32, u32)> {
-        let mut borders = vec![(NONE, NONE); self.nodes.len()];
-        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
-            borders[self.origin[h as usize] as usize].1 = h;
-            borders[self.end(h) as usize].0 = h;
-        }
-        borders
-    }
-
-    /// What an edge does for the convexity of its origin: nothing, a part, or all.
-    fn usefulness(&self, borders: &[(u32, u32)], h: u32) -> u8 {
-        let at = self.origin[h as usize];
-        let (arriving, leaving) = borders[at as usize];
-        if arriving == NONE || leaving == NONE {
-            return 0;
-        }
-        let place = self.node(at);
-        let (before, after) =
-            (self.node(self.origin[arriving as usize]), self.node(self.end(leaving)));
-        let to = self.node(self.end(h));
-        if orientation(before, place, after) >= 0 {
-            0
-        } else if orientation(before, place, to) >= 0 && orientation(to, place, after) >= 0 {
-            2
-        } else {
-            1
-        }
-    }
-
-    /// The vertices where the border turns to the right, so that a shortest way may bend there.
-    fn corners(&self) -> Vec<bool> {
-        let mut corner = vec![false; self.nodes.len()];
-        for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
-            // Round the end to the border that leaves it within the same floor.
-            let mut leaving = self.next[h as usize];
-            let mut steps = 0;
-            while self.twin[leaving as usize] != NONE && steps < self.origin.len() {
-                leaving = self.next[self.twin[leaving as usize] as usize];
-                steps += 1;
-            }
-            let [a, b, c] = [self.origin[h as usize], self.end(h), self.end(leaving)];
-            corner[b as usize] |= orientation(self.node(a), self.node(b), self.node(c)) < 0;
-        }
-        corner
-    }
-
-    /// Without the edge, the chain runs straight on or to the left at both of its ends.
-    fn is_needless(&self, h: u32) -> bool {
-        let t = self.twin[h as usize];
-        self.runs_left(self.prev[h as usize], self.next[t as usize])
-            && self.runs_left(self.prev[t as usize], self.next[h as usize])
-    }
-
-    /// Whether `leaving` may follow `arriving` in a convex chain.
-    fn runs_left(&self, arriving: u32, leaving: u32) -> bool {
-        let [a, b, c] =
-            [self.origin[arriving as usize], self.origin[leaving as usize], self.end(leaving)];
-        if a == c {
-            return false;
-        }
-        let (a, b, c) = (self.node(a), self.node(b), self.node(c));
-        let turn = orientation(a, b, c);
-        let d = |p: i32, q: i32| i64::from(p) - i64::from(q);
-        let ahead = d(b.x, a.x) * d(c.x, b.x) + d(b.y, a.y) * d(c.y, b.y);
-        turn > 0 || (turn == 0 && ahead > 0)
-    }
-
-    fn drop_edge(&mut self, h: u32) {
-        let t = self.twin[h as usize];
-        let (before_h, after_h) = (self.prev[h as usize], self.next[h as usize]);
-        let (before_t, after_t) = (self.prev[t as usize], self.next[t as usize]);
-        self.next[before_h as usize] = after_t;
-        self.prev[after_t as usize] = before_h;
-        self.next[before_t as usize] = after_h;
-        self.prev[after_h as usize] = before_t;
-        self.dropped[h as usize] = true;
-        self.dropped[t as usize] = true;
-    }
-
-    /// The remaining faces as chains of half-edges, in the order of their lowest corners, which come first; those
-    /// without area are left out.
-    fn faces(&self) -> Vec<Vec<u32>> {
-        let mut seen = self.dropped.clone();
-        let mut faces = Vec::new();
-        let place = |h: u32| {
-            let node = self.node(self.origin[h as usize]);
-            (node.y, node.x)
-        };
-        for seed in 0..self.origin.len() {
-            if seen[seed] {
-                continue;
-            }
-            let mut face = Vec::new();
-            let mut h = seed;
-            while !seen[h] {
-                seen[h] = true;
-                face.push(h as u32);
-                h = self.next[h] as usize;
-            }
-            if face.len() >= 3 && self.has_area(&face) {
-                let first = (0..face.len()).min_by_key(|&i| place(face[i])).unwrap_or(0);
-                face.rotate_left(first);
-                faces.push(face);
-            }
-        }
-        faces.sort_by(|a, b| a.iter().map(|&h| place(h)).cmp(b.iter().map(|&h| place(h))));
-        faces
-    }
-
-    fn has_area(&self, face: &[u32]) -> bool {
-        let node = |h: u32| self.node(self.origin[h as usize]);
-        face.windows(2).any(|e| orientation(node(face[0]), node(e[0]), node(e[1])) != 0)
+        (component, count)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::grid::{difference, doubled_area};
+    use crate::geometry::grid::{Node, difference, doubled_area};
 
     fn rectangle(x: i32, y: i32, w: i32, h: i32) -> Vec<Node> {
         [(x, y), (x + w, y), (x + w, y + h), (x, y + h)].map(|(x, y)| Node::new(x, y)).to_vec()
@@ -487,7 +261,7 @@ mod tests {
     /// Every promise of the module; answers the number of cells.
     fn check(shapes: &Shapes) -> usize {
         let grid = unit_grid();
-        let mesh = Mesh::of(&grid, shapes);
+        let mesh = Mesh::of(&grid, shapes, 4);
         let wanted = shapes.iter().map(|s| doubled_area(s)).sum::<i128>() as f64 / 2.0;
         let got: f64 = mesh.cells().map(|c| mesh.polygon(c).signed_area()).sum();
         let unit = (grid.point(Node::new(1, 0)) - grid.point(Node::new(0, 0))).x;
@@ -523,14 +297,14 @@ mod tests {
     fn rooms_that_meet_in_a_point_stay_two() {
         let shapes = vec![vec![rectangle(0, 0, 100, 100)], vec![rectangle(100, 100, 100, 100)]];
         assert_eq!(check(&shapes), 2);
-        let mesh = Mesh::of(&unit_grid(), &shapes);
+        let mesh = Mesh::of(&unit_grid(), &shapes, 4);
         assert_ne!(mesh.component[0], mesh.component[1]);
     }
 
     #[test]
     fn only_inward_corners_bend_a_way() {
         let shapes = difference(&[rectangle(0, 0, 1000, 700)], &[rectangle(400, 300, 100, 100)]);
-        let mesh = Mesh::of(&unit_grid(), &shapes);
+        let mesh = Mesh::of(&unit_grid(), &shapes, 4);
         assert_eq!(mesh.is_corner.iter().filter(|c| **c).count(), 4);
     }
 

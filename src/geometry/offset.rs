@@ -87,7 +87,8 @@ fn shrink_joint(_at: Point, start: Vector, end: Vector, turn: f64) -> Vec<Vector
     let steps = (turn.abs() / ARC_STEP - 1e-4).ceil().max(1.0);
     let half = turn / steps / 2.0;
     let tangent = |k: usize| rotated(start, half * (2 * k + 1) as f64) / half.cos();
-    std::iter::once(start).chain((0..steps as usize).map(tangent)).chain([end]).collect()
+    // The first and the last tangent are the moved edges' own lines, so their ends need not be named.
+    (0..steps as usize).map(tangent).collect()
 }
 
 /// Moves a contour to its left by `distance` (to its right if negative). `joint` joins the moved edges at a

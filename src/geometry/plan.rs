@@ -6,7 +6,7 @@
 //!
 //! **Invariant**: a plan after [`FloorPlan::rebuild`] equals one built anew from the same world.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
@@ -16,23 +16,24 @@ use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 use super::buckets::Buckets;
 use super::doors::{Doorway, doorways};
 use super::floor::{FragmentFloor, Site};
+use super::network::{Network, Portal, overlap};
+use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
-use super::search::{CellKey, Cells, Edge};
+use super::search::CellKey;
+use super::strait::{self, Strait};
 use super::{Bounds, Passframe, PassframeId};
 
 /// Doors that stand otherwise than the world says: opened by the robot, or assumed.
 pub type DoorStates = BTreeMap<DoorId, DoorState>;
 
-/// Where two Fragments' centre spaces touch on a doorway's line.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Portal {
-    /// Fragment, cell and edge on this side.
-    from: CellKey,
-    edge: usize,
-    to: CellKey,
-    right: Point,
-    left: Point,
-    doorway: usize,
+/// What a replica can reach.
+fn touch_of(replica: &PlacedReplica) -> Bounds {
+    // Open leaves stick out; a Uniframe may be wider than its base.
+    let is_plain = |p: &Prism| {
+        p.roof_scale <= 1.0 && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
+    };
+    let more = if replica.prisms.iter().all(is_plain) { 0.0 } else { 150.0 };
+    replica.bounds.grown(more + 0.2)
 }
 
 /// The floor of one Map for one robot.
@@ -48,11 +49,9 @@ pub struct FloorPlan {
     by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
-    portals: Vec<Vec<Portal>>,
-    /// Which components of centre space hang together over open doorways: by Fragment, by component.
-    regions: Vec<Vec<u32>>,
-    /// See [`Branches`].
-    branches: Branches,
+    pub(super) network: Network,
+    /// By Fragment, then by doorway.
+    straits: Vec<Vec<Strait>>,
     /// The Fragments by place, with half of the walls behind their doorways.
     by_place: Arc<Buckets>,
 }
@@ -81,16 +80,15 @@ impl FloorPlan {
             by_area: Arc::new(by_area),
             scene: Arc::new(scene),
             fragments: Vec::new(),
-            portals: Vec::new(),
-            regions: Vec::new(),
-            branches: Branches::default(),
+            network: Network::default(),
+            straits: Vec::new(),
             by_place: Arc::default(),
         };
         let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
         plan.fragments = plan.with_site(world, |site| build_all(site, &areas));
         let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
         plan.by_place = Arc::new(Buckets::of(&boxes));
-        plan.connect(0..areas.len());
+        plan.connect(world, 0..areas.len());
         plan
     }
 
@@ -141,58 +139,44 @@ impl FloorPlan {
         })
     }
 
-    /// Takes over what the world now says of an Area's replicas, and builds anew the Fragments that it touches.
-    pub fn rebuild(&mut self, world: &World, area: AreaId) {
-        let mut touched = self.footprint_of(area);
+    /// Takes over what the world now says of some replicas (moved, turned, put there or taken away), and builds
+    /// anew the Fragments that they touch or touched.
+    pub fn rebuild(&mut self, world: &World, replicas: &[ReplicaId]) {
+        let mut touched = Vec::new();
         let scene = Arc::make_mut(&mut self.scene);
         let index = Arc::make_mut(&mut self.index);
-        for id in index.by_area.remove(&area).unwrap_or_default() {
+        for &id in replicas {
             if let Some(gone) = scene.replicas.remove(&id) {
                 index.remove(&gone);
+                touched.push(touch_of(&gone));
             }
-        }
-        if let Some(frame) = scene.areas.get(&area).map(|a| a.frame) {
-            for replica in world.replicas_in(area) {
-                let placed = PlacedReplica::new(world, replica.id, frame.compose(&replica.frame));
-                // It may have stood in another Fragment, which is rebuilt on its own turn.
-                if let Some(gone) = scene.replicas.remove(&replica.id) {
-                    index.remove(&gone);
-                }
+            let placed = world.replicas.get(&id).and_then(|replica| {
+                let frame = scene.areas.get(&replica.area)?.frame;
+                Some(PlacedReplica::new(world, id, frame.compose(&replica.frame)))
+            });
+            if let Some(placed) = placed {
                 index.insert(&placed);
-                scene.replicas.insert(replica.id, placed);
+                touched.push(touch_of(&placed));
+                scene.replicas.insert(id, placed);
             }
         }
-        touched.extend(self.footprint_of(area));
         let reach = self.reach();
-        let is_touched = |zone: Bounds| touched.iter().any(|b| b.grown(0.2).meets(&zone));
-        let stale: Vec<AreaId> = self
-            .scene
-            .areas
-            .values()
-            .filter(|a| {
-                let mouths = self.by_area.get(&a.id).into_iter().flatten();
-                a.id == area
-                    || a.prisms.iter().any(|p| is_touched(p.bounds))
-                    || mouths.into_iter().any(|&(d, _)| is_touched(self.doorways[d].mouth(reach)))
-            })
-            .map(|a| a.id)
-            .collect();
+        let mut stale: Vec<AreaId> = Vec::new();
+        for zone in &touched {
+            // A Fragment sees through its doorways as far as their mouths are deep.
+            for fragment in self.fragments_near(&zone.grown(reach + 5.0)) {
+                let mut mouths = self.by_area.get(&fragment.area).into_iter().flatten();
+                let prisms = &self.scene.areas[&fragment.area].prisms;
+                if prisms.iter().any(|p| p.bounds.meets(zone))
+                    || mouths.any(|&(d, _)| self.doorways[d].mouth(reach).meets(zone))
+                {
+                    stale.push(fragment.area);
+                }
+            }
+        }
+        stale.sort_unstable();
+        stale.dedup();
         self.renew(world, &stale);
-    }
-
-    /// What the replicas of an Area can reach.
-    fn footprint_of(&self, area: AreaId) -> Vec<Bounds> {
-        let ids = self.index.by_area.get(&area).into_iter().flatten();
-        let replicas = ids.filter_map(|id| self.scene.replicas.get(id));
-        // Open leaves stick out; a Uniframe may be wider than its base.
-        let is_plain = |r: &PlacedReplica| {
-            let closed = |p: &Prism| {
-                p.roof_scale <= 1.0
-                    && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
-            };
-            r.prisms.iter().all(closed)
-        };
-        replicas.map(|r| r.bounds.grown(if is_plain(r) { 0.0 } else { 150.0 })).collect()
     }
 
     /// The same floor with doors in other states: those in `states` as given, the others as before.
@@ -243,7 +227,7 @@ impl FloorPlan {
             }
         }
         let numbers: Vec<usize> = stale.iter().filter_map(|&a| self.number(a)).collect();
-        self.connect(numbers);
+        self.connect(world, numbers);
     }
 
     #[must_use]
@@ -309,19 +293,27 @@ impl FloorPlan {
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
     pub(super) fn region(&self, cell: CellKey) -> u32 {
-        let component = self.floor(cell.0).cells.component[cell.1 as usize];
-        self.regions[cell.0 as usize][component as usize]
+        self.network.region((cell.0, self.floor(cell.0).cells.component[cell.1 as usize]))
     }
 
     /// Whether the robot can pass from a Fragment through a doorway as it stands.
     pub(super) fn is_passable(&self, number: u32, doorway: usize) -> bool {
-        self.portals[number as usize].iter().any(|p| p.doorway == doorway)
+        let is_strait =
+            |s: &Strait| s.doorway == Some(doorway) && s.cells.iter().any(|cell| cell.0 == number);
+        self.network.portals[number as usize].iter().any(|p| p.doorway == doorway)
+            || self.network.straits.iter().any(is_strait)
+    }
+
+    /// Whether a doorway stands open, is high enough and without a step; how wide does not matter.
+    pub(super) fn admits(&self, world: &World, doorway: usize) -> bool {
+        self.with_site(world, |site| site.is_open(&self.doorways[doorway]))
     }
 
     /// The doorways that the robot can pass as they stand.
     #[must_use]
     pub fn open_doorways(&self) -> BTreeSet<usize> {
-        self.portals.iter().flatten().map(|p| p.doorway).collect()
+        let narrow = self.network.straits.iter().filter_map(|s| s.doorway);
+        self.network.portals.iter().flatten().map(|p| p.doorway).chain(narrow).collect()
     }
 
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.
@@ -329,43 +321,34 @@ impl FloorPlan {
         self.by_area.get(&self.floor(number).area).map_or(&[], Vec::as_slice)
     }
 
-    /// The pieces of centre space by the region they belong to: Fragment, component.
-    pub(super) fn pieces(&self) -> BTreeMap<u32, Vec<(u32, u32)>> {
-        let mut pieces: BTreeMap<u32, Vec<(u32, u32)>> = BTreeMap::new();
-        for (number, regions) in (0..).zip(&self.regions) {
-            for (component, &region) in (0..).zip(regions) {
-                pieces.entry(region).or_default().push((number, component));
-            }
-        }
-        pieces
-    }
-
-    /// The region of a piece.
-    pub(super) fn region_of(&self, (number, component): (u32, u32)) -> u32 {
-        self.regions[number as usize][component as usize]
-    }
-
     /// Finds where the given Fragments touch others, and what hangs together now.
-    fn connect(&mut self, stale: impl IntoIterator<Item = usize>) {
-        let mut touched: BTreeSet<usize> = BTreeSet::new();
-        for number in stale {
+    fn connect(&mut self, world: &World, stale: impl IntoIterator<Item = usize>) {
+        let (mut touched, mut crossed) = (BTreeSet::new(), BTreeSet::new());
+        let stale: Vec<usize> = stale.into_iter().collect();
+        for &number in &stale {
             touched.insert(number);
             let area = self.fragments[number].area;
             for &(doorway, side) in self.by_area.get(&area).into_iter().flatten() {
+                crossed.insert(doorway);
                 touched.extend(self.number(self.doorways[doorway].areas[1 - side]));
             }
         }
-        self.portals.resize(self.fragments.len(), Vec::new());
+        self.network.portals.resize(self.fragments.len(), Vec::new());
         for number in touched {
-            self.portals[number] = self.portals_from(number);
+            self.network.portals[number] = self.portals_from(number);
         }
-        self.regions = self.join_components();
-        self.branches = Branches::of(&self.portals);
-    }
-
-    /// The Fragments that a shortest way between two of them can pass.
-    pub(super) fn between(&self, start: u32, goal: u32) -> Vec<u32> {
-        self.branches.between(start, goal)
+        let count = self.fragments.len();
+        self.straits.resize(count + self.doorways.len(), Vec::new());
+        if !self.robot.footprint.is_empty() {
+            for number in stale {
+                self.straits[number] = strait::within(self, number as u32);
+            }
+            for doorway in crossed {
+                self.straits[count + doorway] = strait::through(self, world, doorway);
+            }
+        }
+        let straits = self.straits.iter().flatten().copied().collect();
+        self.network.join(&self.fragments, self.doorways.len(), straits);
     }
 
     /// The places where a Fragment's centre space touches another's.
@@ -393,38 +376,6 @@ impl FloorPlan {
         }
         portals.sort_by_key(|p| (p.from, p.edge, p.to));
         portals
-    }
-
-    fn join_components(&self) -> Vec<Vec<u32>> {
-        let mut first = Vec::new();
-        let mut count = 0;
-        for fragment in &self.fragments {
-            first.push(count);
-            count += fragment.cells.component.iter().max().map_or(0, |m| m + 1) as usize;
-        }
-        let mut sets = petgraph::unionfind::UnionFind::<usize>::new(count);
-        let component = |key: CellKey| {
-            first[key.0 as usize] + self.floor(key.0).cells.component[key.1 as usize] as usize
-        };
-        for portal in self.portals.iter().flatten() {
-            sets.union(component(portal.from), component(portal.to));
-        }
-        let labels = sets.into_labeling();
-        self.fragments
-            .iter()
-            .zip(&first)
-            .map(|(fragment, &first)| {
-                let own = fragment.cells.component.iter().max().map_or(0, |m| m + 1) as usize;
-                (first..first + own).map(|i| labels[i] as u32).collect()
-            })
-            .collect()
-    }
-
-    fn portals_of(&self, cell: CellKey) -> &[Portal] {
-        let list = &self.portals[cell.0 as usize];
-        let from = list.partition_point(|p| p.from < cell);
-        let to = list.partition_point(|p| p.from <= cell);
-        &list[from..to]
     }
 }
 
@@ -458,222 +409,4 @@ fn build_all(site: &Site<'_>, areas: &[AreaId]) -> Vec<Arc<FragmentFloor>> {
     });
     floors.sort_by_key(|f| f.area);
     floors
-}
-
-/// The upper level of the network: Fragments as nodes, open doorways as edges; what hangs on one doorway is cut
-/// off again and again, until only rings are left.
-///
-/// A way never enters a Fragment only to come back through the same doorway, since the straight line between the
-/// two crossings is free. So a query looks at the branches of its start and its goal, and at the rings between.
-#[derive(Debug, Clone, Default)]
-struct Branches {
-    /// The Fragment that a branch hangs on; none in the rings, and for the last of a tree.
-    parent: Vec<Option<u32>>,
-    rings: Vec<u32>,
-}
-
-impl Branches {
-    fn of(portals: &[Vec<Portal>]) -> Self {
-        let mut graph = petgraph::graph::UnGraph::<(), usize, u32>::with_capacity(portals.len(), 0);
-        portals.iter().for_each(|_| {
-            graph.add_node(());
-        });
-        let mut doorways = BTreeSet::new();
-        for portal in portals.iter().flatten().filter(|p| p.from.0 < p.to.0) {
-            if doorways.insert(portal.doorway) {
-                graph.add_edge(portal.from.0.into(), portal.to.0.into(), portal.doorway);
-            }
-        }
-        let mut degree: Vec<usize> = graph.node_indices().map(|n| graph.edges(n).count()).collect();
-        let mut parent = vec![None; portals.len()];
-        let mut is_cut = vec![false; portals.len()];
-        let mut leaves: Vec<usize> = (0..portals.len()).filter(|&n| degree[n] == 1).collect();
-        while let Some(leaf) = leaves.pop() {
-            is_cut[leaf] = true;
-            let on = graph.neighbors((leaf as u32).into()).map(|n| n.index()).find(|&n| !is_cut[n]);
-            if let Some(on) = on {
-                parent[leaf] = Some(on as u32);
-                degree[on] -= 1;
-                if degree[on] == 1 {
-                    leaves.push(on);
-                }
-            }
-        }
-        let rings =
-            (0..portals.len() as u32).filter(|&n| degree[n as usize] > 1 && !is_cut[n as usize]);
-        Self { rings: rings.collect(), parent }
-    }
-
-    /// From a Fragment up to its ring or the last of its tree.
-    fn trunk(&self, from: u32) -> Vec<u32> {
-        std::iter::successors(Some(from), |&n| self.parent[n as usize]).collect()
-    }
-
-    fn between(&self, start: u32, goal: u32) -> Vec<u32> {
-        let (mut up, mut down) = (self.trunk(start), self.trunk(goal));
-        match up.iter().position(|n| down.contains(n)) {
-            Some(meet) => {
-                let top = up[meet];
-                up.truncate(meet + 1);
-                down.truncate(down.iter().position(|&n| n == top).unwrap_or(0));
-                up.extend(down);
-            }
-            None => {
-                up.extend(down);
-                up.extend(&self.rings);
-            }
-        }
-        up.sort_unstable();
-        up.dedup();
-        up
-    }
-}
-
-/// The cells of a plan as a search for one goal may use them.
-pub(super) struct Walkable<'a> {
-    plan: &'a FloorPlan,
-    /// Fragments to stay in, sorted.
-    within: &'a [u32],
-    /// The cells of branches that lead to the goal or to a Fragment that may be passed, sorted: a way never enters
-    /// the other branches, since it would have to come back over the same border.
-    branches: Vec<CellKey>,
-}
-
-impl<'a> Walkable<'a> {
-    pub(super) fn toward(plan: &'a FloorPlan, within: &'a [u32], goal: CellKey) -> Self {
-        let admitted = |p: &&Portal| within.binary_search(&p.to.0).is_ok();
-        let exits = within.iter().flat_map(|&n| plan.portals[n as usize].iter().filter(admitted));
-        let mut branches: Vec<CellKey> = Vec::new();
-        for (number, cell) in exits.map(|p| p.from).chain([goal]) {
-            let trunk = &plan.floor(number).cells.trunk;
-            let mut at = cell;
-            while trunk[at as usize] != super::mesh::NONE && branches.last() != Some(&(number, at))
-            {
-                branches.push((number, at));
-                at = trunk[at as usize];
-            }
-        }
-        branches.sort_unstable();
-        branches.dedup();
-        Self { plan, within, branches }
-    }
-}
-
-impl Cells for Walkable<'_> {
-    fn edges(&self, cell: CellKey, visit: &mut dyn FnMut(Edge)) {
-        let mesh = &self.plan.floor(cell.0).cells;
-        let ring = mesh.ring(cell.1);
-        for (i, &across) in mesh.across(cell.1).iter().enumerate() {
-            if across == super::mesh::NONE
-                || (mesh.trunk[across as usize] == cell.1
-                    && self.branches.binary_search(&(cell.0, across)).is_err())
-            {
-                continue;
-            }
-            let (u, v) = (ring[i] as usize, ring[(i + 1) % ring.len()] as usize);
-            visit(Edge {
-                right: mesh.vertices[u],
-                left: mesh.vertices[v],
-                right_bends: mesh.is_corner[u],
-                left_bends: mesh.is_corner[v],
-                to: (cell.0, across),
-            });
-        }
-        for portal in self.plan.portals_of(cell) {
-            if self.within.binary_search(&portal.to.0).is_ok() {
-                let Portal { right, left, to, .. } = *portal;
-                visit(Edge { right, left, right_bends: true, left_bends: true, to });
-            }
-        }
-    }
-}
-
-/// The stretch of `a`-`b` that the opposite edge `c`-`d` covers.
-fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<(Point, Point)> {
-    let along = (b - a).try_normalize(0.0)?;
-    let place = |p: Point| (p - a).dot(&along);
-    let from = place(c).min(place(d)).max(0.0);
-    let to = place(c).max(place(d)).min((b - a).norm());
-    let end = |t: f64, p: Point, own: f64| if (t - own).abs() < 1e-9 { p } else { a + along * t };
-    (to - from > 1e-6).then(|| (end(from, a, 0.0), end(to, b, (b - a).norm())))
-}
-
-/// Replicas by place.
-#[derive(Debug, Clone, Default)]
-struct ReplicaIndex {
-    cells: HashMap<(i32, i32), Vec<ReplicaId>>,
-    /// Those that are spread over too many cells to list in each.
-    wide: Vec<ReplicaId>,
-    by_area: BTreeMap<AreaId, Vec<ReplicaId>>,
-    bounds: HashMap<ReplicaId, Bounds>,
-}
-
-impl ReplicaIndex {
-    const CELL: f64 = 300.0;
-
-    fn of(scene: &Scene) -> Self {
-        let mut index = Self::default();
-        scene.replicas.values().for_each(|replica| index.insert(replica));
-        index
-    }
-
-    /// The cells that a replica is listed in; none for one that is spread over too many.
-    fn cells_of(bounds: &Bounds) -> Option<impl Iterator<Item = (i32, i32)> + use<>> {
-        let ((left, bottom), (right, top)) = Self::span(bounds);
-        let is_wide =
-            i64::from(right) - i64::from(left) > 30 || i64::from(top) - i64::from(bottom) > 30;
-        (!is_wide).then(|| (left..=right).flat_map(move |x| (bottom..=top).map(move |y| (x, y))))
-    }
-
-    fn insert(&mut self, replica: &PlacedReplica) {
-        // Leaves of its own doors may stick out.
-        self.bounds.insert(replica.id, replica.bounds.grown(150.0));
-        self.by_area.entry(replica.area).or_default().push(replica.id);
-        match Self::cells_of(&replica.bounds) {
-            Some(cells) => {
-                cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
-            }
-            None => self.wide.push(replica.id),
-        }
-    }
-
-    fn remove(&mut self, replica: &PlacedReplica) {
-        let is_other = |id: &ReplicaId| *id != replica.id;
-        self.bounds.remove(&replica.id);
-        self.by_area.entry(replica.area).or_default().retain(is_other);
-        match Self::cells_of(&replica.bounds) {
-            Some(cells) => {
-                cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
-            }
-            None => self.wide.retain(is_other),
-        }
-    }
-
-    fn span(bounds: &Bounds) -> ((i32, i32), (i32, i32)) {
-        let cell =
-            |p: Point| ((p.x / Self::CELL).floor() as i32, (p.y / Self::CELL).floor() as i32);
-        (cell(bounds.min), cell(bounds.max))
-    }
-
-    /// The replicas whose boxes come near `bounds`, in the order of their ids.
-    fn near(&self, bounds: &Bounds) -> Vec<ReplicaId> {
-        let ((left, bottom), (right, top)) = Self::span(&bounds.grown(150.0));
-        let cells =
-            (i64::from(right) - i64::from(left) + 1) * (i64::from(top) - i64::from(bottom) + 1);
-        let mut found: Vec<ReplicaId> = if cells > self.cells.len() as i64 {
-            self.bounds.keys().copied().collect()
-        } else {
-            (left..=right)
-                .flat_map(|x| (bottom..=top).map(move |y| (x, y)))
-                .filter_map(|cell| self.cells.get(&cell))
-                .flatten()
-                .chain(&self.wide)
-                .copied()
-                .collect()
-        };
-        found.sort_unstable();
-        found.dedup();
-        found.retain(|r| self.bounds[r].meets(bounds));
-        found
-    }
 }

@@ -111,16 +111,20 @@ impl Polygon {
 
     /// The part within a box. Parts that hang together outside of it stay joined by lines along its border.
     #[must_use]
-    pub(super) fn clipped(mut self, bounds: &Bounds) -> Self {
-        // Sutherland and Hodgman 1974: one side of the box after another.
-        for (axis, limit, sign) in [
-            (0, bounds.min.x, 1.0),
-            (0, bounds.max.x, -1.0),
-            (1, bounds.min.y, 1.0),
-            (1, bounds.max.y, -1.0),
-        ] {
-            let depth = |p: &Point| sign * (p[axis] - limit);
-            let mut kept = Vec::with_capacity(self.corners.len());
+    pub(super) fn clipped(self, bounds: &Bounds) -> Self {
+        let (low, high) = (bounds.min, bounds.max);
+        let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)];
+        self.within_convex(&Self::new(corners.to_vec()))
+    }
+
+    /// The part within a convex polygon; of a polygon that is not convex itself, see [`Self::clipped`].
+    #[must_use]
+    pub(super) fn within_convex(mut self, convex: &Self) -> Self {
+        // Sutherland and Hodgman 1974: one side after another.
+        for (u, v) in convex.edges() {
+            let along = v - u;
+            let depth = |p: &Point| along.perp(&(p - u));
+            let mut kept = Vec::with_capacity(self.corners.len() + 1);
             for (a, b) in self.edges() {
                 let (from, to) = (depth(&a), depth(&b));
                 if from >= 0.0 {

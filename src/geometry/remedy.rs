@@ -17,10 +17,11 @@ use super::route::{Method, Target};
 #[derive(Debug, Clone, PartialEq)]
 pub enum Remedy {
     Open(Vec<DoorId>),
-    /// Push a thing by a displacement in the Map's frame, in cm.
+    /// Push a thing by a displacement in the Map's frame, in cm, once these doors are open.
     Move {
         replica: ReplicaId,
         by: Vector,
+        open: Vec<DoorId>,
     },
 }
 
@@ -57,7 +58,7 @@ impl FloorPlan {
         for replica in movable(world, no) {
             let limit = best.as_ref().map_or(FURTHEST, |b| b.0 - STEP);
             if let Some((way, by)) = opened.shortest_push(world, from, target, replica, limit) {
-                best = Some((way, Remedy::Move { replica, by }));
+                best = Some((way, Remedy::Move { replica, by, open: doors.clone() }));
             }
         }
         best.map(|b| b.1)
@@ -93,7 +94,7 @@ impl FloorPlan {
                 if !self.has_room(&trial, replica, area) {
                     continue;
                 }
-                plan.rebuild(&trial, area);
+                plan.rebuild(&trial, &[replica]);
                 if plan.route(&trial, from, target, Method::Shortest).is_ok() {
                     return Some((STEP * k as f64, by));
                 }

@@ -16,10 +16,12 @@ use super::blocked::{NoRoute, explain};
 use super::doors::Doorway;
 use super::floor::FragmentFloor;
 use super::nearest_on_segment;
+use super::network::Walkable;
 use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
-use super::plan::{FloorPlan, Walkable};
+use super::plan::FloorPlan;
 use super::search::{CellKey, shortest};
+use super::strait;
 
 /// Where to.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -75,10 +77,16 @@ pub struct Route {
 
 /// A place where the robot's centre may be.
 #[derive(Debug, Clone, PartialEq)]
-struct Anchor {
-    at: Point,
-    cell: CellKey,
+pub(super) struct Anchor {
+    pub(super) at: Point,
+    pub(super) cell: CellKey,
     moved: Option<Moved>,
+}
+
+impl Anchor {
+    pub(super) fn at(at: Point, cell: CellKey) -> Self {
+        Self { at, cell, moved: None }
+    }
 }
 
 /// A goal with the way to face there.
@@ -135,12 +143,21 @@ impl FloorPlan {
             if self.region(goal.anchor.cell) != self.region(start.cell) {
                 continue;
             }
-            let useful = self.between(start.cell.0, goal.anchor.cell.0);
+            let useful = self.network.between(start.cell.0, goal.anchor.cell.0);
             let admitted = |n: &u32| within.as_ref().is_none_or(|w| w.contains(n));
-            let useful: Vec<u32> = useful.into_iter().filter(admitted).collect();
-            let points = match method {
-                Method::Shortest => self.shortest_points(&useful, &start, &goal.anchor),
-                Method::Paper => self.paper_points(&useful, &start, &goal.anchor),
+            let useful: Vec<u32> = useful.into_iter().filter(&admitted).collect();
+            let leg = |from: &Anchor, to: &Anchor, useful: &[u32]| match method {
+                Method::Shortest => self.shortest_points(useful, from, to),
+                Method::Paper => self.paper_points(useful, from, to),
+            };
+            let points = if self.network.straits.is_empty() {
+                leg(&start, &goal.anchor, &useful)
+            } else {
+                strait::way(self, &start, &goal.anchor, |from, to| {
+                    let mut useful = self.network.between(from.cell.0, to.cell.0);
+                    useful.retain(admitted);
+                    leg(from, to, &useful)
+                })
             };
             let Some(points) = points else { continue };
             let length = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
@@ -528,6 +545,7 @@ impl FloorPlan {
         let mut near: Vec<usize> = fragments
             .iter()
             .flat_map(|f| f.exits.iter().map(|e| e.doorway))
+            .chain(self.network.straits.iter().filter_map(|s| s.doorway))
             .filter(|&d| self.doorways()[d].areas.iter().all(is_among))
             .collect();
         near.sort_unstable();

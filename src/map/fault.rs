@@ -383,6 +383,16 @@ pub enum MapError {
     )]
     PlaceOutside { place: String, area: String },
 
+    /// A robot's footprint that is no convex polygon round its centre, or that its radius does not cover.
+    #[error("контур робота: {reason}")]
+    #[diagnostic(
+        code(map::bad_footprint),
+        help(
+            "перечислите углы выпуклого контура против часовой стрелки, [вперёд, влево] от центра, в см"
+        )
+    )]
+    BadFootprint { reason: String },
+
     /// An edit file that says nothing.
     #[error("в файле правок ничего нет")]
     #[diagnostic(

@@ -110,8 +110,11 @@ pub struct Domain {
 /// The robot that works here. Lengths in cm.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RobotProfile {
-    /// Of the disc that covers the footprint.
+    /// Of the disc that covers the footprint; the footprint itself where none is given.
     pub radius: Cm,
+    /// Corners of a convex footprint in cm, counter-clockwise, x ahead and y to the left of the centre on which the
+    /// robot turns; empty for a disc.
+    pub footprint: Vec<Point>,
     pub height: Cm,
     /// The highest step that it climbs or drives over.
     pub step: Cm,
@@ -125,11 +128,22 @@ pub struct RobotProfile {
     pub start: Option<PlaceId>,
 }
 
+impl RobotProfile {
+    /// The narrowest straight way that the robot passes, its clearance on both sides included, in cm.
+    #[must_use]
+    pub fn passing_width(&self) -> f64 {
+        let widest = self.footprint.iter().map(|p| p.y.abs()).fold(0.0, f64::max);
+        let half = if self.footprint.is_empty() { self.radius.get() } else { widest };
+        2.0 * (half + self.clearance.get())
+    }
+}
+
 impl Default for RobotProfile {
     /// A robot of Care-O-bot's size, RB-2's like.
     fn default() -> Self {
         Self {
             radius: Cm::of(25.0),
+            footprint: Vec::new(),
             height: Cm::of(120.0),
             step: Cm::of(2.0),
             clearance: Cm::of(2.0),
@@ -194,7 +208,14 @@ impl World {
         }
     }
 
-    /// The Map in which an Area stands, and the Area's frame within it.
+    /// Where every Area stands; for work that asks for many of them, see [`Self::placement`] for one.
+    #[must_use]
+    pub fn placements(&self) -> BTreeMap<AreaId, (MapId, Frame)> {
+        let items = self.maps.values().flat_map(|m| m.items.iter().map(|i| (m.id, i)));
+        items.map(|(map, item)| (item.area, (map, item.frame))).collect()
+    }
+
+    /// The Map in which an Area stands, and the Area's frame within it: a search through the Maps' items.
     #[must_use]
     pub fn placement(&self, area: AreaId) -> Option<(MapId, Frame)> {
         self.maps.values().find_map(|map| {

@@ -187,9 +187,8 @@ impl Belief {
                 if (believed.area, believed.frame) == (area, frame) {
                     return false;
                 }
-                let before = std::mem::replace(&mut believed.area, area);
-                believed.frame = frame;
-                self.rebuild([before, area]);
+                (believed.area, believed.frame) = (area, frame);
+                self.floor.rebuild(&self.world, &[replica]);
                 true
             }
         }
@@ -208,24 +207,17 @@ impl Belief {
     /// Takes a thing off the floor and into the hand.
     pub(super) fn pick_up(&mut self, thing: ReplicaId) {
         if let Some(replica) = self.world.replicas.remove(&thing) {
-            let area = replica.area;
             self.held = Some(replica);
-            self.rebuild([area, area]);
+            self.floor.rebuild(&self.world, &[thing]);
         }
     }
 
     /// Puts the thing in the hand down at a frame of an Area.
     pub(super) fn set_down(&mut self, area: AreaId, frame: Frame) {
         if let Some(replica) = self.held.take() {
-            self.world.replicas.insert(replica.id, Replica { area, frame, ..replica });
-            self.rebuild([area, area]);
-        }
-    }
-
-    fn rebuild(&mut self, areas: [AreaId; 2]) {
-        self.floor.rebuild(&self.world, areas[0]);
-        if areas[1] != areas[0] {
-            self.floor.rebuild(&self.world, areas[1]);
+            let id = replica.id;
+            self.world.replicas.insert(id, Replica { area, frame, ..replica });
+            self.floor.rebuild(&self.world, &[id]);
         }
     }
 

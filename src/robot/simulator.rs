@@ -1,18 +1,16 @@
-//! The simulated robot (X1): a disc that turns on the spot and drives straight, among the prisms and door
-//! leaves of a world of its own.
+//! The simulated robot (X1): a disc, or a convex footprint, that turns on the spot and drives straight, among the
+//! prisms and door leaves of a world of its own.
 //!
-//! That world is the truth; it may differ from the Map that a mission believes, and then the disc bumps.
-//! Collisions are found by casting the disc along each straight piece (exact between the end points, no time
-//! steps), independent of the free floor that the route was made from. Time is simulated; nothing is random,
-//! so a run repeats itself.
+//! That world is the truth; it may differ from the Map that a mission believes, and then the robot bumps.
+//! Collisions are found by casting its shape along each straight piece (exact between the end points, no time
+//! steps), independent of the free floor that the route was made from; a footprint that turns is looked at in
+//! every degree. Time is simulated; nothing is random, so a run repeats itself.
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
-use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
-use parry2d_f64::shape::{Ball, Segment};
+use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
+use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-use crate::geometry::{
-    Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, nearest_on_segment,
-};
+use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, opening_of};
 use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -32,7 +30,7 @@ pub struct Moment {
     pub pose: Pose,
 }
 
-/// An edge that the disc must not touch.
+/// An edge that the robot must not touch.
 #[derive(Debug, Clone, Copy)]
 struct Edge {
     a: Point,
@@ -40,7 +38,7 @@ struct Edge {
     of: Obstruction,
 }
 
-/// A disc-shaped robot in a world of its own.
+/// A robot in a world of its own.
 #[derive(Debug)]
 pub struct Simulator {
     truth: World,
@@ -141,14 +139,31 @@ impl Simulator {
         prism.bottom < self.profile.height.get() && prism.top > self.profile.step.get()
     }
 
-    /// The first contact of the disc on its way from here to `goal`: how far it gets, and against what.
+    /// The robot's body, less the skin.
+    fn body(&self) -> Box<dyn Shape> {
+        let footprint = &self.profile.footprint;
+        let edges =
+            (0..footprint.len()).map(|i| (footprint[i], footprint[(i + 1) % footprint.len()]));
+        let inner = edges.map(|(a, b)| (b - a).perp(&-a.coords) / (b - a).norm()).reduce(f64::min);
+        let polygon = inner.filter(|&inner| inner > SKIN).and_then(|inner| {
+            let scale = 1.0 - SKIN / inner;
+            let corners = footprint.iter().map(|p| ShapeVector::new(p.x * scale, p.y * scale));
+            ConvexPolygon::from_convex_polyline(corners.collect())
+        });
+        match polygon {
+            Some(polygon) => Box::new(polygon),
+            None => Box::new(Ball::new(self.profile.radius.get() - SKIN)),
+        }
+    }
+
+    /// The first contact of the robot on its way from here to `goal`: how far it gets, and against what.
     fn first_contact(&self, goal: Point) -> Option<(f64, Obstruction)> {
         let way = goal - self.pose.at;
         let length = way.norm();
         let radius = self.profile.radius.get() - SKIN;
         let swept = Bounds::of([self.pose.at, goal]).grown(radius);
-        let disc = Ball::new(radius);
-        let from = ShapePose::translation(self.pose.at.x, self.pose.at.y);
+        let body = self.body();
+        let from = placed(self.pose);
         // Unit speed, so that time is distance.
         let velocity = ShapeVector::new(way.x / length, way.y / length);
         let options = ShapeCastOptions { max_time_of_impact: length, ..Default::default() };
@@ -161,21 +176,45 @@ impl Simulator {
                 let hit = cast_shapes(
                     &from,
                     velocity,
-                    &disc,
+                    &*body,
                     &ShapePose::identity(),
                     ShapeVector::ZERO,
                     &edge,
                     options,
                 )
-                .expect("parry casts a ball against a segment")?;
+                .expect("parry casts a ball or a polygon against a segment")?;
                 Some((hit.time_of_impact, e.of))
             })
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
-    fn turn_to(&mut self, heading: Deg) {
-        let turn = (heading - self.pose.heading).signed().abs();
-        self.advance(turn / self.profile.turn_rate, Pose { heading, ..self.pose });
+    /// Turns on the spot, by the shorter way.
+    fn turn_to(&mut self, heading: Deg) -> Result<(), Bump> {
+        let turn = (heading - self.pose.heading).signed();
+        let start = self.pose;
+        let steps = if self.profile.footprint.is_empty() { 0 } else { turn.abs().ceil() as usize };
+        let body = self.body();
+        let near = Bounds::of([start.at]).grown(self.profile.radius.get());
+        for step in 1..=steps {
+            let turned = start.heading + Deg::of(turn * step as f64 / steps as f64);
+            let pose = placed(Pose { heading: turned, ..start });
+            let touches = |e: &&Edge| {
+                let edge =
+                    Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
+                Bounds::of([e.a, e.b]).meets(&near)
+                    && intersection_test(&pose, &*body, &ShapePose::identity(), &edge)
+                        .expect("parry tests a polygon against a segment")
+                        .intersecting
+            };
+            if let Some(against) = self.edges.iter().find(touches).map(|e| e.of) {
+                let done = (step - 1) as f64 / steps as f64;
+                let heading = start.heading + Deg::of(turn * done);
+                self.advance(turn.abs() * done / self.profile.turn_rate, Pose { heading, ..start });
+                return Err(Bump { at: self.pose, against });
+            }
+        }
+        self.advance(turn.abs() / self.profile.turn_rate, Pose { heading, ..self.pose });
+        Ok(())
     }
 
     fn advance(&mut self, duration: f64, pose: Pose) {
@@ -203,6 +242,11 @@ impl Simulator {
     }
 }
 
+/// A pose as parry has it.
+fn placed(pose: Pose) -> ShapePose {
+    ShapePose::new(ShapeVector::new(pose.at.x, pose.at.y), pose.heading.radians())
+}
+
 impl Drive for Simulator {
     fn pose(&self) -> (MapId, Pose) {
         (self.map, self.pose)
@@ -219,7 +263,7 @@ impl Drive for Simulator {
             if length < 1e-6 {
                 continue;
             }
-            self.turn_to(Deg::from_radians(way.y.atan2(way.x)));
+            self.turn_to(Deg::from_radians(way.y.atan2(way.x)))?;
             let contact = self.first_contact(goal);
             let driven = contact.map_or(length, |(distance, _)| (distance - SKIN).max(0.0));
             let at = self.pose.at + way * (driven / length);
@@ -229,26 +273,30 @@ impl Drive for Simulator {
             }
         }
         if let Some(heading) = heading {
-            self.turn_to(heading);
+            self.turn_to(heading)?;
         }
         Ok(())
     }
 
-    /// Only where the leaf ends up is checked: the arm that swings it moves the robot aside as needed.
+    /// The leaves stop against a robot that stands anywhere on their way.
     fn set_door(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal> {
-        let Some(before) = self.truth.doors.get(&door).map(|d| d.state) else {
+        let Some(model) = self.truth.doors.get(&door) else {
             return Err(Refusal::DoorJammed(door));
         };
-        if before.status == DoorStatus::Locked && state.status == DoorStatus::Open {
+        if model.state.status == DoorStatus::Locked && state.status == DoorStatus::Open {
             return Err(Refusal::Locked(door));
         }
-        let near = |p: Point| (p - self.pose.at).norm() < self.profile.radius.get() - SKIN;
+        let openings = (opening_of(model.state), opening_of(state));
+        let (at, radius) = (self.pose.at, self.profile.radius.get() - SKIN);
         let jammed = self
             .doorways
             .iter()
             .filter(|d| d.door == Some(door))
-            .flat_map(|d| self.leaves(d, door, state))
-            .any(|leaf| leaf.edges().any(|(a, b)| near(nearest_on_segment(self.pose.at, a, b))));
+            .flat_map(|d| {
+                let way = d.swept_between(model, openings);
+                way.into_iter().chain(d.leaf_obstacles(model, state))
+            })
+            .any(|way| way.contains(at, radius));
         if jammed {
             return Err(Refusal::DoorJammed(door));
         }

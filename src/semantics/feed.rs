@@ -194,7 +194,7 @@ impl Feed<'_> {
             }
         }
         let robot = &self.world.robot;
-        let width = (robot.radius + robot.clearance) * 2.0;
+        let width = Cm::of(robot.passing_width());
         row!(sink, "robot", width.to_tenths_mm(), robot.height.to_tenths_mm());
         self.openings(openings, sink);
         self.parts(sink);

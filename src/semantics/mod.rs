@@ -64,7 +64,7 @@ pub use measure::{
     Single, Within,
 };
 pub use names::{Subject, Symbols};
-pub use openings::{Opening, clear_width};
+pub use openings::Opening;
 pub use position::{Nearness, Spot, Way, Whereabouts, whereabouts};
 pub use relations::{
     Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,

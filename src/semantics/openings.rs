@@ -11,9 +11,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::Bounds;
 use crate::geometry::contact::Footprint;
-use crate::map::{Door, DoorKind, DoorState, DoorStatus, Permeability, SideRef, World};
+use crate::geometry::{Bounds, clear_width};
+use crate::map::{Door, Permeability, SideRef, World};
 use crate::units::{AreaId, Cm, DoorId, Point, Vector};
 
 use super::measure::{Measurements, Room};
@@ -87,6 +87,7 @@ fn sides(world: &World, measured: &Measurements, reach: f64) -> Vec<Opening> {
                 let door = mount.and_then(|m| world.doors.get(&m.door));
                 let width = vector.length().get();
                 let step = |sign: f64| step_off(measured, area.id, ends, sign, reach);
+                let outward = step(1.0);
                 found.push(Opening {
                     name: String::new(),
                     area: area.id,
@@ -95,10 +96,10 @@ fn sides(world: &World, measured: &Measurements, reach: f64) -> Vec<Opening> {
                     permeability: vector.permeability,
                     width,
                     height: door.map_or(orthoframe.height, |d| d.height).get(),
-                    clear_width: door.map_or(width, |d| clear_width(d, d.state, width)),
+                    clear_width: door.map_or(width, |d| left_free(d, width, outward)),
                     linked: links.get(&(area.id, side.clone())).copied(),
                     inward: step(-1.0),
-                    outward: step(1.0),
+                    outward,
                     side,
                 });
             }
@@ -134,7 +135,7 @@ fn name(world: &World, openings: &mut [Opening], reach: f64, symbols: &Symbols) 
             && let Some(door) = there.as_ref().and_then(|t| t.1).and_then(|d| world.doors.get(&d))
         {
             here.door = Some(door.id);
-            here.clear_width = clear_width(door, door.state, here.width);
+            here.clear_width = left_free(door, here.width, here.outward);
         }
         here.name = match (here.door, there) {
             (Some(door), _) => symbols.door(door).to_string(),
@@ -238,25 +239,9 @@ fn first_floor(room: &Room, start: Point, way: Vector, reach: f64) -> Option<f64
     crossings.chain([0.0]).filter(|&t| stands(t)).reduce(f64::min)
 }
 
-/// Width that a door's leaves leave free as they stand, the thickness of the wall not counted.
-///
-/// A hinged leaf of width w and thickness d at angle α takes w·cos α + d·sin α; beyond a right angle, its thickness.
-#[must_use]
-pub fn clear_width(door: &Door, state: DoorState, width: f64) -> f64 {
-    if door.leaves.is_empty() || door.kind == DoorKind::Passage {
-        return width;
-    }
-    if state.status != DoorStatus::Open {
-        return 0.0;
-    }
-    let taken = door.leaves.iter().map(|leaf| {
-        let own = leaf.share * width;
-        let opened = leaf.max_open * state.opening / 100.0;
-        if door.kind == DoorKind::Sliding {
-            return own * (1.0 - (opened / 100.0).min(1.0));
-        }
-        let (sin, cos) = opened.min(90.0).to_radians().sin_cos();
-        own * cos.max(0.0) + leaf.thickness.get() * sin
-    });
-    Cm::of((width - taken.sum::<f64>()).max(0.0)).get()
+/// Width that a door's leaves leave free as they stand.
+fn left_free(door: &Door, width: f64, outward: Option<(AreaId, f64)>) -> f64 {
+    let own = door.width.get();
+    let width = if own > 0.0 { width.min(own) } else { width };
+    Cm::of(clear_width(door, door.state, width, outward.map_or(0.0, |o| o.1))).get()
 }

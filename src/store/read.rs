@@ -489,8 +489,19 @@ impl Reader<'_> {
             speed: r.speed,
             turn_rate: r.turn_rate,
             start: r.start.map(PlaceId),
+            footprint: footprint(&r.footprint).or_bad(&r)?,
         })
     }
+}
+
+/// Corners as `x,y x,y …`.
+fn footprint(text: &str) -> Option<Vec<Point>> {
+    let corner = |pair: &str| {
+        let (x, y) = pair.split_once(',')?;
+        let number = |n: &str| Cm::new(n.parse().ok()?).ok().map(Cm::get);
+        Some(Point::new(number(x)?, number(y)?))
+    };
+    text.split_whitespace().map(corner).collect()
 }
 
 fn keyed<R, V, K: Ord>(

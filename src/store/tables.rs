@@ -481,6 +481,8 @@ tables! {
         col speed: f64 = "Speed",
         col turn_rate: f64 = "TurnRate",
         col start: Option<u32> = "StartPlaceID",
+        // Corners, "x,y x,y …"; empty for a disc.
+        col footprint: String = "Footprint",
     }
     /// Where the robot stood last. `RecDate` says when, `RecUser` who said so.
     Log RobotPose = 60 {

@@ -524,6 +524,7 @@ fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {
         }
     }
     let robot = &world.robot;
+    let corners: Vec<String> = robot.footprint.iter().map(|p| format!("{},{}", p.x, p.y)).collect();
     sheet.put(&t::Robot {
         domain_id,
         radius: robot.radius.get(),
@@ -533,5 +534,6 @@ fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {
         speed: robot.speed,
         turn_rate: robot.turn_rate,
         start: robot.start.map(|p| p.0),
+        footprint: corners.join(" "),
     })
 }

@@ -95,10 +95,11 @@ impl<'a> Floor<'a> {
         for replica in scene.replicas.keys() {
             features.extend(self.fixtures(scene, *replica));
         }
+        let placements = self.world.placements();
         for place in self.world.places.values() {
-            let Some((on, frame)) = self.world.placement(place.area) else { continue };
-            if on == map.id {
-                features.push(self.place(place, &frame));
+            let Some((on, frame)) = placements.get(&place.area) else { continue };
+            if *on == map.id {
+                features.push(self.place(place, frame));
             }
         }
     }

@@ -81,8 +81,9 @@ pub fn to_route_graph(world: &World, plan: &FloorPlan) -> String {
             ends.entry(*area).or_default().push(end);
         }
     }
+    let placements = world.placements();
     for place in world.places.values() {
-        let Some((_, frame)) = world.placement(place.area).filter(|(on, _)| *on == plan.map())
+        let Some((_, frame)) = placements.get(&place.area).filter(|(on, _)| *on == plan.map())
         else {
             continue;
         };

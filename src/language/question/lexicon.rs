@@ -364,9 +364,10 @@ fn windows(world: &World) -> Vec<Window> {
             [&t.name, &t.name_en].iter().any(|n| ["окно", "window"].contains(&&*name_key(n)))
         })
     };
+    let placements = world.placements();
     let mut found = Vec::new();
     for area in world.areas.values() {
-        let Some((_, frame)) = world.placement(area.id) else { continue };
+        let Some((_, frame)) = placements.get(&area.id) else { continue };
         for item in &area.items {
             let place = frame.compose(&item.frame);
             for side in &world.orthoframe_of(item).base {

@@ -1,7 +1,7 @@
 //! What stands in an Area (M4): replicas within its walls, places on its floor; and the robot's own numbers.
 
 use crate::map::fault::{MapError, Record, Spot};
-use crate::map::{Replica, World};
+use crate::map::{Replica, RobotProfile, World};
 use crate::units::{AreaId, Cm, Frame, Point};
 
 use super::group::Body;
@@ -181,11 +181,56 @@ impl Checker<'_> {
             };
             self.in_range(what, value, fits, range, spot.clone().field(what));
         }
+        if let Err(reason) = footprint(robot) {
+            self.fault(MapError::BadFootprint { reason }, spot.clone().field("footprint"));
+        }
         if let Some(start) = robot.start {
             let exists = self.world.places.contains_key(&start);
             self.exists(exists, "робот", "место", start.0, spot.field("start"));
         }
     }
+}
+
+/// Why a footprint is none.
+fn footprint(robot: &RobotProfile) -> Result<(), String> {
+    let corners = &robot.footprint;
+    let n = corners.len();
+    if n == 0 {
+        return Ok(());
+    }
+    if n < 3 {
+        return Err(format!("углов {n}, нужно не меньше 3"));
+    }
+    for i in 0..n {
+        let (a, b, c) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
+        if (b - a).perp(&(c - b)) <= 0.0 {
+            return Err(format!(
+                "в углу ({}, {}) он не поворачивает влево, нужен выпуклый контур против часовой стрелки",
+                b.x, b.y
+            ));
+        }
+        if (b - a).perp(&-a.coords) <= 0.0 {
+            return Err("центр (0, 0), вокруг которого робот поворачивается, не внутри".to_owned());
+        }
+    }
+    // Corners that each turn left may still run round twice.
+    let turns: f64 = (0..n)
+        .map(|i| {
+            let (u, v) = (corners[i].coords, corners[(i + 1) % n].coords);
+            u.perp(&v).atan2(u.dot(&v))
+        })
+        .sum();
+    if turns > 7.0 {
+        return Err("он пересекает сам себя".to_owned());
+    }
+    let reach = corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
+    if robot.radius.get() < reach - 1e-6 {
+        return Err(format!(
+            "radius {} его не покрывает, нужно не меньше {reach:.2} (или уберите radius)",
+            robot.radius.get()
+        ));
+    }
+    Ok(())
 }
 
 fn place(body: &mut Body, frame: &Frame) {

@@ -71,7 +71,11 @@ impl Reader<'_> {
             return robot;
         };
         let or = |given: Option<Number>, default: Cm| given.map_or(default, |n| Cm::of(n.0));
-        robot.radius = or(file.radius, robot.radius);
+        robot.footprint = file.footprint.iter().map(|[x, y]| Point::new(x.0, y.0)).collect();
+        let reach = robot.footprint.iter().map(|p| p.coords.norm()).reduce(f64::max);
+        // Rounded up, so that the disc covers the corners.
+        let covering = reach.map(|r| Cm::of((r * 100.0).ceil() / 100.0));
+        robot.radius = or(file.radius, covering.unwrap_or(robot.radius));
         robot.height = or(file.height, robot.height);
         robot.step = or(file.step, robot.step);
         robot.clearance = or(file.clearance, robot.clearance);

@@ -238,6 +238,8 @@ tables! {
         ..
         /// Of the disc that covers the footprint.
         radius: Option<Number>;
+        /// Corners of a convex footprint, counter-clockwise, [ahead, to the left] of the centre; a disc without it.
+        footprint: Vec<[Number; 2]>;
         height: Option<Number>;
         /// The highest step that it climbs or drives over.
         step: Option<Number>;

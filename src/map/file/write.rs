@@ -179,6 +179,7 @@ impl Writer<'_> {
         let robot = &self.world.robot;
         RobotFile {
             radius: Some(cm(robot.radius)),
+            footprint: robot.footprint.iter().map(|p| [number(p.x), number(p.y)]).collect(),
             height: Some(cm(robot.height)),
             step: Some(cm(robot.step)),
             clearance: Some(cm(robot.clearance)),

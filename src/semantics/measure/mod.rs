@@ -25,7 +25,7 @@ use crate::units::{AreaId, Cm, Frame, MapId, ObjectId, ReplicaId};
 
 use super::body::{Body, Kind};
 use super::grid::Grid;
-use rooms::{placements, rooms};
+use rooms::rooms;
 
 /// Fewer things than this are measured by one thread: starting more would take longer.
 const LEAST_SHARE: usize = 2_000;
@@ -107,7 +107,7 @@ impl Measurements {
 
     /// Measures things and Areas; pairs when they are first asked for.
     pub(super) fn of_things(world: &World, reach: Reach) -> Self {
-        let placements = placements(world);
+        let placements = world.placements();
         let mut measured = Self {
             reach,
             kinds: world

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::geometry::contact::Footprint;
 use crate::geometry::{Bounds, Polygon};
 use crate::map::{Item, World};
-use crate::units::{AreaId, Frame, MapId, Point};
+use crate::units::{AreaId, MapId, Point};
 
 use super::Measurements;
 
@@ -40,14 +40,8 @@ impl Measurements {
     }
 }
 
-/// Where every Area stands.
-pub(super) fn placements(world: &World) -> BTreeMap<AreaId, (MapId, Frame)> {
-    let items = world.maps.values().flat_map(|m| m.items.iter().map(|i| (m.id, i)));
-    items.map(|(map, item)| (item.area, (map, item.frame))).collect()
-}
-
 pub(super) fn rooms(world: &World) -> BTreeMap<AreaId, Room> {
-    let placed = placements(world).into_iter().filter_map(|(area, (map, frame))| {
+    let placed = world.placements().into_iter().filter_map(|(area, (map, frame))| {
         let part = |item: &Item| {
             let orthoframe = world.orthoframe_of(item);
             let place = frame.compose(&item.frame);

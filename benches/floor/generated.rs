@@ -10,8 +10,11 @@
 //!   +-----+-----+-----+
 //! ```
 
+use std::collections::BTreeMap;
+
+use orthoframe::geometry::{Polygon, Scene};
 use orthoframe::map::{DoorKind, DoorState};
-use orthoframe::units::{AreaId, Deg, DoorId, Frame, Point};
+use orthoframe::units::{AreaId, Deg, DoorId, Frame, MapId, Point};
 
 use crate::floors::{Builder, Opening, p, rectangle};
 
@@ -31,6 +34,35 @@ impl Random {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         low + (high - low) * (((z ^ (z >> 31)) >> 11) as f64 / (1_u64 << 53) as f64)
+    }
+}
+
+impl Generated {
+    /// Pairs of places all over the rooms where a disc fits with a centimetre to spare, by the obvious test.
+    pub(crate) fn pairs(&self, count: usize, radius: f64) -> Vec<(Point, Point)> {
+        let scene = Scene::of(&self.builder.world, MapId(1));
+        let mut things: BTreeMap<AreaId, Vec<&Polygon>> = BTreeMap::new();
+        for replica in scene.replicas.values() {
+            let parts = replica.prisms.iter().map(|p| &p.polygon);
+            things.entry(replica.area).or_default().extend(parts);
+        }
+        let mut random = Random(11);
+        let mut spot = || loop {
+            let number = random.between(0.0, self.rooms.len() as f64) as usize;
+            let area = self.rooms[number].0;
+            let walls = &scene.areas[&area].prisms[0];
+            let (low, high) = (walls.bounds.min, walls.bounds.max);
+            let at = p(random.between(low.x, high.x), random.between(low.y, high.y));
+            let clear = |thing: &&Polygon| {
+                !thing.contains(at, 0.0) && thing.border_distance(at) > radius + 1.0
+            };
+            if walls.polygon.border_distance(at) > radius + 1.0
+                && things.get(&area).is_none_or(|things| things.iter().all(clear))
+            {
+                return at;
+            }
+        };
+        (0..count).map(|_| (spot(), spot())).collect()
     }
 }
 

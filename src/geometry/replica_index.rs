@@ -1,0 +1,85 @@
+//! Replicas by place: which things a box may meet, without looking at all of them.
+
+use std::collections::HashMap;
+
+use crate::units::{Point, ReplicaId};
+
+use super::Bounds;
+use super::scene::{PlacedReplica, Scene};
+
+/// Replicas by place.
+#[derive(Debug, Clone, Default)]
+pub(super) struct ReplicaIndex {
+    cells: HashMap<(i32, i32), Vec<ReplicaId>>,
+    /// Those that are spread over too many cells to list in each.
+    wide: Vec<ReplicaId>,
+    bounds: HashMap<ReplicaId, Bounds>,
+}
+
+impl ReplicaIndex {
+    const CELL: f64 = 300.0;
+
+    pub(super) fn of(scene: &Scene) -> Self {
+        let mut index = Self::default();
+        scene.replicas.values().for_each(|replica| index.insert(replica));
+        index
+    }
+
+    /// The cells that a replica is listed in; none for one that is spread over too many.
+    fn cells_of(bounds: &Bounds) -> Option<impl Iterator<Item = (i32, i32)> + use<>> {
+        let ((left, bottom), (right, top)) = Self::span(bounds);
+        let is_wide =
+            i64::from(right) - i64::from(left) > 30 || i64::from(top) - i64::from(bottom) > 30;
+        (!is_wide).then(|| (left..=right).flat_map(move |x| (bottom..=top).map(move |y| (x, y))))
+    }
+
+    pub(super) fn insert(&mut self, replica: &PlacedReplica) {
+        // Leaves of its own doors may stick out.
+        self.bounds.insert(replica.id, replica.bounds.grown(150.0));
+        match Self::cells_of(&replica.bounds) {
+            Some(cells) => {
+                cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
+            }
+            None => self.wide.push(replica.id),
+        }
+    }
+
+    pub(super) fn remove(&mut self, replica: &PlacedReplica) {
+        let is_other = |id: &ReplicaId| *id != replica.id;
+        self.bounds.remove(&replica.id);
+        match Self::cells_of(&replica.bounds) {
+            Some(cells) => {
+                cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
+            }
+            None => self.wide.retain(is_other),
+        }
+    }
+
+    fn span(bounds: &Bounds) -> ((i32, i32), (i32, i32)) {
+        let cell =
+            |p: Point| ((p.x / Self::CELL).floor() as i32, (p.y / Self::CELL).floor() as i32);
+        (cell(bounds.min), cell(bounds.max))
+    }
+
+    /// The replicas whose boxes come near `bounds`, in the order of their ids.
+    pub(super) fn near(&self, bounds: &Bounds) -> Vec<ReplicaId> {
+        let ((left, bottom), (right, top)) = Self::span(&bounds.grown(150.0));
+        let cells =
+            (i64::from(right) - i64::from(left) + 1) * (i64::from(top) - i64::from(bottom) + 1);
+        let mut found: Vec<ReplicaId> = if cells > self.cells.len() as i64 {
+            self.bounds.keys().copied().collect()
+        } else {
+            (left..=right)
+                .flat_map(|x| (bottom..=top).map(move |y| (x, y)))
+                .filter_map(|cell| self.cells.get(&cell))
+                .flatten()
+                .chain(&self.wide)
+                .copied()
+                .collect()
+        };
+        found.sort_unstable();
+        found.dedup();
+        found.retain(|r| self.bounds[r].meets(bounds));
+        found
+    }
+}

@@ -1,0 +1,400 @@
+//! Straits: places too narrow for a robot to turn in, which a long one passes along its own heading.
+//!
+//! The free floor is made for the disc that covers the footprint: there the robot may turn as it likes. Between two
+//! pieces of that floor, where they come close, a strait is looked for: one straight leg, from a place of one piece
+//! to a place of the other, along which the footprint is driven with its heading along the leg, forwards or backwards.
+//!
+//! ```text
+//!   ┌────────┐
+//!   │        │           headings are tried every 15°, across every doorway and along every
+//!   └────────┘           edge that bounds a dead zone. Along each heading the
+//!  a ───[▭]──── b        floor is shrunk by the footprint turned that way (Minkowski), so that a
+//!   ┌────────┐           line in what is left is clear from one end to the other.
+//!   │        │
+//!   └────────┘
+//! ```
+//!
+//! Deliberately absent: turning or shifting the heading within a strait. A bend too narrow for the covering disc is
+//! no way.
+//!
+//! **Invariant**: both ends of a strait lie in centre space; the footprint with its clearance (less [`SLACK`]) keeps
+//! to the floor on all of it, whichever of its ends goes first.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BinaryHeap};
+use std::f64::consts::PI;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+
+use crate::map::{RobotProfile, World};
+use crate::units::{Point, Vector};
+
+use super::doors::distance;
+use super::floor::{FragmentFloor, SLACK};
+use super::grid::{Contour, Grid, difference, overlay};
+use super::mesh::Mesh;
+use super::network::Piece;
+use super::plan::FloorPlan;
+use super::route::Anchor;
+use super::search::CellKey;
+use super::{Bounds, Polygon};
+
+/// A straight leg between two pieces of centre space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Strait {
+    pub(super) ends: [Point; 2],
+    pub(super) cells: [CellKey; 2],
+    /// The doorway that it passes, by its index in the plan.
+    pub(super) doorway: Option<usize>,
+}
+
+impl Strait {
+    pub(super) fn length(&self) -> f64 {
+        (self.ends[1] - self.ends[0]).norm()
+    }
+}
+
+/// Headings are tried at this step, in radians.
+const TURN: f64 = PI / 12.0;
+/// Lines are tried at this distance, in cm.
+const LINE: f64 = 2.0;
+/// How far a strait leads into the centre space at its ends, in cm.
+const FOOTHOLD: f64 = 0.5;
+
+/// The shortest way over open floor and straits: `leg` finds the points between two places of one open region.
+///
+/// A* over the straits' ends. A leg is measured when its straight line has come to be the best there is.
+pub(super) fn way(
+    plan: &FloorPlan,
+    start: &Anchor,
+    goal: &Anchor,
+    leg: impl Fn(&Anchor, &Anchor) -> Option<Vec<Point>>,
+) -> Option<Vec<Point>> {
+    let anchor = |(at, cell): (Point, CellKey)| Anchor::at(at, cell);
+    let ends = plan.network.straits.iter().flat_map(|s| s.ends.into_iter().zip(s.cells));
+    let nodes: Vec<Anchor> =
+        [start.clone(), goal.clone()].into_iter().chain(ends.map(anchor)).collect();
+    let mut by_region: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+    let region = |a: &Anchor| {
+        let component = plan.floor(a.cell.0).cells.component[a.cell.1 as usize];
+        plan.network.open_region((a.cell.0, component))
+    };
+    for (node, anchor) in nodes.iter().enumerate() {
+        by_region.entry(region(anchor)).or_default().push(node);
+    }
+    const GOAL: usize = 1;
+    let left = |node: usize| (goal.at - nodes[node].at).norm();
+    let mut spent = vec![f64::INFINITY; nodes.len()];
+    let mut before: Vec<Option<(usize, Vec<Point>)>> = vec![None; nodes.len()];
+    let mut is_done = vec![false; nodes.len()];
+    // Length through the node, the node, from where, and the measured leg if it is.
+    let mut open: BinaryHeap<(Reverse<u64>, usize, usize, Option<Vec<[u64; 2]>>)> =
+        BinaryHeap::from([(Reverse(0), 0, 0, Some(Vec::new()))]);
+    while let Some((_, node, from, measured)) = open.pop() {
+        if is_done[node] {
+            continue;
+        }
+        let Some(measured) = measured else {
+            let Some(points) = leg(&nodes[from], &nodes[node]) else { continue };
+            let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+            let bits = points.iter().map(|p| [p.x.to_bits(), p.y.to_bits()]).collect();
+            let bound = spent[from] + length + left(node);
+            open.push((Reverse(bound.to_bits()), node, from, Some(bits)));
+            continue;
+        };
+        let points: Vec<Point> = measured
+            .iter()
+            .map(|b| Point::new(f64::from_bits(b[0]), f64::from_bits(b[1])))
+            .collect();
+        is_done[node] = true;
+        let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
+        spent[node] = if node == 0 { 0.0 } else { spent[from] + length };
+        before[node] = (node != 0).then_some((from, points));
+        if node == GOAL {
+            let mut legs = Vec::new();
+            let mut at = GOAL;
+            while let Some((from, points)) = before[at].take() {
+                legs.push(points);
+                at = from;
+            }
+            let mut way: Vec<Point> = legs.into_iter().rev().flatten().collect();
+            way.dedup_by(|a, b| (*a - *b).norm() < 1e-9);
+            if way.len() == 1 {
+                way.push(goal.at);
+            }
+            return Some(way);
+        }
+        if node > GOAL {
+            // Straight through to the strait's other end.
+            let other = if node % 2 == 0 { node + 1 } else { node - 1 };
+            let ends = [nodes[node].at, nodes[other].at].map(|p| [p.x.to_bits(), p.y.to_bits()]);
+            let bound = spent[node] + (nodes[other].at - nodes[node].at).norm() + left(other);
+            open.push((Reverse(bound.to_bits()), other, node, Some(ends.to_vec())));
+        }
+        for &next in &by_region[&region(&nodes[node])] {
+            if !is_done[next] && next != node {
+                let bound = spent[node] + (nodes[next].at - nodes[node].at).norm() + left(next);
+                open.push((Reverse(bound.to_bits()), next, node, None));
+            }
+        }
+    }
+    None
+}
+
+/// Where straits are looked for: some floor, the Fragments whose centre space lies on it, and the place.
+struct Site<'a> {
+    floor: Vec<Contour>,
+    grid: Grid,
+    fragments: Vec<(u32, &'a FragmentFloor)>,
+    place: Bounds,
+    doorway: Option<usize>,
+    /// Headings worth trying besides the usual ones, as angles.
+    headings: Vec<f64>,
+}
+
+/// The straits within a Fragment: past its dead zones.
+pub(super) fn within(plan: &FloorPlan, number: u32) -> Vec<Strait> {
+    let fragment = plan.floor(number);
+    if plan.robot().footprint.is_empty() || fragment.cells.components < 2 {
+        return Vec::new();
+    }
+    let reach = plan.reach();
+    let grid = Grid::over(&fragment.bounds.grown(4.0 * reach + 200.0));
+    let floor: Vec<Contour> =
+        fragment.raw.iter().flat_map(|r| r.contours()).map(|c| grid.contour(c)).collect();
+    let mut found = Vec::new();
+    for zone in &fragment.dead_zones {
+        let place = zone.region.outer.bounds().grown(reach);
+        let joins = fragment.cells.cells().filter(|&cell| {
+            let polygon = fragment.cells.polygon(cell);
+            polygon.bounds().meets(&place) && distance(&polygon, &zone.region.outer) <= 1.1 * reach
+        });
+        let mut components: Vec<u32> =
+            joins.map(|c| fragment.cells.component[c as usize]).collect();
+        components.sort_unstable();
+        components.dedup();
+        if components.len() < 2 {
+            continue;
+        }
+        let edges = zone.region.outer.edges().map(|(a, b)| b - a);
+        let long = edges.filter(|v| v.norm() > 10.0);
+        found.extend(best(
+            plan,
+            &Site {
+                floor: floor.clone(),
+                grid,
+                fragments: vec![(number, fragment)],
+                place,
+                doorway: None,
+                headings: long.map(|v| v.y.atan2(v.x)).collect(),
+            },
+        ));
+    }
+    found
+}
+
+/// The straits through an open doorway that the covering disc does not pass.
+pub(super) fn through(plan: &FloorPlan, world: &World, index: usize) -> Vec<Strait> {
+    let doorway = &plan.doorways()[index];
+    if plan.robot().footprint.is_empty() || !plan.admits(world, index) {
+        return Vec::new();
+    }
+    let numbers: Vec<u32> =
+        doorway.areas.iter().filter_map(|&a| plan.number(a)).map(|n| n as u32).collect();
+    let [one, other] = numbers[..] else { return Vec::new() };
+    if plan.network.portals[one as usize].iter().any(|p| p.doorway == index) {
+        return Vec::new();
+    }
+    let reach = plan.reach();
+    let place = Bounds::of([doorway.line().0, doorway.line().1])
+        .grown(doorway.gap / 2.0 + 2.0 * reach + 60.0);
+    let fragments = vec![(one, plan.floor(one)), (other, plan.floor(other))];
+    let bounds = fragments[0].1.bounds.union(&fragments[1].1.bounds);
+    let grid = Grid::over(&bounds.grown(4.0 * reach + 200.0));
+    let contours: Vec<Contour> = fragments
+        .iter()
+        .flat_map(|(_, f)| &f.raw)
+        .flat_map(|r| r.contours())
+        .map(|c| grid.contour(c))
+        .collect();
+    let joined = overlay(&contours, &[], OverlayRule::Subject, FillRule::Positive);
+    let out = doorway.out();
+    best(
+        plan,
+        &Site {
+            floor: joined.into_iter().flatten().collect(),
+            grid,
+            fragments,
+            place,
+            doorway: Some(index),
+            headings: vec![out.y.atan2(out.x)],
+        },
+    )
+}
+
+/// The shortest strait between every two pieces that a site joins.
+fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<Strait> {
+    let mut headings: Vec<f64> = (0..12).map(|k| f64::from(k) * TURN).collect();
+    headings.extend(site.headings.iter().map(|h| h.rem_euclid(PI)));
+    headings.sort_by(f64::total_cmp);
+    headings.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
+    let mut best: BTreeMap<(Piece, Piece), Vec<Strait>> = BTreeMap::new();
+    for heading in headings {
+        for (pieces, strait) in along(plan, site, heading) {
+            let found = best.entry(pieces).or_default();
+            if found.first().is_none_or(|b| strait.length() < b.length() - 1.0) {
+                found.clear();
+            }
+            if found.first().is_none_or(|b| strait.length() < b.length() + 1.0) {
+                found.push(strait);
+            }
+        }
+    }
+    // Of equals the one in the middle keeps furthest from both sides.
+    let middle = best.into_values().map(|found| found[found.len() / 2]);
+    middle.filter(|strait| is_clear(plan.robot(), site, strait)).collect()
+}
+
+/// Whether the body on its way along a strait touches nothing solid: asked of the things themselves, whatever the
+/// floor made of them says.
+fn is_clear(robot: &RobotProfile, site: &Site<'_>, strait: &Strait) -> bool {
+    let [a, b] = strait.ends;
+    let Some(way) = (b - a).try_normalize(0.0) else { return false };
+    let swept = hull(body(robot, way).into_iter().flat_map(|v| [a + v, b + v]).collect());
+    let bounds = swept.bounds();
+    let is_off = |solid: &Polygon| !solid.bounds().meets(&bounds) || distance(solid, &swept) > 0.0;
+    site.fragments.iter().all(|(_, fragment)| {
+        fragment.obstacles.iter().all(|o| is_off(&o.polygon))
+            && fragment.walls.iter().all(|&(a, b)| is_off(&Polygon::new(vec![a, b])))
+    })
+}
+
+/// The straits of one heading, each with the pieces that it joins.
+fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece), Strait)> {
+    let way = Vector::new(heading.cos(), heading.sin());
+    let across = Vector::new(-way.y, way.x);
+    let room = shrunk(plan.robot(), site, way);
+    let corners = site.place;
+    let corners = [
+        corners.min,
+        Point::new(corners.max.x, corners.min.y),
+        corners.max,
+        Point::new(corners.min.x, corners.max.y),
+    ];
+    let extent = |v: Vector| {
+        corners
+            .iter()
+            .map(|c| c.coords.dot(&v))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |e, x| (e.0.min(x), e.1.max(x)))
+    };
+    let ((left, right), (low, high)) = (extent(way), extent(across));
+    let mut found = Vec::new();
+    let count = ((high - low) / LINE) as usize;
+    let regular = (0..=count).map(|k| low + (high - low) * (k as f64 + 0.5) / (count as f64 + 1.0));
+    // Between the corners' own lines nothing changes: one line in each stretch misses no gap, however tight.
+    let mut marks: Vec<f64> = room.vertices.iter().map(|p| p.coords.dot(&across)).collect();
+    marks.retain(|m| (low..=high).contains(m));
+    marks.sort_by(f64::total_cmp);
+    let between = marks.windows(2).filter(|m| m[1] - m[0] > 1e-4).map(|m| (m[0] + m[1]) / 2.0);
+    for offset in regular.chain(between) {
+        let at = |t: f64| Point::from(way * t + across * offset);
+        let (a, b) = (at(left), at(right));
+        let length = right - left;
+        for (from, to) in room.stretches(a, b) {
+            let (from, to) = (from * length, to * length);
+            let mut stands: Vec<(f64, f64, CellKey, Piece)> = Vec::new();
+            for &(number, fragment) in &site.fragments {
+                for cell in fragment.cells.near_segment(a, b) {
+                    let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
+                    let (s, e) = ((s * length).max(from), (e * length).min(to));
+                    if e - s > 2.0 * FOOTHOLD {
+                        let piece = (number, fragment.cells.component[cell as usize]);
+                        stands.push((s, e, (number, cell), piece));
+                    }
+                }
+            }
+            stands.sort_by(|x, y| x.0.total_cmp(&y.0));
+            for pair in stands.windows(2) {
+                let (near, far) = (pair[0], pair[1]);
+                if near.3 == far.3 || far.0 <= near.1 {
+                    continue;
+                }
+                let ends = [at(left + near.1 - FOOTHOLD), at(left + far.0 + FOOTHOLD)];
+                let strait = Strait { ends, cells: [near.2, far.2], doorway: site.doorway };
+                found.push(if near.3 < far.3 {
+                    ((near.3, far.3), strait)
+                } else {
+                    let turned =
+                        Strait { ends: [ends[1], ends[0]], cells: [far.2, near.2], ..strait };
+                    ((far.3, near.3), turned)
+                });
+            }
+        }
+    }
+    found
+}
+
+/// Where the centre of a robot that heads along `way`, or back, may be at the site.
+fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
+    let body = body(robot, way);
+    let extent = body.iter().map(|v| v.norm()).fold(0.0, f64::max);
+    let reach = site.place.grown(extent + 1.0);
+    let mut blocked: Vec<Contour> = Vec::new();
+    for contour in &site.floor {
+        let polygon = site.grid.polygon(contour);
+        for (a, b) in polygon.edges() {
+            if Bounds::of([a, b]).meets(&reach) {
+                // The body is symmetric about the centre, so it is its own mirror image.
+                let swept = body.iter().flat_map(|&v| [a + v, b + v]).collect();
+                blocked.push(site.grid.contour(&hull(swept)));
+            }
+        }
+    }
+    Mesh::of(&site.grid, &difference(&site.floor, &blocked), 0)
+}
+
+/// The footprint turned to a heading and back, with its clearance, as one convex polygon about the centre.
+fn body(robot: &RobotProfile, way: Vector) -> Vec<Vector> {
+    let across = Vector::new(-way.y, way.x);
+    let clearance = (robot.clearance.get() - SLACK) / (PI / 8.0).cos();
+    let mut points = Vec::new();
+    for p in &robot.footprint {
+        for sign in [1.0, -1.0] {
+            let corner = (way * p.x + across * p.y) * sign;
+            for k in 0..8 {
+                let (sin, cos) = (f64::from(k) * PI / 4.0 + PI / 8.0).sin_cos();
+                let away = if clearance > 0.0 {
+                    way * (cos * clearance) + across * (sin * clearance)
+                } else {
+                    // Without clearance the body itself gives way by the slack.
+                    corner.try_normalize(0.0).map_or_else(Vector::zeros, |v| v * clearance)
+                };
+                points.push(Point::origin() + corner + away);
+            }
+        }
+    }
+    hull(points).corners.into_iter().map(|p| p.coords).collect()
+}
+
+/// Convex hull, counter-clockwise (Andrew's monotone chain).
+fn hull(mut points: Vec<Point>) -> Polygon {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let half = |points: &mut dyn Iterator<Item = &Point>| {
+        let mut chain: Vec<Point> = Vec::new();
+        for &p in points {
+            while let [.., a, b] = chain[..] {
+                if (b - a).perp(&(p - b)) > 0.0 {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut corners = half(&mut points.iter());
+    corners.extend(half(&mut points.iter().rev()));
+    Polygon::new(corners)
+}

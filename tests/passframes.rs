@@ -1,0 +1,90 @@
+//! Passframes by their definitions: types, ids that last, what lies beyond each border.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use orthoframe::geometry::*;
+use orthoframe::map::*;
+use orthoframe::units::*;
+
+use crate::floor_properties::{Random, random_world};
+
+fn build(world: &World) -> FloorPlan {
+    FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
+}
+
+/// The types by their definitions, each looked at by itself.
+#[test]
+fn types_are_what_their_definitions_say() {
+    let mut seen = BTreeMap::<PassframeKind, usize>::new();
+    for seed in 0..60 {
+        let plan = build(&random_world(seed).world);
+        for floor in plan.fragments() {
+            let frames: BTreeMap<PassframeId, &Passframe> =
+                floor.passframes.iter().map(|f| (f.id, f)).collect();
+            assert_eq!(frames.len(), floor.passframes.len(), "ids are unique");
+            let at_door = |f: &Passframe| {
+                f.borders.iter().any(|b| matches!(b.beyond, Beyond::Doorway { .. }))
+            };
+            let reaches_a_door = |start: PassframeId| {
+                let (mut seen, mut open) = (BTreeSet::from([start]), vec![start]);
+                while let Some(id) = open.pop() {
+                    if at_door(frames[&id]) {
+                        return true;
+                    }
+                    let next = frames[&id].neighbours().map(|n| n.0).filter(|n| seen.insert(*n));
+                    open.extend(next.collect::<Vec<_>>());
+                }
+                false
+            };
+            for frame in &floor.passframes {
+                let wanted = if !reaches_a_door(frame.id) {
+                    PassframeKind::Closed
+                } else if at_door(frame) {
+                    PassframeKind::Boundary
+                } else if frame.neighbours().count() <= 1 {
+                    PassframeKind::DeadEnd
+                } else {
+                    PassframeKind::Passage
+                };
+                assert_eq!(frame.kind, wanted, "seed {seed}: {}", frame.id);
+                *seen.entry(frame.kind).or_default() += 1;
+            }
+        }
+    }
+    assert!(seen.len() == 4 && seen.values().all(|&n| n > 10), "{seen:?}");
+}
+
+#[test]
+fn ids_last_where_nothing_changed() {
+    let (mut kept, mut all) = (0, 0);
+    for seed in 0..40 {
+        let mut b = random_world(seed);
+        let before = build(&b.world);
+        let mut random = Random(seed + 5);
+        let ids: Vec<ReplicaId> = b.world.replicas.keys().copied().collect();
+        let id = ids[(random.unit() * ids.len() as f64) as usize];
+        let replica = b.world.replicas.get_mut(&id).unwrap();
+        let (frame, area) = (replica.frame, replica.area);
+        replica.frame = Frame::new(frame.x.get() + 6.0, frame.y.get() + 3.0, 0.0, frame.angle);
+        let after = build(&b.world);
+        let places: Vec<Bounds> =
+            [&before, &after].iter().map(|plan| plan.scene().replicas[&id].bounds).collect();
+        let later: BTreeMap<PassframeId, &Passframe> =
+            after.passframes(area).iter().map(|f| (f.id, f)).collect();
+        for frame in before.passframes(area) {
+            let same = after.passframes(area).iter().find(|f| f.polygon == frame.polygon);
+            if let Some(same) = same {
+                assert_eq!(same.id, frame.id, "seed {seed}: what lasts keeps its id");
+            }
+            // A Passframe that does not come near the thing has no reason to change.
+            let bounds = frame.polygon.bounds().grown(2.0 * before.reach());
+            if !places.iter().any(|p| p.meets(&bounds)) {
+                all += 1;
+                kept +=
+                    usize::from(later.get(&frame.id).is_some_and(|f| f.polygon == frame.polygon));
+            }
+        }
+    }
+    eprintln!("{kept} of {all} Passframes away from what moved kept their ids");
+    assert!(all > 50 && kept * 10 >= all * 9, "{kept} of {all}");
+}
