@@ -16,7 +16,7 @@ fn build(world: &World) -> FloorPlan {
 #[test]
 fn types_are_what_their_definitions_say() {
     let mut seen = BTreeMap::<PassframeKind, usize>::new();
-    for seed in 0..60 {
+    for seed in 0..30 {
         let plan = build(&random_world(seed).world);
         for floor in plan.fragments() {
             let frames: BTreeMap<PassframeId, &Passframe> =
@@ -87,4 +87,85 @@ fn ids_last_where_nothing_changed() {
     }
     eprintln!("{kept} of {all} Passframes away from what moved kept their ids");
     assert!(all > 50 && kept * 10 >= all * 9, "{kept} of {all}");
+}
+
+/// Everything about a floor that can be asked, for two that must be the same.
+fn assert_same(one: &FloorPlan, other: &FloorPlan, what: &str) {
+    assert_eq!(one.fragments().len(), other.fragments().len());
+    for (a, b) in one.fragments().zip(other.fragments()) {
+        assert!(a == b, "{what}: Area {:?}", a.area);
+    }
+    assert_eq!(one.open_doorways(), other.open_doorways());
+}
+
+#[test]
+fn kept_floors_are_those_that_building_anew_gives() {
+    let (mut reused, mut built) = (0, 0);
+    for seed in 0..21 {
+        let mut b = random_world(seed);
+        let states = DoorStates::new();
+        let bytes = build(&b.world).save(&b.world);
+        let restore = |world: &World, bytes: &[u8]| {
+            FloorPlan::restore(world, MapId(1), &world.robot, &states, bytes)
+        };
+        let (same, fresh) = restore(&b.world, &bytes);
+        assert_eq!(fresh, 0, "nothing changed");
+        assert_same(&same, &build(&b.world), "untouched");
+        assert_eq!(same.save(&b.world), bytes);
+        // One thing or another of all that a floor is made from.
+        let mut random = Random(seed + 9);
+        let ids: Vec<ReplicaId> = b.world.replicas.keys().copied().collect();
+        let id = ids[(random.unit() * ids.len() as f64) as usize];
+        match seed % 7 {
+            0 => {
+                let replica = b.world.replicas.get_mut(&id).unwrap();
+                let x = replica.frame.x.get() + random.between(-60.0, 60.0);
+                replica.frame = Frame::new(x, replica.frame.y.get(), 0.0, Deg::of(20.0));
+            }
+            1 => b.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED),
+            2 => b.world.robot.radius = Cm::of(17.5),
+            3 => drop(b.world.replicas.remove(&id)),
+            4 => {
+                let object = b.world.replicas[&id].object;
+                let item = b.world.objects[&object].items[0].orthoframe;
+                b.world.orthoframes.get_mut(&item).unwrap().base[0].names.push("ручка".into());
+            }
+            5 => b.world.doors.values_mut().for_each(|d| d.height = Cm::of(90.0)),
+            _ => {
+                let object = b.world.replicas[&id].object;
+                let item = b.world.objects[&object].items[0].orthoframe;
+                b.world.orthoframes.get_mut(&item).unwrap().height = Cm::of(1.0);
+            }
+        }
+        let (after, fresh) = restore(&b.world, &bytes);
+        assert_same(&after, &build(&b.world), &format!("seed {seed}"));
+        built += fresh;
+        reused += after.fragments().len() - fresh;
+    }
+    assert!(built > 15 && reused > 5, "{built} built, {reused} reused");
+}
+
+#[test]
+fn bytes_that_are_no_floor_are_not_taken_for_one() {
+    let world = random_world(3).world;
+    let bytes = build(&world).save(&world);
+    let states = DoorStates::new();
+    let mut random = Random(1);
+    for k in 0..60 {
+        let mut spoiled = bytes.clone();
+        match k % 3 {
+            0 => spoiled.truncate((random.unit() * bytes.len() as f64) as usize),
+            1 => {
+                let at = (random.unit() * bytes.len() as f64) as usize;
+                spoiled[at] ^= 1 << (k % 8);
+            }
+            _ => {
+                let at = (random.unit() * (bytes.len() - 8) as f64) as usize;
+                spoiled[at..at + 8].fill(0xff);
+            }
+        }
+        // It may be read or not; it does not end the program, nor take all memory.
+        let (plan, _) = FloorPlan::restore(&world, MapId(1), &world.robot, &states, &spoiled);
+        assert_eq!(plan.fragments().len(), 2);
+    }
 }

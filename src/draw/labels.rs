@@ -147,14 +147,15 @@ impl Labels {
         self.put(canvas, text, &name);
     }
 
-    /// The name of a thing: on it where it fits, else near it with a thin line to it where `strays`.
+    /// The name of a thing: on it where it fits, else near it on the floor of its room, clear of the walls, with a
+    /// thin line to it; anywhere near where there are no rooms at all.
     pub(super) fn on_thing(
         &mut self,
         canvas: &mut Canvas,
         thing: Bounds,
         text: &str,
         style: Lettering,
-        strays: bool,
+        rooms: Option<&[&Polygon]>,
     ) {
         let center = nalgebra::center(&thing.min, &thing.max);
         for share in [1.0, 0.85, 0.72] {
@@ -178,9 +179,6 @@ impl Labels {
                 }
             }
         }
-        if !strays {
-            return;
-        }
         let lettering = Lettering { size: style.size * 0.85, ..style };
         let (width, height) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
         let reach = (thing.max - thing.min) / 2.0 + Vector::new(width, height) / 2.0;
@@ -198,7 +196,12 @@ impl Labels {
                 let away = Vector::new(dx, dy) * distance * height;
                 let at = center + Vector::new(dx, dy).component_mul(&reach) + away;
                 let frame = around(at, width, height);
-                if self.is_free(&frame) && !self.crosses_line(&frame) {
+                let stands = |f: &Bounds| {
+                    let aside = f.grown(0.35 * lettering.size);
+                    rooms.is_none_or(|rooms| rooms.iter().any(|room| holds(room, &aside)))
+                        && !self.crosses_line(&aside)
+                };
+                if self.is_free(&frame) && stands(&frame) {
                     if distance > 0.5 {
                         let leader = Style::line(lettering.color, style.size * 0.05);
                         canvas.segment(center, frame_point(&frame, center), leader);

@@ -378,7 +378,10 @@ impl PlanDrawing<'_> {
             let name = self.named(&replica.name, &replica.name_en);
             // On the sheet of a large building names beside small things would hide the things.
             let lettering = Lettering::plain(8.5 * pen, "#5b5647");
-            labels.on_thing(canvas, thing.bounds, name, lettering, pen < LARGE);
+            let home = self.scene.areas.get(&thing.area).filter(|_| pen < LARGE);
+            let rooms: Vec<&Polygon> =
+                home.iter().flat_map(|a| &a.prisms).map(|p| &p.polygon).collect();
+            labels.on_thing(canvas, thing.bounds, name, lettering, Some(&rooms));
         }
     }
 

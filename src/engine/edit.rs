@@ -2,7 +2,7 @@
 //!
 //! **Invariant.** After an edit, relations and floors are those that deriving anew from the edited map would give.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
 use crate::store::{self, Change, Difference, ImportReport, Table};

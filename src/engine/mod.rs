@@ -315,11 +315,23 @@ impl Engine {
     pub fn floors(&self) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
         let world = self.world()?;
         Ok(self.floors.get_or_init(|| {
-            let plan = |&map: &MapId| {
-                (map, FloorPlan::build(world, map, &world.robot, &DoorStates::new()))
-            };
-            world.maps.keys().map(plan).collect()
+            world.maps.keys().map(|&map| (map, self.floor_of(world, map))).collect()
         }))
+    }
+
+    /// The floor of a map, with what the store keeps of it; what had to be built is kept for the next start.
+    fn floor_of(&self, world: &World, map: MapId) -> FloorPlan {
+        let kind = format!("floor-{}", map.0);
+        let kept = self.store.as_ref().and_then(|store| store.get_derived_earlier(&kind));
+        let kept = kept.unwrap_or_default();
+        let states = DoorStates::new();
+        let (plan, built) = FloorPlan::restore(world, map, &world.robot, &states, &kept);
+        if let (Some(store), true) = (&self.store, built > 0)
+            && let Err(error) = store.put_derived(&kind, store.revision(), &plan.save(world))
+        {
+            tracing::debug!(%error, "floors are not kept");
+        }
+        plan
     }
 
     /// Every name in every form, indexed when first asked for.

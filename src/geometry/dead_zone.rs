@@ -6,7 +6,7 @@ use crate::map::Permeability;
 use crate::units::AreaId;
 
 use super::buckets::Buckets;
-use super::doors::distance;
+use super::doors::distance_within;
 use super::grid::{Grid, Shapes};
 use super::obstacle::{Blocker, Obstacle};
 use super::storey::Side;
@@ -44,7 +44,8 @@ pub(super) fn dead_zones(
         let mut found = Vec::new();
         buckets.meeting(&at, &mut found);
         found.retain(|&i| {
-            boxes[i as usize].meets(&at) && distance(&things[i as usize].1, &region.outer) < TOUCH
+            boxes[i as usize].meets(&at)
+                && distance_within(&things[i as usize].1, &region.outer, TOUCH).is_some()
         });
         let mut gap: Option<f64> = None;
         for (k, &i) in found.iter().enumerate() {
@@ -55,8 +56,10 @@ pub(super) fn dead_zones(
                 if a == b || !boxes[i as usize].grown(widest).meets(&boxes[j as usize]) {
                     continue;
                 }
-                let d = distance(p, q);
-                if d > TOUCH && d < widest {
+                if let Some(d) = distance_within(p, q, widest)
+                    && d > TOUCH
+                    && d < widest
+                {
                     gap = Some(d);
                 }
             }

@@ -350,19 +350,32 @@ impl Swing {
 
 /// Distance between two polygons, 0 where they meet. Two corners make a segment.
 pub(super) fn distance(a: &Polygon, b: &Polygon) -> f64 {
+    distance_within(a, b, f64::INFINITY).unwrap_or(f64::INFINITY)
+}
+
+/// Distance between two polygons if it is less than a limit.
+pub(super) fn distance_within(a: &Polygon, b: &Polygon, limit: f64) -> Option<f64> {
     let inside = |p: &Polygon, q: &Polygon| {
         p.corners.len() > 2 && q.corners.first().is_some_and(|&c| p.contains(c, 0.0))
     };
     if inside(a, b) || inside(b, a) {
-        return 0.0;
+        return Some(0.0);
     }
-    let mut least = f64::INFINITY;
+    let mut least = limit;
+    let whole = b.bounds();
     for (p, q) in a.edges() {
+        // Edges whose boxes are further away than the nearest so far bring nothing nearer.
+        let edge = Bounds::of([p, q]).grown(least);
+        if !edge.meets(&whole) {
+            continue;
+        }
         for (u, v) in b.edges() {
-            least = least.min(segment_distance(p, q, u, v));
+            if Bounds::of([u, v]).meets(&edge) {
+                least = least.min(segment_distance(p, q, u, v));
+            }
         }
     }
-    least
+    (least < limit).then_some(least)
 }
 
 pub(super) fn segment_distance(p: Point, q: Point, u: Point, v: Point) -> f64 {

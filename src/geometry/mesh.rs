@@ -8,10 +8,28 @@ use crate::units::Point;
 use super::buckets::Buckets;
 use super::grid::{Grid, Shapes};
 use super::half_edge::HalfEdges;
+use super::kept::Kept;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// No cell: the edge is a border of the floor.
 pub(super) const NONE: u32 = u32::MAX;
+
+impl Kept for Mesh {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.vertices.put(out);
+        self.is_corner.put(out);
+        self.starts.put(out);
+        self.ring.put(out);
+        self.across.put(out);
+        self.component.put(out);
+        self.components.put(out);
+        self.trunk.put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Self::restored(bytes)
+    }
+}
 
 /// A floor cut into convex cells.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -63,6 +81,36 @@ impl Mesh {
         mesh.trunk = mesh.trunks();
         mesh.buckets = Buckets::of(&mesh.boxes());
         mesh
+    }
+
+    /// Takes a mesh off the front of bytes; see [`Kept`].
+    fn restored(bytes: &mut &[u8]) -> Option<Self> {
+        let mut mesh = Self {
+            vertices: Kept::take(bytes)?,
+            is_corner: Kept::take(bytes)?,
+            starts: Kept::take(bytes)?,
+            ring: Kept::take(bytes)?,
+            across: Kept::take(bytes)?,
+            component: Kept::take(bytes)?,
+            components: Kept::take(bytes)?,
+            trunk: Kept::take(bytes)?,
+            buckets: Buckets::default(),
+        };
+        let cells = mesh.len();
+        // Numbers that lead nowhere would be asked for later.
+        let is_sound = mesh.is_corner.len() == mesh.vertices.len()
+            && mesh.across.len() == mesh.ring.len()
+            && mesh.component.len() == cells
+            && mesh.trunk.len() == cells
+            && mesh.starts.is_sorted()
+            && mesh.starts.last().map_or(0, |&n| n as usize) == mesh.ring.len()
+            && mesh.ring.iter().all(|&v| (v as usize) < mesh.vertices.len())
+            && mesh.across.iter().chain(&mesh.trunk).all(|&c| c == NONE || (c as usize) < cells)
+            && mesh.component.iter().all(|&c| c < mesh.components);
+        if cells > 0 && is_sound {
+            mesh.buckets = Buckets::of(&mesh.boxes());
+        }
+        is_sound.then_some(mesh)
     }
 
     pub(super) fn len(&self) -> usize {

@@ -74,6 +74,9 @@ pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds])
     let mut found = Vec::new();
     for id in (site.nearby)(&bounds) {
         let Some(replica) = site.scene.replicas.get(&id) else { continue };
+        if !zones.iter().any(|zone| zone.meets(&replica.reach)) {
+            continue;
+        }
         let under = site.scene.areas.get(&replica.area).map_or(0.0, |placed| {
             storey.floor_under(placed, nalgebra::center(&replica.bounds.min, &replica.bounds.max))
         });

@@ -6,16 +6,18 @@
 //!
 //! **Invariant**: a plan after [`FloorPlan::rebuild`] equals one built anew from the same world.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-use crate::map::{DoorState, Permeability, RobotProfile, World};
+use crate::map::{DoorState, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
+use super::digest::digests;
 use super::doors::{Doorway, doorways};
-use super::floor::{FragmentFloor, Site};
+use super::floor::{Exit, FragmentFloor, Site};
+use super::kept;
 use super::network::{Network, Portal, overlap};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
@@ -25,16 +27,6 @@ use super::{Bounds, Passframe, PassframeId};
 
 /// Doors that stand otherwise than the world says: opened by the robot, or assumed.
 pub type DoorStates = BTreeMap<DoorId, DoorState>;
-
-/// What a replica can reach.
-fn touch_of(replica: &PlacedReplica) -> Bounds {
-    // Open leaves stick out; a Uniframe may be wider than its base.
-    let is_plain = |p: &Prism| {
-        p.roof_scale <= 1.0 && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
-    };
-    let more = if replica.prisms.iter().all(is_plain) { 0.0 } else { 150.0 };
-    replica.bounds.grown(more + 0.2)
-}
 
 /// The floor of one Map for one robot.
 #[derive(Debug, Clone)]
@@ -63,6 +55,22 @@ impl FloorPlan {
     /// When the map is not of this world.
     #[must_use]
     pub fn build(world: &World, map: MapId, robot: &RobotProfile, states: &DoorStates) -> Self {
+        Self::restore(world, map, robot, states, &[]).0
+    }
+
+    /// Builds the floor with what [`Self::save`] kept of it: only Fragments that were made from something else than
+    /// stands in the world now are built anew. Answers how many; bytes of anything else are as good as none.
+    ///
+    /// # Panics
+    /// When the map is not of this world.
+    #[must_use]
+    pub fn restore(
+        world: &World,
+        map: MapId,
+        robot: &RobotProfile,
+        states: &DoorStates,
+        kept: &[u8],
+    ) -> (Self, usize) {
         let scene = Scene::of(world, map);
         let doorways = doorways(world, &scene, map);
         let mut by_area: BTreeMap<AreaId, Vec<(usize, usize)>> = BTreeMap::new();
@@ -85,11 +93,38 @@ impl FloorPlan {
             by_place: Arc::default(),
         };
         let areas: Vec<AreaId> = plan.scene.areas.keys().copied().collect();
-        plan.fragments = plan.with_site(world, |site| build_all(site, &areas));
+        let (fragments, built) = plan.with_site(world, |site| {
+            let mut kept = if kept.is_empty() { HashMap::new() } else { kept::read(kept) };
+            if kept.is_empty() {
+                return (build_all(site, &areas), areas.len());
+            }
+            let digests = areas.iter().zip(digests(site, &areas));
+            let same = digests.filter_map(|(area, digest)| {
+                let (own, floor) = kept.remove(area)?;
+                let leads = |e: &Exit| e.doorway < site.doorways.len();
+                (own == digest && floor.exits.iter().all(leads)).then(|| Arc::new(floor))
+            });
+            let mut floors: Vec<Arc<FragmentFloor>> = same.collect();
+            let missing =
+                |a: &&AreaId| floors.binary_search_by_key(*a, |f| f.area).is_err();
+            let stale: Vec<AreaId> = areas.iter().filter(missing).copied().collect();
+            floors.extend(build_all(site, &stale));
+            floors.sort_by_key(|f| f.area);
+            (floors, stale.len())
+        });
+        plan.fragments = fragments;
         let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
         plan.by_place = Arc::new(Buckets::of(&boxes));
         plan.connect(world, 0..areas.len());
-        plan
+        (plan, built)
+    }
+
+    /// The Fragments' floors as bytes, each with a digest of what it was made from, for [`Self::restore`].
+    #[must_use]
+    pub fn save(&self, world: &World) -> Vec<u8> {
+        let areas: Vec<AreaId> = self.fragments.iter().map(|f| f.area).collect();
+        let digests = self.with_site(world, |site| digests(site, &areas));
+        kept::write(digests.into_iter().zip(self.fragments()))
     }
 
     /// A box around all that a Fragment's floor can ever reach, whatever its doors do.
@@ -148,7 +183,7 @@ impl FloorPlan {
         for &id in replicas {
             if let Some(gone) = scene.replicas.remove(&id) {
                 index.remove(&gone);
-                touched.push(touch_of(&gone));
+                touched.push(gone.reach.grown(0.2));
             }
             let placed = world.replicas.get(&id).and_then(|replica| {
                 let frame = scene.areas.get(&replica.area)?.frame;
@@ -156,7 +191,7 @@ impl FloorPlan {
             });
             if let Some(placed) = placed {
                 index.insert(&placed);
-                touched.push(touch_of(&placed));
+                touched.push(placed.reach.grown(0.2));
                 scene.replicas.insert(id, placed);
             }
         }

@@ -7,6 +7,9 @@ use crate::units::{Point, ReplicaId};
 use super::Bounds;
 use super::scene::{PlacedReplica, Scene};
 
+/// What has no thickness is given some on the floor, in cm.
+const MARGIN: f64 = 0.1;
+
 /// Replicas by place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReplicaIndex {
@@ -34,9 +37,9 @@ impl ReplicaIndex {
     }
 
     pub(super) fn insert(&mut self, replica: &PlacedReplica) {
-        // Leaves of its own doors may stick out.
-        self.bounds.insert(replica.id, replica.bounds.grown(150.0));
-        match Self::cells_of(&replica.bounds) {
+        let reach = replica.reach.grown(MARGIN);
+        self.bounds.insert(replica.id, reach);
+        match Self::cells_of(&reach) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
             }
@@ -47,7 +50,7 @@ impl ReplicaIndex {
     pub(super) fn remove(&mut self, replica: &PlacedReplica) {
         let is_other = |id: &ReplicaId| *id != replica.id;
         self.bounds.remove(&replica.id);
-        match Self::cells_of(&replica.bounds) {
+        match Self::cells_of(&replica.reach.grown(MARGIN)) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
             }
@@ -63,7 +66,7 @@ impl ReplicaIndex {
 
     /// The replicas whose boxes come near `bounds`, in the order of their ids.
     pub(super) fn near(&self, bounds: &Bounds) -> Vec<ReplicaId> {
-        let ((left, bottom), (right, top)) = Self::span(&bounds.grown(150.0));
+        let ((left, bottom), (right, top)) = Self::span(bounds);
         let cells =
             (i64::from(right) - i64::from(left) + 1) * (i64::from(top) - i64::from(bottom) + 1);
         let mut found: Vec<ReplicaId> = if cells > self.cells.len() as i64 {

@@ -40,6 +40,9 @@ pub struct Prism {
     pub roof_permeability: Permeability,
 }
 
+/// No leaf of a wardrobe and no rim of a cup sticks out further than this, in cm.
+const STICKS_OUT: f64 = 150.0;
+
 /// An Area as it stands in its Map.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlacedArea {
@@ -60,6 +63,8 @@ pub struct PlacedReplica {
     /// In the order of the Object's items.
     pub prisms: Vec<Prism>,
     pub bounds: Bounds,
+    /// All that it may ever take: open leaves stick out, a Uniframe may be wider than its base.
+    pub(super) reach: Bounds,
     pub bottom: f64,
     pub top: f64,
 }
@@ -133,7 +138,13 @@ impl PlacedReplica {
         let bounds = prisms.iter().fold(Bounds::EMPTY, |b, f| b.union(&f.bounds));
         let bottom = prisms.iter().map(|f| f.bottom).fold(f64::INFINITY, f64::min);
         let top = prisms.iter().map(|f| f.top).fold(f64::NEG_INFINITY, f64::max);
-        Self { id, area: replica.area, frame, prisms, bounds, bottom, top }
+        let is_plain = |p: &Prism| {
+            p.roof_scale <= 1.0
+                && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
+        };
+        let more = if prisms.iter().all(is_plain) { 0.0 } else { STICKS_OUT };
+        let reach = bounds.grown(more);
+        Self { id, area: replica.area, frame, prisms, bounds, reach, bottom, top }
     }
 }
 

@@ -86,39 +86,30 @@ pub(super) fn way(
     const GOAL: usize = 1;
     let left = |node: usize| (goal.at - nodes[node].at).norm();
     let mut spent = vec![f64::INFINITY; nodes.len()];
-    let mut before: Vec<Option<(usize, Vec<Point>)>> = vec![None; nodes.len()];
+    let mut before: Vec<Option<(usize, usize)>> = vec![None; nodes.len()];
     let mut is_done = vec![false; nodes.len()];
-    // Length through the node, the node, from where, and the measured leg if it is.
-    let mut open: BinaryHeap<(Reverse<u64>, usize, usize, Option<Vec<[u64; 2]>>)> =
-        BinaryHeap::from([(Reverse(0), 0, 0, Some(Vec::new()))]);
+    let mut legs: Vec<Vec<Point>> = vec![vec![start.at]];
+    // Least length through the node, the node, from where, and which leg leads there once it is measured.
+    let mut open = BinaryHeap::from([(Reverse(0), 0, 0, Some(0))]);
     while let Some((_, node, from, measured)) = open.pop() {
         if is_done[node] {
             continue;
         }
-        let Some(measured) = measured else {
+        let Some(number) = measured else {
             let Some(points) = leg(&nodes[from], &nodes[node]) else { continue };
-            let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-            let bits = points.iter().map(|p| [p.x.to_bits(), p.y.to_bits()]).collect();
-            let bound = spent[from] + length + left(node);
-            open.push((Reverse(bound.to_bits()), node, from, Some(bits)));
+            let bound = spent[from] + length(&points) + left(node);
+            legs.push(points);
+            open.push((Reverse(bound.to_bits()), node, from, Some(legs.len() - 1)));
             continue;
         };
-        let points: Vec<Point> = measured
-            .iter()
-            .map(|b| Point::new(f64::from_bits(b[0]), f64::from_bits(b[1])))
-            .collect();
         is_done[node] = true;
-        let length: f64 = points.windows(2).map(|p| (p[1] - p[0]).norm()).sum();
-        spent[node] = if node == 0 { 0.0 } else { spent[from] + length };
-        before[node] = (node != 0).then_some((from, points));
+        spent[node] = if node == 0 { 0.0 } else { spent[from] + length(&legs[number]) };
+        before[node] = (node != 0).then_some((from, number));
         if node == GOAL {
-            let mut legs = Vec::new();
-            let mut at = GOAL;
-            while let Some((from, points)) = before[at].take() {
-                legs.push(points);
-                at = from;
-            }
-            let mut way: Vec<Point> = legs.into_iter().rev().flatten().collect();
+            let back = std::iter::successors(before[GOAL], |&(from, _)| before[from]);
+            let numbers: Vec<usize> = back.map(|step| step.1).collect();
+            let mut way: Vec<Point> =
+                numbers.into_iter().rev().flat_map(|n| std::mem::take(&mut legs[n])).collect();
             way.dedup_by(|a, b| (*a - *b).norm() < 1e-9);
             if way.len() == 1 {
                 way.push(goal.at);
@@ -127,10 +118,10 @@ pub(super) fn way(
         }
         if node > GOAL {
             // Straight through to the strait's other end.
-            let other = if node % 2 == 0 { node + 1 } else { node - 1 };
-            let ends = [nodes[node].at, nodes[other].at].map(|p| [p.x.to_bits(), p.y.to_bits()]);
-            let bound = spent[node] + (nodes[other].at - nodes[node].at).norm() + left(other);
-            open.push((Reverse(bound.to_bits()), other, node, Some(ends.to_vec())));
+            let other = node ^ 1;
+            legs.push(vec![nodes[node].at, nodes[other].at]);
+            let bound = spent[node] + length(&legs[legs.len() - 1]) + left(other);
+            open.push((Reverse(bound.to_bits()), other, node, Some(legs.len() - 1)));
         }
         for &next in &by_region[&region(&nodes[node])] {
             if !is_done[next] && next != node {
@@ -140,6 +131,10 @@ pub(super) fn way(
         }
     }
     None
+}
+
+fn length(points: &[Point]) -> f64 {
+    points.windows(2).map(|p| (p[1] - p[0]).norm()).sum()
 }
 
 /// Where straits are looked for: some floor, the Fragments whose centre space lies on it, and the place.

@@ -51,6 +51,17 @@ impl Store {
         is_current.then(|| file.split_off(HEAD))
     }
 
+    /// What was computed from the map as it stands now or stood before; none when it is broken, or was never kept. For
+    /// what knows by itself which of its parts still hold.
+    ///
+    /// # Panics
+    /// When `kind` is no plain word.
+    #[must_use]
+    pub fn get_derived_earlier(&self, kind: &str) -> Option<Vec<u8>> {
+        let mut file = self.vault.disk().read(&self.derived_path(kind)).ok()?;
+        whole_of(&file).is_some().then(|| file.split_off(HEAD))
+    }
+
     fn derived_path(&self, kind: &str) -> PathBuf {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         assert!(!kind.is_empty() && kind.chars().all(plain), "{kind:?} is no plain word");

@@ -1,0 +1,299 @@
+//! Floors as bytes, for the store: what was built once is taken up again while nothing that made it has changed (D4).
+//!
+//! ```text
+//! file  := version:text count:u32 floor*          numbers little-endian, lengths before what they count
+//! floor := area:u32 digest:u64 fragment           digest: of all that the Fragment was made from, see `digest`
+//! ```
+//!
+//! **Invariant**: what is read equals what was written, bit for bit; bytes that are no such file give nothing.
+
+use std::collections::HashMap;
+
+use crate::map::Permeability;
+use crate::units::{AreaId, DoorId, Point, ReplicaId};
+
+use super::dead_zone::DeadZone;
+use super::floor::{Exit, FragmentFloor};
+use super::mesh::NONE;
+use super::obstacle::{Blocker, Obstacle};
+use super::passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
+use super::{Bounds, Polygon, Region};
+
+/// Floors of another version of the crate are not taken up.
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 1");
+
+/// A value that can be written and read again.
+pub(super) trait Kept: Sized {
+    fn put(&self, out: &mut Vec<u8>);
+    /// Takes the value off the front of the bytes.
+    fn take(bytes: &mut &[u8]) -> Option<Self>;
+}
+
+/// The floors with their digests.
+pub(super) fn write<'a>(floors: impl ExactSizeIterator<Item = (u64, &'a FragmentFloor)>) -> Vec<u8> {
+    let mut out = Vec::new();
+    VERSION.to_owned().put(&mut out);
+    (floors.len() as u32).put(&mut out);
+    for (digest, floor) in floors {
+        digest.put(&mut out);
+        floor.put(&mut out);
+    }
+    out
+}
+
+/// The floors by Area, each with its digest; none at all when the bytes are of something else.
+pub(super) fn read(mut bytes: &[u8]) -> HashMap<AreaId, (u64, FragmentFloor)> {
+    let bytes = &mut bytes;
+    let mut floors = HashMap::new();
+    if String::take(bytes).is_none_or(|version| version != VERSION) {
+        return floors;
+    }
+    for _ in 0..u32::take(bytes).unwrap_or(0) {
+        let Some((digest, floor)) = <(u64, FragmentFloor)>::take(bytes) else {
+            return HashMap::new();
+        };
+        if is_sound(&floor) {
+            floors.insert(floor.area, (digest, floor));
+        }
+    }
+    floors
+}
+
+/// Whether the numbers by which a floor's parts name each other lead somewhere.
+fn is_sound(floor: &FragmentFloor) -> bool {
+    let leads = |border: &Border| {
+        (border.across == NONE || (border.across as usize) < floor.frames.len())
+            && !matches!(border.beyond, Beyond::DeadZone(zone) if zone >= floor.dead_zones.len())
+    };
+    let is_edge = |exit: &Exit| {
+        (exit.cell as usize) < floor.cells.len() && exit.edge < floor.cells.ring(exit.cell).len()
+    };
+    floor.passframes.len() == floor.frames.len()
+        && floor.passframes.iter().flat_map(|f| &f.borders).all(leads)
+        && floor.exits.iter().all(is_edge)
+}
+
+macro_rules! kept_numbers {
+    ($($number:ty),*) => {$(
+        impl Kept for $number {
+            fn put(&self, out: &mut Vec<u8>) {
+                out.extend(self.to_le_bytes());
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                let (head, rest) = bytes.split_first_chunk()?;
+                *bytes = rest;
+                Some(Self::from_le_bytes(*head))
+            }
+        }
+    )*};
+}
+
+kept_numbers!(u8, u32, u64, f64);
+
+impl Kept for usize {
+    fn put(&self, out: &mut Vec<u8>) {
+        (*self as u64).put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        u64::take(bytes)?.try_into().ok()
+    }
+}
+
+impl Kept for bool {
+    fn put(&self, out: &mut Vec<u8>) {
+        u8::from(*self).put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some(u8::take(bytes)? != 0)
+    }
+}
+
+impl Kept for String {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.len().put(out);
+        out.extend(self.as_bytes());
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let length = usize::take(bytes)?;
+        let (head, rest) = bytes.split_at_checked(length)?;
+        *bytes = rest;
+        Self::from_utf8(head.to_vec()).ok()
+    }
+}
+
+impl<T: Kept> Kept for Vec<T> {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.len().put(out);
+        self.iter().for_each(|value| value.put(out));
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        let length = usize::take(bytes)?;
+        // A length that is a lie reserves no memory that the bytes cannot fill.
+        let mut values = Self::with_capacity(length.min(bytes.len()));
+        for _ in 0..length {
+            values.push(T::take(bytes)?);
+        }
+        Some(values)
+    }
+}
+
+impl<T: Kept> Kept for Option<T> {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.is_some().put(out);
+        if let Some(value) = self {
+            value.put(out);
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        if bool::take(bytes)? { T::take(bytes).map(Some) } else { Some(None) }
+    }
+}
+
+impl<A: Kept, B: Kept> Kept for (A, B) {
+    fn put(&self, out: &mut Vec<u8>) {
+        self.0.put(out);
+        self.1.put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some((A::take(bytes)?, B::take(bytes)?))
+    }
+}
+
+impl Kept for Point {
+    fn put(&self, out: &mut Vec<u8>) {
+        (self.x, self.y).put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some(Self::new(f64::take(bytes)?, f64::take(bytes)?))
+    }
+}
+
+macro_rules! kept_ids {
+    ($($id:ident),*) => {$(
+        impl Kept for $id {
+            fn put(&self, out: &mut Vec<u8>) {
+                self.0.put(out);
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                u32::take(bytes).map(Self)
+            }
+        }
+    )*};
+}
+
+kept_ids!(AreaId, DoorId, ReplicaId, PassframeId);
+
+macro_rules! kept_structs {
+    ($($record:ident { $($field:ident),* })*) => {$(
+        impl Kept for $record {
+            fn put(&self, out: &mut Vec<u8>) {
+                $(self.$field.put(out);)*
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                // Fields are read in the order in which they were written.
+                $(let $field = Kept::take(bytes)?;)*
+                Some(Self { $($field),* })
+            }
+        }
+    )*};
+}
+
+kept_structs! {
+    Polygon { corners }
+    Region { outer, holes }
+    Bounds { min, max }
+    Obstacle { blocker, polygon, bottom, top }
+    DeadZone { region, owners, gap }
+    Border { start, end, permeability, beyond, names, crossing, across }
+    Passframe { id, polygon, kind, borders }
+    Exit { doorway, cell, edge }
+    FragmentFloor {
+        area, bounds, level, raw, free, centre, obstacles, walls, dead_zones, passframes, frames, cells, exits
+    }
+}
+
+macro_rules! kept_words {
+    ($($word:ident { $($number:literal => $value:ident),* })*) => {$(
+        impl Kept for $word {
+            fn put(&self, out: &mut Vec<u8>) {
+                let number: u8 = match self { $(Self::$value => $number),* };
+                number.put(out);
+            }
+
+            fn take(bytes: &mut &[u8]) -> Option<Self> {
+                match u8::take(bytes)? {
+                    $($number => Some(Self::$value),)*
+                    _ => None,
+                }
+            }
+        }
+    )*};
+}
+
+kept_words! {
+    Permeability { 0 => Permeable, 1 => Conditional, 2 => Impermeable }
+    PassframeKind { 0 => Closed, 1 => Boundary, 2 => DeadEnd, 3 => Passage }
+}
+
+impl Kept for Blocker {
+    fn put(&self, out: &mut Vec<u8>) {
+        match *self {
+            Self::Replica { replica, item } => (0_u8, (replica, item)).put(out),
+            Self::DoorLeaf { door, leaf } => (1_u8, (door, leaf)).put(out),
+            Self::ReplicaLeaf { replica, door, leaf } => (2_u8, (replica, (door, leaf))).put(out),
+            Self::Wall { area, item, side } => (3_u8, (area, (item, side))).put(out),
+            Self::Floor { area, item } => (4_u8, (area, item)).put(out),
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some(match u8::take(bytes)? {
+            0 => Self::Replica { replica: Kept::take(bytes)?, item: Kept::take(bytes)? },
+            1 => Self::DoorLeaf { door: Kept::take(bytes)?, leaf: Kept::take(bytes)? },
+            2 => {
+                let (replica, (door, leaf)) = Kept::take(bytes)?;
+                Self::ReplicaLeaf { replica, door, leaf }
+            }
+            3 => {
+                let (area, (item, side)) = Kept::take(bytes)?;
+                Self::Wall { area, item, side }
+            }
+            4 => Self::Floor { area: Kept::take(bytes)?, item: Kept::take(bytes)? },
+            _ => return None,
+        })
+    }
+}
+
+impl Kept for Beyond {
+    fn put(&self, out: &mut Vec<u8>) {
+        match *self {
+            Self::Passframe(id) => (0_u8, id).put(out),
+            Self::Doorway { doorway, door, area } => (1_u8, (doorway, (door, area))).put(out),
+            Self::Face { blocker, side } => (2_u8, (blocker, side)).put(out),
+            Self::DeadZone(zone) => (3_u8, zone).put(out),
+        }
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some(match u8::take(bytes)? {
+            0 => Self::Passframe(Kept::take(bytes)?),
+            1 => {
+                let (doorway, (door, area)) = Kept::take(bytes)?;
+                Self::Doorway { doorway, door, area }
+            }
+            2 => Self::Face { blocker: Kept::take(bytes)?, side: Kept::take(bytes)? },
+            3 => Self::DeadZone(Kept::take(bytes)?),
+            _ => return None,
+        })
+    }
+}
