@@ -261,8 +261,7 @@ fn passframes_are_few() {
         let mut closed = random_world(seed + 500);
         closed.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED);
         for b in [room_with_bays(seed), random_world(seed), closed] {
-            let plan =
-                FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
+            let plan = FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
             for (region, frames) in plan.fragments().flat_map(counts) {
                 // The most pieces of which 1.2 times are fewer than the Passframes.
                 let fewer = (frames as f64 / 1.2).ceil() as usize - 1;

@@ -30,7 +30,9 @@ pub(super) trait Kept: Sized {
 }
 
 /// The floors with their digests.
-pub(super) fn write<'a>(floors: impl ExactSizeIterator<Item = (u64, &'a FragmentFloor)>) -> Vec<u8> {
+pub(super) fn write<'a>(
+    floors: impl ExactSizeIterator<Item = (u64, &'a FragmentFloor)>,
+) -> Vec<u8> {
     let mut out = Vec::new();
     VERSION.to_owned().put(&mut out);
     (floors.len() as u32).put(&mut out);

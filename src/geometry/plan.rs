@@ -105,8 +105,7 @@ impl FloorPlan {
                 (own == digest && floor.exits.iter().all(leads)).then(|| Arc::new(floor))
             });
             let mut floors: Vec<Arc<FragmentFloor>> = same.collect();
-            let missing =
-                |a: &&AreaId| floors.binary_search_by_key(*a, |f| f.area).is_err();
+            let missing = |a: &&AreaId| floors.binary_search_by_key(*a, |f| f.area).is_err();
             let stale: Vec<AreaId> = areas.iter().filter(missing).copied().collect();
             floors.extend(build_all(site, &stale));
             floors.sort_by_key(|f| f.area);
