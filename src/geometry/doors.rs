@@ -334,8 +334,8 @@ impl Swing {
     /// The leaf's way between two angles, its arc by tangents from outside.
     fn sector(&self, from: f64, to: f64, thickness: f64) -> Polygon {
         let reach = self.length.hypot(thickness);
-        // The back of the leaf trails behind its face.
-        let from = from - (thickness / self.length.max(1e-9)).atan();
+        // The back of the leaf trails behind its face; in a shut one it lies in the wall.
+        let from = (from - (thickness / self.length.max(1e-9)).atan()).max(0.0);
         let steps = ((to - from) / (PI / 12.0)).ceil().max(1.0);
         let half = (to - from) / steps / 2.0;
         let ray = |a: f64, r: f64| self.hinge + (self.closed * a.cos() + self.opens * a.sin()) * r;
