@@ -25,6 +25,7 @@ mod maps;
 mod partition;
 mod passframes;
 mod planning;
+mod planning_properties;
 mod position_reports;
 mod relation_truth;
 mod relations;

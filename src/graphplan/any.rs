@@ -2,11 +2,12 @@
 //!
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
-//! goes first; where it gets stuck, best-first search takes over, and it misses nothing. The sequence found is
-//! rid of operators that turned out needless and laid out in parallel steps.
+//! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
+//! strategy"); where it gets stuck, best-first search takes over, and it misses nothing. The sequence found is rid of
+//! operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
-use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
+use std::collections::{BTreeSet, BinaryHeap, HashMap, HashSet, VecDeque};
 
 use super::plan::Plan;
 use super::{Limit, Limits};
@@ -61,10 +62,13 @@ struct Forward<'a> {
     effort: Effort,
 }
 
-/// How far a state seems from the goal, and the operators to try first.
+/// How far a state seems from the goal, and what to try.
 struct Estimate {
     distance: u32,
+    /// Applicable operators that bring a first fact of the relaxed plan, those of the relaxed plan first.
     helpful: Vec<OperatorId>,
+    /// The relaxed plan, in the order of its layers.
+    relaxed_plan: Vec<OperatorId>,
 }
 
 impl Forward<'_> {
@@ -79,11 +83,39 @@ impl Forward<'_> {
     }
 
     fn after(&self, state: &State, id: OperatorId) -> State {
-        let operator = self.task.operator(id);
         let mut next = state.clone();
-        operator.del_effects.iter().for_each(|f| next[f.index() / 64] &= !(1 << (f.index() % 64)));
-        operator.add_effects.iter().for_each(|f| next[f.index() / 64] |= 1 << (f.index() % 64));
+        self.carry_out(&mut next, id);
         next
+    }
+
+    fn carry_out(&self, state: &mut State, id: OperatorId) {
+        let operator = self.task.operator(id);
+        operator.del_effects.iter().for_each(|f| state[f.index() / 64] &= !(1 << (f.index() % 64)));
+        operator.add_effects.iter().for_each(|f| state[f.index() / 64] |= 1 << (f.index() % 64));
+    }
+
+    /// As far as the operators of a relaxed plan can be carried out one after the other.
+    fn ahead(&self, state: &State, relaxed_plan: &[OperatorId]) -> (State, Vec<OperatorId>) {
+        let (mut state, mut path) = (state.clone(), Vec::new());
+        let mut open = relaxed_plan.to_vec();
+        loop {
+            let before = path.len();
+            open.retain(|&id| {
+                let possible = self.is_applicable(&state, id);
+                if possible {
+                    self.carry_out(&mut state, id);
+                    path.push(id);
+                }
+                !possible
+            });
+            if path.len() == before {
+                return (state, path);
+            }
+        }
+    }
+
+    fn is_applicable(&self, state: &State, id: OperatorId) -> bool {
+        self.task.operator(id).preconditions.iter().all(|&fact| holds(state, fact))
     }
 
     fn estimate(&mut self, state: &State, held_bytes: usize) -> Result<Option<Estimate>, Limit> {
@@ -94,7 +126,8 @@ impl Forward<'_> {
         Ok(self.relaxed.estimate(state))
     }
 
-    /// From each state on to any nearer one, found breadth first through helpful operators.
+    /// From each state on to any nearer one: that at the end of the relaxed plan, or one found breadth first through
+    /// helpful operators.
     fn climb(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
         /// A plateau wider than this is better left to best-first search.
         const WIDEST: usize = 5_000;
@@ -102,6 +135,14 @@ impl Forward<'_> {
         let mut plan = Vec::new();
         let Some(mut here) = self.estimate(&state, 0)? else { return Ok(None) };
         while here.distance > 0 {
+            let (next, path) = self.ahead(&state, &here.relaxed_plan);
+            if let Some(there) = self.estimate(&next, 0)?
+                && there.distance < here.distance
+            {
+                plan.extend(path);
+                (state, here) = (next, there);
+                continue;
+            }
             let mut seen = HashSet::from([state.clone()]);
             let mut queue =
                 VecDeque::from([(state.clone(), Vec::new(), std::mem::take(&mut here.helpful))]);
@@ -149,10 +190,8 @@ impl Forward<'_> {
             if estimate.distance == 0 {
                 return Ok(Some(path(&parents, &state)));
             }
-            for id in self.task.operator_ids() {
-                if !self.task.operator(id).preconditions.iter().all(|&fact| holds(&state, fact)) {
-                    continue;
-                }
+            let applicable = self.relaxed.applicable.clone();
+            for id in applicable {
                 let next = self.after(&state, id);
                 if parents.contains_key(&next) {
                     continue;
@@ -182,40 +221,55 @@ fn path(parents: &HashMap<State, Option<(State, OperatorId)>>, state: &State) ->
 /// The problem without delete effects.
 struct Relaxed<'a> {
     task: &'a Task,
-    /// Operators by a fact that they need.
-    needed_by: Vec<Vec<u32>>,
+    /// Operators by a fact that they need, those of fact `f` from `starts[f]` to `starts[f + 1]`.
+    needed_by: Vec<u32>,
+    starts: Vec<u32>,
     added_by: Vec<Vec<u32>>,
     without_needs: Vec<u32>,
+    /// How many facts an operator needs, and how many of them are yet missing.
+    needs: Vec<u32>,
     missing: Vec<u32>,
+    is_goal: Vec<bool>,
     /// The layer at which a fact appears, and the operator that brings it.
     layer: Vec<u32>,
     bringer: Vec<u32>,
+    /// Operators that can be carried out in the state looked at last, ascending.
+    applicable: Vec<OperatorId>,
 }
 
 const NOT_YET: u32 = u32::MAX;
 
 impl<'a> Relaxed<'a> {
     fn new(task: &'a Task) -> Self {
-        let mut needed_by = vec![Vec::new(); task.facts.len()];
+        let mut by_need = vec![Vec::new(); task.facts.len()];
         let mut added_by = vec![Vec::new(); task.facts.len()];
         for (number, operator) in task.operators.iter().enumerate() {
-            operator
-                .preconditions
-                .iter()
-                .for_each(|fact| needed_by[fact.index()].push(number as u32));
+            let needs = operator.preconditions.iter();
+            needs.for_each(|fact| by_need[fact.index()].push(number as u32));
             operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(number as u32));
         }
-        let without_needs = (0..task.operators.len() as u32)
-            .filter(|&number| task.operators[number as usize].preconditions.is_empty())
-            .collect();
+        let mut starts = vec![0];
+        let mut needed_by = Vec::new();
+        for operators in by_need {
+            needed_by.extend(operators);
+            starts.push(needed_by.len() as u32);
+        }
+        let needs: Vec<u32> =
+            task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
+        let mut is_goal = vec![false; task.facts.len()];
+        task.goal.iter().for_each(|goal| is_goal[goal.index()] = true);
         Self {
             task,
             needed_by,
+            starts,
             added_by,
-            without_needs,
-            missing: vec![0; task.operators.len()],
+            without_needs: (0..needs.len() as u32).filter(|&n| needs[n as usize] == 0).collect(),
+            missing: needs.clone(),
+            needs,
+            is_goal,
             layer: vec![NOT_YET; task.facts.len()],
             bringer: vec![NOT_YET; task.facts.len()],
+            applicable: Vec::new(),
         }
     }
 
@@ -227,51 +281,53 @@ impl<'a> Relaxed<'a> {
     /// Layers of facts up to the goal.
     fn spread(&mut self, state: &State) -> bool {
         self.layer.fill(NOT_YET);
-        for (missing, operator) in self.missing.iter_mut().zip(&self.task.operators) {
-            *missing = operator.preconditions.len() as u32;
-        }
+        self.missing.copy_from_slice(&self.needs);
         let mut open = self.task.goal.iter().filter(|goal| !holds(state, **goal)).count();
-        let mut queue: VecDeque<u32> = VecDeque::new();
-        for fact in self.task.fact_ids().filter(|&fact| holds(state, fact)) {
-            self.layer[fact.index()] = 0;
-            queue.push_back(fact.0);
+        let mut queue: Vec<u32> = Vec::new();
+        for (word, &bits) in state.iter().enumerate() {
+            let mut bits = bits;
+            while bits != 0 {
+                let fact = (word * 64) as u32 + bits.trailing_zeros();
+                bits &= bits - 1;
+                self.layer[fact as usize] = 0;
+                queue.push(fact);
+            }
         }
-        let goal = self.goal_flags();
+        self.applicable.clear();
         for at in 0..self.without_needs.len() {
-            self.apply(self.without_needs[at], 1, &goal, &mut open, &mut queue);
+            self.applicable.push(OperatorId(self.without_needs[at]));
+            self.apply(self.without_needs[at], 1, &mut open, &mut queue);
         }
-        while open > 0 {
-            let Some(fact) = queue.pop_front() else { return false };
-            let next = self.layer[fact as usize] + 1;
-            for at in 0..self.needed_by[fact as usize].len() {
-                let number = self.needed_by[fact as usize][at];
+        let mut next = 0;
+        while let Some(&fact) = queue.get(next) {
+            next += 1;
+            let layer = self.layer[fact as usize];
+            // What the state itself allows is wanted whole, even if the goal holds.
+            if open == 0 && layer > 0 {
+                break;
+            }
+            for at in self.starts[fact as usize]..self.starts[fact as usize + 1] {
+                let number = self.needed_by[at as usize];
                 self.missing[number as usize] -= 1;
                 if self.missing[number as usize] == 0 {
-                    self.apply(number, next, &goal, &mut open, &mut queue);
+                    if layer == 0 {
+                        self.applicable.push(OperatorId(number));
+                    }
+                    self.apply(number, layer + 1, &mut open, &mut queue);
                 }
             }
         }
-        true
+        self.applicable.sort_unstable();
+        open == 0
     }
 
-    fn goal_flags(&self) -> HashSet<u32> {
-        self.task.goal.iter().map(|goal| goal.0).collect()
-    }
-
-    fn apply(
-        &mut self,
-        number: u32,
-        layer: u32,
-        goal: &HashSet<u32>,
-        open: &mut usize,
-        queue: &mut VecDeque<u32>,
-    ) {
+    fn apply(&mut self, number: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
         for added in &self.task.operators[number as usize].add_effects {
             if self.layer[added.index()] == NOT_YET {
                 self.layer[added.index()] = layer;
                 self.bringer[added.index()] = number;
-                queue.push_back(added.0);
-                *open -= usize::from(goal.contains(&added.0));
+                queue.push(added.0);
+                *open -= usize::from(self.is_goal[added.index()]);
             }
         }
     }
@@ -280,14 +336,15 @@ impl<'a> Relaxed<'a> {
         let mut wanted: Vec<FactId> =
             self.task.goal.iter().copied().filter(|&goal| !holds(state, goal)).collect();
         let mut asked: HashSet<FactId> = wanted.iter().copied().collect();
-        let mut chosen: HashSet<u32> = HashSet::new();
-        let mut first: HashSet<FactId> = HashSet::new();
+        // Operators by the layer at which they become possible.
+        let mut chosen: BTreeSet<(u32, u32)> = BTreeSet::new();
+        let mut first: BTreeSet<FactId> = BTreeSet::new();
         while let Some(fact) = wanted.pop() {
             if self.layer[fact.index()] == 1 {
                 first.insert(fact);
             }
             let number = self.bringer[fact.index()];
-            if chosen.insert(number) {
+            if chosen.insert((self.layer[fact.index()], number)) {
                 for &need in &self.task.operators[number as usize].preconditions {
                     if self.layer[need.index()] > 0 && asked.insert(need) {
                         wanted.push(need);
@@ -307,10 +364,13 @@ impl<'a> Relaxed<'a> {
             .flat_map(|fact| self.added_by[fact.index()].iter().copied())
             .filter(applicable)
             .collect();
-        operators.sort_unstable_by_key(|number| (!chosen.contains(number), *number));
+        operators.sort_unstable_by_key(|number| (!chosen.contains(&(1, *number)), *number));
         operators.dedup();
-        let helpful = operators.into_iter().map(OperatorId).collect();
-        Estimate { distance: chosen.len() as u32, helpful }
+        Estimate {
+            distance: chosen.len() as u32,
+            helpful: operators.into_iter().map(OperatorId).collect(),
+            relaxed_plan: chosen.into_iter().map(|(_, number)| OperatorId(number)).collect(),
+        }
     }
 }
 

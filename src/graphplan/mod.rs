@@ -249,7 +249,8 @@ fn search(
     };
     let fewest_steps = graph.top();
     let no_goods = extractor.search.into_no_goods();
-    Ok((outcome, Learned { task: task.clone(), graph, no_goods, fewest_steps }))
+    let (task, state) = (task.clone(), task.init.clone());
+    Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
 }
 
 /// The two ways to look for a plan of a given length, taking turns.

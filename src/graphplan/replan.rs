@@ -5,12 +5,15 @@
 //! mutexes are lower bounds, no-goods hold, and fewer steps than before will not do. Where a fact is asked for
 //! negatively its withdrawal adds the complement, and nothing learned is sound; then planning starts anew. So it
 //! does wherever the new task is not plainly a part of the old.
+//!
+//! The robot may have begun to carry out its plan. What is out of reach within `n` steps from where it was is out of
+//! reach within `n - k` from where `k` steps took it: [`Learned::after`] shifts all that was learned by so much.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::graph::PlanningGraph;
-use crate::strips::{Fact, FactId, Operator, Task};
+use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 
 /// What planning a task has taught.
 #[derive(Debug)]
@@ -21,6 +24,10 @@ pub struct Learned {
     pub(super) no_goods: Vec<(Vec<FactId>, u32)>,
     /// Fewer steps than these will not do.
     pub(super) fewest_steps: usize,
+    /// What held when the steps counted by `done` were carried out.
+    pub(super) state: Vec<FactId>,
+    /// Steps carried out since.
+    pub(super) done: usize,
 }
 
 /// What holds of a task because it held of one that it is a part of.
@@ -33,6 +40,35 @@ pub(super) struct Inherited<'a> {
 }
 
 impl Learned {
+    /// The same, after some steps were carried out. None when they cannot be, by the task learned from; a step
+    /// may be given in part.
+    #[must_use]
+    pub fn after(mut self, steps: &[Vec<OperatorId>]) -> Option<Self> {
+        for step in steps {
+            let needs = |id: &OperatorId| &self.task.operator(*id).preconditions;
+            if !step.iter().flat_map(needs).all(|fact| self.state.contains(fact)) {
+                return None;
+            }
+            for &id in step {
+                let deleted = &self.task.operator(id).del_effects;
+                self.state.retain(|fact| !deleted.contains(fact));
+            }
+            for &id in step {
+                self.state.extend(&self.task.operator(id).add_effects);
+            }
+            self.state.sort_unstable();
+            self.state.dedup();
+            self.done += 1;
+        }
+        Some(self)
+    }
+
+    /// Whether what was learned serves for this task.
+    #[must_use]
+    pub fn serves(&self, task: &Task) -> bool {
+        self.about(task).is_some()
+    }
+
     /// None when the task is not plainly a part of the one that was learned from.
     pub(super) fn about(&self, task: &Task) -> Option<Inherited<'_>> {
         let facts: HashMap<Key<'_>, FactId> =
@@ -58,12 +94,13 @@ fn key(fact: &Fact) -> Key<'_> {
 impl Inherited<'_> {
     /// Fewer steps than these will not do.
     pub(super) fn fewest_steps(&self) -> usize {
-        self.learned.fewest_steps
+        self.learned.fewest_steps.saturating_sub(self.learned.done)
     }
 
     /// Whether two new facts are known to exclude each other at a level.
     pub(super) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
         let graph = &self.learned.graph;
+        let level = level + self.learned.done;
         (level <= graph.top() || graph.leveled_off_at().is_some())
             && graph.is_exclusive(level, self.old[a.index()], self.old[b.index()])
     }
@@ -71,14 +108,15 @@ impl Inherited<'_> {
     /// No-goods of the old task in terms of the new; those about facts that it lacks are left behind.
     pub(super) fn no_goods(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
         self.learned.no_goods.iter().filter_map(|(facts, level)| {
+            let level = level.checked_sub(self.learned.done as u32).filter(|&level| level > 0)?;
             let mut facts: Vec<FactId> =
                 facts.iter().map(|fact| self.new[fact.index()]).collect::<Option<_>>()?;
             facts.sort_unstable();
-            Some((facts, *level))
+            Some((facts, level))
         })
     }
 
-    /// Every initial fact was initial, every operator an operator, and what grounding dropped from it makes no
+    /// Every initial fact holds by what was learned, every operator an operator, and what grounding dropped from it makes no
     /// difference: needs that always hold, effects that nobody minds.
     fn is_part(&self, task: &Task) -> bool {
         let whole = &self.learned.task;
@@ -100,7 +138,8 @@ impl Inherited<'_> {
             o.del_effects.iter().filter(lacking).for_each(|fact| deleted[fact.index()] = true);
         }
         let harmless = used.iter().zip(&deleted).all(|(used, deleted)| !(*used && *deleted));
-        let always = |fact: &FactId| whole.init.contains(fact) && !deleted[fact.index()];
+        let always =
+            |fact: &FactId| self.learned.state.contains(fact) && !deleted[fact.index()];
         let same = |new: &[FactId], old: &[FactId]| {
             let mut kept: Vec<FactId> =
                 old.iter().filter_map(|fact| self.new[fact.index()]).collect();
@@ -108,7 +147,7 @@ impl Inherited<'_> {
             kept == new
         };
         harmless
-            && task.init.iter().all(|fact| whole.init.contains(&self.old[fact.index()]))
+            && task.init.iter().all(|fact| self.learned.state.contains(&self.old[fact.index()]))
             && pairs.iter().all(|(new, old)| {
                 same(&new.preconditions, &old.preconditions)
                     && same(&new.add_effects, &old.add_effects)

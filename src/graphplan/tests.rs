@@ -437,6 +437,41 @@ fn planning_anew_with_what_was_learned_comes_to_the_same() {
 }
 
 #[test]
+fn planning_anew_on_the_way_comes_to_the_same() {
+    let (mut inherited, mut plans, mut none) = (0, 0, 0);
+    for seed in 1..=4000 {
+        for task in [random_task(seed), random_task_with_objects(seed)] {
+            let (Outcome::Plan(plan), _) = solve_learning(&task, None, &Limits::default()) else {
+                continue;
+            };
+            for done in 1..plan.steps.len() {
+                // The last step carried out only in part, as when a surprise cuts it short.
+                let mut steps = plan.steps[..done].to_vec();
+                steps.last_mut().expect("one step at least").truncate(1 + seed as usize % 2);
+                let (_, learned) = solve_learning(&task, None, &Limits::default());
+                let learned = learned.unwrap().after(&steps).expect("a plan can be carried out");
+                let here = Task { init: learned.state.clone(), ..task.clone() };
+                for &lost in &here.init {
+                    let rest = without_fact(&here, lost);
+                    inherited += usize::from(learned.serves(&rest));
+                    let (again, _) = solve_learning(&rest, Some(&learned), &Limits::default());
+                    match (again, solve(&rest, &Limits::default())) {
+                        (Outcome::Plan(again), Outcome::Plan(anew)) => {
+                            assert_eq!(validate(&rest, &again), Ok(()), "seed {seed}");
+                            assert_eq!(again.steps.len(), anew.steps.len(), "seed {seed}");
+                            plans += 1;
+                        }
+                        (Outcome::NoPlan { .. }, Outcome::NoPlan { .. }) => none += 1,
+                        other => panic!("seed {seed}: {other:?}"),
+                    }
+                }
+            }
+        }
+    }
+    assert!(inherited > 500 && plans > 100 && none > 100, "{inherited} {plans} {none}");
+}
+
+#[test]
 fn another_initial_fact_teaches_nothing() {
     let task = random_task(1);
     let (_, learned) = solve_learning(&task, None, &Limits::default());

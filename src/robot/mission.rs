@@ -1,11 +1,11 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
 use crate::geometry::{Method, NoRoute, Route, Target};
-use crate::graphplan::{Limits, Outcome};
+use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
 use crate::semantics::{Profile, RelationError, RelationRules, derive};
-use crate::strips::{Domain, Problem, RuleFaults};
+use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, Frame, MapId, Pose, ReplicaId};
 
 use miette::Diagnostic;
@@ -15,7 +15,7 @@ use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
 use super::placing::spot_on;
-use super::solve::{Solved, Wanted, solve};
+use super::solve::{Solved, solve_again};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub struct Planned {
     pub steps: Vec<Vec<Directive>>,
     /// The places that the plan may name.
     pub places: Vec<PlanPlace>,
+    /// Whether what the plan before had taught went into this one.
+    pub learned_before: bool,
 }
 
 /// What happened on the way.
@@ -134,6 +136,15 @@ impl<'r> Mission<'r> {
     /// # Errors
     /// [`MissionError`].
     pub fn plan(&self, goal: &[GoalFact]) -> Result<Planned, MissionError> {
+        Ok(self.plan_again(goal, None)?.0)
+    }
+
+    /// The same, with what the plan before had taught.
+    fn plan_again(
+        &self,
+        goal: &[GoalFact],
+        learned: Option<&Learned>,
+    ) -> Result<(Planned, Option<Learned>), MissionError> {
         let mut problem = Problem::new();
         let relations = derive(&self.belief.world, self.relations, Profile::Surveyed)?;
         let (facts, places) = self.belief.initial(&relations);
@@ -144,7 +155,8 @@ impl<'r> Mission<'r> {
             let args: Vec<&str> = fact.args.iter().map(String::as_str).collect();
             problem.add_goal(&fact.predicate, &args);
         }
-        let solved = solve(self.domain, &problem, &self.limits, Wanted::Shortest)?;
+        let (solved, now_learned) = solve_again(self.domain, &problem, &self.limits, learned)?;
+        let learned_before = learned.is_some_and(|learned| learned.serves(&solved.task));
         let steps = match &solved.outcome {
             Outcome::Plan(plan) => {
                 let directive = |&o| Directive::of(self.domain, solved.task.operator(o));
@@ -152,7 +164,7 @@ impl<'r> Mission<'r> {
             }
             _ => Vec::new(),
         };
-        Ok(Planned { solved, steps, places })
+        Ok((Planned { solved, steps, places, learned_before }, now_learned))
     }
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
@@ -169,33 +181,36 @@ impl<'r> Mission<'r> {
         tell: &mut dyn FnMut(&Event<'_>),
     ) -> Result<Ending, MissionError> {
         let mut moved = false;
+        let mut learned: Option<Learned> = None;
         loop {
-            let planned = self.plan(goal)?;
+            let (planned, now_learned) = self.plan_again(goal, learned.as_ref())?;
             tell(&Event::Planned(&planned));
-            if !matches!(planned.solved.outcome, Outcome::Plan(_)) {
+            let Outcome::Plan(plan) = &planned.solved.outcome else {
                 return Ok(Ending::NoPlan(Box::new(planned)));
-            }
+            };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
             }
             moved = true;
             self.places.clone_from(&planned.places);
-            match self.carry_out(&directives, drive, tell) {
-                None => return Ok(Ending::Done),
-                Some(surprise) if !self.learn(&surprise) => return Ok(Ending::Stuck(surprise)),
-                Some(_) => {}
+            let Err((done, surprise)) = self.carry_out(&directives, drive, tell) else {
+                return Ok(Ending::Done);
+            };
+            if !self.learn(&surprise) {
+                return Ok(Ending::Stuck(surprise));
             }
+            learned = now_learned.and_then(|learned| learned.after(&first(&plan.steps, done)));
         }
     }
 
-    /// Carries out directives in order until one fails.
+    /// Carries out directives in order until one fails: how many were done, and why that one was not.
     fn carry_out(
         &mut self,
         directives: &[&Directive],
         drive: &mut dyn Drive,
         tell: &mut dyn FnMut(&Event<'_>),
-    ) -> Option<Surprise> {
+    ) -> Result<(), (usize, Surprise)> {
         for (i, directive) in directives.iter().enumerate() {
             let number = i + 1;
             tell(&Event::Started { number, of: directives.len(), directive });
@@ -207,11 +222,11 @@ impl<'r> Mission<'r> {
             self.belief.pose = drive.pose().1;
             if let Err(surprise) = result {
                 tell(&Event::Surprised { directive, surprise: &surprise, belief: &self.belief });
-                return Some(surprise);
+                return Err((i, surprise));
             }
             tell(&Event::Finished { number, directive, belief: &self.belief, leg: &leg });
         }
-        None
+        Ok(())
     }
 
     fn perform(
@@ -438,6 +453,20 @@ impl<'r> Mission<'r> {
             .map(|r| r.id)
             .ok_or_else(|| Surprise::Unknown { name: name.to_owned() })
     }
+}
+
+/// The steps that the first so many of all actions make up; the last may be there in part.
+fn first(steps: &[Vec<OperatorId>], mut actions: usize) -> Vec<Vec<OperatorId>> {
+    let mut first = Vec::new();
+    for step in steps {
+        let done = actions.min(step.len());
+        if done == 0 {
+            break;
+        }
+        first.push(step[..done].to_vec());
+        actions -= done;
+    }
+    first
 }
 
 /// States a fact of the initial position, and what its arguments are.

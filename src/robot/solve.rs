@@ -1,6 +1,6 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
-use crate::graphplan::{self, Limit, Limits, NoPlanReason, Outcome};
+use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachable, ground};
 
 /// What planning came to, with the task that it was about.
@@ -41,6 +41,31 @@ pub fn solve(
         Wanted::Shortest => graphplan::solve(&task, limits),
         Wanted::Any => graphplan::solve_any(&task, limits),
     };
+    told(domain, problem, task, outcome, wanted)
+}
+
+/// The shortest plan, with what was learned by planning before where that is sound, and what is learned now.
+///
+/// # Errors
+/// As [`solve`].
+pub(super) fn solve_again(
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+    learned: Option<&Learned>,
+) -> Result<(Solved, Option<Learned>), RuleFaults> {
+    let task = ground(domain, problem)?;
+    let (outcome, learned) = graphplan::solve_learning(&task, learned, limits);
+    Ok((told(domain, problem, task, outcome, Wanted::Shortest)?, learned))
+}
+
+fn told(
+    domain: &Domain,
+    problem: &Problem,
+    task: Task,
+    outcome: Outcome,
+    wanted: Wanted,
+) -> Result<Solved, RuleFaults> {
     let is_shortest = wanted == Wanted::Shortest;
     let assumptions = match &outcome {
         Outcome::Plan(plan) => {

@@ -16,7 +16,11 @@ use crate::units::{name_key, nearest_name};
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
     let domain = kinds(document, faults);
-    let mut checker = Checker { domain, faults };
+    let mut checker = Checker { domain, constants: None, functions: HashMap::new(), faults };
+    if document.objects_closed {
+        checker.declare_objects(document);
+        checker.declare_functions(document);
+    }
     checker.declare_predicates(document);
     if !document.predicates_closed {
         checker.infer_predicates(document);
@@ -38,7 +42,7 @@ pub(super) fn hint<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -
 }
 
 /// Whether two names differ only in the alphabet of letters that look alike, as В and B.
-fn looks_the_same(a: &str, b: &str) -> bool {
+pub(super) fn looks_the_same(a: &str, b: &str) -> bool {
     fn latin(c: char) -> char {
         const CYRILLIC: &str = "авекмнорстухіј";
         const LATIN: &str = "abekmhopctyxij";
@@ -110,6 +114,10 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
 
 struct Checker<'a> {
     domain: Domain,
+    /// Where every object must be declared: those that are, with their types.
+    constants: Option<BTreeMap<String, (String, KindSet)>>,
+    /// Declared functions by key, with their numbers of arguments.
+    functions: HashMap<String, usize>,
     faults: &'a mut Vec<RuleFault>,
 }
 
@@ -142,6 +150,62 @@ impl Checker<'_> {
         self.domain.predicates.push(Predicate { name: name.to_owned(), args });
         self.domain.predicate_index.insert(name_key(name), id);
         id
+    }
+
+    /// Two declarations of one object must agree; a constant of the domain may be named in the problem again.
+    fn declare_objects(&mut self, document: &Document) {
+        let mut declared: BTreeMap<String, (String, KindSet)> = BTreeMap::new();
+        for Declaration { name, kinds } in &document.objects {
+            let mut kinds: KindSet =
+                kinds.iter().filter_map(|kind| self.domain.kind(&kind.text)).collect();
+            if kinds.is_empty() {
+                kinds.push(ANY_KIND);
+            }
+            let known =
+                declared.entry(name.key()).or_insert_with(|| (name.text.clone(), kinds.clone()));
+            if known.1 != kinds {
+                self.faults.push(name.fault(|at| RuleError::Duplicate {
+                    what: "объект",
+                    name: name.text.clone(),
+                    at,
+                }));
+            }
+        }
+        self.constants = Some(declared);
+    }
+
+    /// What no problem needs to declare is the sum itself.
+    fn declare_functions(&mut self, document: &Document) {
+        self.functions.insert("total-cost".to_owned(), 0);
+        for signature in &document.functions {
+            self.functions.insert(signature.name.key(), signature.args.len());
+        }
+        for (atom, _) in &document.values {
+            self.function(atom);
+        }
+    }
+
+    fn function(&mut self, atom: &Atom) {
+        let name = &atom.predicate;
+        match self.functions.get(&name.key()) {
+            Some(&expected) if expected == atom.args.len() => {}
+            Some(&expected) => self.faults.push(name.fault(|at| RuleError::Arity {
+                name: name.text.clone(),
+                expected,
+                found: atom.args.len(),
+                help: format!("в «:functions» у «{}» аргументов {expected}", name.text),
+                at,
+            })),
+            None => {
+                let help = hint(&name.text, self.functions.keys().map(String::as_str))
+                    .or_else(|| Some("объявите её в «:functions»".to_owned()));
+                self.faults.push(name.fault(|at| RuleError::UnknownFunction {
+                    name: name.text.clone(),
+                    help,
+                    at,
+                }));
+            }
+        }
     }
 
     fn declare_predicates(&mut self, document: &Document) {
@@ -262,6 +326,9 @@ impl Checker<'_> {
         self.precondition(action, &scope, &mut schema);
         self.effects(action, &scope, &mut schema);
         for cost in &action.cost {
+            if let (CostTerm::Function(atom), true) = (cost, self.constants.is_some()) {
+                self.function(atom);
+            }
             schema.cost.push(match cost {
                 CostTerm::Number(number) => SchemaCost::Number(*number),
                 CostTerm::Function(atom) => SchemaCost::Function {
@@ -356,9 +423,9 @@ impl Checker<'_> {
             let meaning = self.term(action, scope, term)?;
             let have = match &meaning {
                 SchemaTerm::Parameter(_) => scope[&term.name.key()].1.clone(),
-                SchemaTerm::Constant(_) => KindSet::new(),
+                SchemaTerm::Constant(name) => self.constant_kinds(name),
             };
-            // A parameter of a wider type is let through: grounding narrows it to what fits.
+            // A parameter of a wider type is let through: what facts there are narrows it.
             let may_fit = have.is_empty()
                 || wanted.is_empty()
                 || self.domain.fits(&have, wanted)
@@ -384,6 +451,7 @@ impl Checker<'_> {
             if let Some(kind) = &term.kind {
                 self.kind(kind);
             }
+            self.check_constant(action, &term.name);
             return Some(SchemaTerm::Constant(term.name.text.clone()));
         }
         let Some((index, declared)) = scope.get(&term.name.key()) else {
@@ -411,6 +479,31 @@ impl Checker<'_> {
             }));
         }
         Some(SchemaTerm::Parameter(*index))
+    }
+
+    /// None where objects need not be declared.
+    fn constant_kinds(&self, name: &str) -> KindSet {
+        let declared = self.constants.as_ref().and_then(|known| known.get(&name_key(name)));
+        declared.map(|(_, kinds)| kinds.clone()).unwrap_or_default()
+    }
+
+    /// A name in a rule that is neither a parameter nor declared is most often a variable without its mark.
+    fn check_constant(&mut self, action: &ActionText, name: &Name) {
+        let Some(known) = &self.constants else { return };
+        if known.contains_key(&name.key()) {
+            return;
+        }
+        let marked = format!("?{}", name.key());
+        let help = match action.parameters.iter().find(|p| p.variable.key() == marked) {
+            Some(parameter) => Some(format!("может быть, «{}»?", parameter.variable.text)),
+            None => hint(&name.text, known.values().map(|(name, _)| name.as_str()))
+                .or_else(|| Some("объявите его в «:constants»".to_owned())),
+        };
+        self.faults.push(name.fault(|at| RuleError::UnknownObject {
+            name: name.text.clone(),
+            help,
+            at,
+        }));
     }
 
     fn signature(&self, predicate: PredicateId) -> String {

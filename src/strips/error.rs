@@ -154,6 +154,68 @@ pub enum RuleError {
         at: SourceSpan,
     },
 
+    /// A predicate that one action alone speaks of, and that differs from another by a slip of the pen.
+    #[error("предикат «{name}» встречается только в действии «{action}» – не описка ли это?")]
+    #[diagnostic(code(strips::lonely_predicate), severity(Warning))]
+    LonelyPredicate {
+        name: String,
+        action: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A parent that is declared nowhere and differs from a declared type by a slip of the pen.
+    #[error("тип «{name}» не объявлен – не описка ли это?")]
+    #[diagnostic(code(strips::lonely_type), severity(Warning), help("может быть, «{near}»?"))]
+    LonelyType {
+        name: String,
+        near: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A number that no `:functions` declares.
+    #[error("неизвестная функция «{name}»")]
+    #[diagnostic(code(strips::unknown_function))]
+    UnknownFunction {
+        name: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A PDDL problem of another domain than the one read with it.
+    #[error("задача относится к области «{wanted}», а прочитана область «{found}»")]
+    #[diagnostic(
+        code(strips::other_domain),
+        severity(Warning),
+        help("проверьте, те ли файлы названы в --domain и --problem")
+    )]
+    OtherDomain {
+        wanted: String,
+        found: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A PDDL metric that the planner does not know.
+    #[error("критерий «{metric}» не учитывается")]
+    #[diagnostic(
+        code(strips::metric),
+        severity(Warning),
+        help(
+            "учитывается (:metric minimize (total-cost)); без него план – с наименьшим числом шагов"
+        )
+    )]
+    Metric {
+        metric: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
     /// Too few or too many arguments.
     #[error("у предиката «{name}» аргументов {expected}, а дано {found}")]
     #[diagnostic(code(strips::arity), help("{help}"))]

@@ -9,6 +9,7 @@ use super::ground::ground;
 use super::pddl;
 use super::problem::Problem;
 use super::rule_text;
+use super::slip::slips;
 use super::syntax::{CostTerm, Document, Name};
 use super::task::Task;
 use crate::units::Source;
@@ -94,7 +95,19 @@ impl Scenario {
     }
 
     /// Checks what was read even when `faults` came up in reading, so that one run tells everything.
-    fn from_document(document: Document, mut faults: Vec<RuleFault>) -> Result<Self, RuleFaults> {
+    fn from_document(
+        mut document: Document,
+        mut faults: Vec<RuleFault>,
+    ) -> Result<Self, RuleFaults> {
+        let mut warnings = std::mem::take(&mut document.warnings);
+        slips(&document, &mut faults, &mut warnings);
+        if let (Some(own), Some(wanted)) = &document.domain_names
+            && own.key() != wanted.key()
+        {
+            let (found, name) = (own.text.clone(), wanted.text.clone());
+            let error = |at| RuleError::OtherDomain { wanted: name, found, at };
+            warnings.push(wanted.fault(error));
+        }
         let domain = check::domain(&document, &mut faults);
         let problem = Problem::of(&document, &mut faults);
         problem.check(&domain, &mut faults);
@@ -103,7 +116,7 @@ impl Scenario {
             return Err(RuleFaults(faults));
         }
         let map = document.map.as_ref().map(|name| beside(name, Path::new(name.at.source.name())));
-        Ok(Self { domain, problem, map, warnings: document.warnings })
+        Ok(Self { domain, problem, map, warnings })
     }
 }
 

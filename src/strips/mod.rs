@@ -35,6 +35,7 @@ mod problem;
 mod replay;
 mod rule_text;
 mod simplify;
+mod slip;
 mod syntax;
 mod task;
 mod token;

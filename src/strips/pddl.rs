@@ -174,11 +174,55 @@ impl Reader<'_> {
                 items[1..].iter().for_each(|part| self.condition(part, false, &mut goal));
                 self.document.goal.extend(goal);
             }
+            Some(":functions") => self.functions(&items[1..]),
+            Some(":metric") => self.metric(section),
+            Some("domain") => self.document.domain_names.0 = self.own_name(items),
+            Some(":domain") => self.document.domain_names.1 = self.own_name(items),
             // Names and promises; what a text really uses shows when it is read.
-            Some("domain" | "problem" | ":domain" | ":requirements" | ":functions" | ":metric") => {
-            }
+            Some("problem" | ":requirements" | ":length") => {}
             Some(other) => self.unsupported(other, section.span()),
             None => self.expected("раздел «(:…)»", section.span()),
+        }
+    }
+
+    fn own_name(&self, items: &[Expression<'_>]) -> Option<Name> {
+        match items.get(1) {
+            Some(Expression::Word(name, span)) => Some(Name::new(name, self.source, *span)),
+            _ => None,
+        }
+    }
+
+    /// `(total-cost) (distance ?a ?b - place) - number`; the type of a value is always a number.
+    fn functions(&mut self, items: &[Expression<'_>]) {
+        let mut items = items.iter();
+        while let Some(item) = items.next() {
+            if matches!(item, Expression::Word("-", _)) {
+                items.next();
+            } else if let Some((name, rest)) = self.call(item) {
+                let args = self.typed(rest).into_iter().map(|arg| arg.kinds).collect();
+                self.document.functions.push(Signature { name, args });
+            }
+        }
+    }
+
+    /// The least total cost is what the planner looks for; total time, in a language without time, is steps.
+    fn metric(&mut self, section: &Expression<'_>) {
+        let known = match section.items() {
+            [_, Expression::Word(direction, _), what] => {
+                let what = match what {
+                    Expression::Word(word, _) => Some(word.to_lowercase()),
+                    list @ Expression::List(items, _) => list.head().filter(|_| items.len() == 1),
+                };
+                direction.eq_ignore_ascii_case("minimize")
+                    && matches!(what.as_deref(), Some("total-cost" | "total-time"))
+            }
+            _ => false,
+        };
+        if !known {
+            let at = section.span();
+            let metric = excerpt(self.source, at);
+            let fault = RuleFault::new(self.source, RuleError::Metric { metric, at });
+            self.document.warnings.push(fault);
         }
     }
 
@@ -207,9 +251,13 @@ impl Reader<'_> {
             };
             match word.to_lowercase().as_str() {
                 ":parameters" => {
-                    let typed = self.typed(body.items()).into_iter();
-                    action.parameters =
-                        typed.map(|d| Parameter { kinds: d.kinds, variable: d.name }).collect();
+                    for Declaration { name, kinds } in self.typed(body.items()) {
+                        if name.text.starts_with('?') {
+                            action.parameters.push(Parameter { kinds, variable: name });
+                        } else {
+                            self.expected("переменная вида «?x»", name.at.span);
+                        }
+                    }
                 }
                 ":precondition" => self.condition(body, false, &mut action.precondition),
                 ":effect" => self.effect(body, &mut action),
@@ -259,6 +307,11 @@ impl Reader<'_> {
             Some("and") => items[1..].iter().for_each(|p| self.effect(p, action)),
             Some("not") if items.len() == 2 => {
                 action.del.extend(self.atom(&items[1]));
+            }
+            Some("increase")
+                if items.len() == 3 && items[1].head().as_deref() != Some("total-cost") =>
+            {
+                self.unsupported(&excerpt(self.source, part.span()), part.span());
             }
             Some("increase") if items.len() == 3 => {
                 action.cost.extend(match &items[2] {
@@ -398,10 +451,7 @@ impl Reader<'_> {
     }
 
     fn expected(&mut self, expected: &str, at: SourceSpan) {
-        let text = &self.source.text()[at.offset()..at.offset() + at.len()];
-        let found: String =
-            text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let (expected, found) = (expected.to_owned(), format!("«{found}»"));
+        let (expected, found) = (expected.to_owned(), format!("«{}»", excerpt(self.source, at)));
         self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
     }
 
@@ -409,6 +459,12 @@ impl Reader<'_> {
         let what: String = what.chars().take(40).collect();
         self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, at }));
     }
+}
+
+/// A stretch of the text, short enough for a message.
+fn excerpt(source: &Source, at: SourceSpan) -> String {
+    let text = &source.text()[at.offset()..at.offset() + at.len()];
+    text.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 #[cfg(test)]

@@ -100,8 +100,12 @@ pub(super) struct Document {
     pub(super) facts: Vec<Condition>,
     pub(super) assumptions: Vec<Condition>,
     pub(super) values: Vec<(Atom, u32)>,
+    /// Numbers that a problem gives, as declared (PDDL).
+    pub(super) functions: Vec<Signature>,
     pub(super) goal: Vec<Condition>,
     pub(super) map: Option<Name>,
+    /// What a PDDL domain calls itself, and what its problem calls it.
+    pub(super) domain_names: (Option<Name>, Option<Name>),
     pub(super) warnings: Vec<RuleFault>,
 }
 
@@ -119,6 +123,7 @@ impl Document {
         self.facts.extend(other.facts);
         self.assumptions.extend(other.assumptions);
         self.values.extend(other.values);
+        self.functions.extend(other.functions);
         self.goal.extend(other.goal);
         self.map = self.map.take().or(other.map);
         self.warnings.extend(other.warnings);

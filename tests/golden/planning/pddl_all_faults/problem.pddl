@@ -1,0 +1,5 @@
+(define (problem p) (:domain shopp)
+ (:objects hall cellar - place cup - item cup - place)
+ (:init (at cup hall) (at cup) (open cup) (= (way hall cellar) -3) (= (way hall) 3))
+ (:goal (exists (?p - place) (at cup ?p)))
+ (:metric maximize (total-cost)))

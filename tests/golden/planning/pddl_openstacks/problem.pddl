@@ -1,0 +1,8 @@
+(define (problem os-three)
+(:domain openstacks-sequencedstrips)
+(:objects n0 n1 n2 n3 - count)
+(:init (next-count n0 n1) (next-count n1 n2) (next-count n2 n3) (stacks-avail n0)
+  (waiting o1) (includes o1 p1)(includes o1 p2) (waiting o2) (includes o2 p3) (waiting o3) (includes o3 p1)
+  (= (total-cost) 0))
+(:goal (and (shipped o1) (shipped o2) (shipped o3)))
+(:metric minimize (total-cost)))

@@ -1,0 +1,20 @@
+(define (domain Pathways-Propositional)
+  (:requirements :typing)
+  (:types level molecule - object simple complex - molecule)
+  (:predicates (association-reaction ?x1 ?x2 - molecule ?x3 - complex) (catalyzed-association-reaction ?x1 ?x2 - molecule ?x3 - complex)
+    (possible ?x - molecule) (available ?x - molecule) (chosen ?s - simple) (next ?l1 ?l2 - level) (num-subs ?l - level) (goal1))
+  (:action choose
+    :parameters (?x - simple ?l1 ?l2 - level)
+    :precondition (and (possible ?x) (num-subs ?l2) (next ?l1 ?l2))
+    :effect (and (chosen ?x) (not (num-subs ?l2)) (num-subs ?l1)))
+  (:action initialize :parameters (?x - simple) :precondition (and (chosen ?x)) :effect (and (available ?x)))
+  (:action associate
+    :parameters (?x1 ?x2 - molecule ?x3 - complex)
+    :precondition (and (association-reaction ?x1 ?x2 ?x3) (available ?x1) (available ?x2))
+    :effect (and (not (available ?x1)) (not (available ?x2)) (available ?x3)))
+  (:action associate-with-catalyze
+    :parameters (?x1 ?x2 - molecule ?x3 - complex)
+    :precondition (and (catalyzed-association-reaction ?x1 ?x2 ?x3) (available ?x1) (available ?x2))
+    :effect (and (not (available ?x1)) (available ?x3)))
+  (:action DUMMY-ACTION-1-1 :parameters () :precondition (and (available c-Myc-Max)) :effect (and (goal1)))
+  (:action DUMMY-ACTION-1-2 :parameters () :precondition (and (available AP2-p)) :effect (and (goal1))))

@@ -1,0 +1,7 @@
+(define (problem Pathways-01)
+ (:domain Pathways-Propositional)
+ (:objects c-Myc Max AP2 Chk1 - simple c-Myc-Max AP2-p - complex l0 l1 l2 l3 - level)
+ (:init (possible c-Myc) (possible Max) (possible AP2) (possible Chk1)
+  (association-reaction c-Myc Max c-Myc-Max) (catalyzed-association-reaction AP2 Chk1 AP2-p)
+  (num-subs l2) (next l1 l2) (next l0 l1) (next l2 l3))
+ (:goal (and (goal1))))

@@ -1,0 +1,8 @@
+(define (problem truck-1)
+(:domain Trucks)
+(:objects truck1 - truck package1 package2 - package l1 l2 l3 - location t0 t1 t2 t3 t4 - time a1 a2 - truckarea)
+(:init (at truck1 l3) (free a1 truck1) (free a2 truck1) (closer a1 a2) (at package1 l2) (at package2 l2)
+	(connected l1 l2) (connected l1 l3) (connected l2 l1) (connected l2 l3) (connected l3 l1) (connected l3 l2)
+	(time-now t0) (next t0 t1) (next t1 t2) (next t2 t3) (next t3 t4)
+	(le t1 t1) (le t1 t2) (le t1 t3) (le t1 t4) (le t2 t2) (le t2 t3) (le t2 t4) (le t3 t3) (le t3 t4) (le t4 t4))
+(:goal (and (delivered package1 l3 t2) (at-destination package2 l1))))

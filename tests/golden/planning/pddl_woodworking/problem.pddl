@@ -1,0 +1,17 @@
+(define (problem wood-prob)
+  (:domain woodworking)
+  (:objects grinder0 - grinder glazer0 - glazer planer0 - planer highspeed-saw0 - highspeed-saw
+    blue mauve - acolour pine - awood p0 p1 - part b0 - board s0 s1 s2 - aboardsize)
+  (:init
+    (grind-treatment-change varnished colourfragments) (grind-treatment-change glazed untreated)
+    (grind-treatment-change untreated untreated) (grind-treatment-change colourfragments untreated)
+    (is-smooth smooth) (is-smooth verysmooth)
+    (boardsize-successor s0 s1) (boardsize-successor s1 s2) (has-colour glazer0 blue) (has-colour glazer0 natural)
+    (empty highspeed-saw0)
+    (unused p0) (goalsize p0 small) (= (glaze-cost p0) 10) (= (grind-cost p0) 15) (= (plane-cost p0) 10)
+    (unused p1) (goalsize p1 small) (= (glaze-cost p1) 20) (= (grind-cost p1) 45) (= (plane-cost p1) 30)
+    (boardsize b0 s2) (wood b0 pine) (surface-condition b0 rough) (available b0)
+    (= (total-cost) 0))
+  (:goal (and (available p0) (colour p0 blue) (treatment p0 glazed)
+              (available p1) (surface-condition p1 verysmooth) (wood p1 pine) (treatment p1 untreated)))
+  (:metric minimize (total-cost)))
