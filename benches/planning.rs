@@ -3,7 +3,7 @@
 //! `cargo bench --bench planning [-- NAME]` prints a row of a table an instance, each measured in a process of its
 //! own: processor time from the texts to the answer, and the most memory held. `SECONDS` limits each (60).
 //! `-- --replan NAME …` withdraws one initial fact after the other and compares planning anew with planning with
-//! what was learned. Home-robot instances are read from the folder named by `HOMEBOT`, if it is set.
+//! what was learned. `-- --ground` measures grounding alone, on tasks of a hundred thousand actions. Home-robot instances are read from the folder named by `HOMEBOT`, if it is set.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 use std::path::{Path, PathBuf};
@@ -24,6 +24,8 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).filter(|arg| arg != "--bench").collect();
     match arguments.as_slice() {
         [flag, name] if flag == "--alone" => alone(name),
+        [flag, name] if flag == "--alone-large" => ground_alone(name),
+        [flag] if flag == "--ground" => ground_table(),
         [flag, names @ ..] if flag == "--replan" => names.iter().for_each(|name| replan(name)),
         _ => table(arguments.first().map_or("", String::as_str)),
     }
@@ -72,8 +74,7 @@ fn table(wanted: &str) {
     let (mut ours, mut theirs) = (0.0, 0.0);
     for (name, peer) in names.into_iter().filter(|(name, _)| name.contains(wanted)) {
         let program = std::env::current_exe().expect("a program knows its place");
-        let run = std::process::Command::new(program).args(["--alone", &name]).output();
-        let told = String::from_utf8(run.expect("it runs once more").stdout).unwrap_or_default();
+        let told = run_of(std::process::Command::new(program).args(["--alone", &name]));
         let mut cells: Vec<&str> = told.trim().split('\t').collect();
         let shown = peer.map_or("–".to_owned(), |seconds| seconds.to_string());
         if let (Some(peer), Some(Ok(seconds))) =
@@ -114,6 +115,50 @@ fn alone(name: &str) {
         spent.as_secs_f64(),
         (ground + start.elapsed()).as_secs_f64(),
     );
+}
+
+/// Tasks far larger than any plan is proven for: what grounding them takes, and how soon there is some plan.
+fn ground_table() {
+    println!("| instance | facts | operators | grounding, s | MB | any: seconds | actions |");
+    println!("|---|---|---|---|---|---|---|");
+    for instance in families::large() {
+        let program = std::env::current_exe().expect("a program knows its place");
+        let told =
+            run_of(std::process::Command::new(program).args(["--alone-large", &instance.name]));
+        println!("| {} | {} |", instance.name, told.trim());
+    }
+}
+
+fn ground_alone(name: &str) {
+    let Some(instance) = families::large().into_iter().find(|instance| instance.name == name)
+    else {
+        return println!("no such instance");
+    };
+    let start = ProcessTime::now();
+    let domain = Source::new("domain", &instance.domain);
+    let problem = Source::new("problem", &instance.problem);
+    let task = match Scenario::parse_pddl(&domain, &problem).and_then(|read| read.ground()) {
+        Ok(task) => task,
+        Err(faults) => return println!("{faults}"),
+    };
+    let (ground, peak) = (start.elapsed().as_secs_f64(), peak_megabytes());
+    let limits = Limits {
+        deadline: Some(Instant::now() + Duration::from_secs(60)),
+        shorten: 0,
+        ..Limits::default()
+    };
+    let start = ProcessTime::now();
+    let (_, actions) = answer(&task, &solve_any(&task, &limits));
+    println!(
+        "{} | {} | {ground:.2} | {peak} | {:.2} | {actions}",
+        task.facts.len(),
+        task.operators.len(),
+        start.elapsed().as_secs_f64(),
+    );
+}
+
+fn run_of(command: &mut std::process::Command) -> String {
+    String::from_utf8(command.output().expect("it runs once more").stdout).unwrap_or_default()
 }
 
 /// Each initial fact withdrawn in its turn: processor time of planning anew, and with what was learned.

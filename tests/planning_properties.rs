@@ -443,7 +443,10 @@ impl World {
         wide |= init | wanted | unwanted;
         let mut atoms = vec![(0, Vec::new()); numbers.len()];
         numbers.into_iter().for_each(|(atom, number)| atoms[number as usize] = atom);
-        (wide < 1 << 40 && actions.len() < 40).then(|| Self {
+        if wide >= 1 << 40 || actions.len() >= 40 {
+            return None;
+        }
+        Some(Self {
             atoms,
             actions,
             init: init as u64,

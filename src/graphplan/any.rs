@@ -94,10 +94,18 @@ impl Forward<'_> {
         operator.add_effects.iter().for_each(|f| state[f.index() / 64] |= 1 << (f.index() % 64));
     }
 
-    /// As far as the operators of a relaxed plan can be carried out one after the other.
+    /// As far as a relaxed plan can be carried out one operator after the other. Where none can be, one of them is
+    /// replaced by another that brings what it was to bring: the truck is no longer where it set out from, but there
+    /// is a way from where it is.
     fn ahead(&self, state: &State, relaxed_plan: &[OperatorId]) -> (State, Vec<OperatorId>) {
         let (mut state, mut path) = (state.clone(), Vec::new());
         let mut open = relaxed_plan.to_vec();
+        let mut wanted: HashMap<FactId, u32> = HashMap::new();
+        for &id in relaxed_plan {
+            for &need in &self.task.operator(id).preconditions {
+                *wanted.entry(need).or_default() += 1;
+            }
+        }
         loop {
             let before = path.len();
             open.retain(|&id| {
@@ -105,13 +113,41 @@ impl Forward<'_> {
                 if possible {
                     self.carry_out(&mut state, id);
                     path.push(id);
+                    self.no_longer_wanted(&mut wanted, id);
                 }
                 !possible
             });
-            if path.len() == before {
-                return (state, path);
+            if path.len() > before {
+                continue;
+            }
+            let instead = open.iter().enumerate().find_map(|(at, &id)| {
+                let brings = self.task.operator(id).add_effects.iter().find_map(|&fact| {
+                    let serves = wanted.get(&fact).is_some_and(|&count| count > 0);
+                    let missing = serves && !holds(&state, fact);
+                    missing.then(|| self.bringer(&state, fact)).flatten()
+                });
+                brings.map(|other| (at, other))
+            });
+            let Some((at, other)) = instead else { return (state, path) };
+            let replaced = open.remove(at);
+            self.no_longer_wanted(&mut wanted, replaced);
+            self.carry_out(&mut state, other);
+            path.push(other);
+        }
+    }
+
+    fn no_longer_wanted(&self, wanted: &mut HashMap<FactId, u32>, id: OperatorId) {
+        for need in &self.task.operator(id).preconditions {
+            if let Some(count) = wanted.get_mut(need) {
+                *count -= 1;
             }
         }
+    }
+
+    /// An operator that can be carried out and brings a fact.
+    fn bringer(&self, state: &State, fact: FactId) -> Option<OperatorId> {
+        let mut bringers = self.relaxed.added_by[fact.index()].iter().map(|&n| OperatorId(n));
+        bringers.find(|&id| self.is_applicable(state, id))
     }
 
     fn is_applicable(&self, state: &State, id: OperatorId) -> bool {
@@ -173,49 +209,98 @@ impl Forward<'_> {
         Ok(Some(plan))
     }
 
-    /// Nearest state first; helpful operators are tried at once, the others when nothing nearer is left.
+    /// Nearest state first; helpful operators are tried at once, the others when nothing nearer is left, and the end
+    /// of the relaxed plan before all. A successor is made when its turn comes: most never come to it.
     fn best_first(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
-        let initial = self.initial();
-        let mut parents: HashMap<State, Option<(State, OperatorId)>> = HashMap::new();
-        let mut queue: BinaryHeap<Reverse<(u32, u64, State)>> = BinaryHeap::new();
-        parents.insert(initial.clone(), None);
-        queue.push(Reverse((0, 0, initial)));
+        let mut seen = Seen::default();
+        let mut queue: BinaryHeap<Reverse<Candidate>> = BinaryHeap::new();
+        let mut next = Some((self.initial(), None, Box::default()));
         let mut order = 0;
-        while let Some(Reverse((_, _, state))) = queue.pop() {
+        loop {
+            if let Some((state, from, by)) = next.take()
+                && let Some(number) = seen.add(&state, from, by)
+            {
+                let bytes = seen.bytes + queue.len() * std::mem::size_of::<Candidate>();
+                if let Some(estimate) = self.estimate(&state, bytes)? {
+                    if estimate.distance == 0 {
+                        return Ok(Some(seen.path(number)));
+                    }
+                    let mut push = |value, by| {
+                        order += 1;
+                        queue.push(Reverse(Candidate { value, order, from: number, by }));
+                    };
+                    // A successor is valued as its parent, a step nearer when the operator helps.
+                    for &id in &self.relaxed.applicable {
+                        let helps = u32::from(!estimate.helpful.contains(&id));
+                        push(2 * estimate.distance + helps, Some(id));
+                    }
+                    push(2 * estimate.distance - 1, None);
+                    seen.relaxed_plans.insert(number, estimate.relaxed_plan);
+                }
+            }
+            let Some(Reverse(Candidate { from, by, .. })) = queue.pop() else { return Ok(None) };
             if self.is_over() {
                 return Ok(None);
             }
-            let bytes = parents.len() * (state.len() * 24 + 128);
-            let Some(estimate) = self.estimate(&state, bytes)? else { continue };
-            if estimate.distance == 0 {
-                return Ok(Some(path(&parents, &state)));
-            }
-            let applicable = self.relaxed.applicable.clone();
-            for id in applicable {
-                let next = self.after(&state, id);
-                if parents.contains_key(&next) {
-                    continue;
+            let state = &seen.states[from as usize];
+            let (state, by) = match by {
+                Some(id) => (self.after(state, id), Box::from([id])),
+                None => {
+                    let plan = seen.relaxed_plans.remove(&from).unwrap_or_default();
+                    let (state, path) = self.ahead(state, &plan);
+                    (state, path.into_boxed_slice())
                 }
-                parents.insert(next.clone(), Some((state.clone(), id)));
-                order += 1;
-                // A successor is valued as its parent, a step nearer when the operator helps.
-                let helps = u32::from(!estimate.helpful.contains(&id));
-                queue.push(Reverse((2 * estimate.distance + helps, order, next)));
-            }
+            };
+            next = Some((state, Some(from), by));
         }
-        Ok(None)
     }
 }
 
-fn path(parents: &HashMap<State, Option<(State, OperatorId)>>, state: &State) -> Vec<OperatorId> {
-    let mut operators = Vec::new();
-    let mut at = state;
-    while let Some((before, id)) = &parents[at] {
-        operators.push(*id);
-        at = before;
+/// A successor that waits for its turn; those of least value come first, of these the oldest.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Candidate {
+    value: u32,
+    order: u32,
+    from: u32,
+    /// None for the end of the relaxed plan.
+    by: Option<OperatorId>,
+}
+
+/// States met, each with the state that it was come to from, and by which operators.
+#[derive(Default)]
+struct Seen {
+    numbers: HashMap<State, u32>,
+    states: Vec<State>,
+    from: Vec<(Option<u32>, Box<[OperatorId]>)>,
+    /// Of states whose relaxed plan was not yet followed.
+    relaxed_plans: HashMap<u32, Vec<OperatorId>>,
+    bytes: usize,
+}
+
+impl Seen {
+    /// The number of a state not met before.
+    fn add(&mut self, state: &State, from: Option<u32>, by: Box<[OperatorId]>) -> Option<u32> {
+        let number = self.states.len() as u32;
+        if self.numbers.contains_key(state) {
+            return None;
+        }
+        self.bytes += 2 * state.len() * 8 + by.len() * 4 + 128;
+        self.numbers.insert(state.clone(), number);
+        self.states.push(state.clone());
+        self.from.push((from, by));
+        Some(number)
     }
-    operators.reverse();
-    operators
+
+    fn path(&self, to: u32) -> Vec<OperatorId> {
+        let mut pieces = Vec::new();
+        let mut at = Some(to);
+        while let Some(number) = at {
+            let (before, by) = &self.from[number as usize];
+            pieces.push(by);
+            at = *before;
+        }
+        pieces.into_iter().rev().flat_map(|by| by.iter().copied()).collect()
+    }
 }
 
 /// The problem without delete effects.
@@ -225,6 +310,9 @@ struct Relaxed<'a> {
     needed_by: Vec<u32>,
     starts: Vec<u32>,
     added_by: Vec<Vec<u32>>,
+    /// What operator `o` adds, from `adds_from[o]` to `adds_from[o + 1]`.
+    adds: Vec<FactId>,
+    adds_from: Vec<u32>,
     without_needs: Vec<u32>,
     /// How many facts an operator needs, and how many of them are yet missing.
     needs: Vec<u32>,
@@ -254,6 +342,12 @@ impl<'a> Relaxed<'a> {
             needed_by.extend(operators);
             starts.push(needed_by.len() as u32);
         }
+        let mut adds_from = vec![0];
+        let mut adds = Vec::new();
+        for operator in &task.operators {
+            adds.extend(&operator.add_effects);
+            adds_from.push(adds.len() as u32);
+        }
         let needs: Vec<u32> =
             task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
         let mut is_goal = vec![false; task.facts.len()];
@@ -263,6 +357,8 @@ impl<'a> Relaxed<'a> {
             needed_by,
             starts,
             added_by,
+            adds,
+            adds_from,
             without_needs: (0..needs.len() as u32).filter(|&n| needs[n as usize] == 0).collect(),
             missing: needs.clone(),
             needs,
@@ -322,7 +418,9 @@ impl<'a> Relaxed<'a> {
     }
 
     fn apply(&mut self, number: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
-        for added in &self.task.operators[number as usize].add_effects {
+        let own =
+            self.adds_from[number as usize] as usize..self.adds_from[number as usize + 1] as usize;
+        for added in &self.adds[own] {
             if self.layer[added.index()] == NOT_YET {
                 self.layer[added.index()] = layer;
                 self.bringer[added.index()] = number;

@@ -138,8 +138,7 @@ impl Inherited<'_> {
             o.del_effects.iter().filter(lacking).for_each(|fact| deleted[fact.index()] = true);
         }
         let harmless = used.iter().zip(&deleted).all(|(used, deleted)| !(*used && *deleted));
-        let always =
-            |fact: &FactId| self.learned.state.contains(fact) && !deleted[fact.index()];
+        let always = |fact: &FactId| self.learned.state.contains(fact) && !deleted[fact.index()];
         let same = |new: &[FactId], old: &[FactId]| {
             let mut kept: Vec<FactId> =
                 old.iter().filter_map(|fact| self.new[fact.index()]).collect();
