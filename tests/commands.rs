@@ -157,17 +157,22 @@ fn any_will_do_to_be_found_but_not_to_be_brought() {
     assert!(engine.understand("Find a cup").is_ok());
 }
 
-/// Searches for the red cup in a truth of its own: the answer, and the Areas where it was not seen.
-fn search(truth: World) -> (TaskAnswer, Vec<AreaId>) {
+/// Searches for the red cup in a truth of its own: the answer, the Areas where it was not seen, and how many plans
+/// were helped by the one before.
+fn search(truth: World) -> (TaskAnswer, Vec<AreaId>, usize) {
     let engine = Engine::in_memory(rb2(), None).unwrap();
-    let mut missed = Vec::new();
+    let (mut missed, mut helped) = (Vec::new(), 0);
     let answer = engine.perform_in("Найди красную чашку", truth, &mut |progress| {
-        if let Progress::Surprised { surprise: Surprise::NotSeen { thing, area }, .. } = progress {
-            assert_eq!(thing, "Чашка-2");
-            missed.push(*area);
+        match progress {
+            Progress::Surprised { surprise: Surprise::NotSeen { thing, area }, .. } => {
+                assert_eq!(thing, "Чашка-2");
+                missed.push(*area);
+            }
+            Progress::Planned(planned) => helped += usize::from(planned.learned_before),
+            _ => {}
         }
     });
-    (answer.unwrap(), missed)
+    (answer.unwrap(), missed, helped)
 }
 
 #[test]
@@ -175,7 +180,8 @@ fn a_thing_is_sought_from_room_to_room() {
     let world = rb2();
     let cup = thing(&world, "Чашка-2");
 
-    let (answer, missed) = search(world.clone());
+    let (answer, missed, helped) = search(world.clone());
+    assert_eq!(helped, 0, "there is one plan");
     assert!(matches!(answer.ending, TaskEnding::Done));
     assert!(missed.is_empty());
     assert_eq!(said(&world, &answer, Language::Russian), ["Я вижу Чашку-2."]);
@@ -186,7 +192,7 @@ fn a_thing_is_sought_from_room_to_room() {
     let replica = moved.replicas.get_mut(&cup).unwrap();
     (replica.area, replica.frame) = (umbrella.area, umbrella.frame);
     moved.replicas.remove(&umbrella.id);
-    let (answer, missed) = search(moved.clone());
+    let (answer, missed, _) = search(moved.clone());
     assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
     assert_eq!(missed[0], area(&world, "Комната-Z"), "first where it is believed to be");
     let seen = answer.after.as_ref().unwrap().moved[&cup].unwrap();
@@ -197,7 +203,8 @@ fn a_thing_is_sought_from_room_to_room() {
     // It is nowhere: every room is looked into once, and then it is said.
     let mut gone = world.clone();
     gone.replicas.remove(&cup);
-    let (answer, missed) = search(gone);
+    let (answer, missed, helped) = search(gone);
+    assert!(helped > 0, "that a thing is not here takes possibilities away and gives none");
     assert!(matches!(answer.ending, TaskEnding::NoPlan(_)), "{:?}", answer.ending);
     let rooms: BTreeSet<AreaId> = world.areas.keys().copied().collect();
     assert_eq!(missed.len(), rooms.len());

@@ -103,7 +103,11 @@ impl Default for Limits {
 }
 
 impl Limits {
-    pub(super) fn check(&self, bytes: usize) -> Result<(), Limit> {
+    /// Whether the clock and so much memory held allow to go on.
+    ///
+    /// # Errors
+    /// The limit that was reached.
+    pub fn check(&self, bytes: usize) -> Result<(), Limit> {
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
             return Err(Limit::Time);
         }

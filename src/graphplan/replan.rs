@@ -37,6 +37,9 @@ pub(super) struct Inherited<'a> {
     old: Vec<FactId>,
     /// The new fact for each old one, where there is one.
     new: Vec<Option<FactId>>,
+    /// What of the old task holds where planning begins anew, and after how many steps.
+    state: Vec<FactId>,
+    done: usize,
 }
 
 impl Learned {
@@ -79,8 +82,10 @@ impl Learned {
         for (number, fact) in old.iter().enumerate() {
             new[fact.index()] = Some(FactId(number as u32));
         }
-        let inherited = Inherited { learned: self, old, new };
-        inherited.is_part(task).then_some(inherited)
+        let (state, done) = (self.state.clone(), self.done);
+        let mut inherited = Inherited { learned: self, old, new, state, done };
+        let started = inherited.begins_at(task, &inherited.state) || inherited.step_further(task);
+        (started && inherited.is_part(task)).then_some(inherited)
     }
 }
 
@@ -94,13 +99,13 @@ fn key(fact: &Fact) -> Key<'_> {
 impl Inherited<'_> {
     /// Fewer steps than these will not do.
     pub(super) fn fewest_steps(&self) -> usize {
-        self.learned.fewest_steps.saturating_sub(self.learned.done)
+        self.learned.fewest_steps.saturating_sub(self.done)
     }
 
     /// Whether two new facts are known to exclude each other at a level.
     pub(super) fn is_exclusive(&self, level: usize, a: FactId, b: FactId) -> bool {
         let graph = &self.learned.graph;
-        let level = level + self.learned.done;
+        let level = level + self.done;
         (level <= graph.top() || graph.leveled_off_at().is_some())
             && graph.is_exclusive(level, self.old[a.index()], self.old[b.index()])
     }
@@ -108,7 +113,7 @@ impl Inherited<'_> {
     /// No-goods of the old task in terms of the new; those about facts that it lacks are left behind.
     pub(super) fn no_goods(&self) -> impl Iterator<Item = (Vec<FactId>, u32)> {
         self.learned.no_goods.iter().filter_map(|(facts, level)| {
-            let level = level.checked_sub(self.learned.done as u32).filter(|&level| level > 0)?;
+            let level = level.checked_sub(self.done as u32).filter(|&level| level > 0)?;
             let mut facts: Vec<FactId> =
                 facts.iter().map(|fact| self.new[fact.index()]).collect::<Option<_>>()?;
             facts.sort_unstable();
@@ -116,8 +121,37 @@ impl Inherited<'_> {
         })
     }
 
-    /// Every initial fact holds by what was learned, every operator an operator, and what grounding dropped from it makes no
-    /// difference: needs that always hold, effects that nobody minds.
+    /// Whether every initial fact of the new task holds in a state of the old.
+    fn begins_at(&self, task: &Task, state: &[FactId]) -> bool {
+        task.init.iter().all(|fact| state.contains(&self.old[fact.index()]))
+    }
+
+    /// A step that failed may have been carried out in part: the robot drove about in search of a thing, say. What
+    /// an operator could have come to is as good as what was planned, one step later.
+    fn step_further(&mut self, task: &Task) -> bool {
+        let after = |operator: &Operator| {
+            let left = self.state.iter().filter(|fact| !operator.del_effects.contains(fact));
+            left.chain(&operator.add_effects).copied().collect::<Vec<FactId>>()
+        };
+        let possible = |operator: &&Operator| {
+            operator.preconditions.iter().all(|fact| self.state.contains(fact))
+        };
+        let found = self
+            .learned
+            .task
+            .operators
+            .iter()
+            .filter(possible)
+            .map(after)
+            .find(|state| self.begins_at(task, state));
+        let Some(state) = found else { return false };
+        self.state = state;
+        self.done += 1;
+        true
+    }
+
+    /// Every operator was an operator, and what grounding dropped from it makes no difference: needs that always
+    /// hold, effects that nobody minds.
     fn is_part(&self, task: &Task) -> bool {
         let whole = &self.learned.task;
         let operators: HashMap<(&Arc<str>, &[Arc<str>]), &Operator> =
@@ -138,7 +172,7 @@ impl Inherited<'_> {
             o.del_effects.iter().filter(lacking).for_each(|fact| deleted[fact.index()] = true);
         }
         let harmless = used.iter().zip(&deleted).all(|(used, deleted)| !(*used && *deleted));
-        let always = |fact: &FactId| self.learned.state.contains(fact) && !deleted[fact.index()];
+        let always = |fact: &FactId| self.state.contains(fact) && !deleted[fact.index()];
         let same = |new: &[FactId], old: &[FactId]| {
             let mut kept: Vec<FactId> =
                 old.iter().filter_map(|fact| self.new[fact.index()]).collect();
@@ -146,7 +180,6 @@ impl Inherited<'_> {
             kept == new
         };
         harmless
-            && task.init.iter().all(|fact| self.learned.state.contains(&self.old[fact.index()]))
             && pairs.iter().all(|(new, old)| {
                 same(&new.preconditions, &old.preconditions)
                     && same(&new.add_effects, &old.add_effects)

@@ -5,8 +5,7 @@
 use std::fmt;
 
 use miette::{
-    Diagnostic, LabeledSpan, MietteError, MietteSpanContents, Severity, SourceCode, SourceSpan,
-    SpanContents,
+    Diagnostic, LabeledSpan, MietteError, Severity, SourceCode, SourceSpan, SpanContents,
 };
 use thiserror::Error;
 
@@ -618,7 +617,7 @@ impl fmt::Display for MapErrors {
 
 impl std::error::Error for MapErrors {}
 
-/// The text, for excerpts beside the faults. A line may be a whole file long: then only what is near is shown.
+/// The text, for excerpts beside the faults.
 impl SourceCode for MapErrors {
     fn read_span<'a>(
         &'a self,
@@ -627,36 +626,8 @@ impl SourceCode for MapErrors {
         lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let source = self.source.as_ref().ok_or(MietteError::OutOfBounds)?;
-        let contents = source.read_span(span, lines_before, lines_after)?;
-        if contents.data().len() <= LONGEST_EXCERPT {
-            return Ok(contents);
-        }
-        let text = source.text();
-        let line_start = text[..span.offset()].rfind('\n').map_or(0, |at| at + 1);
-        let start = boundary(text, span.offset().saturating_sub(EXCERPT_MARGIN)).max(line_start);
-        let end = boundary(text, span.offset() + span.len().min(EXCERPT_MARGIN) + EXCERPT_MARGIN);
-        let (line, column) = source.position(start);
-        let excerpt = &text.as_bytes()[start..end];
-        let lines = text[start..end].lines().count();
-        let name = source.name().to_owned();
-        let place = (start, end - start).into();
-        let contents =
-            MietteSpanContents::new_named(name, excerpt, place, line - 1, column - 1, lines);
-        Ok(Box::new(contents))
+        source.read_span(span, lines_before, lines_after)
     }
-}
-
-/// Bytes of the text that are shown beside one fault.
-const LONGEST_EXCERPT: usize = 4000;
-const EXCERPT_MARGIN: usize = 200;
-
-/// The nearest place at or before `at` where a character begins.
-fn boundary(text: &str, at: usize) -> usize {
-    let mut at = at.min(text.len());
-    while !text.is_char_boundary(at) {
-        at -= 1;
-    }
-    at
 }
 
 impl Diagnostic for MapErrors {

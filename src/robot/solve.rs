@@ -1,7 +1,9 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
+use std::cell::Cell;
+
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
-use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachable, ground};
+use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachable, ground_while};
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -36,10 +38,15 @@ pub fn solve(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<Solved, RuleFaults> {
-    let task = ground(domain, problem)?;
-    let outcome = match wanted {
-        Wanted::Shortest => graphplan::solve(&task, limits),
-        Wanted::Any => graphplan::solve_any(&task, limits),
+    let (task, outcome) = match grounded(domain, problem, limits)? {
+        Ok(task) => {
+            let outcome = match wanted {
+                Wanted::Shortest => graphplan::solve(&task, limits),
+                Wanted::Any => graphplan::solve_any(&task, limits),
+            };
+            (task, outcome)
+        }
+        Err(limit) => (Task::default(), Outcome::LimitReached(limit)),
     };
     told(domain, problem, task, outcome, wanted)
 }
@@ -54,9 +61,29 @@ pub(super) fn solve_again(
     limits: &Limits,
     learned: Option<&Learned>,
 ) -> Result<(Solved, Option<Learned>), RuleFaults> {
-    let task = ground(domain, problem)?;
-    let (outcome, learned) = graphplan::solve_learning(&task, learned, limits);
+    let (task, (outcome, learned)) = match grounded(domain, problem, limits)? {
+        Ok(task) => {
+            let solved = graphplan::solve_learning(&task, learned, limits);
+            (task, solved)
+        }
+        Err(limit) => (Task::default(), (Outcome::LimitReached(limit), None)),
+    };
     Ok((told(domain, problem, task, outcome, Wanted::Shortest)?, learned))
+}
+
+/// The task, or the limit that grounding ran into.
+fn grounded(
+    domain: &Domain,
+    problem: &Problem,
+    limits: &Limits,
+) -> Result<Result<Task, Limit>, RuleFaults> {
+    let reached = Cell::new(None);
+    let may_go_on = |bytes| {
+        reached.set(limits.check(bytes).err());
+        reached.get().is_none()
+    };
+    let task = ground_while(domain, problem, &may_go_on)?;
+    Ok(task.ok_or_else(|| reached.get().expect("a limit stopped it")))
 }
 
 fn told(

@@ -24,12 +24,29 @@ const MAX_OPERATORS: usize = 1_000_000;
 /// # Errors
 /// All names of the problem that mean nothing to the rules, at once; or [`RuleError::TooManyOperators`].
 pub fn ground(domain: &Domain, problem: &Problem) -> Result<Task, RuleFaults> {
+    Ok(ground_while(domain, problem, &|_| true)?.expect("nothing stops it"))
+}
+
+/// Grounds a problem while `may_go_on` says so, asked time and again with the bytes held, near enough; none when it
+/// was stopped.
+///
+/// # Errors
+/// As [`ground`].
+pub fn ground_while(
+    domain: &Domain,
+    problem: &Problem,
+    may_go_on: &dyn Fn(usize) -> bool,
+) -> Result<Option<Task>, RuleFaults> {
     if !problem.has_goal() {
         return Err(RuleFault::placeless(RuleError::NoGoal).into());
     }
     let resolved = problem.resolve(domain)?;
-    let reached = Reachability::run(domain, &resolved)?;
-    Ok(simplify(draft(domain, &resolved, &reached)))
+    let mut reached = Reachability::new(domain, &resolved);
+    if !reached.saturate(may_go_on) {
+        return Ok(None);
+    }
+    reached.within_bounds()?;
+    Ok(Some(simplify(draft(domain, &resolved, &reached))))
 }
 
 /// Instances of one schema's parameters.
@@ -77,7 +94,15 @@ pub(super) struct Reachability<'a> {
 }
 
 impl<'a> Reachability<'a> {
+    /// All that is reachable.
     pub(super) fn run(domain: &'a Domain, resolved: &'a Resolved) -> Result<Self, RuleFaults> {
+        let mut reached = Self::new(domain, resolved);
+        reached.saturate(&|_| true);
+        reached.within_bounds()?;
+        Ok(reached)
+    }
+
+    fn new(domain: &'a Domain, resolved: &'a Resolved) -> Self {
         let mut changing = vec![false; domain.predicates.len()];
         for schema in &domain.schemas {
             for atom in schema.add_effects.iter().chain(&schema.del_effects) {
@@ -106,7 +131,7 @@ impl<'a> Reachability<'a> {
             .collect();
         let mut relations = Vec::new();
         relations.resize_with(domain.predicates.len(), Relation::default);
-        let mut reach = Self {
+        Self {
             domain,
             resolved,
             changing,
@@ -117,19 +142,27 @@ impl<'a> Reachability<'a> {
             atoms: Vec::new(),
             numbers: HashMap::new(),
             overflow: None,
-        };
-        reach.saturate();
-        match reach.overflow {
-            None => Ok(reach),
+        }
+    }
+
+    fn within_bounds(&self) -> Result<(), RuleFaults> {
+        match self.overflow {
+            None => Ok(()),
             Some(schema) => Err(RuleFault::placeless(RuleError::TooManyOperators {
                 limit: MAX_OPERATORS,
-                action: domain.schemas[schema].name.clone(),
+                action: self.domain.schemas[schema].name.clone(),
             })
             .into()),
         }
     }
 
-    fn saturate(&mut self) {
+    /// Memory that the task will take, near enough: an operator and its draft, an atom and its indexes.
+    fn bytes(&self) -> usize {
+        self.instances.len() * 600 + self.atoms.len() * 400
+    }
+
+    /// Whether nothing stopped it.
+    fn saturate(&mut self, may_go_on: &dyn Fn(usize) -> bool) -> bool {
         for (atom, _) in &self.resolved.facts {
             self.reach(atom.clone());
         }
@@ -150,6 +183,9 @@ impl<'a> Reachability<'a> {
         }
         let mut next = 0;
         while next < self.atoms.len() && self.overflow.is_none() {
+            if next.is_multiple_of(64) && !may_go_on(self.bytes()) {
+                return false;
+            }
             let atom = self.atoms[next].clone();
             next += 1;
             if self.changing[atom.predicate.index()] {
@@ -157,6 +193,7 @@ impl<'a> Reachability<'a> {
                 self.trigger(&atom);
             }
         }
+        may_go_on(self.bytes())
     }
 
     fn reach(&mut self, atom: GroundAtom) {

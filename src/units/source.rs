@@ -39,16 +39,27 @@ impl Source {
     /// Line and column of a byte offset, both from 1, the column in characters.
     #[must_use]
     pub fn position(&self, offset: usize) -> (usize, usize) {
-        let mut offset = offset.min(self.text.len());
-        while !self.text.is_char_boundary(offset) {
-            offset -= 1;
-        }
+        let offset = boundary(&self.text, offset);
         let before = &self.text[..offset];
         let line_start = before.rfind('\n').map_or(0, |at| at + 1);
         (before.matches('\n').count() + 1, before[line_start..].chars().count() + 1)
     }
 }
 
+/// The nearest place at or before `at` where a character begins.
+fn boundary(text: &str, at: usize) -> usize {
+    let mut at = at.min(text.len());
+    while !text.is_char_boundary(at) {
+        at -= 1;
+    }
+    at
+}
+
+/// Bytes of the text that are shown beside one fault.
+const LONGEST_EXCERPT: usize = 4000;
+const EXCERPT_MARGIN: usize = 200;
+
+/// The text, for excerpts beside the faults. A line may be a whole file long: then only what is near is shown.
 impl SourceCode for Source {
     fn read_span<'a>(
         &'a self,
@@ -57,15 +68,23 @@ impl SourceCode for Source {
         lines_after: usize,
     ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
         let inner = self.text.as_ref().read_span(span, lines_before, lines_after)?;
-        let (_, column) = self.position(inner.span().offset());
-        Ok(Box::new(MietteSpanContents::new_named(
-            self.name.to_string(),
-            inner.data(),
-            *inner.span(),
-            inner.line(),
-            column - 1,
-            inner.line_count(),
-        )))
+        let name = self.name.to_string();
+        if inner.data().len() <= LONGEST_EXCERPT {
+            let (_, column) = self.position(inner.span().offset());
+            let (line, lines) = (inner.line(), inner.line_count());
+            let (data, place) = (inner.data(), *inner.span());
+            let contents =
+                MietteSpanContents::new_named(name, data, place, line, column - 1, lines);
+            return Ok(Box::new(contents));
+        }
+        let text = &self.text;
+        let line_start = text[..span.offset()].rfind('\n').map_or(0, |at| at + 1);
+        let start = boundary(text, span.offset().saturating_sub(EXCERPT_MARGIN)).max(line_start);
+        let end = boundary(text, span.offset() + span.len().min(EXCERPT_MARGIN) + EXCERPT_MARGIN);
+        let (line, column) = self.position(start);
+        let lines = text[start..end].lines().count();
+        let (data, place) = (&text.as_bytes()[start..end], (start, end - start).into());
+        Ok(Box::new(MietteSpanContents::new_named(name, data, place, line - 1, column - 1, lines)))
     }
 }
 
