@@ -1,49 +1,156 @@
-//! Rules read at run time against the same programs written by hand on datafrog.
+//! Rules read at run time against the same programs written by hand on datafrog and compiled by `ascent`.
 //!
-//! `cargo bench --bench datalog` measures all cases with criterion; `… -- --quick-table` runs each a few times
-//! and prints the table of `benches/README.md`.
+//! `cargo bench --bench datalog` measures all cases with criterion; `… -- --table [NAME]` prints the table of
+//! `benches/README.md`: every program on every engine in a process of its own, for time and for memory.
 
 #[path = "datalog/by_hand.rs"]
 mod by_hand;
 #[path = "datalog/inputs.rs"]
 mod inputs;
+#[path = "datalog/on_ascent.rs"]
+mod on_ascent;
 #[path = "datalog/programs.rs"]
 mod programs;
 
 use std::hint::black_box;
-use std::sync::LazyLock;
-use std::time::{Duration, Instant};
+use std::process::Command;
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use criterion::Criterion;
 use inputs::{Box8, Edge};
-use orthoframe::facts::{Database, Program, Value};
+use orthoframe::facts::{Database, Program};
 use orthoframe::units::Source;
 
-/// A program with its input, in both forms.
-struct Case {
-    name: &'static str,
-    program: Program,
-    database: Database,
-    by_hand: Box<dyn Fn() -> usize>,
+/// What evaluates a program.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Engine {
+    Rules,
+    ByHand,
+    Ascent,
 }
 
+impl Engine {
+    const ALL: [Self; 3] = [Self::Rules, Self::ByHand, Self::Ascent];
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::Rules => "rules",
+            Self::ByHand => "by-hand",
+            Self::Ascent => "ascent",
+        }
+    }
+}
+
+/// A program's input; which program it is for.
+enum Case {
+    Closure(Vec<Edge>),
+    SameGeneration(Vec<Edge>),
+    ThreeWay([Vec<Edge>; 3]),
+    Counts(Vec<Edge>),
+    Spatial(Vec<Box8>, Vec<Edge>),
+}
+
+const CASES: [&str; 9] = [
+    "chain 4000",
+    "grid 70",
+    "random 4000",
+    "same generation 11",
+    "three-way join",
+    "negation, count",
+    "spatial 100000",
+    "spatial hospital 50000",
+    "spatial 30000 x 300",
+];
+
 impl Case {
-    fn new(
-        name: &'static str,
-        text: &str,
-        relations: &[(&str, Vec<Vec<i64>>)],
-        by_hand: impl Fn() -> usize + 'static,
-    ) -> Self {
-        let program =
-            Program::parse(&Source::new(name, text)).expect("the benchmark's program is sound");
-        let mut database = program.database();
-        for (relation, tuples) in relations {
-            for tuple in tuples {
-                let tuple: Vec<Value> = tuple.iter().copied().map(Value::Number).collect();
-                database.insert(*relation, &tuple).expect("the benchmark's input fits");
+    fn of(name: &str) -> Self {
+        let dense = |seed| inputs::random(20_000, 100_000, seed);
+        let spatial = |(boxes, doors)| Self::Spatial(boxes, doors);
+        match name {
+            "chain 4000" => Self::Closure(inputs::chain(4000)),
+            "grid 70" => Self::Closure(inputs::grid(70)),
+            "random 4000" => Self::Closure(inputs::random(4000, 8000, 1)),
+            "same generation 11" => Self::SameGeneration(inputs::tree(11)),
+            "three-way join" => Self::ThreeWay([dense(5), dense(6), dense(7)]),
+            "negation, count" => Self::Counts(inputs::random(100_000, 200_000, 8)),
+            "spatial 100000" => spatial(inputs::boxes(100_000, 50, 7)),
+            "spatial hospital 50000" => spatial(inputs::boxes(50_000, 50, 7)),
+            "spatial 30000 x 300" => spatial(inputs::boxes(30_000, 300, 7)),
+            other => panic!("no program «{other}»; there are {}", CASES.join(", ")),
+        }
+    }
+
+    /// What evaluates the case on an engine and counts the derived tuples; the input is at hand in the engine's form.
+    fn on(self, engine: Engine) -> Box<dyn Fn() -> usize> {
+        if engine == Engine::Rules {
+            let rules = Rules::of(self);
+            return Box::new(move || rules.run());
+        }
+        let by_hand = engine == Engine::ByHand;
+        Box::new(move || match &self {
+            Self::Closure(e) if by_hand => by_hand::closure(e),
+            Self::Closure(e) => on_ascent::closure(e),
+            Self::SameGeneration(e) if by_hand => by_hand::same_generation(e),
+            Self::SameGeneration(e) => on_ascent::same_generation(e),
+            Self::ThreeWay([r, s, t]) if by_hand => by_hand::three_way(r, s, t),
+            Self::ThreeWay([r, s, t]) => on_ascent::three_way(r, s, t),
+            Self::Counts(e) if by_hand => by_hand::counts(e),
+            Self::Counts(e) => on_ascent::counts(e),
+            Self::Spatial(boxes, doors) if by_hand => by_hand::spatial(boxes, doors),
+            Self::Spatial(boxes, doors) => on_ascent::spatial(boxes, doors),
+        })
+    }
+}
+
+/// A program as rule text with its database.
+struct Rules {
+    program: Program,
+    database: Database,
+}
+
+impl Rules {
+    fn of(case: Case) -> Self {
+        let text = match &case {
+            Case::Closure(_) => programs::CLOSURE,
+            Case::SameGeneration(_) => programs::SAME_GENERATION,
+            Case::ThreeWay(_) => programs::THREE_WAY,
+            Case::Counts(_) => programs::COUNTS,
+            Case::Spatial(..) => programs::SPATIAL,
+        };
+        let source = Source::new("bench.dl", text);
+        let program = Program::parse(&source).expect("the benchmark's program is sound");
+        let mut rules = Self { database: program.database(), program };
+        match case {
+            Case::Closure(edges) | Case::Counts(edges) => rules.insert_edges("edge", edges),
+            Case::SameGeneration(edges) => rules.insert_edges("parent", edges),
+            Case::ThreeWay(all) => {
+                ["r", "s", "t"].into_iter().zip(all).for_each(|(name, edges)| {
+                    rules.insert_edges(name, edges);
+                });
+            }
+            Case::Spatial(boxes, doors) => {
+                rules.insert("box", boxes.into_iter());
+                rules.insert_edges("door", doors);
             }
         }
-        Self { name, program, database, by_hand: Box::new(by_hand) }
+        rules
+    }
+
+    fn insert_edges(&mut self, relation: &str, edges: Vec<Edge>) {
+        self.insert(relation, edges.into_iter().map(|(a, b)| [a.into(), b.into()]));
+    }
+
+    fn insert<const N: usize>(&mut self, relation: &str, tuples: impl Iterator<Item = [i64; N]>) {
+        let relation = self.program.relation(relation).expect("the program declares its input");
+        let mut loader = self.database.load();
+        let mut values = Vec::new();
+        for tuple in tuples {
+            values.clear();
+            values.extend(tuple.iter().map(|number| loader.number(*number)));
+            loader.push(relation, &values).expect("the benchmark's input fits");
+        }
+        loader.finish();
     }
 
     /// Derived tuples, input left out.
@@ -58,108 +165,119 @@ impl Case {
     }
 }
 
-fn edges(edges: &[Edge]) -> Vec<Vec<i64>> {
-    edges.iter().map(|&(a, b)| vec![a.into(), b.into()]).collect()
+/// Processor time of one run, the median of at least five.
+fn median(run: &dyn Fn() -> usize) -> Duration {
+    let mut times = Vec::new();
+    let mut spent = Duration::ZERO;
+    while times.len() < 5 || spent < Duration::from_secs(1) && times.len() < 101 {
+        let start = ThreadTime::now();
+        black_box(run());
+        times.push(start.elapsed());
+        spent += start.elapsed();
+    }
+    times.sort_unstable();
+    times[times.len() / 2]
 }
 
-fn closure(name: &'static str, input: Vec<Edge>) -> Case {
-    let relations = [("edge", edges(&input))];
-    Case::new(name, programs::CLOSURE, &relations, move || by_hand::closure(&input))
+/// The most memory that this process has held, in KiB; 0 where the system does not tell.
+fn peak_memory() -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmHWM"));
+    line.and_then(|line| line.split_whitespace().nth(1)?.parse().ok()).unwrap_or(0)
 }
 
-fn spatial(name: &'static str, (boxes, doors): (Vec<Box8>, Vec<Edge>)) -> Case {
-    let relations = [("box", boxes.iter().map(|b| b.to_vec()).collect()), ("door", edges(&doors))];
-    Case::new(name, programs::SPATIAL, &relations, move || by_hand::spatial(&boxes, &doors))
+/// What a process measured: derived tuples, milliseconds of processor time, MiB after one evaluation.
+#[derive(Debug, Clone, Copy)]
+struct Figures {
+    tuples: usize,
+    ms: f64,
+    mib: f64,
 }
 
-fn cases() -> Vec<Case> {
-    let tree = inputs::tree(11);
-    let (r, s, t) = (
-        inputs::random(20_000, 100_000, 5),
-        inputs::random(20_000, 100_000, 6),
-        inputs::random(20_000, 100_000, 7),
+/// In the child process.
+fn measure(case: &str, engine: Engine) -> String {
+    let run = Case::of(case).on(engine);
+    // Makes the system count the peak anew, so that the making of the input does not count.
+    let _ = std::fs::write("/proc/self/clear_refs", "5");
+    let tuples = run();
+    let peak = peak_memory();
+    format!("{tuples} {} {peak}", median(&*run).as_secs_f64() * 1e3)
+}
+
+/// Measures in a process of its own, so that one engine's memory is not the other's.
+fn in_process(case: &str, engine: Engine) -> Figures {
+    let program = std::env::current_exe().expect("a running benchmark has a file");
+    let child = Command::new(program).args(["--measure", case, engine.name()]).output();
+    let child = child.expect("the benchmark starts itself");
+    let told = String::from_utf8_lossy(&child.stdout);
+    let mut fields = told.split_whitespace().map(|field| {
+        field.parse::<f64>().unwrap_or_else(|_| panic!("{case} on {}: {told}", engine.name()))
+    });
+    let mut next = || fields.next().unwrap_or_else(|| panic!("{case}: {child:?}"));
+    Figures { tuples: next() as usize, ms: next(), mib: next() / 1024.0 }
+}
+
+#[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
+fn table(only: Option<&str>) {
+    println!(
+        "| program | tuples | rules, ms | by hand, ms | ascent, ms | of by hand | of ascent | rules, MiB | by hand, MiB | ascent, MiB | of by hand |"
     );
-    let counted = inputs::random(100_000, 200_000, 8);
-    vec![
-        closure("chain 4000", inputs::chain(4000)),
-        closure("grid 70", inputs::grid(70)),
-        closure("random 4000", inputs::random(4000, 8000, 1)),
-        Case::new(
-            "same generation 11",
-            programs::SAME_GENERATION,
-            &[("parent", edges(&tree))],
-            move || by_hand::same_generation(&tree),
-        ),
-        Case::new(
-            "three-way join",
-            programs::THREE_WAY,
-            &[("r", edges(&r)), ("s", edges(&s)), ("t", edges(&t))],
-            move || by_hand::three_way(&r, &s, &t),
-        ),
-        Case::new("negation, count", programs::COUNTS, &[("edge", edges(&counted))], move || {
-            by_hand::counts(&counted)
-        }),
-        spatial("spatial 100000", inputs::boxes(100_000, 50, 7)),
-        spatial("spatial 30000 x 300", inputs::boxes(30_000, 300, 7)),
-    ]
-}
-
-fn quick_table(only: Option<&str>) {
-    let mut table =
-        "| program | tuples | by hand, ms | rules, ms | ratio |\n|---|---|---|---|---|\n"
-            .to_owned();
-    for case in cases().iter().filter(|case| only.is_none_or(|only| case.name.contains(only))) {
-        let (tuples, expected) = (case.run(), (case.by_hand)());
-        assert_eq!(tuples, expected, "{}: both find the same", case.name);
-        let (mut rules, mut by_hand) = (Duration::MAX, Duration::MAX);
-        // Turn about, so that other load on the machine meets both.
-        for _ in 0..3 {
-            rules = rules.min(timed(|| case.run()));
-            by_hand = by_hand.min(timed(|| (case.by_hand)()));
-        }
-        let (rules, by_hand) = (rules.as_secs_f64() * 1e3, by_hand.as_secs_f64() * 1e3);
-        table += &format!(
-            "| {} | {tuples} | {by_hand:.1} | {rules:.1} | {:.2} |\n",
-            case.name,
-            rules / by_hand
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
+    let (mut of_hand, mut of_ascent, mut of_memory) = (Vec::new(), Vec::new(), Vec::new());
+    for case in CASES.iter().filter(|case| only.is_none_or(|only| case.contains(only))) {
+        let [rules, by_hand, ascent] = Engine::ALL.map(|engine| in_process(case, engine));
+        assert_eq!(rules.tuples, by_hand.tuples, "{case}: both find the same");
+        assert_eq!(rules.tuples, ascent.tuples, "{case}: ascent finds the same");
+        of_hand.push(rules.ms / by_hand.ms);
+        of_ascent.push(rules.ms / ascent.ms);
+        of_memory.push(rules.mib / by_hand.mib);
+        println!(
+            "| {case} | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} | {:.0} | {:.0} | {:.2} |",
+            rules.tuples,
+            rules.ms,
+            by_hand.ms,
+            ascent.ms,
+            rules.ms / by_hand.ms,
+            rules.ms / ascent.ms,
+            rules.mib,
+            by_hand.mib,
+            ascent.mib,
+            rules.mib / by_hand.mib
         );
     }
-    eprintln!("{table}");
+    let middle = |mut ratios: Vec<f64>| {
+        ratios.sort_by(f64::total_cmp);
+        ratios[ratios.len() / 2]
+    };
+    println!(
+        "| *median* | | | | | {:.2} | {:.2} | | | | {:.2} |",
+        middle(of_hand),
+        middle(of_ascent),
+        middle(of_memory)
+    );
 }
 
-/// Processor time, so that other load on the machine counts little.
-fn timed(run: impl Fn() -> usize) -> Duration {
-    // The system counts in ticks of several milliseconds.
-    let (start, mut runs) = (processor_time(), 0);
-    loop {
-        black_box(run());
-        runs += 1;
-        let spent = processor_time() - start;
-        if spent >= Duration::from_millis(100) {
-            return spent / runs;
-        }
-    }
-}
-
-/// Of this thread; the time of day where the system does not tell.
-fn processor_time() -> Duration {
-    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanos = told.and_then(|text| text.split_whitespace().next()?.parse().ok());
-    nanos.map_or_else(|| START.elapsed(), Duration::from_nanos)
-}
-
+#[expect(clippy::print_stdout, reason = "the parent process reads it")]
 fn main() {
-    let args: Vec<String> = std::env::args().collect();
-    if let Some(at) = args.iter().position(|arg| arg == "--quick-table") {
-        quick_table(args.get(at + 1).map(String::as_str).filter(|arg| !arg.starts_with('-')));
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    if let [flag, case, engine] = args.as_slice()
+        && flag == "--measure"
+    {
+        let engine = Engine::ALL.into_iter().find(|known| known.name() == engine);
+        println!("{}", measure(case, engine.expect("the parent names one of the engines")));
+        return;
+    }
+    if let Some(at) = args.iter().position(|arg| arg == "--table") {
+        table(args.get(at + 1).map(String::as_str).filter(|arg| !arg.starts_with('-')));
         return;
     }
     let mut criterion = Criterion::default().sample_size(10).configure_from_args();
-    for case in cases() {
-        let mut group = criterion.benchmark_group(case.name);
-        group.bench_function("rules", |bencher| bencher.iter(|| case.run()));
-        group.bench_function("by hand", |bencher| bencher.iter(|| (case.by_hand)()));
+    for case in CASES {
+        let mut group = criterion.benchmark_group(case);
+        for engine in Engine::ALL {
+            let run = Case::of(case).on(engine);
+            group.bench_function(engine.name(), |bencher| bencher.iter(|| run()));
+        }
         group.finish();
     }
     criterion.final_summary();

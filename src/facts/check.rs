@@ -11,7 +11,7 @@ use super::fault::RuleError;
 use super::program::{
     Clause, Column, Fact, Found, Kind, Literal, Names, Program, RelationId, RelationInfo, Stratum,
 };
-use super::syntax::{Body, Expr, Item, Name, Role, Rule, Span};
+use super::syntax::{Atom, Body, Expr, Item, Name, Role, Rule, Span};
 use super::word::Words;
 use crate::units::{Source, nearest_name};
 
@@ -44,6 +44,11 @@ impl Declared {
         a == b || self.types[a].above.contains(&b)
     }
 
+    /// The position of a type in `types`.
+    pub(super) fn type_named(&self, name: &str) -> Option<usize> {
+        self.type_names.get(name).copied()
+    }
+
     pub(super) fn relation(&self, name: &Name, faults: &mut Found) -> Option<RelationId> {
         let found = self.names.find(&name.text);
         if found.is_none() {
@@ -60,10 +65,12 @@ pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) 
     direct(&items, &mut declared, faults);
     let mut words = Words::default();
     let (mut clauses, mut facts) = (Vec::new(), Vec::new());
-    for item in items {
+    let mut made = clause::Made::default();
+    let closed: Vec<Rule> = items.iter().flat_map(|item| equivalence(item, faults)).collect();
+    for item in items.into_iter().chain(closed.into_iter().map(Item::Rule)) {
         if let Item::Rule(rule) = item {
             single_variables(&rule, faults);
-            for clause in clause::clauses(&rule, &declared, &mut words, faults) {
+            for clause in clause::clauses(&rule, &declared, &mut words, &mut made, faults) {
                 match constant_words(&clause) {
                     Some(words) => facts.push(Fact { relation: clause.head, words, at: clause.at }),
                     None => clauses.push(clause),
@@ -71,6 +78,11 @@ pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) 
             }
         }
     }
+    for (info, at) in made.relations {
+        declared.relations.push(info);
+        declared.places.push(at);
+    }
+    clauses.extend(made.clauses);
     let strata = strata(&declared, &clauses, faults);
     unused(&declared, &clauses, &facts, faults);
     Program {
@@ -85,6 +97,36 @@ pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) 
     }
 }
 
+/// The rules that close a relation declared `eqrel` under equivalence.
+fn equivalence(item: &Item, faults: &mut Found) -> Vec<Rule> {
+    let Item::Relation { names, columns, roles, .. } = item else { return Vec::new() };
+    if !roles.contains(&Role::Equivalence) {
+        return Vec::new();
+    }
+    let mut rules = Vec::new();
+    for name in names {
+        let at = name.at;
+        if columns.len() != 2 {
+            let (expected, found) = (2, columns.len());
+            let fault =
+                RuleError::Arity { name: name.text.clone(), expected, found, at: at.into() };
+            faults.push(at, fault);
+            continue;
+        }
+        let variable = |text: &str| Expr::Variable(Name { text: text.into(), at });
+        let pair = |x: &str, y: &str| Atom {
+            relation: name.clone(),
+            args: vec![variable(x), variable(y)],
+            at,
+        };
+        let all = |atoms: Vec<Atom>| Body::All(atoms.into_iter().map(Body::Atom).collect());
+        let rule = |head: Atom, body| Rule { heads: vec![head], body, at };
+        rules.push(rule(pair("x", "y"), all(vec![pair("y", "x")])));
+        rules.push(rule(pair("x", "z"), all(vec![pair("x", "y"), pair("y", "z")])));
+    }
+    rules
+}
+
 /// A fact's words; none for a proper rule.
 fn constant_words(clause: &Clause) -> Option<Box<[u32]>> {
     use super::program::Expr;
@@ -97,15 +139,24 @@ fn constant_words(clause: &Clause) -> Option<Box<[u32]>> {
 
 fn declare(items: &[Item], faults: &mut Found) -> Declared {
     let mut declared = Declared::default();
-    for (name, kind) in
-        [("symbol", Kind::Symbol), ("number", Kind::Number), ("unsigned", Kind::Unsigned)]
-    {
+    for kind in [Kind::Symbol, Kind::Number, Kind::Unsigned, Kind::Float] {
+        let name = kind_name(kind);
         declared.type_names.insert(name.into(), declared.types.len());
         declared.types.push(Type { name: name.into(), kind, above: BTreeSet::new() });
     }
-    for item in items {
-        if let Item::Type { name, bases } = item {
-            declare_type(name, bases, &mut declared, faults);
+    let is_type = |item: &&Item| matches!(item, Item::Type { .. });
+    let mut open: Vec<&Item> = items.iter().filter(is_type).collect();
+    // A type may be named before it is declared. What is left when nothing more fits names what nobody declares.
+    while !open.is_empty() {
+        let is_ready = |item: &&&Item| match item {
+            Item::Type { bases, .. } => {
+                bases.iter().all(|base| declared.type_names.contains_key(&base.text))
+            }
+            _ => false,
+        };
+        let ready = open.iter().position(|item| is_ready(&item)).unwrap_or(0);
+        if let Item::Type { name, bases, is_union } = open.remove(ready) {
+            declare_type(name, bases, *is_union, &mut declared, faults);
         }
     }
     for item in items {
@@ -119,7 +170,13 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
 }
 
 /// `<:` puts the new type below its base; `=` with several bases puts it above all of them.
-fn declare_type(name: &Name, bases: &[Name], declared: &mut Declared, faults: &mut Found) {
+fn declare_type(
+    name: &Name,
+    bases: &[Name],
+    is_union: bool,
+    declared: &mut Declared,
+    faults: &mut Found,
+) {
     let known: Vec<usize> =
         bases.iter().filter_map(|base| type_named(base, declared, faults)).collect();
     let Some(first) = known.first().copied() else { return };
@@ -139,7 +196,7 @@ fn declare_type(name: &Name, bases: &[Name], declared: &mut Declared, faults: &m
         above.insert(primitive(kind));
     }
     declared.types.push(Type { name: name.text.clone(), kind, above });
-    if bases.len() > 1 {
+    if is_union {
         for (part, base) in known.iter().zip(bases) {
             if declared.types[*part].kind != kind {
                 let expected = kind_name(kind).into();
@@ -172,6 +229,7 @@ fn primitive(kind: Kind) -> usize {
         Kind::Symbol => 0,
         Kind::Number => 1,
         Kind::Unsigned => 2,
+        Kind::Float => 3,
     }
 }
 
@@ -180,17 +238,13 @@ pub(super) fn kind_name(kind: Kind) -> &'static str {
         Kind::Symbol => "symbol",
         Kind::Number => "number",
         Kind::Unsigned => "unsigned",
+        Kind::Float => "float",
     }
 }
 
 fn type_named(name: &Name, declared: &Declared, faults: &mut Found) -> Option<usize> {
     let found = declared.type_names.get(&name.text).copied();
-    if found.is_none() && name.text == "float" {
-        let help = "пишите целые в меньших единицах, например десятые доли миллиметра";
-        let fault =
-            RuleError::Unsupported { what: "тип float".into(), help, at: name.at.into() };
-        faults.push(name.at, fault);
-    } else if found.is_none() {
+    if found.is_none() {
         let nearest =
             nearest_name(&name.text, declared.types.iter().map(|known| known.name.as_str()));
         let nearest = nearest.map(str::to_owned);
@@ -256,6 +310,8 @@ fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInf
         Role::Input => info.input = Some(parameters.to_vec()),
         Role::Output => info.output = Some(parameters.to_vec()),
         Role::PrintSize => info.print_size = true,
+        // Becomes rules, see `equivalence`.
+        Role::Equivalence => {}
         Role::LimitSize => {
             let limit = parameters.iter().find(|(name, _)| name == "n");
             info.limit_size = limit.and_then(|(_, n)| n.parse().ok()).or(info.limit_size);
@@ -399,6 +455,7 @@ fn count_in_expr<'a>(expr: &'a Expr, seen: &mut BTreeMap<&'a str, (Span, usize)>
             value.iter().for_each(|value| count_in_expr(value, seen));
             count_in_body(body, seen);
         }
-        Expr::Any(_) | Expr::Number(..) | Expr::Text(..) => {}
+        Expr::As { value, .. } => count_in_expr(value, seen),
+        Expr::Any(_) | Expr::Number(..) | Expr::Decimal(..) | Expr::Text(..) => {}
     }
 }

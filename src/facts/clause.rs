@@ -4,12 +4,17 @@
 use std::collections::HashMap;
 
 use super::check::{Declared, kind_name};
+use super::decimal;
 use super::fault::RuleError;
+use super::ground::used_variables;
+use super::kinds::is_whole;
 use super::program::{
-    Aggregate, Atom, Clause, Compare, Expr, Found, Kind, Literal, Term, Variable, VariableId,
+    Aggregate, Atom, Clause, Column, Compare, Expr, Found, Kind, Literal, RelationId, RelationInfo,
+    Term, Variable, VariableId,
 };
 use super::syntax::{self, Aggregation, Body, Comparison, Functor, Rule, Span};
 use super::word::Words;
+use crate::units::nearest_name;
 
 /// Choices of a rule's disjunctions, multiplied out.
 const MAX_CHOICES: usize = 256;
@@ -19,6 +24,7 @@ pub(super) fn clauses(
     rule: &Rule,
     declared: &Declared,
     words: &mut Words,
+    made: &mut Made,
     faults: &mut Found,
 ) -> Vec<Clause> {
     let Some(choices) = choices(&rule.body, true) else {
@@ -35,16 +41,23 @@ pub(super) fn clauses(
                 continue;
             }
             let mut builder =
-                Builder { declared, words, faults, variables: Vec::new(), is_sound: true };
+                Builder { declared, words, faults, made, variables: Vec::new(), is_sound: true };
             clauses.extend(builder.clause(head, choice, rule.at));
         }
     }
     clauses
 }
 
+/// Relations, with their places, and clauses that stand for parts of rules; numbered behind the declared ones.
+#[derive(Debug, Default)]
+pub(super) struct Made {
+    pub(super) relations: Vec<(RelationInfo, Span)>,
+    pub(super) clauses: Vec<Clause>,
+}
+
 /// A premise without disjunction.
 #[derive(Debug, Clone)]
-enum Premise<'a> {
+pub(super) enum Premise<'a> {
     Atom(&'a syntax::Atom),
     Not(&'a syntax::Atom),
     Compare { op: Comparison, left: &'a syntax::Expr, right: &'a syntax::Expr, at: Span },
@@ -89,22 +102,24 @@ fn either(parts: &[Body], is_positive: bool) -> Option<Vec<Vec<Premise<'_>>>> {
 }
 
 /// Variables by name; a name that an enclosing scope has means that scope's variable.
-type Scope = HashMap<String, VariableId>;
+pub(super) type Scope = HashMap<String, VariableId>;
 
-struct VariableType {
-    name: String,
-    at: Span,
+pub(super) struct VariableType {
+    pub(super) name: String,
+    pub(super) at: Span,
     /// The declared type of the column that binds it; none until one does.
-    of: Option<usize>,
-    is_number: Option<bool>,
+    pub(super) of: Option<usize>,
+    /// What it is computed as; none until that is known.
+    pub(super) kind: Option<Kind>,
 }
 
-struct Builder<'a> {
-    declared: &'a Declared,
+pub(super) struct Builder<'a> {
+    pub(super) declared: &'a Declared,
     words: &'a mut Words,
-    faults: &'a mut Found,
-    variables: Vec<VariableType>,
-    is_sound: bool,
+    pub(super) faults: &'a mut Found,
+    made: &'a mut Made,
+    pub(super) variables: Vec<VariableType>,
+    pub(super) is_sound: bool,
 }
 
 impl Builder<'_> {
@@ -120,26 +135,28 @@ impl Builder<'_> {
         self.find_kinds(premises, &scope);
         let mut body = self.literals(premises, &scope);
         let mut args = Vec::with_capacity(head.args.len());
-        for arg in &head.args {
-            args.push(self.expr(arg, &scope, &mut body)?);
+        for (n, arg) in head.args.iter().enumerate() {
+            let column = relation.and_then(|of| self.declared.relations[of.index()].columns.get(n));
+            let wanted = column.map(|column| column.kind);
+            args.push(self.expr(arg, wanted, &scope, &mut body)?);
         }
-        let relation = relation.filter(|relation| self.head_fits(head, *relation, &args));
+        let relation = relation.filter(|relation| self.head_fits(head, *relation, &args, &scope));
         self.check_bound(&body, &args);
         let relation = relation.filter(|_| self.is_sound)?;
         let variables = self.variables.iter().map(|variable| Variable {
             name: variable.name.clone(),
-            is_number: variable.is_number == Some(true),
+            kind: variable.kind.unwrap_or(Kind::Symbol),
         });
         Some(Clause { head: relation, args, body, variables: variables.collect(), at })
     }
 
-    fn fault(&mut self, at: Span, fault: RuleError) {
+    pub(super) fn fault(&mut self, at: Span, fault: RuleError) {
         self.is_sound = false;
         self.faults.push(at, fault);
     }
 
     fn fresh(&mut self, name: &str, at: Span) -> VariableId {
-        self.variables.push(VariableType { name: name.into(), at, of: None, is_number: None });
+        self.variables.push(VariableType { name: name.into(), at, of: None, kind: None });
         (self.variables.len() - 1) as VariableId
     }
 
@@ -153,98 +170,12 @@ impl Builder<'_> {
     ) {
         let mut names = Vec::new();
         exprs.iter().chain(value).for_each(|expr| names_of(expr, &mut names));
-        for premise in premises {
-            match premise {
-                Premise::Atom(atom) | Premise::Not(atom) => {
-                    atom.args.iter().for_each(|arg| names_of(arg, &mut names));
-                }
-                Premise::Compare { left, right, .. } => {
-                    names_of(left, &mut names);
-                    names_of(right, &mut names);
-                }
-            }
-        }
+        premises.iter().for_each(|premise| names_in(premise, &mut names));
         for name in names {
             if !scope.contains_key(&name.text) {
                 let id = self.fresh(&name.text, name.at);
                 scope.insert(name.text.clone(), id);
             }
-        }
-    }
-
-    /// Kinds by the columns that variables stand in, then by what they are compared to.
-    fn find_kinds(&mut self, premises: &[Premise<'_>], scope: &Scope) {
-        for premise in premises {
-            if let Premise::Atom(atom) | Premise::Not(atom) = premise {
-                let Some(relation) = self.declared.names.find(&atom.relation.text) else {
-                    continue;
-                };
-                let declared = self.declared;
-                for (arg, of) in atom.args.iter().zip(&declared.columns[relation.index()]) {
-                    if let syntax::Expr::Variable(name) = arg {
-                        let is_positive = matches!(premise, Premise::Atom(_));
-                        self.give_type(scope[&name.text], *of, is_positive, name.at);
-                    }
-                }
-            }
-        }
-        // Each round settles at least one variable, or nothing changes any more.
-        for _ in 0..premises.len() {
-            let mut changed = false;
-            for premise in premises {
-                if let Premise::Compare { left, right, .. } = premise {
-                    let kind = self.kind_of(left, scope).or_else(|| self.kind_of(right, scope));
-                    let Some(kind) = kind else { continue };
-                    for side in [left, right] {
-                        if let syntax::Expr::Variable(name) = side {
-                            let known = &mut self.variables[scope[&name.text] as usize].is_number;
-                            changed |= known.is_none();
-                            known.get_or_insert(kind);
-                        }
-                    }
-                }
-            }
-            if !changed {
-                break;
-            }
-        }
-    }
-
-    fn kind_of(&self, expr: &syntax::Expr, scope: &Scope) -> Option<bool> {
-        match expr {
-            syntax::Expr::Variable(name) => self.variables[scope[&name.text] as usize].is_number,
-            syntax::Expr::Number(..) | syntax::Expr::Aggregate { .. } => Some(true),
-            syntax::Expr::Text(..) => Some(false),
-            syntax::Expr::Call { functor, .. } => Some(functor.is_number()),
-            syntax::Expr::Any(_) => None,
-        }
-    }
-
-    /// A variable may stand in columns of several types when one of them is part of the others.
-    fn give_type(&mut self, variable: VariableId, of: usize, is_positive: bool, at: Span) {
-        let kind = self.declared.types[of].kind;
-        let known = &mut self.variables[variable as usize];
-        let name = known.name.clone();
-        let before = known.of;
-        let fits = match (known.is_number, before) {
-            (Some(is_number), _) if is_number != kind.is_number() => false,
-            (_, Some(before)) if !kind.is_number() || is_user_type(before) || is_user_type(of) => {
-                self.declared.is_subtype(before, of) || self.declared.is_subtype(of, before)
-            }
-            _ => true,
-        };
-        if !fits {
-            let expected = self.declared.types[of].name.clone();
-            let found = before.map_or_else(
-                || if kind.is_number() { "symbol" } else { "number" }.to_owned(),
-                |before| self.declared.types[before].name.clone(),
-            );
-            self.fault(at, RuleError::Types { what: name, expected, found, at: at.into() });
-            return;
-        }
-        known.is_number = Some(kind.is_number());
-        if is_positive && before.is_none_or(|before| self.declared.is_subtype(of, before)) {
-            self.variables[variable as usize].of = Some(of);
         }
     }
 
@@ -290,7 +221,7 @@ impl Builder<'_> {
             args.push(match arg {
                 syntax::Expr::Any(_) => Term::Any,
                 syntax::Expr::Variable(name) => Term::Variable(scope[&name.text]),
-                _ => match self.expr(arg, scope, body)? {
+                _ => match self.expr(arg, Some(column.kind), scope, body)? {
                     Expr::Constant(word) => {
                         self.expect(arg, column.kind, scope);
                         Term::Constant(word)
@@ -299,10 +230,10 @@ impl Builder<'_> {
                     value => {
                         self.expect(arg, column.kind, scope);
                         let variable = self.fresh("", arg.at());
-                        let is_number = column.kind.is_number();
-                        self.variables[variable as usize].is_number = Some(is_number);
+                        let kind = column.kind.plain();
+                        self.variables[variable as usize].kind = Some(kind);
                         let (left, op) = (Expr::Variable(variable), Comparison::Equal);
-                        let compare = Compare { op, left, right: value, is_number, at: arg.at() };
+                        let compare = Compare { op, left, right: value, kind, at: arg.at() };
                         body.push(Literal::Compare(compare));
                         Term::Variable(variable)
                     }
@@ -312,7 +243,7 @@ impl Builder<'_> {
         Some(Atom { relation, args, at: atom.at })
     }
 
-    fn has_arity(&mut self, atom: &syntax::Atom, expected: usize) -> bool {
+    pub(super) fn has_arity(&mut self, atom: &syntax::Atom, expected: usize) -> bool {
         let found = atom.args.len();
         if found != expected {
             let (name, at) = (atom.relation.text.clone(), atom.at.into());
@@ -330,55 +261,30 @@ impl Builder<'_> {
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) {
-        let kinds = (self.kind_of(left, scope), self.kind_of(right, scope));
         let is_contains = matches!(op, Comparison::Contains | Comparison::NotContains);
-        if let (Some(of_left), Some(of_right)) = kinds
-            && (of_left != of_right || is_contains && of_left)
-        {
-            let wanted = if is_contains { false } else { of_left };
-            let wrong = if of_right == wanted { left } else { right };
-            self.wrong_kind(wrong, if wanted { Kind::Number } else { Kind::Symbol });
-            return;
+        let kind = self.common_kind(left, right, scope);
+        let wanted = if is_contains { Some(Kind::Symbol) } else { kind };
+        if let Some(wanted) = wanted {
+            let wrong = [left, right].into_iter().find(|side| !self.fits(side, wanted, scope));
+            if let Some(wrong) = wrong {
+                self.wrong_kind(wrong, wanted, scope);
+                return;
+            }
         }
         let (Some(left), Some(right)) =
-            (self.expr(left, scope, body), self.expr(right, scope, body))
+            (self.expr(left, wanted, scope, body), self.expr(right, wanted, scope, body))
         else {
             return;
         };
-        let is_number = kinds.0.or(kinds.1).unwrap_or(false);
-        body.push(Literal::Compare(Compare { op, left, right, is_number, at }));
+        let kind = kind.unwrap_or(Kind::Symbol);
+        body.push(Literal::Compare(Compare { op, left, right, kind, at }));
     }
 
-    fn expect(&mut self, expr: &syntax::Expr, kind: Kind, scope: &Scope) {
-        let negative = matches!(expr, syntax::Expr::Number(number, _) if *number < 0);
-        let fits = self.kind_of(expr, scope).is_none_or(|is_number| is_number == kind.is_number());
-        if !fits || negative && kind == Kind::Unsigned {
-            self.wrong_kind(expr, kind);
-        }
-    }
-
-    fn wrong_kind(&mut self, expr: &syntax::Expr, expected: Kind) {
-        let at = expr.at();
-        let what = match expr {
-            syntax::Expr::Variable(name) => name.text.clone(),
-            syntax::Expr::Number(number, _) => number.to_string(),
-            syntax::Expr::Text(text, _) => text.clone(),
-            syntax::Expr::Call { functor, .. } => functor.word().into(),
-            syntax::Expr::Aggregate { function, .. } => function.word().into(),
-            syntax::Expr::Any(_) => "_".into(),
-        };
-        let found = if expected.is_number() { "symbol" } else { "number" };
-        let found =
-            if expected == Kind::Unsigned && what.starts_with('-') { "number" } else { found }
-                .into();
-        let fault =
-            RuleError::Types { what, expected: kind_name(expected).into(), found, at: at.into() };
-        self.fault(at, fault);
-    }
-
+    /// The expression over variables; `wanted` tells a whole number whether it stands for a decimal.
     fn expr(
         &mut self,
         expr: &syntax::Expr,
+        wanted: Option<Kind>,
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) -> Option<Expr> {
@@ -388,15 +294,73 @@ impl Builder<'_> {
                 return None;
             }
             syntax::Expr::Variable(name) => Expr::Variable(scope[&name.text]),
-            syntax::Expr::Number(number, _) => Expr::Constant(self.words.number(*number)),
+            syntax::Expr::Number(number, at) if wanted == Some(Kind::Float) => {
+                let Some(number) = number.checked_mul(decimal::ONE) else {
+                    let text = number.to_string();
+                    self.fault(*at, RuleError::Number { text, at: (*at).into() });
+                    return None;
+                };
+                Expr::Constant(self.words.number(number))
+            }
+            syntax::Expr::Number(number, _) | syntax::Expr::Decimal(number, _) => {
+                Expr::Constant(self.words.number(*number))
+            }
             syntax::Expr::Text(text, _) => Expr::Constant(self.words.symbol(text)),
-            syntax::Expr::Call { functor, args, .. } => self.call(*functor, args, scope, body)?,
+            syntax::Expr::As { value, type_name, at } => {
+                self.cast(value, type_name, *at, scope, body)?
+            }
+            syntax::Expr::Call { functor, args, .. } => {
+                let is_float = wanted == Some(Kind::Float) && is_whole(expr)
+                    || self.kind_of(expr, scope) == Some(Kind::Float);
+                let first = match functor.is_arithmetic() {
+                    true => is_float.then_some(Kind::Float),
+                    false => args.first().and_then(|arg| self.kind_of(arg, scope)),
+                };
+                self.call(functor.for_kinds(first), args, scope, body)?
+            }
             syntax::Expr::Aggregate { function, value, body: inner, at } => {
                 let target =
                     self.aggregate(*function, value.as_deref(), inner, *at, scope, body)?;
                 Expr::Variable(target)
             }
         })
+    }
+
+    /// `as(value, type)` between types that are computed alike; a symbol as a number is its ordinal.
+    fn cast(
+        &mut self,
+        value: &syntax::Expr,
+        type_name: &syntax::Name,
+        at: Span,
+        scope: &Scope,
+        body: &mut Vec<Literal>,
+    ) -> Option<Expr> {
+        let Some(of) = self.declared.type_named(&type_name.text) else {
+            let nearest = self.declared.types.iter().map(|known| known.name.as_str());
+            let nearest = nearest_name(&type_name.text, nearest).map(str::to_owned);
+            let (name, at) = (type_name.text.clone(), type_name.at);
+            self.fault(at, RuleError::UnknownType { name, nearest, at: at.into() });
+            return None;
+        };
+        let (from, to) = (self.kind_of(value, scope), self.declared.types[of].kind.plain());
+        let value = self.expr(value, Some(to), scope, body)?;
+        match (from, to) {
+            (Some(Kind::Symbol), Kind::Number) => Some(Expr::Call(Functor::Ordinal, vec![value])),
+            (Some(from), to) if from != to => {
+                let what = format!("as из {} в {}", kind_name(from), kind_name(to));
+                let help = "есть to_number, to_float и to_string";
+                self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
+                None
+            }
+            _ => {
+                // X = as(Y, T) reads V = Y, X = V: the new variable has none of Y's types.
+                let variable = self.fresh("", at);
+                self.variables[variable as usize].kind = Some(to);
+                let (left, op) = (Expr::Variable(variable), Comparison::Equal);
+                body.push(Literal::Compare(Compare { op, left, right: value, kind: to, at }));
+                Some(Expr::Variable(variable))
+            }
+        }
     }
 
     fn call(
@@ -407,12 +371,18 @@ impl Builder<'_> {
         body: &mut Vec<Literal>,
     ) -> Option<Expr> {
         let mut values = Vec::with_capacity(args.len());
-        for (arg, is_number) in args.iter().zip(functor.takes_numbers()) {
+        for (arg, kind) in args.iter().zip(functor.takes()) {
             if let syntax::Expr::Variable(name) = arg {
-                self.variables[scope[&name.text] as usize].is_number.get_or_insert(*is_number);
+                self.variables[scope[&name.text] as usize].kind.get_or_insert(*kind);
             }
-            self.expect(arg, if *is_number { Kind::Number } else { Kind::Symbol }, scope);
-            values.push(self.expr(arg, scope, body)?);
+            // Soufflé takes anything there; the ordinal of a number is the number.
+            if functor != Functor::Ordinal {
+                self.expect(arg, *kind, scope);
+            }
+            values.push(self.expr(arg, Some(*kind), scope, body)?);
+        }
+        if functor == Functor::Ordinal && self.kind_of(&args[0], scope) == Some(Kind::Number) {
+            return values.pop();
         }
         let call = Expr::Call(functor, values);
         // What is computed from constants alone is computed here.
@@ -433,22 +403,30 @@ impl Builder<'_> {
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) -> Option<VariableId> {
-        let mut choices = choices(inner, true).unwrap_or_default();
-        if choices.len() != 1 {
-            let (what, help) = ("«;» внутри счёта".into(), "вынесите выбор в отдельное отношение");
-            self.fault(at, RuleError::Unsupported { what, help, at: at.into() });
+        let Some(mut choices) = choices(inner, true) else {
+            let (what, limit, at) = ("вариантов у счёта", MAX_CHOICES, at);
+            self.fault(at, RuleError::TooLarge { what, limit, at: at.into() });
             return None;
-        }
-        let premises = choices.swap_remove(0);
-        let mut within = scope.clone();
+        };
         let outer = self.variables.len() as VariableId;
-        self.enter(&premises, &[], value, &mut within);
-        self.find_kinds(&premises, &within);
-        let mut literals = self.literals(&premises, &within);
+        let mut within = scope.clone();
+        let mut literals = match choices.len() {
+            1 => {
+                let premises = choices.swap_remove(0);
+                self.enter(&premises, &[], value, &mut within);
+                self.find_kinds(&premises, &within);
+                self.literals(&premises, &within)
+            }
+            _ => vec![self.either(&choices, value, at, &mut within)?],
+        };
+        let mut kind = Kind::Number;
         let value = match value {
             Some(value) => {
-                self.expect(value, Kind::Number, &within);
-                Some(self.expr(value, &within, &mut literals)?)
+                if self.kind_of(value, &within) == Some(Kind::Float) {
+                    kind = Kind::Float;
+                }
+                self.expect(value, kind, &within);
+                Some(self.expr(value, Some(kind), &within, &mut literals)?)
             }
             None => None,
         };
@@ -459,9 +437,10 @@ impl Builder<'_> {
             }
         });
         let target = self.fresh("", at);
-        self.variables[target as usize].is_number = Some(true);
+        self.variables[target as usize].kind = Some(kind);
         body.push(Literal::Aggregate(Aggregate {
             target,
+            kind,
             function,
             value,
             body: literals,
@@ -471,167 +450,102 @@ impl Builder<'_> {
         Some(target)
     }
 
-    fn head_fits(
+    /// An atom that holds for what any of the choices finds. The choices become rules of a relation of their own,
+    /// over the variables that all of them name; what two of them find counts once, as in Soufflé.
+    fn either(
         &mut self,
-        head: &syntax::Atom,
-        relation: super::RelationId,
-        args: &[Expr],
-    ) -> bool {
-        let declared = self.declared;
-        let columns = &declared.relations[relation.index()].columns;
-        if !self.has_arity(head, columns.len()) {
-            return false;
-        }
-        for (n, (arg, column)) in head.args.iter().zip(columns).enumerate() {
-            let wanted = declared.columns[relation.index()][n];
-            let Expr::Variable(id) = args[n] else {
-                self.expect(arg, column.kind, &Scope::new());
-                continue;
-            };
-            let variable = &self.variables[id as usize];
-            let is_number = variable.is_number.unwrap_or(column.kind.is_number());
-            let narrower = variable
-                .of
-                .is_none_or(|of| !is_user_type(wanted) || declared.is_subtype(of, wanted));
-            if is_number != column.kind.is_number() || !narrower {
-                let found = match variable.of {
-                    Some(of) => declared.types[of].name.clone(),
-                    None => if is_number { "number" } else { "symbol" }.into(),
-                };
-                let (what, at) = (variable.name.clone(), arg.at());
-                let expected = column.type_name.clone();
-                self.fault(at, RuleError::Types { what, expected, found, at: at.into() });
+        choices: &[Vec<Premise<'_>>],
+        value: Option<&syntax::Expr>,
+        at: Span,
+        within: &mut Scope,
+    ) -> Option<Literal> {
+        let mut common: Option<Vec<String>> = None;
+        for premises in choices {
+            let mut names = Vec::new();
+            for premise in premises {
+                names_in(premise, &mut names);
             }
-            self.variables[id as usize].is_number.get_or_insert(column.kind.is_number());
-        }
-        true
-    }
-
-    fn check_bound(&mut self, body: &[Literal], args: &[Expr]) {
-        let mut bound = vec![false; self.variables.len()];
-        let mut loose = Vec::new();
-        find_unbound(body, None, &mut bound, &mut loose);
-        for arg in args {
-            arg.for_each_variable(&mut |v| {
-                if !bound[v as usize] {
-                    loose.push(v);
-                }
+            let names: Vec<String> = names.into_iter().map(|name| name.text.clone()).collect();
+            common = Some(match common {
+                None => names,
+                Some(known) => known.into_iter().filter(|name| names.contains(name)).collect(),
             });
         }
-        loose.sort_unstable();
-        loose.dedup();
-        for v in loose {
-            let VariableType { name, at, .. } = &self.variables[v as usize];
-            let (variable, at) = (name.clone(), *at);
-            // An unnamed variable stands for an expression whose own variables are reported.
-            if variable.is_empty() {
-                self.is_sound = false;
-            } else {
-                self.fault(at, RuleError::Ungrounded { variable, at: at.into() });
+        let mut names: Vec<String> = Vec::new();
+        for name in common.unwrap_or_default() {
+            if !names.contains(&name) {
+                names.push(name);
             }
+        }
+        let place = self.made.relations.len();
+        let relation = RelationId((self.declared.relations.len() + place) as u32);
+        let info =
+            RelationInfo { name: format!("выбор_{}", place + 1), ..RelationInfo::default() };
+        self.made.relations.push((info, at));
+        let mut kinds: Vec<Kind> = Vec::new();
+        let mut clauses = Vec::new();
+        for premises in choices {
+            let (variables, is_sound) = (std::mem::take(&mut self.variables), self.is_sound);
+            let mut scope = Scope::new();
+            self.enter(premises, &[], None, &mut scope);
+            self.find_kinds(premises, &scope);
+            let body = self.literals(premises, &scope);
+            let args: Vec<Expr> = names.iter().map(|name| Expr::Variable(scope[name])).collect();
+            self.check_bound(&body, &args);
+            kinds = names
+                .iter()
+                .map(|name| self.variables[scope[name] as usize].kind.unwrap_or(Kind::Symbol))
+                .collect();
+            let own = std::mem::replace(&mut self.variables, variables);
+            self.is_sound &= is_sound;
+            let kind = |variable: VariableType| Variable {
+                name: variable.name,
+                kind: variable.kind.unwrap_or(Kind::Symbol),
+            };
+            let variables = own.into_iter().map(kind).collect();
+            clauses.push(Clause { head: relation, args, body, variables, at });
+        }
+        let columns = names.iter().zip(&kinds).map(|(name, kind)| Column {
+            name: name.clone(),
+            kind: *kind,
+            type_name: kind_name(*kind).into(),
+        });
+        self.made.relations[place].0.columns = columns.collect();
+        self.made.clauses.extend(clauses);
+        let mut in_value = Vec::new();
+        value.iter().for_each(|value| names_of(value, &mut in_value));
+        for name in names.iter().cloned().chain(in_value.iter().map(|name| name.text.clone())) {
+            if !within.contains_key(&name) {
+                let id = self.fresh(&name, at);
+                within.insert(name, id);
+            }
+        }
+        for (name, kind) in names.iter().zip(kinds) {
+            self.variables[within[name] as usize].kind.get_or_insert(kind);
+        }
+        let args = names.iter().map(|name| Term::Variable(within[name])).collect();
+        self.is_sound.then_some(Literal::Atom(Atom { relation, args, at }))
+    }
+}
+
+/// The names of a premise at its own level.
+fn names_in<'a>(premise: &Premise<'a>, names: &mut Vec<&'a syntax::Name>) {
+    match *premise {
+        Premise::Atom(atom) | Premise::Not(atom) => {
+            atom.args.iter().for_each(|arg| names_of(arg, names));
+        }
+        Premise::Compare { left, right, .. } => {
+            names_of(left, names);
+            names_of(right, names);
         }
     }
 }
 
-fn is_user_type(id: usize) -> bool {
-    id > 2
-}
-
-fn names_of<'a>(expr: &'a syntax::Expr, names: &mut Vec<&'a syntax::Name>) {
+pub(super) fn names_of<'a>(expr: &'a syntax::Expr, names: &mut Vec<&'a syntax::Name>) {
     match expr {
         syntax::Expr::Variable(name) => names.push(name),
         syntax::Expr::Call { args, .. } => args.iter().for_each(|arg| names_of(arg, names)),
+        syntax::Expr::As { value, .. } => names_of(value, names),
         _ => {}
-    }
-}
-
-/// Marks what a body binds, and lists the variables that it uses without binding them.
-fn find_unbound(
-    body: &[Literal],
-    value: Option<&Expr>,
-    bound: &mut [bool],
-    loose: &mut Vec<VariableId>,
-) {
-    for literal in body {
-        if let Literal::Atom(atom) = literal {
-            for term in &atom.args {
-                if let Term::Variable(v) = term {
-                    bound[*v as usize] = true;
-                }
-            }
-        }
-    }
-    let mut changed = true;
-    while changed {
-        changed = false;
-        for literal in body {
-            changed |= match literal {
-                Literal::Compare(Compare { op: Comparison::Equal, left, right, .. }) => {
-                    bind(left, right, bound) || bind(right, left, bound)
-                }
-                Literal::Aggregate(aggregate) => {
-                    let ready = aggregate.shared.iter().all(|v| bound[*v as usize]);
-                    ready && !std::mem::replace(&mut bound[aggregate.target as usize], true)
-                }
-                _ => false,
-            };
-        }
-    }
-    let mut used = Vec::new();
-    used_variables(body, value, &mut |v| used.push(v));
-    for literal in body {
-        if let Literal::Aggregate(aggregate) = literal {
-            used.retain(|v| !is_local(aggregate, *v));
-            let mut within = bound.to_vec();
-            find_unbound(&aggregate.body, aggregate.value.as_ref(), &mut within, loose);
-        }
-    }
-    loose.extend(used.into_iter().filter(|v| !bound[*v as usize]));
-}
-
-/// Whether a variable belongs to the aggregate alone: those are numbered between its outer ones and its target.
-fn is_local(aggregate: &Aggregate, v: VariableId) -> bool {
-    let mut inside = false;
-    used_variables(&aggregate.body, aggregate.value.as_ref(), &mut |used| inside |= used == v);
-    inside && !aggregate.shared.contains(&v)
-}
-
-fn bind(variable: &Expr, value: &Expr, bound: &mut [bool]) -> bool {
-    match variable {
-        Expr::Variable(v) if !bound[*v as usize] && value.all_variables(|v| bound[v as usize]) => {
-            bound[*v as usize] = true;
-            true
-        }
-        _ => false,
-    }
-}
-
-/// Every variable of a body, those within aggregates included.
-pub(super) fn used_variables(
-    body: &[Literal],
-    value: Option<&Expr>,
-    f: &mut dyn FnMut(VariableId),
-) {
-    if let Some(value) = value {
-        value.for_each_variable(f);
-    }
-    for literal in body {
-        match literal {
-            Literal::Atom(atom) | Literal::Not(atom) => {
-                for term in &atom.args {
-                    if let Term::Variable(v) = term {
-                        f(*v);
-                    }
-                }
-            }
-            Literal::Compare(compare) => {
-                compare.left.for_each_variable(f);
-                compare.right.for_each_variable(f);
-            }
-            Literal::Aggregate(aggregate) => {
-                f(aggregate.target);
-                used_variables(&aggregate.body, aggregate.value.as_ref(), f);
-            }
-        }
     }
 }

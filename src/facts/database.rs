@@ -5,6 +5,7 @@ use std::sync::Arc;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use super::decimal::Decimal;
 use super::program::{Kind, Names, Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::stored::{Stored, stored};
@@ -90,6 +91,7 @@ impl Schema {
                 Value::Number(number) => {
                     column.kind == Kind::Number || column.kind == Kind::Unsigned && *number >= 0
                 }
+                Value::Decimal(_) => column.kind == Kind::Float,
                 Value::Symbol(_) => column.kind == Kind::Symbol,
             };
             if !fits {
@@ -146,10 +148,7 @@ impl Database {
     ) -> Result<(RelationId, Vec<Word>), FactError> {
         let relation = relation.find(&self.schema)?;
         let words = &mut self.words;
-        let row = self.schema.encode(relation, tuple, |value| match value {
-            Value::Number(number) => words.number(*number),
-            Value::Symbol(text) => words.symbol(text),
-        })?;
+        let row = self.schema.encode(relation, tuple, |value| words.of(value))?;
         words.settle();
         Ok((relation, row))
     }
@@ -245,7 +244,7 @@ impl Database {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Known {
     word: Word,
-    is_number: bool,
+    kind: Kind,
 }
 
 /// Takes tuples for a database, many at once.
@@ -258,11 +257,15 @@ pub struct Loader<'a> {
 
 impl Loader<'_> {
     pub fn number(&mut self, number: i64) -> Known {
-        Known { word: self.database.words.number(number), is_number: true }
+        Known { word: self.database.words.number(number), kind: Kind::Number }
+    }
+
+    pub fn decimal(&mut self, decimal: Decimal) -> Known {
+        Known { word: self.database.words.number(decimal.millionths()), kind: Kind::Float }
     }
 
     pub fn symbol(&mut self, text: &str) -> Known {
-        Known { word: self.database.words.symbol(text), is_number: false }
+        Known { word: self.database.words.symbol(text), kind: Kind::Symbol }
     }
 
     /// # Errors
@@ -271,16 +274,13 @@ impl Loader<'_> {
         let info = self.database.schema.info(relation);
         let fits = tuple.len() == info.columns.len()
             && tuple.iter().zip(&info.columns).all(|(value, column)| {
-                value.is_number == column.kind.is_number()
+                value.kind == column.kind.plain()
                     && (column.kind != Kind::Unsigned
                         || self.database.words.to_number(value.word) >= 0)
             });
         if !fits {
             let words = &self.database.words;
-            let value = |known: &Known| match known.is_number {
-                true => Value::Number(words.to_number(known.word)),
-                false => Value::Symbol(Arc::clone(words.text(known.word))),
-            };
+            let value = |known: &Known| words.value(known.word, known.kind);
             let values: Vec<Value> = tuple.iter().map(value).collect();
             return self.database.find_row(relation, &values).map(|_| ());
         }
@@ -308,6 +308,7 @@ impl Loader<'_> {
 pub(super) fn find_word(words: &Words, value: &Value) -> Word {
     let found = match value {
         Value::Number(number) => words.find_number(*number),
+        Value::Decimal(decimal) => words.find_number(decimal.millionths()),
         Value::Symbol(text) => words.find_symbol(text),
     };
     found.unwrap_or(NO_WORD)

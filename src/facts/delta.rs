@@ -154,7 +154,8 @@ impl Deltas {
         if let Some(known) = self.backwards.get(&number) {
             return Arc::clone(known);
         }
-        let (clause, head, _) = turned(&program.clauses[number]);
+        let (clause, head, _) =
+            turned(&program.clauses[number], &program.info(program.clauses[number].head).columns);
         let versions = vec![Version::Finished; clause.body.len()];
         let task =
             Task { clause: &clause, versions: &versions, first: None, bound: &head, wanted: &[] };

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::database::{FactError, RelationKey, Schema, find_word};
 use super::kept::Kept;
-use super::program::{Program, RelationId, RelationInfo};
+use super::program::{Kind, Program, RelationId, RelationInfo};
 use super::rows::SharedRows;
 use super::stored::{Starting, Stored};
 use super::word::{Value, Word, Words};
@@ -102,6 +102,33 @@ impl Derived {
         Ok(tuples)
     }
 
+    /// Visits the tuples of a relation of this program in the order of [`Self::sorted`], until a visit fails.
+    pub(super) fn each_sorted<E>(
+        &self,
+        relation: RelationId,
+        visit: &mut dyn FnMut(Tuple<'_>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        let rows = self.kept.rows(relation).rows();
+        let columns = &self.schema.info(relation).columns;
+        let has_symbols = columns.iter().any(|column| !column.kind.is_number());
+        let in_place = |word: &Word| super::word::is_in_place(*word);
+        if !has_symbols && (0..rows.len()).all(|at| rows.row(at).iter().all(in_place)) {
+            return (0..rows.len()).try_for_each(|at| visit(self.tuple(relation, rows.row(at))));
+        }
+        let words = &self.kept.words;
+        let rank = if has_symbols { words.symbol_ranks() } else { Vec::new() };
+        let key = |at: u32| {
+            let row = rows.row(at as usize);
+            row.iter().zip(columns).map(|(word, column)| match column.kind.is_number() {
+                true => words.to_number(*word),
+                false => i64::from(rank[*word as usize]),
+            })
+        };
+        let mut order: Vec<u32> = (0..rows.len() as u32).collect();
+        order.sort_unstable_by(|a, b| key(*a).cmp(key(*b)));
+        order.into_iter().try_for_each(|at| visit(self.tuple(relation, rows.row(at as usize))))
+    }
+
     /// # Errors
     /// [`FactError`] when the relation is unknown or the tuple does not fit it.
     pub fn contains(&self, relation: impl RelationKey, tuple: &[Value]) -> Result<bool, FactError> {
@@ -158,7 +185,7 @@ impl<'a> Tuple<'a> {
     /// The number in a column; none when the column holds symbols or is not there.
     #[must_use]
     pub fn number(&self, column: usize) -> Option<i64> {
-        let holds_number = self.info.columns.get(column)?.kind.is_number();
+        let holds_number = self.info.columns.get(column)?.kind.plain() == Kind::Number;
         holds_number.then(|| self.words.to_number(self.row[column]))
     }
 
@@ -169,6 +196,21 @@ impl<'a> Tuple<'a> {
         (!holds_number).then(|| self.words.text(self.row[column]).as_ref())
     }
 
+    /// Appends the text of the value in a column.
+    pub(super) fn write(&self, column: usize, text: &mut String) {
+        use fmt::Write;
+        let (word, kind) = (self.row[column], self.info.columns[column].kind);
+        match kind {
+            Kind::Symbol => text.push_str(self.words.text(word)),
+            Kind::Number | Kind::Unsigned => {
+                let _ = write!(text, "{}", self.words.to_number(word));
+            }
+            Kind::Float => {
+                let _ = write!(text, "{}", self.words.value(word, kind));
+            }
+        }
+    }
+
     #[must_use]
     pub fn values(&self) -> Vec<Value> {
         values(self.words, self.info, self.row)
@@ -176,12 +218,6 @@ impl<'a> Tuple<'a> {
 }
 
 pub(super) fn values(words: &Words, info: &RelationInfo, row: &[Word]) -> Vec<Value> {
-    let value = |(word, column): (&Word, &super::Column)| {
-        if column.kind.is_number() {
-            Value::Number(words.to_number(*word))
-        } else {
-            Value::Symbol(words.text(*word).clone())
-        }
-    };
+    let value = |(word, column): (&Word, &super::Column)| words.value(*word, column.kind);
     row.iter().zip(&info.columns).map(value).collect()
 }

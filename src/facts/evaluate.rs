@@ -11,10 +11,11 @@ use datafrog::Iteration;
 use miette::Diagnostic;
 use thiserror::Error;
 
+use super::check::reads;
 use super::database::Database;
 use super::derived::Derived;
 use super::index::Index;
-use super::plan::{Plan, Request, Statistics, Task, Version, plan};
+use super::plan::{Plan, Request, Statistics, Task, UNKNOWN_SHARE, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum, VariableId};
 use super::rows::{Growing, RowSet, SharedRows, Sink, growing, heap};
 use super::run::{Goal, Source, Step, run};
@@ -45,10 +46,28 @@ impl Program {
     /// [`EvaluateError::TooMany`] when a relation outgrows the limit.
     pub fn evaluate(&self, database: &Database) -> Result<Derived, EvaluateError> {
         let mut evaluation = Evaluation::new(self, database);
-        for stratum in self.strata.iter() {
+        let last_readers = self.last_readers();
+        for (n, stratum) in self.strata.iter().enumerate() {
             evaluation.stratum(stratum)?;
+            // What nobody will read again need not be held in any other order.
+            evaluation.finished.indexes.retain(|(read, _), _| last_readers[read.index()] > n);
         }
         Ok(evaluation.derived())
+    }
+}
+
+impl Program {
+    /// For each relation the number of the last stratum that reads it.
+    fn last_readers(&self) -> Vec<usize> {
+        let mut last = vec![0; self.relations.len()];
+        for (n, stratum) in self.strata.iter().enumerate() {
+            for clause in &stratum.clauses {
+                reads(&self.clauses[*clause].body, false, &mut |relation, _, _| {
+                    last[relation.index()] = n;
+                });
+            }
+        }
+        last
     }
 }
 
@@ -135,11 +154,29 @@ impl Statistics for Finished {
             .entry((relation, column))
             .or_insert_with(|| distinct(self.relation(relation), column))
     }
+
+    fn share(
+        &self,
+        relation: RelationId,
+        column: usize,
+        holds: &dyn Fn(Word, &Words) -> bool,
+    ) -> f64 {
+        const SAMPLE: usize = 512;
+        let Some(rows) = self.rows[relation.index()].as_deref() else { return UNKNOWN_SHARE };
+        let step = rows.len().div_ceil(SAMPLE).max(1);
+        let (mut all, mut held) = (0, 0);
+        for at in (0..rows.len()).step_by(step) {
+            all += 1;
+            held += usize::from(holds(rows.row(at)[column], &self.words));
+        }
+        // A sample that misses the few that hold does not show that there are none.
+        (held as f64 + 0.5) / (f64::from(all) + 1.0)
+    }
 }
 
 /// Different words in a column, estimated from a sample where the relation is large.
 pub(super) fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
-    const SAMPLE: usize = 4096;
+    const SAMPLE: usize = 1024;
     let step = rows.len().div_ceil(SAMPLE).max(1);
     let mut words: Vec<Word> =
         (0..rows.len()).step_by(step).map(|at| rows.row(at)[column]).collect();
@@ -214,6 +251,10 @@ impl<'a> Evaluation<'a> {
                     let limit = self.limit(*relation);
                     let versions = vec![Version::Finished; clause.body.len()];
                     let mut plan = self.plan(clause, &versions, None);
+                    if let Some((read, columns)) = self.projection(clause, &plan) {
+                        new.project(self.finished.relation(read), &columns);
+                        continue;
+                    }
                     self.finished.provide(&mut plan);
                     self.emit(clause, &plan, &no_parts(&plan), limit, new.as_sink());
                 }
@@ -307,6 +348,30 @@ impl<'a> Evaluation<'a> {
             self.finished.rows[relation.index()] = Some(rows.complete());
         }
         Ok(())
+    }
+
+    /// The relation and the columns that a clause does nothing but copy.
+    fn projection(&self, clause: &Clause, plan: &Plan) -> Option<(RelationId, Vec<usize>)> {
+        let ([Step::Scan(scan), Step::Reached], [Request::Whole(read)]) =
+            (plan.steps.as_slice(), plan.requests.as_slice())
+        else {
+            return None;
+        };
+        let info = self.program.info(clause.head);
+        let is_plain = scan.key.is_empty() && scan.filters.is_empty() && scan.same.is_empty();
+        let takes_all = info.limit_size.is_none()
+            && info.columns.iter().all(|column| column.kind != Kind::Unsigned);
+        if !is_plain || !takes_all || clause.args.is_empty() {
+            return None;
+        }
+        let column = |arg: &Expr| match arg {
+            Expr::Variable(v) => {
+                scan.loads.iter().find(|(_, loaded)| loaded == v).map(|(at, _)| *at)
+            }
+            _ => None,
+        };
+        let columns: Option<Vec<usize>> = clause.args.iter().map(column).collect();
+        Some((*read, columns?))
     }
 
     fn plan(&self, clause: &Clause, versions: &[Version], first: Option<usize>) -> Plan {

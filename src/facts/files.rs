@@ -1,5 +1,6 @@
 //! Programs run over Soufflé's files: a line for each tuple, a tab between values.
 
+use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
@@ -7,12 +8,11 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use super::database::{Database, FactError};
+use super::database::{Database, FactError, Known, Loader};
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
 use super::fault::{Faults, FileFaults};
-use super::program::{Parameters, Program, RelationId, RelationInfo};
-use super::word::Value;
+use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
 use crate::units::Source;
 
 /// Why a program over files has no result.
@@ -78,8 +78,7 @@ pub fn run_files(
     facts_dir: &Path,
     out_dir: &Path,
 ) -> Result<FilesReport, FilesError> {
-    let source = Source::read(program).map_err(|cause| file_error(program, cause))?;
-    let program = Program::parse(&source)?;
+    let program = Program::parse_included(&with_included(program)?)?;
     for (_, info) in program.relations() {
         for (parameters, may_print) in [(&info.input, false), (&info.output, true)] {
             parameters.iter().try_for_each(|known| check(info, known, may_print))?;
@@ -111,6 +110,24 @@ pub fn run_files(
         }
     }
     Ok(report)
+}
+
+/// The program's text and all that it includes, each once; paths are looked for beside the text that names them.
+fn with_included(program: &Path) -> Result<Vec<Source>, FilesError> {
+    let mut sources = Vec::new();
+    let mut read = HashSet::new();
+    let mut open = vec![program.to_owned()];
+    while let Some(path) = open.pop() {
+        let known = path.canonicalize().map_err(|cause| file_error(&path, cause))?;
+        if !read.insert(known) {
+            continue;
+        }
+        let source = Source::read(&path).map_err(|cause| file_error(&path, cause))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        open.extend(includes(source.text()).into_iter().rev().map(|name| folder.join(name)));
+        sources.push(source);
+    }
+    Ok(sources)
 }
 
 fn file_error(path: &Path, cause: std::io::Error) -> FilesError {
@@ -164,54 +181,63 @@ fn read(
 ) -> Result<(), FilesError> {
     let path = facts_dir.join(file_name(info, parameters, "facts"));
     let text = std::fs::read_to_string(&path).map_err(|cause| file_error(&path, cause))?;
+    let mut loader = database.load();
+    let mut tuple = Vec::new();
     for (n, line) in text.lines().enumerate().skip(usize::from(has_headers(parameters))) {
-        let tuple = tuple_of(line, info, delimiter(parameters));
-        let inserted = database.insert(relation, &tuple);
-        inserted.map_err(|cause| FilesError::Line {
+        tuple.clear();
+        if !info.columns.is_empty() || !matches!(line, "" | "()") {
+            let values = line.split(delimiter(parameters)).enumerate();
+            tuple.extend(values.map(|(n, text)| known(info.columns.get(n), text, &mut loader)));
+        }
+        loader.push(relation, &tuple).map_err(|cause| FilesError::Line {
             path: path.clone(),
             line: n + 1,
             cause: cause.into(),
         })?;
     }
+    loader.finish();
     Ok(())
 }
 
-/// What stands for no number stays a symbol, and is refused with its column by the database.
-fn tuple_of(line: &str, info: &RelationInfo, delimiter: &str) -> Vec<Value> {
-    if info.columns.is_empty() && (line.is_empty() || line == "()") {
-        return Vec::new();
-    }
-    let values = line.split(delimiter).enumerate().map(|(n, text)| {
-        let is_number = info.columns.get(n).is_some_and(|column| column.kind.is_number());
-        match text.trim().parse() {
-            Ok(number) if is_number => Value::Number(number),
-            _ => Value::from(text),
+/// What stands for no number stays a symbol, and is refused with its column.
+fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known {
+    let value = match column.map(|column| column.kind) {
+        Some(Kind::Number | Kind::Unsigned) => {
+            text.trim().parse().ok().map(|number| loader.number(number))
         }
-    });
-    values.collect()
+        Some(Kind::Float) => text.trim().parse().ok().map(|decimal| loader.decimal(decimal)),
+        _ => None,
+    };
+    value.unwrap_or_else(|| loader.symbol(text))
 }
 
 /// The relation's lines: the columns' names where they are asked for, then the tuples in order.
-fn lines<'a>(
-    derived: &'a Derived,
+fn lines(
+    derived: &Derived,
     relation: RelationId,
-    info: &'a RelationInfo,
-    parameters: &'a Parameters,
-) -> impl Iterator<Item = String> + 'a {
+    info: &RelationInfo,
+    parameters: &Parameters,
+    line: &mut dyn FnMut(&str) -> std::io::Result<()>,
+) -> std::io::Result<()> {
     let delimiter = delimiter(parameters);
-    let names: Vec<&str> = info.columns.iter().map(|column| column.name.as_str()).collect();
-    let header = has_headers(parameters).then(|| names.join(delimiter));
-    let tuples = derived.sorted(relation).expect("the relation is the program's own");
-    let line = move |tuple: Vec<Value>| {
-        let mut line = String::new();
-        for (n, value) in tuple.iter().enumerate() {
-            let before = if n == 0 { "" } else { delimiter };
-            let _ = write!(line, "{before}{value}");
-        }
+    if has_headers(parameters) {
+        let names: Vec<&str> = info.columns.iter().map(|column| column.name.as_str()).collect();
+        line(&names.join(delimiter))?;
+    }
+    if info.columns.is_empty() {
         // Soufflé writes the tuple of no columns so.
-        if tuple.is_empty() { "()".to_owned() } else { line }
-    };
-    header.into_iter().chain(tuples.into_iter().map(line))
+        let holds = derived.len(relation).is_ok_and(|len| len > 0);
+        return if holds { line("()") } else { Ok(()) };
+    }
+    let mut text = String::new();
+    derived.each_sorted(relation, &mut |tuple| {
+        text.clear();
+        for n in 0..tuple.arity() {
+            text.push_str(if n == 0 { "" } else { delimiter });
+            tuple.write(n, &mut text);
+        }
+        line(&text)
+    })
 }
 
 fn write(
@@ -222,9 +248,10 @@ fn write(
     path: &Path,
 ) -> std::io::Result<()> {
     let mut file = BufWriter::new(std::fs::File::create(path)?);
-    for line in lines(derived, relation, info, parameters) {
-        writeln!(file, "{line}")?;
-    }
+    lines(derived, relation, info, parameters, &mut |line| {
+        file.write_all(line.as_bytes())?;
+        file.write_all(b"\n")
+    })?;
     file.flush()
 }
 
@@ -236,9 +263,12 @@ fn print(
     out: &mut String,
 ) {
     let _ = writeln!(out, "---------------\n{}\n===============", info.name);
-    for line in lines(derived, relation, info, parameters) {
-        let _ = writeln!(out, "{line}");
-    }
+    let done = lines(derived, relation, info, parameters, &mut |line| {
+        out.push_str(line);
+        out.push('\n');
+        Ok(())
+    });
+    done.expect("text grows without error");
     let _ = writeln!(out, "===============");
 }
 

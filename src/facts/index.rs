@@ -7,6 +7,8 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use foldhash::fast::RandomState;
+
 use super::program::Expr;
 use super::rows::RowSet;
 use super::value;
@@ -41,7 +43,7 @@ enum Directory {
         least: Word,
         starts: Vec<u32>,
     },
-    Sparse(HashMap<Word, (u32, u32)>),
+    Sparse(HashMap<Word, (u32, u32), RandomState>),
 }
 
 impl Index {
@@ -187,7 +189,7 @@ fn directory(keys: &[Word]) -> Directory {
         }
         return Directory::Dense { least: *least, starts };
     }
-    let mut places = HashMap::new();
+    let mut places = HashMap::default();
     let mut start = 0;
     for same in keys.chunk_by(|a, b| a == b) {
         let end = start + same.len() as u32;

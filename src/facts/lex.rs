@@ -8,6 +8,7 @@ use nom::multi::many0_count;
 use nom::sequence::{pair, preceded};
 use nom::{IResult, Parser};
 
+use super::decimal::Decimal;
 use super::fault::RuleError;
 use super::syntax::Span;
 
@@ -18,6 +19,8 @@ const MAX_DEPTH: usize = 64;
 pub(super) enum Word {
     Name(String),
     Number(i64),
+    /// In millionths.
+    Decimal(i64),
     Text(String),
     /// `.decl` and its like, without the dot.
     Directive(&'static str),
@@ -85,6 +88,15 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
             }
         };
         let Some(first) = rest.chars().next() else { return tokens };
+        if first == '#' {
+            let end = rest.find('\n').unwrap_or(rest.len());
+            let at = place(rest, &rest[end..]).into();
+            let what = format!("препроцессор C: «{}»", rest[..end].trim_end());
+            let help = "подставьте текст сами; файл правил включают директивой .include";
+            faults.push(RuleError::Unsupported { what, help, at });
+            rest = &rest[end..];
+            continue;
+        }
         let Ok((after, raw)) = raw_word(rest) else {
             let after = &rest[first.len_utf8()..];
             faults.push(RuleError::Character { character: first, at: place(rest, after).into() });
@@ -96,6 +108,9 @@ pub(super) fn words(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<T
         let word = match raw {
             Raw::Name(name) => Word::Name(normal(name)),
             Raw::Directive(name) => Word::Directive(name),
+            Raw::Number(digits) if digits.contains('.') => {
+                Word::Decimal(decimal(digits, at, faults))
+            }
             Raw::Number(digits) => Word::Number(number(digits, at, faults)),
             Raw::Text => match quoted(rest) {
                 Some((value, after)) => {
@@ -173,13 +188,19 @@ fn digits(text: &str) -> IResult<&str, &str> {
     alt((recognize(prefixed), recognize((plain, opt(fraction), opt(char('u')))))).parse(text)
 }
 
+fn decimal(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
+    text.parse::<Decimal>().map_or_else(
+        |_| {
+            let what = format!("дробное число «{text}»");
+            let help = "дроби десятичные, не больше шести знаков после точки";
+            faults.push(RuleError::Unsupported { what, help, at: at.into() });
+            0
+        },
+        Decimal::millionths,
+    )
+}
+
 fn number(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
-    if text.contains('.') {
-        let what = format!("дробное число «{text}»");
-        let help = "пишите целые в меньших единицах, например десятые доли миллиметра";
-        faults.push(RuleError::Unsupported { what, help, at: at.into() });
-        return 0;
-    }
     let parsed = match (text.strip_prefix("0x"), text.strip_prefix("0b")) {
         (Some(hex), _) => i64::from_str_radix(hex, 16),
         (_, Some(binary)) => i64::from_str_radix(binary, 2),

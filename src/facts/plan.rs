@@ -6,12 +6,14 @@
 
 use std::collections::HashMap;
 
-use super::clause::used_variables;
+use super::ground::used_variables;
 use super::program::{
     Aggregate, Atom, Clause, Compare, Expr, Literal, RelationId, Term, VariableId,
 };
 use super::run::{ColumnFilter, Scan, Step};
 use super::syntax::Comparison;
+use super::value;
+use super::word::{Word, Words};
 
 /// What an atom of the body ranges over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -60,7 +62,14 @@ pub(super) trait Statistics {
     fn size(&self, relation: RelationId) -> f64;
     /// Different words in a column.
     fn distinct(&self, relation: RelationId, column: usize) -> f64;
+    /// The share of rows whose column's word passes.
+    fn share(&self, _: RelationId, _: usize, _: &dyn Fn(Word, &Words) -> bool) -> f64 {
+        UNKNOWN_SHARE
+    }
 }
+
+/// What is taken for the share of rows that pass a comparison of which nothing is known.
+pub(super) const UNKNOWN_SHARE: f64 = 0.5;
 
 /// What a plan is to be made for.
 pub(super) struct Task<'a> {
@@ -429,19 +438,31 @@ impl<'a> Draft<'a> {
         let probes = self.solutions;
         self.solutions *= fan_out.max(1e-6);
         self.cost += self.solutions;
-        // Filters over columns pay off where a key brings many rows at once.
+        // Filters over computed columns pay off where a key brings many rows at once; without one, the column would
+        // be computed for rows of which each is looked at once.
         let mut filters = Vec::new();
-        if version == Version::Finished && !key.is_empty() {
+        if version == Version::Finished {
             open.retain(|other| {
                 let Literal::Compare(compare) = &body[*other] else { return true };
                 let Some(filter) = self.separate(compare, atom) else { return true };
-                filters.push((*other, filter, compare.is_number));
+                if key.is_empty() && plain_column(&filter.0).is_none() {
+                    return true;
+                }
+                filters.push((*other, filter, compare.kind.is_number()));
                 false
             });
         }
-        for (other, ..) in &filters {
+        for (other, (column, op, value), is_number) in &filters {
             self.spend(&body[*other]);
-            self.solutions *= 0.5;
+            self.solutions *= match (plain_column(column), value) {
+                (Some(column), Expr::Constant(word)) => {
+                    let holds = |known: Word, words: &Words| {
+                        value::holds(*op, *is_number, known, *word, words)
+                    };
+                    self.statistics.share(atom.relation, column, &holds)
+                }
+                _ => UNKNOWN_SHARE,
+            };
         }
         let (columns, values): (Vec<Expr>, Vec<Expr>) = key.into_iter().unzip();
         let mut scan = Scan { key: values, ..Scan::default() };
@@ -485,10 +506,10 @@ impl<'a> Draft<'a> {
         let is_natural = key.iter().enumerate().all(|(n, c)| *c == Expr::Variable(n as u32));
         // A few searches in the relation's own order cost less than an index.
         let few = probes * 32.0 < self.statistics.size(relation);
+        let is_plain =
+            scan.filters.iter().all(|filter| plain_column(&slots[filter.column]).is_some());
         let place: Vec<usize> = match version {
-            Version::Finished
-                if scan.filters.is_empty() && (key.is_empty() || is_natural && few) =>
-            {
+            Version::Finished if is_plain && (key.is_empty() || is_natural && few) => {
                 scan.source = self.source(Request::Whole(relation));
                 slots.iter().filter_map(plain_column).collect()
             }

@@ -7,7 +7,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use super::fault::{Faults, FileFaults, RuleError};
-use super::syntax::{Aggregation, Comparison, Functor, Span};
+use super::syntax::{Aggregation, Comparison, Functor, Item, Span};
 use super::word::{Word, Words};
 use super::{check, parse};
 use crate::units::{Source, name_key};
@@ -29,11 +29,19 @@ pub enum Kind {
     Number,
     /// A number that is never negative.
     Unsigned,
+    /// An exact decimal, see [`Decimal`](super::Decimal).
+    Float,
 }
 
 impl Kind {
+    /// Whether its words stand for numbers, which decimals are in millionths.
     pub(super) fn is_number(self) -> bool {
         self != Self::Symbol
+    }
+
+    /// What values of this kind are computed and compared as.
+    pub(super) fn plain(self) -> Self {
+        if self == Self::Unsigned { Self::Number } else { self }
     }
 }
 
@@ -42,7 +50,7 @@ impl Kind {
 pub struct Column {
     pub name: String,
     pub kind: Kind,
-    /// The declared type: `symbol`, `number`, `unsigned` or one that `.type` introduced.
+    /// The declared type: `symbol`, `number`, `unsigned`, `float` or one that `.type` introduced.
     pub type_name: String,
 }
 
@@ -80,7 +88,7 @@ pub(super) struct Clause {
 pub(super) struct Variable {
     /// As written; empty for one that stands for an expression among an atom's arguments.
     pub(super) name: String,
-    pub(super) is_number: bool,
+    pub(super) kind: Kind,
 }
 
 pub(super) type VariableId = u32;
@@ -112,13 +120,15 @@ pub(super) struct Compare {
     pub(super) op: Comparison,
     pub(super) left: Expr,
     pub(super) right: Expr,
-    pub(super) is_number: bool,
+    pub(super) kind: Kind,
     pub(super) at: Span,
 }
 
 #[derive(Debug, Clone)]
 pub(super) struct Aggregate {
     pub(super) target: VariableId,
+    /// Of the target.
+    pub(super) kind: Kind,
     pub(super) function: Aggregation,
     pub(super) value: Option<Expr>,
     pub(super) body: Vec<Literal>,
@@ -200,12 +210,25 @@ impl Program {
     /// All [`Faults`] of all texts.
     pub fn parse_all(sources: &[Source]) -> Result<Self, Faults> {
         let mut faults = Found::default();
-        let mut items = Vec::new();
-        for (file, source) in sources.iter().enumerate() {
-            let mut here = Vec::new();
-            items.extend(parse::items(source.text(), file as u32, &mut here));
-            faults.all.extend(here.into_iter().map(|fault| (file as u32, fault)));
+        let items = all_items(sources, &mut faults);
+        for item in &items {
+            if let Item::Include { path, at } = item {
+                let what = format!(".include \"{path}\" в тексте, у которого нет папки");
+                let help = "дайте тексты правил вместе, одной программой";
+                faults.push(*at, RuleError::Unsupported { what, help, at: (*at).into() });
+            }
         }
+        Self::of_items(sources, items, faults)
+    }
+
+    /// Texts that were read with all that they include.
+    pub(super) fn parse_included(sources: &[Source]) -> Result<Self, Faults> {
+        let mut faults = Found::default();
+        let items = all_items(sources, &mut faults);
+        Self::of_items(sources, items, faults)
+    }
+
+    fn of_items(sources: &[Source], items: Vec<Item>, mut faults: Found) -> Result<Self, Faults> {
         let mut program = check::program(sources, items, &mut faults);
         let (warnings, errors): (Vec<_>, Vec<_>) =
             faults.all.into_iter().partition(|(_, fault)| fault.is_warning());
@@ -245,6 +268,26 @@ impl Program {
         let (line, _) = source.position(at.start as usize);
         (source, line, &source.text()[at.range()])
     }
+}
+
+fn all_items(sources: &[Source], faults: &mut Found) -> Vec<Item> {
+    let mut items = Vec::new();
+    for (file, source) in sources.iter().enumerate() {
+        let mut here = Vec::new();
+        items.extend(parse::items(source.text(), file as u32, &mut here));
+        faults.all.extend(here.into_iter().map(|fault| (file as u32, fault)));
+    }
+    items
+}
+
+/// The files that a text includes, as it names them.
+pub(super) fn includes(text: &str) -> Vec<String> {
+    let items = parse::items(text, 0, &mut Vec::new());
+    let path = |item| match item {
+        Item::Include { path, .. } => Some(path),
+        _ => None,
+    };
+    items.into_iter().filter_map(path).collect()
 }
 
 /// Faults with the number of their text.

@@ -13,7 +13,8 @@ use super::derived::{Derived, values};
 use super::kept::{Kept, View};
 use super::plan::{Plan, Task, Version, plan};
 use super::program::{
-    Atom, Clause, Compare, Expr, Literal, Program, RelationId, Term, Variable, VariableId,
+    Atom, Clause, Column, Compare, Expr, Kind, Literal, Program, RelationId, Term, Variable,
+    VariableId,
 };
 use super::stored::Stored;
 use super::syntax::{Comparison, Span};
@@ -213,10 +214,7 @@ impl Explainer {
         let schema = super::Schema::of(&self.program);
         let relation = relation.find(&schema)?;
         let words = &mut self.finished.words;
-        let row = schema.encode(relation, tuple, |value| match value {
-            Value::Number(number) => words.number(*number),
-            Value::Symbol(text) => words.symbol(text),
-        })?;
+        let row = schema.encode(relation, tuple, |value| words.of(value))?;
         Ok((relation, row))
     }
 
@@ -281,7 +279,8 @@ impl Explainer {
     /// Prepares a clause to be run backwards.
     pub(super) fn ask(&mut self, clause: usize) -> &Asked {
         if !self.asked.contains_key(&clause) {
-            let (clause_turned, head, own) = turned(&self.program.clauses[clause]);
+            let columns = &self.program.info(self.program.clauses[clause].head).columns;
+            let (clause_turned, head, own) = turned(&self.program.clauses[clause], columns);
             let versions = vec![Version::Finished; clause_turned.body.len()];
             let wanted: Vec<VariableId> =
                 (0..clause_turned.variables.len() as VariableId).collect();
@@ -407,33 +406,33 @@ impl Cone {
 }
 
 /// The clause with a variable for every column of its head and every `_` of its atoms.
-pub(super) fn turned(clause: &Clause) -> (Clause, Vec<VariableId>, usize) {
+pub(super) fn turned(clause: &Clause, columns: &[Column]) -> (Clause, Vec<VariableId>, usize) {
     let mut turned = clause.clone();
     let own = turned.body.len();
-    let fresh = |is_number: bool, variables: &mut Vec<Variable>| {
-        variables.push(Variable { name: String::new(), is_number });
+    let fresh = |variables: &mut Vec<Variable>| {
+        variables.push(Variable { name: String::new(), kind: Kind::Symbol });
         (variables.len() - 1) as VariableId
     };
     for literal in &mut turned.body {
         if let Literal::Atom(atom) = literal {
             for arg in atom.args.iter_mut().filter(|arg| **arg == Term::Any) {
-                *arg = Term::Variable(fresh(false, &mut turned.variables));
+                *arg = Term::Variable(fresh(&mut turned.variables));
             }
         }
     }
     let mut head = Vec::new();
-    for arg in &clause.args {
+    for (arg, column) in clause.args.iter().zip(columns) {
         match arg {
             Expr::Variable(v) if !head.contains(v) => head.push(*v),
             _ => {
-                let v = fresh(false, &mut turned.variables);
+                let v = fresh(&mut turned.variables);
                 let (op, left) = (Comparison::Equal, Expr::Variable(v));
                 let (right, at) = (arg.clone(), clause.at);
                 turned.body.push(Literal::Compare(Compare {
                     op,
                     left,
                     right,
-                    is_number: false,
+                    kind: column.kind,
                     at,
                 }));
                 head.push(v);
@@ -472,7 +471,7 @@ pub(super) fn rule_instance(
     let mut local = Vec::new();
     for literal in &clause.body {
         if let Literal::Aggregate(aggregate) = literal {
-            super::clause::used_variables(&aggregate.body, aggregate.value.as_ref(), &mut |v| {
+            super::ground::used_variables(&aggregate.body, aggregate.value.as_ref(), &mut |v| {
                 if !aggregate.shared.contains(&v) {
                     local.push(v);
                 }
@@ -484,21 +483,13 @@ pub(super) fn rule_instance(
             let is_shown = !variable.name.is_empty()
                 && *word != NO_WORD
                 && !local.contains(&(n as VariableId));
-            is_shown.then(|| (variable.name.clone(), to_value(*word, variable.is_number, words)))
+            is_shown.then(|| (variable.name.clone(), words.value(*word, variable.kind)))
         });
     RuleInstance {
         source: source.name().to_owned(),
         line,
         text: text.to_owned(),
         bindings: bindings.collect(),
-    }
-}
-
-pub(super) fn to_value(word: Word, is_number: bool, words: &Words) -> Value {
-    if is_number {
-        Value::Number(words.to_number(word))
-    } else {
-        Value::Symbol(words.text(word).clone())
     }
 }
 
@@ -535,16 +526,16 @@ pub(super) fn premise(
             match sides.flatten() {
                 Some((left, right)) => Premise::Compared {
                     text,
-                    left: to_value(left, compare.is_number, words),
+                    left: words.value(left, compare.kind),
                     op: compare.op,
-                    right: to_value(right, compare.is_number, words),
+                    right: words.value(right, compare.kind),
                 },
                 None => Premise::Unknown { text },
             }
         }
         Literal::Aggregate(aggregate) => {
             let word = registers[aggregate.target as usize];
-            let value = (word != NO_WORD).then(|| to_value(word, true, words));
+            let value = (word != NO_WORD).then(|| words.value(word, aggregate.kind));
             Premise::Counted { text: excerpt(aggregate.at), value }
         }
     })
@@ -559,7 +550,7 @@ fn pattern(
     let info = program.info(atom.relation);
     let row = row_of(atom, registers);
     let value = |(word, column): (&Word, &super::Column)| {
-        (*word != NO_WORD).then(|| to_value(*word, column.kind.is_number(), words))
+        (*word != NO_WORD).then(|| words.value(*word, column.kind))
     };
     (info.name.clone(), row.iter().zip(&info.columns).map(value).collect())
 }
@@ -574,8 +565,8 @@ impl fmt::Display for FactText {
 /// A value as the rule text would write it.
 fn shown(value: &Value) -> String {
     match value {
-        Value::Number(number) => number.to_string(),
         Value::Symbol(text) => format!("\"{text}\""),
+        number => number.to_string(),
     }
 }
 

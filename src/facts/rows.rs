@@ -75,6 +75,8 @@ pub(super) trait RowSet {
     fn column(&self, column: usize) -> Vec<Word>;
     /// The rows that start with the key.
     fn range(&self, key: &[Word]) -> Range<usize>;
+    /// The first place in a range whose column holds at least the word; within the range the column ascends.
+    fn bound(&self, range: Range<usize>, column: usize, word: Word) -> usize;
 
     /// The same rows, to be edited.
     fn stored(self: Arc<Self>) -> Box<dyn Stored>;
@@ -108,6 +110,10 @@ impl<const N: usize> RowSet for Relation<Row<N>> {
         start..start + near.partition_point(|row| row.0[..key.len()] == *key)
     }
 
+    fn bound(&self, range: Range<usize>, column: usize, word: Word) -> usize {
+        range.start + self.elements[range].partition_point(|row| row.0[column] < word)
+    }
+
     fn stored(self: Arc<Self>) -> Box<dyn Stored> {
         Box::new(StoredRows::over(self))
     }
@@ -123,6 +129,8 @@ pub(super) trait Sink {
 /// Rows in any order, to become a [`RowSet`].
 pub(super) trait Heap: Sink {
     fn as_sink(&mut self) -> &mut dyn Sink;
+    /// Takes these columns of all rows.
+    fn project(&mut self, rows: &dyn RowSet, columns: &[usize]);
     fn sort(self: Box<Self>) -> SharedRows;
 }
 
@@ -145,6 +153,17 @@ impl<const N: usize> Heap for Vec<Row<N>> {
         self
     }
 
+    fn project(&mut self, rows: &dyn RowSet, columns: &[usize]) {
+        let mut projected = Row([0; N]);
+        for at in 0..rows.len() {
+            let row = rows.row(at);
+            projected.0.iter_mut().zip(columns).for_each(|(word, column)| *word = row[*column]);
+            if self.last() != Some(&projected) {
+                self.push(projected);
+            }
+        }
+    }
+
     fn sort(self: Box<Self>) -> SharedRows {
         Arc::new(sorted(*self))
     }
@@ -156,11 +175,52 @@ pub(super) fn heap(columns: usize) -> Box<dyn Heap> {
 }
 
 pub(super) fn sorted<const N: usize>(mut rows: Vec<Row<N>>) -> Relation<Row<N>> {
-    if !rows.is_sorted() {
-        if N <= 2 && rows.len() > 512 { radix_sort(&mut rows) } else { rows.sort_unstable() }
+    if rows.is_sorted() {
+        rows.dedup();
+    } else if let Some(distinct) = counted(&rows) {
+        rows = distinct;
+    } else {
+        if N > 1 && rows.is_sorted_by_key(|row| row.0[0]) {
+            // Joins find their rows by the first word; then no row moves far and nothing is copied.
+            rows.chunk_by_mut(|a, b| a.0[0] == b.0[0]).for_each(<[_]>::sort_unstable);
+        } else if N <= 2 && rows.len() > 512 {
+            radix_sort(&mut rows);
+        } else {
+            rows.sort_unstable();
+        }
+        rows.dedup();
     }
-    rows.dedup();
     Relation { elements: rows }
+}
+
+/// Rows of one word, sorted and distinct, read off one bit for each possible word; none where that does not pay.
+fn counted<const N: usize>(rows: &[Row<N>]) -> Option<Vec<Row<N>>> {
+    const BITS_PER_ROW: usize = 16;
+    if N != 1 || rows.len() < 64 {
+        return None;
+    }
+    let (least, most) = rows
+        .iter()
+        .fold((Word::MAX, 0), |(least, most), row| (least.min(row.0[0]), most.max(row.0[0])));
+    let span = (most - least) as usize + 1;
+    if span > rows.len() * BITS_PER_ROW {
+        return None;
+    }
+    let mut bits = vec![0_u64; span.div_ceil(64)];
+    for row in rows {
+        let at = (row.0[0] - least) as usize;
+        bits[at / 64] |= 1 << (at % 64);
+    }
+    let count: u32 = bits.iter().map(|word| word.count_ones()).sum();
+    let mut distinct = Vec::with_capacity(count as usize);
+    for (n, word) in bits.iter().enumerate() {
+        let mut rest = *word;
+        while rest != 0 {
+            distinct.push(Row([least + (n * 64) as Word + rest.trailing_zeros(); N]));
+            rest &= rest - 1;
+        }
+    }
+    Some(distinct)
 }
 
 /// Sorts rows of one or two words byte by byte, those bytes left out that are the same in all rows.

@@ -13,7 +13,7 @@ use super::rows::RowSet;
 use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
 use super::value;
-use super::word::{NO_WORD, Word, Words, is_in_place};
+use super::word::{LARGE, NO_WORD, Word, Words, is_in_place};
 
 /// Where a scan finds its rows.
 pub(super) enum Source<'a> {
@@ -230,7 +230,7 @@ impl<'a> Machine<'a, '_> {
     fn holds(&mut self, compare: &Compare) -> bool {
         match (self.compute(&compare.left), self.compute(&compare.right)) {
             (Some(left), Some(right)) => {
-                value::holds(compare.op, compare.is_number, left, right, self.words)
+                value::holds(compare.op, compare.kind.is_number(), left, right, self.words)
             }
             _ => false,
         }
@@ -277,11 +277,26 @@ impl<'a> Machine<'a, '_> {
         key: &[Word],
         next: usize,
     ) -> bool {
+        let mut passing = Vec::new();
+        for filter in &scan.filters {
+            let Some(word) = self.compute(&filter.value) else { return false };
+            passing.push((filter, word));
+        }
         let mut found = false;
         for rows in parts {
             let mut is_first = true;
-            for at in rows.range(key) {
+            let (near, far) = match passing.first() {
+                Some((filter, word)) => narrow(*rows, rows.range(key), key.len(), filter, *word),
+                None => (rows.range(key), 0..0),
+            };
+            for at in near.chain(far) {
                 let row = rows.row(at);
+                let passes = |(filter, word): &(&ColumnFilter, Word)| {
+                    value::holds(filter.op, filter.is_number, row[filter.column], *word, self.words)
+                };
+                if !passing.iter().all(passes) {
+                    continue;
+                }
                 // Rows that differ only in what is not loaded stand together; one of them is enough.
                 let mut is_new = is_first || scan.counts;
                 is_first = false;
@@ -450,6 +465,35 @@ impl<'a> Machine<'a, '_> {
         inner.run(first);
         count.value(function)
     }
+}
+
+/// Where in a range of sorted rows a filter on the first column behind the key can hold: among the numbers in
+/// place, which stand in their order, and among the large ones behind them.
+fn narrow(
+    rows: &dyn RowSet,
+    range: Range<usize>,
+    free: usize,
+    filter: &ColumnFilter,
+    word: Word,
+) -> (Range<usize>, Range<usize>) {
+    use Comparison::{Equal, Greater, GreaterOrEqual, Less, LessOrEqual};
+    let is_order = matches!(filter.op, Equal | Less | LessOrEqual | Greater | GreaterOrEqual);
+    if filter.column != free || !is_order || !filter.is_number || !is_in_place(word) {
+        return (range, 0..0);
+    }
+    let bound = |word: Word| rows.bound(range.clone(), free, word);
+    let large = bound(LARGE);
+    let from = match filter.op {
+        Greater => bound(word + 1),
+        GreaterOrEqual | Equal => bound(word),
+        _ => range.start,
+    };
+    let to = match filter.op {
+        Less => bound(word),
+        LessOrEqual | Equal => bound(word + 1),
+        _ => large,
+    };
+    (from..to, large..range.end)
 }
 
 /// The positions of a range whose column compares so with the word.

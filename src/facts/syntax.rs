@@ -4,6 +4,8 @@ use std::ops::Range;
 
 use miette::SourceSpan;
 
+use super::program::Kind;
+
 /// Byte range in one of the program's texts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub(super) struct Span {
@@ -37,8 +39,10 @@ pub(super) struct Name {
 
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Item {
-    /// `.type Place <: symbol`; with `=` the base may be several types.
-    Type { name: Name, bases: Vec<Name> },
+    /// `.type Place <: symbol`; with `=` the base may be several types, whose values are then the type's.
+    Type { name: Name, bases: Vec<Name>, is_union: bool },
+    /// `.include "other.dl"`
+    Include { path: String, at: Span },
     /// `.decl above(a: symbol, b: symbol) = НАД`; several names may share one list of columns.
     Relation {
         names: Vec<Name>,
@@ -60,6 +64,8 @@ pub(super) enum Role {
     Output,
     PrintSize,
     LimitSize,
+    /// `eqrel`: closed under equivalence.
+    Equivalence,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -90,9 +96,26 @@ pub(super) enum Expr {
     Any(Span),
     Variable(Name),
     Number(i64, Span),
+    /// In millionths.
+    Decimal(i64, Span),
     Text(String, Span),
-    Call { functor: Functor, args: Vec<Self>, at: Span },
-    Aggregate { function: Aggregation, value: Option<Box<Self>>, body: Box<Body>, at: Span },
+    /// `as(value, type)`
+    As {
+        value: Box<Self>,
+        type_name: Name,
+        at: Span,
+    },
+    Call {
+        functor: Functor,
+        args: Vec<Self>,
+        at: Span,
+    },
+    Aggregate {
+        function: Aggregation,
+        value: Option<Box<Self>>,
+        body: Box<Body>,
+        at: Span,
+    },
 }
 
 impl Expr {
@@ -101,7 +124,9 @@ impl Expr {
             Self::Variable(name) => name.at,
             Self::Any(at)
             | Self::Number(_, at)
+            | Self::Decimal(_, at)
             | Self::Text(_, at)
+            | Self::As { at, .. }
             | Self::Call { at, .. }
             | Self::Aggregate { at, .. } => *at,
         }
@@ -188,7 +213,8 @@ impl Aggregation {
 
 macro_rules! functors {
     ($($name:ident $word:literal $result:ident ($($arg:ident),*);)+) => {
-        /// What computes a value from values. The list gives word, result and arguments (`N` number, `S` symbol).
+        /// What computes a value from values. The list gives word, result and arguments (`N` number, `D` decimal,
+        /// `S` symbol); the variants that end with `Decimals` are what a word means between decimals.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
         pub(super) enum Functor { $($name),+ }
 
@@ -199,18 +225,18 @@ macro_rules! functors {
                 match self { $(Self::$name => $word),+ }
             }
 
-            pub(super) fn is_number(self) -> bool {
-                match self { $(Self::$name => functors!(@is_number $result)),+ }
+            pub(super) fn result(self) -> Kind {
+                match self { $(Self::$name => functors!(@kind $result)),+ }
             }
 
-            /// For each argument, whether it is a number.
-            pub(super) fn takes_numbers(self) -> &'static [bool] {
-                match self { $(Self::$name => &[$(functors!(@is_number $arg)),*]),+ }
+            pub(super) fn takes(self) -> &'static [Kind] {
+                match self { $(Self::$name => &[$(functors!(@kind $arg)),*]),+ }
             }
         }
     };
-    (@is_number N) => { true };
-    (@is_number S) => { false };
+    (@kind N) => { Kind::Number };
+    (@kind D) => { Kind::Float };
+    (@kind S) => { Kind::Symbol };
 }
 
 functors! {
@@ -223,16 +249,60 @@ functors! {
     Negate "neg" N(N);
     Smaller "min" N(N, N);
     Larger "max" N(N, N);
+    AddDecimals "+" D(D, D);
+    SubtractDecimals "-" D(D, D);
+    MultiplyDecimals "*" D(D, D);
+    DivideDecimals "/" D(D, D);
+    PowerOfDecimals "^" D(D, D);
+    NegateDecimals "neg" D(D);
+    SmallerOfDecimals "min" D(D, D);
+    LargerOfDecimals "max" D(D, D);
     BitAnd "band" N(N, N);
     BitOr "bor" N(N, N);
     BitXor "bxor" N(N, N);
     BitNot "bnot" N(N);
     ShiftLeft "bshl" N(N, N);
     ShiftRight "bshr" N(N, N);
+    ShiftRightUnsigned "bshru" N(N, N);
+    LogicalAnd "land" N(N, N);
+    LogicalOr "lor" N(N, N);
+    LogicalXor "lxor" N(N, N);
+    LogicalNot "lnot" N(N);
     Concatenate "cat" S(S, S);
     Length "strlen" N(S);
     Part "substr" S(S, N, N);
     ToText "to_string" S(N);
+    DecimalToText "to_string" S(D);
     ToNumber "to_number" N(S);
+    DecimalToNumber "to_number" N(D);
+    ToUnsigned "to_unsigned" N(S);
+    ToDecimal "to_float" D(S);
+    NumberToDecimal "to_float" D(N);
     Ordinal "ord" N(S);
+}
+
+impl Functor {
+    /// What the word means for arguments of these kinds; itself where it has one meaning.
+    pub(super) fn for_kinds(self, first: Option<Kind>) -> Self {
+        match (self, first) {
+            (Self::Add, Some(Kind::Float)) => Self::AddDecimals,
+            (Self::Subtract, Some(Kind::Float)) => Self::SubtractDecimals,
+            (Self::Multiply, Some(Kind::Float)) => Self::MultiplyDecimals,
+            (Self::Divide, Some(Kind::Float)) => Self::DivideDecimals,
+            (Self::Power, Some(Kind::Float)) => Self::PowerOfDecimals,
+            (Self::Negate, Some(Kind::Float)) => Self::NegateDecimals,
+            (Self::Smaller, Some(Kind::Float)) => Self::SmallerOfDecimals,
+            (Self::Larger, Some(Kind::Float)) => Self::LargerOfDecimals,
+            (Self::ToText, Some(Kind::Float)) => Self::DecimalToText,
+            (Self::ToNumber, Some(Kind::Float)) => Self::DecimalToNumber,
+            (Self::ToDecimal, Some(Kind::Number)) => Self::NumberToDecimal,
+            _ => self,
+        }
+    }
+
+    /// Whether the result is of the kind of the arguments.
+    pub(super) fn is_arithmetic(self) -> bool {
+        use Functor::{Add, Divide, Larger, Multiply, Negate, Power, Smaller, Subtract};
+        matches!(self, Add | Subtract | Multiply | Divide | Power | Negate | Smaller | Larger)
+    }
 }

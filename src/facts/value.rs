@@ -5,6 +5,7 @@
 
 use std::cmp::Ordering;
 
+use super::decimal::{self, Decimal};
 use super::program::{Expr, VariableId};
 use super::syntax::{Comparison, Functor};
 use super::word::{Word, Words, is_in_place};
@@ -18,7 +19,7 @@ pub(super) fn compute(
     match expr {
         Expr::Variable(v) => Some(variable(*v)),
         Expr::Constant(word) => Some(*word),
-        Expr::Call(functor, _) if functor.is_number() => {
+        Expr::Call(functor, _) if functor.result().is_number() => {
             let number = number(expr, variable, words)?;
             Some(words.number(number))
         }
@@ -43,8 +44,20 @@ pub(super) fn number(
     match (functor, args) {
         (Functor::Length, [a]) => text(a, variable, words).map(|text| text.chars().count() as i64),
         (Functor::ToNumber, [a]) => text(a, variable, words)?.trim().parse().ok(),
+        (Functor::ToUnsigned, [a]) => {
+            text(a, variable, words)?.trim().parse().ok().filter(|number| *number >= 0)
+        }
+        (Functor::ToDecimal, [a]) => {
+            text(a, variable, words)?.trim().parse().ok().map(Decimal::millionths)
+        }
+        // Towards zero, as Soufflé does.
+        (Functor::DecimalToNumber, [a]) => Some(number(a, variable, words)? / decimal::ONE),
+        (Functor::NumberToDecimal, [a]) => number(a, variable, words)?.checked_mul(decimal::ONE),
         (Functor::Ordinal, [a]) => compute(a, variable, words).map(i64::from),
-        (Functor::Negate, [a]) => number(a, variable, words)?.checked_neg(),
+        (Functor::Negate | Functor::NegateDecimals, [a]) => {
+            number(a, variable, words)?.checked_neg()
+        }
+        (Functor::LogicalNot, [a]) => Some(i64::from(number(a, variable, words)? == 0)),
         (Functor::BitNot, [a]) => Some(!number(a, variable, words)?),
         (_, [a, b]) => {
             let a = number(a, variable, words)?;
@@ -57,19 +70,28 @@ pub(super) fn number(
 
 fn arithmetic(functor: Functor, a: i64, b: i64) -> Option<i64> {
     match functor {
-        Functor::Add => a.checked_add(b),
-        Functor::Subtract => a.checked_sub(b),
+        Functor::Add | Functor::AddDecimals => a.checked_add(b),
+        Functor::Subtract | Functor::SubtractDecimals => a.checked_sub(b),
+        Functor::MultiplyDecimals => decimal::product(a, b),
+        Functor::DivideDecimals => decimal::quotient(a, b),
+        Functor::PowerOfDecimals => decimal::power(a, b),
         Functor::Multiply => a.checked_mul(b),
         Functor::Divide => a.checked_div(b),
         Functor::Remainder => a.checked_rem(b),
         Functor::Power => a.checked_pow(u32::try_from(b).ok()?),
-        Functor::Smaller => Some(a.min(b)),
-        Functor::Larger => Some(a.max(b)),
+        Functor::Smaller | Functor::SmallerOfDecimals => Some(a.min(b)),
+        Functor::Larger | Functor::LargerOfDecimals => Some(a.max(b)),
         Functor::BitAnd => Some(a & b),
         Functor::BitOr => Some(a | b),
         Functor::BitXor => Some(a ^ b),
         Functor::ShiftLeft => a.checked_shl(u32::try_from(b).ok()?),
         Functor::ShiftRight => a.checked_shr(u32::try_from(b).ok()?),
+        Functor::ShiftRightUnsigned => {
+            (a as u64).checked_shr(u32::try_from(b).ok()?).map(|bits| bits as i64)
+        }
+        Functor::LogicalAnd => Some(i64::from(a != 0 && b != 0)),
+        Functor::LogicalOr => Some(i64::from(a != 0 || b != 0)),
+        Functor::LogicalXor => Some(i64::from((a != 0) != (b != 0))),
         _ => None,
     }
 }
@@ -92,6 +114,9 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
             Some(whole.chars().skip(from).take(length).collect())
         }
         (Functor::ToText, [a]) => number(a, variable, words).map(|number| number.to_string()),
+        (Functor::DecimalToText, [a]) => {
+            number(a, variable, words).map(|number| Decimal::from_millionths(number).to_string())
+        }
         _ => None,
     }
 }

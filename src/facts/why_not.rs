@@ -161,7 +161,6 @@ impl Explainer {
                 .unwrap_or_default()
                 .trim()
                 .to_owned();
-            let is_number = is_number(&compare.right, clause);
             let sides = (
                 value::compute(&compare.left, &register, words),
                 value::compute(&compare.right, &register, words),
@@ -169,9 +168,9 @@ impl Explainer {
             let premise = match sides {
                 (Some(left), Some(right)) => Premise::Compared {
                     text,
-                    left: super::proof::to_value(left, is_number, words),
+                    left: words.value(left, compare.kind),
                     op: compare.op,
-                    right: super::proof::to_value(right, is_number, words),
+                    right: words.value(right, compare.kind),
                 },
                 _ => Premise::Unknown { text },
             };
@@ -302,7 +301,7 @@ impl Explainer {
         let alone = Clause { body: aggregate.body.clone(), ..turned.clone() };
         let versions = vec![Version::Finished; alone.body.len()];
         let mut wanted: Vec<VariableId> = Vec::new();
-        super::clause::used_variables(&alone.body, aggregate.value.as_ref(), &mut |v| {
+        super::ground::used_variables(&alone.body, aggregate.value.as_ref(), &mut |v| {
             wanted.push(v)
         });
         let task = Task {
@@ -463,22 +462,14 @@ impl Search {
 }
 
 fn judge(compare: &Compare, left: Word, right: Word, words: &Words) -> Judged {
-    if value::holds(compare.op, compare.is_number, left, right, words) {
+    if value::holds(compare.op, compare.kind.is_number(), left, right, words) {
         return Judged::Holds;
     }
-    if !compare.is_number {
+    if !compare.kind.is_number() {
         return Judged::Fails(f64::INFINITY);
     }
     let (left, right) = (words.to_number(left) as f64, words.to_number(right) as f64);
     Judged::Fails((left - right).abs() / left.abs().max(right.abs()).max(1.0))
-}
-
-fn is_number(expr: &Expr, clause: &Clause) -> bool {
-    match expr {
-        Expr::Variable(v) => clause.variables[*v as usize].is_number,
-        Expr::Call(functor, _) => functor.is_number(),
-        Expr::Constant(_) => true,
-    }
 }
 
 #[cfg(test)]

@@ -13,6 +13,9 @@ use std::sync::Arc;
 
 use foldhash::fast::RandomState;
 
+use super::decimal::Decimal;
+use super::program::Kind;
+
 /// One word of a tuple.
 pub(super) type Word = u32;
 
@@ -20,14 +23,21 @@ pub(super) type Word = u32;
 pub(super) const NO_WORD: Word = u32::MAX;
 
 /// Words from here on are positions in the list of large numbers.
-const LARGE: Word = 1 << 31;
+pub(super) const LARGE: Word = 1 << 31;
 const IN_PLACE: i64 = 1 << 30;
 
 /// A value of a tuple, as callers see it.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Value {
     Number(i64),
+    Decimal(Decimal),
     Symbol(Arc<str>),
+}
+
+impl From<Decimal> for Value {
+    fn from(decimal: Decimal) -> Self {
+        Self::Decimal(decimal)
+    }
 }
 
 impl From<i64> for Value {
@@ -52,6 +62,7 @@ impl fmt::Display for Value {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Number(number) => write!(f, "{number}"),
+            Self::Decimal(decimal) => write!(f, "{decimal}"),
             Self::Symbol(text) => write!(f, "{text}"),
         }
     }
@@ -180,6 +191,18 @@ impl Words {
         &layer.symbols[word - layer.below.0]
     }
 
+    /// For each symbol its place in the alphabet.
+    pub(super) fn symbol_ranks(&self) -> Vec<u32> {
+        let texts: Vec<&Arc<str>> = self.symbols().collect();
+        let mut order: Vec<u32> = (0..texts.len() as u32).collect();
+        order.sort_unstable_by_key(|word| texts[*word as usize]);
+        let mut ranks = vec![0; order.len()];
+        for (rank, word) in order.into_iter().enumerate() {
+            ranks[word as usize] = rank as u32;
+        }
+        ranks
+    }
+
     pub(super) fn number(&mut self, number: i64) -> Word {
         if let Some(word) = self.find_number(number) {
             return word;
@@ -193,6 +216,23 @@ impl Words {
     pub(super) fn find_number(&self, number: i64) -> Option<Word> {
         small_number(number)
             .or_else(|| self.layers().find_map(|layer| layer.number_words.get(&number)).copied())
+    }
+
+    /// The word of a value, made where there is none yet.
+    pub(super) fn of(&mut self, value: &Value) -> Word {
+        match value {
+            Value::Number(number) => self.number(*number),
+            Value::Decimal(decimal) => self.number(decimal.millionths()),
+            Value::Symbol(text) => self.symbol(text),
+        }
+    }
+
+    pub(super) fn value(&self, word: Word, kind: Kind) -> Value {
+        match kind {
+            Kind::Symbol => Value::Symbol(Arc::clone(self.text(word))),
+            Kind::Number | Kind::Unsigned => Value::Number(self.to_number(word)),
+            Kind::Float => Value::Decimal(Decimal::from_millionths(self.to_number(word))),
+        }
     }
 
     pub(super) fn to_number(&self, word: Word) -> i64 {

@@ -129,7 +129,7 @@ impl Knowledge<'_> {
     fn measurement(&self, name: &str, values: &[Value]) -> Option<String> {
         let word = |n: usize| match values.get(n) {
             Some(Value::Symbol(text)) => self.symbol_words(text),
-            Some(Value::Number(number)) => number.to_string(),
+            Some(number) => number.to_string(),
             None => String::new(),
         };
         let genitive = |n: usize| match values.get(n) {
@@ -304,8 +304,8 @@ fn door_word(state: &str, language: Language) -> String {
 
 fn value(value: &Value) -> String {
     match value {
-        Value::Number(number) => number.to_string(),
         Value::Symbol(text) => format!("\"{text}\""),
+        number => number.to_string(),
     }
 }
 

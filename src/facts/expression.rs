@@ -1,0 +1,304 @@
+//! Words to expressions: arithmetic, functors, aggregates.
+
+use nom::Parser;
+use nom::branch::alt;
+use nom::sequence::{delimited, separated_pair};
+
+use super::fault::RuleError;
+use super::lex::{Token, Word};
+use super::parse::{atom, disjunction};
+use super::read::{Input, Read, decimal, list, many, name, number, sign, text};
+use super::syntax::{Aggregation, Body, Expr, Functor};
+
+/// Longer chains of operators are refused: their trees are walked by recursion.
+const MAX_CHAIN: usize = 128;
+
+pub(super) fn expression(input: Input<'_>) -> Read<'_, Expr> {
+    let (mut rest, mut value) = sum(input)?;
+    if bit_word(rest).is_some() {
+        (rest, value) = bits(rest, value)?;
+    }
+    if depth(&value) > MAX_CHAIN {
+        let at = value.at().into();
+        return input.refuse(RuleError::TooLarge {
+            what: "глубина выражения",
+            limit: MAX_CHAIN,
+            at,
+        });
+    }
+    Ok((rest, value))
+}
+
+/// Levels of an expression; bounded, since what it is made of was measured before.
+fn depth(expr: &Expr) -> usize {
+    match expr {
+        Expr::Call { args, .. } => 1 + args.iter().map(depth).max().unwrap_or(0),
+        _ => 1,
+    }
+}
+
+/// Soufflé's words between operands, the loosest first; the shifts bind equally.
+const BITS: [(&str, Functor, u8); 9] = [
+    ("lor", Functor::LogicalOr, 0),
+    ("lxor", Functor::LogicalXor, 1),
+    ("land", Functor::LogicalAnd, 2),
+    ("bor", Functor::BitOr, 3),
+    ("bxor", Functor::BitXor, 4),
+    ("band", Functor::BitAnd, 5),
+    ("bshl", Functor::ShiftLeft, 6),
+    ("bshr", Functor::ShiftRight, 6),
+    ("bshru", Functor::ShiftRightUnsigned, 6),
+];
+
+fn bit_word(input: Input<'_>) -> Option<(Input<'_>, Functor, u8)> {
+    BITS.iter().find_map(|(word, functor, binds)| Some((operator(word, input)?, *functor, *binds)))
+}
+
+/// What stands behind the first operand of a word. One level for all words: brackets within brackets are deep enough.
+fn bits(input: Input<'_>, first: Expr) -> Read<'_, Expr> {
+    let (mut rest, mut value) = (input, first);
+    let mut waiting: Vec<(Expr, Functor, u8)> = Vec::new();
+    while let Some((behind, functor, binds)) = bit_word(rest) {
+        if waiting.len() > MAX_CHAIN {
+            let at = rest.at().into();
+            return rest.refuse(RuleError::TooLarge {
+                what: "действий подряд",
+                limit: MAX_CHAIN,
+                at,
+            });
+        }
+        while let Some((left, before, _)) = waiting.pop_if(|(_, _, before)| *before >= binds) {
+            value = joined(left, before, value);
+        }
+        waiting.push((value, functor, binds));
+        (rest, value) = sum(behind)?;
+    }
+    while let Some((left, functor, _)) = waiting.pop() {
+        value = joined(left, functor, value);
+    }
+    Ok((rest, value))
+}
+
+#[inline]
+fn sum(input: Input<'_>) -> Read<'_, Expr> {
+    chain(product, &[("+", Functor::Add), ("-", Functor::Subtract)], input)
+}
+
+fn joined(left: Expr, functor: Functor, right: Expr) -> Expr {
+    let at = left.at().to(right.at());
+    Expr::Call { functor, args: vec![left, right], at }
+}
+
+fn product(input: Input<'_>) -> Read<'_, Expr> {
+    chain(
+        power,
+        &[("*", Functor::Multiply), ("/", Functor::Divide), ("%", Functor::Remainder)],
+        input,
+    )
+}
+
+/// Operands joined from the left by any of the operators.
+fn chain<'a>(
+    operand: impl Fn(Input<'a>) -> Read<'a, Expr>,
+    operators: &[(&'static str, Functor)],
+    input: Input<'a>,
+) -> Read<'a, Expr> {
+    let (mut input, mut left) = operand(input)?;
+    for _ in 0..MAX_CHAIN {
+        let next =
+            operators.iter().find_map(|(word, functor)| Some((operator(word, input)?, *functor)));
+        let Some((rest, functor)) = next else { return Ok((input, left)) };
+        let (rest, right) = operand(rest)?;
+        let at = left.at().to(right.at());
+        left = Expr::Call { functor, args: vec![left, right], at };
+        input = rest;
+    }
+    let at = input.at().into();
+    input
+        .refuse(RuleError::TooLarge { what: "действий подряд", limit: MAX_CHAIN, at })
+}
+
+/// What stands behind an operator: a sign, or a word between two operands.
+fn operator<'a>(word: &'static str, input: Input<'a>) -> Option<Input<'a>> {
+    if !word.starts_with(char::is_alphabetic) {
+        return sign(word)(input).ok().map(|(rest, _)| rest);
+    }
+    match input.rest {
+        [Token { word: Word::Name(name), .. }, rest @ ..] if name == word => {
+            Some(Input { rest, ..input })
+        }
+        _ => None,
+    }
+}
+
+// a ^ b ^ c is a ^ (b ^ c), and -a ^ b is -(a ^ b), as in Soufflé.
+fn power(input: Input<'_>) -> Read<'_, Expr> {
+    let start = input.at();
+    let (mut input, minuses) = many(sign("-"))(input)?;
+    let mut operands = Vec::new();
+    loop {
+        let (rest, operand) = primary(input)?;
+        operands.push(operand);
+        if operands.len() > MAX_CHAIN {
+            let at = input.at().into();
+            return input.refuse(RuleError::TooLarge {
+                what: "действий подряд",
+                limit: MAX_CHAIN,
+                at,
+            });
+        }
+        input = rest;
+        match sign("^")(input) {
+            Ok((rest, _)) => input = rest,
+            Err(_) => break,
+        }
+    }
+    let mut value = operands.pop().expect("the loop reads an operand before it ends");
+    while let Some(base) = operands.pop() {
+        let at = base.at().to(value.at());
+        value = Expr::Call { functor: Functor::Power, args: vec![base, value], at };
+    }
+    if minuses.len() % 2 == 1 {
+        let at = start.to(value.at());
+        value = match value {
+            Expr::Number(number, _) => Expr::Number(number.wrapping_neg(), at),
+            Expr::Decimal(number, _) => Expr::Decimal(-number, at),
+            other => Expr::Call { functor: Functor::Negate, args: vec![other], at },
+        };
+    }
+    Ok((input, value))
+}
+
+fn primary(input: Input<'_>) -> Read<'_, Expr> {
+    if let Some(refused) = foreign(input) {
+        return input.refuse(refused);
+    }
+    alt((
+        aggregate,
+        cast,
+        call,
+        without,
+        number.map(|(value, at)| Expr::Number(value, at)),
+        decimal.map(|(value, at)| Expr::Decimal(value, at)),
+        text,
+        variable,
+        delimited(sign("("), expression, sign(")")),
+    ))
+    .parse(input)
+}
+
+/// The parts of Soufflé's expressions that are not known here.
+fn foreign(input: Input<'_>) -> Option<RuleError> {
+    let token = input.rest.first()?;
+    let behind = input.rest.get(1).map(|token| &token.word);
+    let (what, help) = match &token.word {
+        Word::Sign("[") => ("запись [ … ]", "разложите запись на столбцы отношения"),
+        Word::Sign("@") => ("функция из .functor", "посчитайте её заранее и дайте таблицей фактов"),
+        Word::Sign("$") => ("«$»: значение типа из вариантов или счётчик", "дайте номера фактами"),
+        Word::Name(name) if name == "nil" && behind != Some(&Word::Sign("(")) => {
+            ("пустая запись nil", "разложите запись на столбцы отношения")
+        }
+        Word::Name(name) if name == "range" && behind == Some(&Word::Sign("(")) => {
+            ("range", "дайте числа фактами или правилом: n(X + 1) :- n(X), X < 10.")
+        }
+        _ => return None,
+    };
+    Some(RuleError::Unsupported { what: what.into(), help, at: token.at.into() })
+}
+
+// as(X, Place)
+fn cast(input: Input<'_>) -> Read<'_, Expr> {
+    let (rest, word) = name(input)?;
+    if word.text != "as" {
+        return input.fail("значение");
+    }
+    let both = separated_pair(expression, sign(","), name);
+    let (rest, (value, type_name)) = delimited(sign("("), both, sign(")")).parse(rest)?;
+    let at = word.at.to(type_name.at);
+    Ok((rest, Expr::As { value: Box::new(value), type_name, at }))
+}
+
+// bnot X   lnot X
+fn without(input: Input<'_>) -> Read<'_, Expr> {
+    let (rest, word) = name(input)?;
+    let functor =
+        functor(&word.text).filter(|f| matches!(f, Functor::BitNot | Functor::LogicalNot));
+    let Some(functor) = functor else { return input.fail("значение") };
+    let starts = matches!(
+        rest.rest.first().map(|token| &token.word),
+        Some(Word::Name(_) | Word::Number(_) | Word::Sign("-"))
+    );
+    if !starts {
+        return input.fail("значение");
+    }
+    let (rest, value) = power(rest)?;
+    let at = word.at.to(value.at());
+    Ok((rest, Expr::Call { functor, args: vec![value], at }))
+}
+
+fn variable(input: Input<'_>) -> Read<'_, Expr> {
+    let (rest, name) = name(input)?;
+    match rest.rest.first() {
+        Some(Token { word: Word::Sign("("), at }) => {
+            let what = format!("функция «{}»", name.text);
+            let help = "есть арифметика, cat, strlen, substr, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
+            rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
+        }
+        _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
+        _ => Ok((rest, Expr::Variable(name))),
+    }
+}
+
+// strlen(X), cat(X, Y, Z)
+fn call(input: Input<'_>) -> Read<'_, Expr> {
+    let (rest, name) = name(input)?;
+    let Some(functor) = functor(&name.text) else { return input.fail("значение") };
+    let (rest, args) = delimited(sign("("), list(expression, sign(",")), sign(")")).parse(rest)?;
+    let at = name.at.to(args.last().map_or(name.at, Expr::at));
+    let wanted = functor.takes().len();
+    let folds = matches!(functor, Functor::Concatenate | Functor::Smaller | Functor::Larger);
+    if folds && args.len() > wanted && args.len() <= MAX_CHAIN {
+        let joined = args.into_iter().reduce(|left, right| Expr::Call {
+            functor,
+            args: vec![left, right],
+            at,
+        });
+        return Ok((rest, joined.expect("a list has at least one element")));
+    }
+    if args.len() != wanted {
+        let (name, found, at) = (name.text, args.len(), at.into());
+        return input.refuse(RuleError::Arity { name, expected: wanted, found, at });
+    }
+    Ok((rest, Expr::Call { functor, args, at }))
+}
+
+// count : { body }     sum X : { body }     min X : above(X, _)
+fn aggregate(input: Input<'_>) -> Read<'_, Expr> {
+    let (rest, name) = name(input)?;
+    let Some(function) = aggregation(&name.text) else { return input.fail("значение") };
+    if matches!(rest.rest.first(), Some(Token { word: Word::Sign("("), .. }))
+        && functor(&name.text).is_some()
+    {
+        return input.fail("значение");
+    }
+    let (rest, value) = match function {
+        Aggregation::Count => (rest, None),
+        _ => expression.map(|value| Some(Box::new(value))).parse(rest)?,
+    };
+    let (rest, _) = sign(":")(rest)?;
+    let (rest, body) =
+        alt((delimited(sign("{"), disjunction, sign("}")), atom.map(Body::Atom))).parse(rest)?;
+    let last = input.rest[input.rest.len() - rest.rest.len() - 1].at;
+    Ok((rest, Expr::Aggregate { function, value, body: Box::new(body), at: name.at.to(last) }))
+}
+
+pub(super) fn functor(word: &str) -> Option<Functor> {
+    let known = Functor::ALL.iter().copied().find(|functor| functor.word() == word);
+    // The signs are functors too, but no names.
+    known.filter(|_| word.starts_with(char::is_alphabetic) && word != "neg")
+}
+
+pub(super) fn aggregation(word: &str) -> Option<Aggregation> {
+    use Aggregation::{Count, Max, Mean, Min, Sum};
+    [Count, Sum, Min, Max, Mean].into_iter().find(|function| function.word() == word)
+}
