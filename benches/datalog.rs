@@ -276,7 +276,7 @@ fn main() {
         let mut group = criterion.benchmark_group(case);
         for engine in Engine::ALL {
             let run = Case::of(case).on(engine);
-            group.bench_function(engine.name(), |bencher| bencher.iter(|| run()));
+            group.bench_function(engine.name(), |bencher| bencher.iter(&run));
         }
         group.finish();
     }

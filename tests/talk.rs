@@ -81,10 +81,7 @@ fn answers_are_as_the_golden_texts_say() {
 /// Facts of two columns, by the names in them.
 fn facts(engine: &Engine, relation: &str) -> Vec<(String, String)> {
     let tuples = engine.relations().unwrap().tuples(relation).unwrap();
-    let text = |v: &Value| match v {
-        Value::Symbol(text) => text.to_string(),
-        Value::Number(n) => n.to_string(),
-    };
+    let text = |v: &Value| v.to_string();
     tuples.iter().map(|t| (text(&t[0]), text(&t[1]))).collect()
 }
 
@@ -436,11 +433,7 @@ fn found_by_rule(world: &World, rule: &str) -> BTreeSet<String> {
     let rules = RelationRules::with(&Source::new("вопрос", &*text))
         .unwrap_or_else(|e| panic!("{rule}: {e}"));
     let relations = derive(world, &rules, Profile::Surveyed).unwrap();
-    let text = |t: &Vec<Value>| match &t[0] {
-        Value::Symbol(text) => text.to_string(),
-        Value::Number(n) => n.to_string(),
-    };
-    relations.tuples(head).unwrap().iter().map(text).collect()
+    relations.tuples(head).unwrap().iter().map(|t| t[0].to_string()).collect()
 }
 
 /// For every golden question that asks for things and is answered by relations alone, the rule that is shown gives the

@@ -1,10 +1,5 @@
 //! The programs of [`super::programs`] compiled by `ascent`. Each returns the number of derived tuples.
 
-#![expect(
-    clippy::clone_on_copy,
-    reason = "written by the macro of `ascent`, which makes what it generates public"
-)]
-
 use ascent::aggregators::count;
 use ascent::ascent;
 

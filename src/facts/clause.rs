@@ -2,6 +2,7 @@
 //! over numbered variables with known kinds, each bound by something.
 
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 
 use super::check::{Declared, kind_name};
 use super::decimal;
@@ -515,9 +516,9 @@ impl Builder<'_> {
         let mut in_value = Vec::new();
         value.iter().for_each(|value| names_of(value, &mut in_value));
         for name in names.iter().cloned().chain(in_value.iter().map(|name| name.text.clone())) {
-            if !within.contains_key(&name) {
-                let id = self.fresh(&name, at);
-                within.insert(name, id);
+            if let Entry::Vacant(free) = within.entry(name) {
+                let id = self.fresh(free.key(), at);
+                free.insert(id);
             }
         }
         for (name, kind) in names.iter().zip(kinds) {

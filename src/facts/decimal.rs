@@ -51,7 +51,7 @@ impl FromStr for Decimal {
             return Err(NoDecimal);
         }
         let number = format!("{}{whole}{fraction:0<DIGITS$}", if minus { "-" } else { "" });
-        number.parse().map(Self).map_err(|_: std::num::ParseIntError| NoDecimal)
+        number.parse().ok().map(Self).ok_or(NoDecimal)
     }
 }
 

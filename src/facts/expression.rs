@@ -7,8 +7,8 @@ use nom::sequence::{delimited, separated_pair};
 use super::fault::RuleError;
 use super::lex::{Token, Word};
 use super::parse::{atom, disjunction};
-use super::read::{Input, Read, decimal, list, many, name, number, sign, text};
-use super::syntax::{Aggregation, Body, Expr, Functor};
+use super::read::{Input, Read, decimal, list, name, number, sign, text};
+use super::syntax::{Aggregation, Body, Expr, Functor, Span};
 
 /// Longer chains of operators are refused: their trees are walked by recursion.
 const MAX_CHAIN: usize = 128;
@@ -131,10 +131,37 @@ fn operator<'a>(word: &'static str, input: Input<'a>) -> Option<Input<'a>> {
     }
 }
 
+/// What may stand before an operand: `-`, and Soufflé's words `bnot` and `lnot`. Two minuses are none.
+fn prefixes(input: Input<'_>) -> Read<'_, Vec<(Functor, Span)>> {
+    let mut input = input;
+    let mut all: Vec<(Functor, Span)> = Vec::new();
+    loop {
+        let functor = match input.rest {
+            [Token { word: Word::Sign("-"), .. }, ..] => Functor::Negate,
+            [_, Token { word: Word::Sign("("), .. }, ..] => break,
+            [Token { word: Word::Name(name), .. }, ..] if name == "bnot" => Functor::BitNot,
+            [Token { word: Word::Name(name), .. }, ..] if name == "lnot" => Functor::LogicalNot,
+            _ => break,
+        };
+        let at = input.at();
+        let is_second = functor == Functor::Negate
+            && all.last().is_some_and(|(before, _)| *before == Functor::Negate);
+        if is_second {
+            all.pop();
+        } else if all.len() == MAX_CHAIN {
+            let (what, limit, at) = ("действий подряд", MAX_CHAIN, at.into());
+            return input.refuse(RuleError::TooLarge { what, limit, at });
+        } else {
+            all.push((functor, at));
+        }
+        input = Input { rest: &input.rest[1..], ..input };
+    }
+    Ok((input, all))
+}
+
 // a ^ b ^ c is a ^ (b ^ c), and -a ^ b is -(a ^ b), as in Soufflé.
 fn power(input: Input<'_>) -> Read<'_, Expr> {
-    let start = input.at();
-    let (mut input, minuses) = many(sign("-"))(input)?;
+    let (mut input, prefixes) = prefixes(input)?;
     let mut operands = Vec::new();
     loop {
         let (rest, operand) = primary(input)?;
@@ -158,12 +185,12 @@ fn power(input: Input<'_>) -> Read<'_, Expr> {
         let at = base.at().to(value.at());
         value = Expr::Call { functor: Functor::Power, args: vec![base, value], at };
     }
-    if minuses.len() % 2 == 1 {
+    for (functor, start) in prefixes.into_iter().rev() {
         let at = start.to(value.at());
-        value = match value {
-            Expr::Number(number, _) => Expr::Number(number.wrapping_neg(), at),
-            Expr::Decimal(number, _) => Expr::Decimal(-number, at),
-            other => Expr::Call { functor: Functor::Negate, args: vec![other], at },
+        value = match (functor, value) {
+            (Functor::Negate, Expr::Number(number, _)) => Expr::Number(number.wrapping_neg(), at),
+            (Functor::Negate, Expr::Decimal(number, _)) => Expr::Decimal(-number, at),
+            (_, value) => Expr::Call { functor, args: vec![value], at },
         };
     }
     Ok((input, value))
@@ -173,18 +200,30 @@ fn primary(input: Input<'_>) -> Read<'_, Expr> {
     if let Some(refused) = foreign(input) {
         return input.refuse(refused);
     }
-    alt((
-        aggregate,
-        cast,
-        call,
-        without,
-        number.map(|(value, at)| Expr::Number(value, at)),
-        decimal.map(|(value, at)| Expr::Decimal(value, at)),
-        text,
-        variable,
-        delimited(sign("("), expression, sign(")")),
-    ))
-    .parse(input)
+    // By the first word, so that brackets within brackets take little of the stack.
+    match input.rest.first().map(|token| &token.word) {
+        Some(Word::Sign("(")) => brackets(input),
+        Some(Word::Name(name)) if aggregation(name).is_some() => match aggregate(input) {
+            Err(nom::Err::Error(_)) => alt((call, variable)).parse(input),
+            read => read,
+        },
+        Some(Word::Name(_)) => alt((cast, call, variable)).parse(input),
+        _ => alt((
+            variable,
+            number.map(|(value, at)| Expr::Number(value, at)),
+            decimal.map(|(value, at)| Expr::Decimal(value, at)),
+            text,
+            brackets,
+        ))
+        .parse(input),
+    }
+}
+
+fn brackets(input: Input<'_>) -> Read<'_, Expr> {
+    let (input, _) = sign("(")(input)?;
+    let (input, value) = expression(input)?;
+    let (input, _) = sign(")")(input)?;
+    Ok((input, value))
 }
 
 /// The parts of Soufflé's expressions that are not known here.
@@ -215,25 +254,7 @@ fn cast(input: Input<'_>) -> Read<'_, Expr> {
     let both = separated_pair(expression, sign(","), name);
     let (rest, (value, type_name)) = delimited(sign("("), both, sign(")")).parse(rest)?;
     let at = word.at.to(type_name.at);
-    Ok((rest, Expr::As { value: Box::new(value), type_name, at }))
-}
-
-// bnot X   lnot X
-fn without(input: Input<'_>) -> Read<'_, Expr> {
-    let (rest, word) = name(input)?;
-    let functor =
-        functor(&word.text).filter(|f| matches!(f, Functor::BitNot | Functor::LogicalNot));
-    let Some(functor) = functor else { return input.fail("значение") };
-    let starts = matches!(
-        rest.rest.first().map(|token| &token.word),
-        Some(Word::Name(_) | Word::Number(_) | Word::Sign("-"))
-    );
-    if !starts {
-        return input.fail("значение");
-    }
-    let (rest, value) = power(rest)?;
-    let at = word.at.to(value.at());
-    Ok((rest, Expr::Call { functor, args: vec![value], at }))
+    Ok((rest, Expr::As { value: Box::new(value), type_name: Box::new(type_name), at }))
 }
 
 fn variable(input: Input<'_>) -> Read<'_, Expr> {

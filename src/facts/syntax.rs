@@ -102,7 +102,7 @@ pub(super) enum Expr {
     /// `as(value, type)`
     As {
         value: Box<Self>,
-        type_name: Name,
+        type_name: Box<Name>,
         at: Span,
     },
     Call {
