@@ -295,6 +295,21 @@ fn parts_of_house(path: &std::path::Path) -> usize {
     part.into_values().collect::<BTreeSet<_>>().len()
 }
 
+/// A file that says where its robot is, or where robots charge, gives the map a start.
+#[test]
+fn a_robot_begins_where_the_file_has_it() {
+    let scenes = ["rmf/clinic.building.yaml", "procthor/house_3.json"];
+    for name in scenes.into_iter().chain(["virtualhome/TestScene1_graph.json"]) {
+        let Some(building) = imported(name) else { continue };
+        let start = building.world.robot.start.unwrap_or_else(|| panic!("{name}: no start"));
+        let (map, pose) =
+            orthoframe::robot::starting_pose(&building.world).expect("it stands on a map");
+        let engine = Engine::in_memory(building.world, None).expect("rules are sound");
+        let floor = &engine.floors().expect("the map has floors")[&map];
+        assert!(floor.locate(pose.at).is_some(), "{name}: {start:?}");
+    }
+}
+
 /// Pairs of rooms of the dwellings that their doors join and furniture parts, for a robot so much narrower, cm.
 fn barred(keeps_furniture: bool, slimmer: f64) -> Vec<(String, Vec<(String, String)>)> {
     let houses = (0..10).map(|n| format!("procthor/house_{n}.json"));

@@ -120,6 +120,9 @@ pub(super) enum Command {
         /// Begin at the map's start, in a map as it was surveyed; what the robot did and saw before counts no more
         #[arg(long)]
         reset: bool,
+        /// The robot stands here: a name, or X,Y in cm; else where the last task left it, or at the map's start
+        #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
+        from: Option<String>,
     },
     /// Answer a question in words: ortho ask "Где лекарство?"
     Ask(AskArgs),

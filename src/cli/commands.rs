@@ -181,10 +181,14 @@ pub(super) fn perform(
     task: &str,
     draw: Option<&Path>,
     reset: bool,
+    from: Option<&str>,
 ) -> Result<Answer, Failure> {
     let mut engine = open(common)?;
     if reset {
         engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
+    }
+    if let Some(from) = from {
+        engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
     let answer = super::demo::perform(common, &mut engine, task)?;
     if let Some(path) = draw {

@@ -70,8 +70,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Plan(plan) => plan::run(common, plan),
         Command::Ask(ask) => ask::run(common, ask),
-        Command::Do { task, draw, reset } => {
-            commands::perform(common, task, draw.as_deref(), *reset)
+        Command::Do { task, draw, reset, from } => {
+            commands::perform(common, task, draw.as_deref(), *reset, from.as_deref())
         }
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),

@@ -219,7 +219,7 @@ pub enum RequestError {
     #[error("неизвестно, где робот")]
     #[diagnostic(
         code(engine::robot_nowhere),
-        help("назовите его место в карте: [robot] start = «точка»")
+        help("назовите его место: ortho do … --from МЕСТО, или в карте: [robot] start = «точка»")
     )]
     RobotNowhere,
 

@@ -10,7 +10,7 @@ use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
 use crate::semantics::{Profile, Relations, derive};
 use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
-use crate::units::{MapId, Pose, ReplicaId};
+use crate::units::{Deg, MapId, Pose, ReplicaId};
 
 use super::task::TaskAnswer;
 use super::{Engine, Error, RequestError};
@@ -142,6 +142,20 @@ impl Engine {
             })
             .collect();
         Ok(store.remember(&after.memory, &seen, ROBOT, at)?)
+    }
+
+    /// The robot stands at a place given by name or as `X,Y`, or as near to it as it fits: it was carried there, or the map does not say.
+    ///
+    /// # Errors
+    /// The name means nothing, or no place; the disk refused.
+    pub fn place_robot(&mut self, name: &str, change: &Change) -> Result<(), Error> {
+        let there = self.locate_name(name)?;
+        self.present.take();
+        let floor = self.floor(there.map)?;
+        let at = floor.standing_at(there.at).ok_or(RequestError::RobotNowhere)?;
+        let pose = Pose { at, heading: Deg::ZERO };
+        let store = self.writable()?;
+        Ok(store.put_robot_pose(there.map, &pose, &change.user, change.at)?)
     }
 
     /// The robot is put back to the map's start, into a map as it was surveyed: what it saw and did counts no more.

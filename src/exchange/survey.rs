@@ -160,6 +160,8 @@ pub struct Spot {
     pub kind: String,
     pub at: Point,
     pub heading: Option<Deg>,
+    /// Whether a robot begins here.
+    pub is_start: bool,
 }
 
 /// A lift or a flight of stairs.

@@ -223,6 +223,12 @@ impl FloorPlan {
         Some((area, frame))
     }
 
+    /// Where the robot's centre is when it stands at `p`, or as near as it fits.
+    #[must_use]
+    pub fn standing_at(&self, p: Point) -> Option<Point> {
+        self.anchor(p, None, None).map(|anchor| anchor.at)
+    }
+
     /// The robot's centre at `p`, or as near as it fits; in a region of the floor if one is named.
     fn anchor(&self, p: Point, region: Option<u32>, within: Option<&[u32]>) -> Option<Anchor> {
         let admits = |number: u32| within.is_none_or(|w| w.contains(&number));

@@ -133,6 +133,9 @@ fn a_task_is_carried_out() {
     let text = place.run(&["do", "Bring the medicine", "--lang", "en", "--reset"]).is(0).out;
     assert!(text.contains("Done:"), "{text}");
     assert!(text.contains("I am in Room V at the door leading from Room V to Room Z."), "{text}");
+    let there = place.json(&["do", "Открой Дверь-КY", "--from", "Комната-Y"], 0);
+    let first = there["directives"][0]["ru"].as_str().unwrap();
+    assert!(first.starts_with("Я нахожусь в Комнате-Y"), "{first}");
     let misheard = place.json(&["do", "Станцуй вальс"], 2);
     assert_eq!(misheard["outcome"], "error");
 }

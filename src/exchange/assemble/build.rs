@@ -11,7 +11,7 @@ use crate::map::{
     Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Orthoframe,
     Permeability, Properties, TypeKind, World,
 };
-use crate::units::{AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, Point, TypeId};
+use crate::units::{AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, PlaceId, Point, TypeId};
 
 use super::names::{self, Names, letters};
 use super::openings::{self, Placed};
@@ -37,6 +37,8 @@ pub(super) struct Maker<'a> {
     pub(super) names: Names,
     pub(super) side_types: SideTypes,
     orthoframes: u32,
+    /// The first place to charge.
+    pub(super) charger: Option<PlaceId>,
 }
 
 pub(super) struct SideTypes {
@@ -90,6 +92,7 @@ pub(super) fn build(
         names: Names::default(),
         side_types,
         orthoframes: 0,
+        charger: None,
     };
     let storeys = maker.storeys()?;
     maker.lifts(&storeys);
@@ -101,6 +104,8 @@ pub(super) fn build(
             maker.lanes(level, storey);
         }
     }
+    // A robot of which the file says nothing waits where it charges.
+    maker.world.robot.start = maker.world.robot.start.or(maker.charger);
     maker.world.types = std::mem::take(&mut maker.types.lists);
     Ok(maker.world)
 }

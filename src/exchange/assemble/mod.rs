@@ -247,6 +247,7 @@ mod tests {
                 kind: String::new(),
                 at: Point::new(50.0, 50.0),
                 heading: None,
+                is_start: false,
             }],
             ..Level::default()
         };

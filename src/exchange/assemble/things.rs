@@ -19,6 +19,8 @@ use super::names::{self, Named};
 use super::ring::{Region, Ring, overlay};
 
 const SOURCE: &str = "ИСТОЧНИК";
+/// The word of the formats for a place where robots charge.
+const CHARGER: &str = "charger";
 /// How far a thing may be moved into its room, cm.
 const NUDGE: f64 = 60.0;
 /// Of a thing's base at least so much must stand in its room; the map's checks ask for half.
@@ -270,6 +272,12 @@ impl Maker<'_> {
             };
             self.report.taken(What::Place, 1);
             let id = PlaceId(self.world.places.len() as u32 + 1);
+            if spot.is_start && self.world.robot.start.is_none() {
+                self.world.robot.start = Some(id);
+            }
+            if spot.kind == CHARGER && self.charger.is_none() {
+                self.charger = Some(id);
+            }
             let named = self.spot_name(spot);
             self.world.places.insert(
                 id,

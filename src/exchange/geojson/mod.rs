@@ -337,7 +337,7 @@ impl Reader {
         for level in self.levels.of_feature(feature) {
             let (source, name) = (feature.id.clone(), name.clone());
             let kind = kind.clone().unwrap_or_default();
-            let spot = Spot { source, name, kind, at, heading };
+            let spot = Spot { source, name, kind, at, heading, is_start: false };
             self.survey.levels[level].spots.push(spot);
         }
     }

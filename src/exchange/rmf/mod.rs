@@ -307,13 +307,15 @@ impl Reader {
                 "" => dock.and_then(Value::as_str).unwrap_or_default(),
                 name => name,
             };
-            if !name.is_empty() || !kind.is_empty() {
+            let spawned = record.get(4).and_then(|p| p.get("spawn_robot_name"));
+            if !name.is_empty() || !kind.is_empty() || spawned.is_some() {
                 spots.push(Spot {
                     source: format!("{level}/vertices/{i}"),
                     name: name.to_owned(),
                     kind: kind.to_owned(),
                     at: *at,
                     heading: None,
+                    is_start: spawned.is_some(),
                 });
             }
         }

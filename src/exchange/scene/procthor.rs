@@ -149,6 +149,7 @@ fn agent(house: &Value) -> Option<Spot> {
         kind: String::new(),
         at,
         heading: Some(Deg::of(90.0 - turn)),
+        is_start: true,
     })
 }
 

@@ -59,7 +59,8 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         let heading = Deg::of(90.0 - angles(a.get("rotation"))[1]);
         let at = plan(triple(a.get("position"))?);
         let (name, kind) = (String::new(), String::new());
-        Some(Spot { source: "agent".to_owned(), name, kind, at, heading: Some(heading) })
+        let (source, heading) = ("agent".to_owned(), Some(heading));
+        Some(Spot { source, name, kind, at, heading, is_start: true })
     });
     let scene_name = text(scene, "sceneName").unwrap_or_default();
     let level = Level {

@@ -70,6 +70,7 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
                 kind: String::new(),
                 at: node.middle(),
                 heading: None,
+                is_start: true,
             }),
             "Rooms" | "Floor" | "Floors" | "Walls" | "Ceiling" | "Doors" | "Windows" => {}
             _ => match twin(node, &pieces) {

@@ -194,6 +194,7 @@ impl Reader {
                 kind: String::new(),
                 at,
                 heading: Some(place.angle),
+                is_start: false,
             });
         }
         let outline: Vec<Point> = outline.into_iter().map(|p| frame.apply(p)).collect();
@@ -304,6 +305,7 @@ impl Reader {
                 kind: "charger".to_owned(),
                 at: frame.origin(),
                 heading: Some(frame.angle),
+                is_start: false,
             };
             self.level.spots.push(spot);
         }
@@ -445,6 +447,7 @@ impl Reader {
                 kind: String::new(),
                 at: frame.origin(),
                 heading: Some(frame.angle),
+                is_start: true,
             };
             self.level.spots.push(spot);
         }
