@@ -26,6 +26,14 @@ pub enum ReadError {
     )]
     NotText { name: String, at: usize, byte: u8 },
 
+    /// Files packed into one.
+    #[error("«{name}» – архив ZIP")]
+    #[diagnostic(
+        code(exchange::archive),
+        help("распакуйте его и назовите папку: так читаются и архивы IMDF")
+    )]
+    Archive { name: String },
+
     /// The text breaks the rules of its own format.
     #[error("{format}: {what}")]
     #[diagnostic(code(exchange::syntax), help("исправьте файл в указанном месте"))]

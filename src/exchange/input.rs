@@ -50,6 +50,9 @@ pub fn decode(name: &str, bytes: Vec<u8>) -> Result<Source, ReadError> {
         }
         return Ok(Source::new(name, text));
     }
+    if bytes.starts_with(b"PK\x03\x04") {
+        return Err(ReadError::Archive { name: name.to_owned() });
+    }
     let not_control = |b: &u8| *b >= 0x20 || matches!(b, b'\t' | b'\n' | b'\r' | 0x0C | 0x1A);
     if let Some(at) = bytes.iter().position(|b| !not_control(b)) {
         return Err(ReadError::NotText { name: name.to_owned(), at, byte: bytes[at] });
@@ -99,7 +102,8 @@ mod tests {
 
     #[test]
     fn what_is_no_text_is_refused_with_its_place() {
-        assert_eq!(text_of(b"PK\x03\x04"), "«файл» – не текст: байт 2 равен 0x03");
+        assert_eq!(text_of(b"PK\x03\x04"), "«файл» – архив ZIP");
+        assert_eq!(text_of(b"PK\x05\x06"), "«файл» – не текст: байт 2 равен 0x05");
         assert_eq!(text_of(b""), "");
     }
 }

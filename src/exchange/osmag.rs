@@ -28,6 +28,8 @@ const EARTH: f64 = 637_100_880.0;
 const STOREY: f64 = 320.0;
 /// The least width of a strip of floor, cm.
 const STRIP: f64 = 20.0;
+/// Areas drawn as lines that get a floor; a file of more is no drawing of a building.
+const MOST_THIN: usize = 500;
 /// Elements of one file.
 const MOST: u32 = 20_000_000;
 
@@ -240,6 +242,7 @@ impl<'x> Reader<'x> {
             .filter(|&i| {
                 is_thin(&self.survey.levels[self.areas[i].level].rooms[self.areas[i].room])
             })
+            .take(MOST_THIN)
             .collect();
         if thin.is_empty() {
             return;

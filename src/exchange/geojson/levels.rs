@@ -55,6 +55,8 @@ impl Storey {
 pub(super) struct Levels {
     pub list: Vec<Storey>,
     places: HashMap<String, usize>,
+    /// By the id of an IMDF unit, for what names its units and no level: amenities.
+    units: HashMap<String, usize>,
 }
 
 impl Levels {
@@ -101,7 +103,11 @@ impl Levels {
         order.iter().enumerate().for_each(|(new, &old)| rank[old] = new);
         places.values_mut().for_each(|place| *place = rank[*place]);
         let list = order.into_iter().map(|old| list[old].clone()).collect();
-        Self { list, places }
+        let mut levels = Self { list, places, units: HashMap::new() };
+        let units = features.iter().filter(|f| f.feature_type == "unit" && !f.id.is_empty());
+        let of_unit = |f: &Feature| Some((f.id.clone(), *levels.of_feature(f).first()?));
+        levels.units = units.filter_map(of_unit).collect();
+        levels
     }
 
     /// The storeys of a feature; the lowest at or above the ground when it says nothing.
@@ -109,6 +115,15 @@ impl Levels {
         let known: Vec<usize> =
             keys_of(feature).iter().filter_map(|key| self.places.get(key).copied()).collect();
         if known.is_empty() {
+            let by_list = feature.properties.get("unit_ids").and_then(|ids| ids.as_array());
+            let units = by_list.into_iter().flatten().chain(feature.properties.get("unit_id"));
+            let mut of_units: Vec<usize> =
+                units.filter_map(|id| self.units.get(id.as_str()?).copied()).collect();
+            of_units.sort_unstable();
+            of_units.dedup();
+            if !of_units.is_empty() {
+                return of_units;
+            }
             let ground = self.list.iter().position(|s| s.ordinal >= 0.0);
             return vec![ground.unwrap_or(self.list.len() - 1)];
         }

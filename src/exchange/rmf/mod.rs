@@ -38,6 +38,9 @@ const PIXEL: f64 = 0.05;
 /// Vertices, edges and models of one level.
 const MOST: usize = 500_000;
 
+/// Lanes of one level that are looked at: hints, held against every room near them.
+const MOST_LANES: usize = 20_000;
+
 /// Whether a text is a building of the traffic editor.
 #[must_use]
 pub(super) fn recognises(text: &str) -> bool {
@@ -145,7 +148,7 @@ impl Reader {
     }
 
     fn level(&mut self, index: usize, name: &str, level: &Value) -> Result<(), ReadError> {
-        for what in ["vertices", "walls", "doors", "models", "lanes"] {
+        for what in ["vertices", "walls", "doors", "models"] {
             if list(level, what).len() > MOST {
                 let what = "записей этажа";
                 return Err(ReadError::TooMany { format: FORMAT, what, limit: MOST });
@@ -175,7 +178,9 @@ impl Reader {
             records.map(|p| list(p, "vertices").iter().filter_map(corner).collect()).collect()
         };
         made.spots = self.spots(name, list(level, "vertices"), &vertices);
-        let lanes = self.edges(&format!("{name}/lanes"), list(level, "lanes"), &vertices);
+        let lanes = list(level, "lanes");
+        let lanes = &lanes[..lanes.len().min(MOST_LANES)];
+        let lanes = self.edges(&format!("{name}/lanes"), lanes, &vertices);
         let driven: Vec<(Point, Point)> = lanes.iter().map(|lane| lane.ends).collect();
         let lane = |l: Drawn<'_>| Lane { source: l.source, ends: [l.ends.0, l.ends.1] };
         made.lanes = lanes.into_iter().map(lane).collect();
