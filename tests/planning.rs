@@ -1,8 +1,11 @@
 //! From a scenario file to a plan, and from a faulty file to its faults.
 
 use std::path::{Path, PathBuf};
+use std::time::Instant;
 
-use orthoframe::graphplan::{Limits, NoPlanReason, Outcome, solve, validate};
+use orthoframe::engine::plan_alone;
+use orthoframe::graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
+use orthoframe::robot::Wanted;
 use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
 use orthoframe::units::Source;
 
@@ -164,6 +167,28 @@ fn things_that_no_plan_needs_leave_the_task() {
     let held = problem(3, "ДЕРЖИТ(Вещь-0)");
     assert_eq!(directives(&held).len(), 3);
     assert!(held.operators.iter().all(|operator| !operator.args.contains(&"Вещь-1".into())));
+}
+
+#[test]
+fn grounding_keeps_to_the_limits() {
+    // Thirteen million actions, were they all made.
+    let objects: Vec<String> = (0..60).map(|n| format!("o{n}")).collect();
+    let domain = "(define (domain d) (:predicates (p ?a ?b) (q ?a ?b))
+        (:action a :parameters (?a ?b ?c ?d) :precondition (and (p ?a ?b) (p ?c ?d)) :effect (p ?a ?d)))";
+    let problem = format!(
+        "(define (problem p) (:domain d) (:objects {}) (:init {}) (:goal (q o0 o1)))",
+        objects.join(" "),
+        objects.iter().map(|o| format!("(p {o} {o})")).collect::<String>()
+    );
+    let scenario = Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem));
+    let scenario = scenario.unwrap();
+    let outcome = |limits: Limits| {
+        plan_alone(scenario.clone(), &limits, Wanted::Shortest).unwrap().solved.outcome
+    };
+    let small = Limits { memory_bytes: 1 << 20, ..Limits::default() };
+    assert_eq!(outcome(small), Outcome::LimitReached(Limit::Memory));
+    let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
+    assert_eq!(outcome(now), Outcome::LimitReached(Limit::Time));
 }
 
 #[test]

@@ -36,7 +36,7 @@ pub(super) fn plan(solved: &Solved) -> Value {
         "steps": steps,
         "optimal": solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_)),
         "assumptions": solved.assumptions,
-        "explanation": solved.explanation,
+        "explanation": solved.explanation(crate::units::Language::Russian),
     });
     match &solved.outcome {
         Outcome::NoPlan { leveled_off_at, reason } => {

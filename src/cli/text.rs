@@ -75,7 +75,7 @@ pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
             Outcome::LimitReached(_) => lang.pick("План не найден", "No plan was found"),
             _ => lang.pick("Плана нет, и это доказано", "There is no plan; this is proven"),
         };
-        return format!("{head}: {}", solved.explanation.as_deref().unwrap_or_default());
+        return format!("{head}: {}", solved.explanation(lang.language()).unwrap_or_default());
     }
     if steps.is_empty() {
         return lang.pick("Цель уже достигнута.", "The goal holds already.").to_owned();

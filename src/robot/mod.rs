@@ -21,4 +21,4 @@ pub use mission::{
 };
 pub use placing::spot_on;
 pub use simulator::{Moment, Simulator};
-pub use solve::{Solved, Wanted, solve};
+pub use solve::{Reason, Solved, Wanted, solve};

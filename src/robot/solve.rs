@@ -3,7 +3,10 @@
 use std::cell::Cell;
 
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
-use crate::strips::{Domain, FactId, Problem, RuleFaults, Task, explain_unreachable, ground_while};
+use crate::strips::{
+    Domain, FactId, Obstacle, Problem, RuleFaults, Task, explain_unreachable, ground_while,
+};
+use crate::units::Language;
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -15,7 +18,66 @@ pub struct Solved {
     /// The assumptions that the plan rests on, in the words of the rule files.
     pub assumptions: Vec<String>,
     /// Why there is no plan; none when there is one.
-    pub explanation: Option<String>,
+    pub reason: Option<Reason>,
+}
+
+/// Why there is no plan, or none was found.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Reason {
+    Unreachable(Vec<Obstacle>),
+    /// Pairs of goals that exclude each other.
+    Exclusive(Vec<(String, String)>),
+    /// Goals that cannot all hold at once.
+    Together(Vec<String>),
+    Limit(Limit),
+}
+
+impl Reason {
+    #[must_use]
+    pub fn in_words(&self, language: Language) -> String {
+        match self {
+            Self::Unreachable(obstacles) => {
+                let told: Vec<String> = obstacles.iter().map(|o| o.in_words(language)).collect();
+                told.join("\n")
+            }
+            Self::Exclusive(pairs) => {
+                let and = language.pick("и", "and");
+                let pairs: Vec<String> =
+                    pairs.iter().map(|(a, b)| format!("{a} {and} {b}")).collect();
+                let head =
+                    language.pick("цели исключают друг друга", "the goals exclude each other");
+                format!("{head}: {}", pairs.join("; "))
+            }
+            Self::Together(facts) => {
+                let head = language
+                    .pick("цели недостижимы все вместе", "the goals are out of reach all together");
+                format!("{head}: {}", facts.join(", "))
+            }
+            Self::Limit(limit) => match limit {
+                Limit::Time => language.pick(
+                    "время вышло раньше, чем нашёлся план",
+                    "the time was up before a plan was found",
+                ),
+                Limit::Memory => language.pick(
+                    "память вышла раньше, чем нашёлся план",
+                    "the memory was used up before a plan was found",
+                ),
+                Limit::Steps => language.pick(
+                    "плана нет в пределах наибольшего числа шагов",
+                    "there is no plan within the greatest number of steps",
+                ),
+            }
+            .to_owned(),
+        }
+    }
+}
+
+impl Solved {
+    /// Why there is no plan, in words; none when there is one.
+    #[must_use]
+    pub fn explanation(&self, language: Language) -> Option<String> {
+        self.reason.as_ref().map(|reason| reason.in_words(language))
+    }
 }
 
 /// Which plan is wanted.
@@ -100,8 +162,8 @@ fn told(
         }
         _ => Vec::new(),
     };
-    let explanation = explain(domain, problem, &task, &outcome)?;
-    Ok(Solved { task, outcome, is_shortest, assumptions, explanation })
+    let reason = explain(domain, problem, &task, &outcome)?;
+    Ok(Solved { task, outcome, is_shortest, assumptions, reason })
 }
 
 fn explain(
@@ -109,28 +171,20 @@ fn explain(
     problem: &Problem,
     task: &Task,
     outcome: &Outcome,
-) -> Result<Option<String>, RuleFaults> {
+) -> Result<Option<Reason>, RuleFaults> {
     let fact = |id: FactId| task.fact(id).to_string();
     Ok(Some(match outcome {
         Outcome::Plan(_) => return Ok(None),
         Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } => {
             let goals = facts.iter().map(|&id| task.fact(id));
-            let obstacles = explain_unreachable(domain, problem, goals)?;
-            obstacles.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+            Reason::Unreachable(explain_unreachable(domain, problem, goals)?)
         }
         Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
-            let pairs: Vec<String> =
-                pairs.iter().map(|&(a, b)| format!("{} и {}", fact(a), fact(b))).collect();
-            format!("цели исключают друг друга: {}", pairs.join("; "))
+            Reason::Exclusive(pairs.iter().map(|&(a, b)| (fact(a), fact(b))).collect())
         }
         Outcome::NoPlan { reason: NoPlanReason::Together(facts), .. } => {
-            let facts: Vec<String> = facts.iter().map(|&id| fact(id)).collect();
-            format!("цели недостижимы все вместе: {}", facts.join(", "))
+            Reason::Together(facts.iter().map(|&id| fact(id)).collect())
         }
-        Outcome::LimitReached(Limit::Time) => "время вышло раньше, чем нашёлся план".to_owned(),
-        Outcome::LimitReached(Limit::Memory) => "память вышла раньше, чем нашёлся план".to_owned(),
-        Outcome::LimitReached(Limit::Steps) => {
-            "плана нет в пределах наибольшего числа шагов".to_owned()
-        }
+        Outcome::LimitReached(limit) => Reason::Limit(*limit),
     }))
 }

@@ -14,7 +14,7 @@ use super::error::RuleFaults;
 use super::ground::{Binding, Reachability};
 use super::problem::{GroundAtom, Problem, Resolved, ThingId};
 use super::task::Fact;
-use crate::units::name_key;
+use crate::units::{Language, name_key};
 
 /// Why one fact of the goal cannot be reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -36,22 +36,41 @@ pub struct Missing {
     pub has_action: bool,
 }
 
+impl Obstacle {
+    /// The goal, and below it what is missing.
+    #[must_use]
+    pub fn in_words(&self, language: Language) -> String {
+        let goal = &self.goal;
+        let mut text = language
+            .pick(format!("цель {goal} недостижима"), format!("the goal {goal} is out of reach"));
+        if self.missing.is_empty() {
+            text += language
+                .pick(": ни одно действие не даёт этого факта", ": no action brings it about");
+        }
+        for Missing { fact, action, now, has_action } in &self.missing {
+            text += &language.pick(
+                format!("\n  для этого ({action}) нужно {fact}"),
+                format!("\n  for this ({action}) it takes {fact}"),
+            );
+            if !now.is_empty() {
+                text += language.pick("; сейчас ", "; now it is ");
+                text += &now.join(", ");
+            }
+            if !has_action {
+                text += language.pick(
+                    "; это не так, и ни одно действие этого не даёт",
+                    "; it is not so, and no action brings it about",
+                );
+            }
+        }
+        text
+    }
+}
+
+/// In Russian.
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "цель {} недостижима", self.goal)?;
-        if self.missing.is_empty() {
-            return f.write_str(": ни одно действие не даёт этого факта");
-        }
-        for missing in &self.missing {
-            write!(f, "\n  для этого ({}) нужно {}", missing.action, missing.fact)?;
-            if !missing.now.is_empty() {
-                write!(f, "; сейчас {}", missing.now.join(", "))?;
-            }
-            if !missing.has_action {
-                f.write_str("; это не так, и ни одно действие этого не даёт")?;
-            }
-        }
-        Ok(())
+        f.write_str(&self.in_words(Language::Russian))
     }
 }
 
@@ -292,6 +311,7 @@ impl Explainer<'_> {
         missing
     }
 
+    /// An open place as the rule language writes a variable: `КЛЮЧ_ПОДХОДИТ-К_(предмет ?, Дверь-ZY)`.
     fn shown(&self, (predicate, args): &OpenAtom) -> String {
         let predicate = &self.domain.predicates[predicate.index()];
         let args: Vec<String> = args
@@ -299,8 +319,8 @@ impl Explainer<'_> {
             .zip(&predicate.args)
             .map(|(arg, kinds)| match arg {
                 Some(thing) => self.resolved.things[thing.index()].name.clone(),
-                None if kinds.is_empty() => "любой объект".to_owned(),
-                None => format!("любой {}", self.domain.kind_names(kinds)),
+                None if kinds.is_empty() => "?".to_owned(),
+                None => format!("{} ?", self.domain.kind_names(kinds)),
             })
             .collect();
         format!("{}_({})", predicate.name, args.join(", "))

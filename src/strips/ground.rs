@@ -41,12 +41,8 @@ pub fn ground_while(
         return Err(RuleFault::placeless(RuleError::NoGoal).into());
     }
     let resolved = problem.resolve(domain)?;
-    let mut reached = Reachability::new(domain, &resolved);
-    if !reached.saturate(may_go_on) {
-        return Ok(None);
-    }
-    reached.within_bounds()?;
-    Ok(Some(simplify(draft(domain, &resolved, &reached))))
+    let reached = Reachability::new(domain, &resolved, may_go_on).saturated()?;
+    Ok(reached.map(|reached| simplify(draft(domain, &resolved, &reached))))
 }
 
 /// Instances of one schema's parameters.
@@ -90,19 +86,30 @@ pub(super) struct Reachability<'a> {
     pub(super) instances: Vec<Instance>,
     pub(super) atoms: Vec<GroundAtom>,
     pub(super) numbers: HashMap<GroundAtom, usize>,
-    overflow: Option<usize>,
+    may_go_on: &'a dyn Fn(usize) -> bool,
+    stop: Option<Stop>,
+}
+
+/// Why saturation ended before its end.
+#[derive(Debug, Clone, Copy)]
+enum Stop {
+    /// Of actions there are too many; the schema of the last.
+    TooMany(usize),
+    Asked,
 }
 
 impl<'a> Reachability<'a> {
     /// All that is reachable.
     pub(super) fn run(domain: &'a Domain, resolved: &'a Resolved) -> Result<Self, RuleFaults> {
-        let mut reached = Self::new(domain, resolved);
-        reached.saturate(&|_| true);
-        reached.within_bounds()?;
-        Ok(reached)
+        let reached = Self::new(domain, resolved, &|_| true).saturated()?;
+        Ok(reached.expect("nothing stops it"))
     }
 
-    fn new(domain: &'a Domain, resolved: &'a Resolved) -> Self {
+    fn new(
+        domain: &'a Domain,
+        resolved: &'a Resolved,
+        may_go_on: &'a dyn Fn(usize) -> bool,
+    ) -> Self {
         let mut changing = vec![false; domain.predicates.len()];
         for schema in &domain.schemas {
             for atom in schema.add_effects.iter().chain(&schema.del_effects) {
@@ -141,14 +148,18 @@ impl<'a> Reachability<'a> {
             instances: Vec::new(),
             atoms: Vec::new(),
             numbers: HashMap::new(),
-            overflow: None,
+            may_go_on,
+            stop: None,
         }
     }
 
-    fn within_bounds(&self) -> Result<(), RuleFaults> {
-        match self.overflow {
-            None => Ok(()),
-            Some(schema) => Err(RuleFault::placeless(RuleError::TooManyOperators {
+    /// None when it was told to stop.
+    fn saturated(mut self) -> Result<Option<Self>, RuleFaults> {
+        self.saturate();
+        match self.stop {
+            None => Ok((self.may_go_on)(self.bytes()).then_some(self)),
+            Some(Stop::Asked) => Ok(None),
+            Some(Stop::TooMany(schema)) => Err(RuleFault::placeless(RuleError::TooManyOperators {
                 limit: MAX_OPERATORS,
                 action: self.domain.schemas[schema].name.clone(),
             })
@@ -161,8 +172,7 @@ impl<'a> Reachability<'a> {
         self.instances.len() * 600 + self.atoms.len() * 400
     }
 
-    /// Whether nothing stopped it.
-    fn saturate(&mut self, may_go_on: &dyn Fn(usize) -> bool) -> bool {
+    fn saturate(&mut self) {
         for (atom, _) in &self.resolved.facts {
             self.reach(atom.clone());
         }
@@ -182,10 +192,8 @@ impl<'a> Reachability<'a> {
             }
         }
         let mut next = 0;
-        while next < self.atoms.len() && self.overflow.is_none() {
-            if next.is_multiple_of(64) && !may_go_on(self.bytes()) {
-                return false;
-            }
+        while next < self.atoms.len() && self.stop.is_none() {
+            self.ask(next);
             let atom = self.atoms[next].clone();
             next += 1;
             if self.changing[atom.predicate.index()] {
@@ -193,7 +201,13 @@ impl<'a> Reachability<'a> {
                 self.trigger(&atom);
             }
         }
-        may_go_on(self.bytes())
+    }
+
+    /// Now and then, whether to go on.
+    fn ask(&mut self, count: usize) {
+        if count.is_multiple_of(256) && !(self.may_go_on)(self.bytes()) {
+            self.stop = Some(Stop::Asked);
+        }
     }
 
     fn reach(&mut self, atom: GroundAtom) {
@@ -293,7 +307,7 @@ impl<'a> Reachability<'a> {
     ) {
         let domain = self.domain;
         let rule: &Schema = &domain.schemas[schema];
-        if self.overflow.is_some() || !self.comparisons_hold(rule, &binding) {
+        if self.stop.is_some() || !self.comparisons_hold(rule, &binding) {
             return;
         }
         let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
@@ -368,7 +382,7 @@ impl<'a> Reachability<'a> {
         for choice in 0..self.candidates[schema][free].len() {
             let mut binding = binding.clone();
             binding[free] = Some(self.candidates[schema][free][choice]);
-            if self.overflow.is_none() && self.comparisons_hold(&domain.schemas[schema], &binding) {
+            if self.stop.is_none() && self.comparisons_hold(&domain.schemas[schema], &binding) {
                 self.choose_rest(schema, binding);
             }
         }
@@ -397,9 +411,10 @@ impl<'a> Reachability<'a> {
             return;
         }
         if self.instances.len() >= MAX_OPERATORS {
-            self.overflow = Some(schema);
+            self.stop = Some(Stop::TooMany(schema));
             return;
         }
+        self.ask(self.instances.len());
         for atom in &rule.add_effects {
             let atom = self.instantiate(atom, &args);
             self.reach(atom);
