@@ -78,12 +78,14 @@ fn doorways(engine: &Engine, answer: &RouteAnswer) -> Vec<Vector> {
             });
             let (a, b) = nearest.unwrap().ends;
             let across = Vector::new(b.y - a.y, a.x - b.x).normalize();
-            // The route's point nearest to the doorway, and where it goes from there.
+            // Where the route crosses the doorway's line between its ends; the line goes on beside the doorway.
             let side = |p: &orthoframe::units::Point| (p - middle).dot(&across);
             let at = route.points.windows(2).find(|w| {
-                side(&w[0]) * side(&w[1]) <= 0.0
-                    && (nalgebra::center(&w[0], &w[1]) - middle).norm()
-                        <= (w[1] - w[0]).norm() / 2.0 + doorway.width()
+                let (before, after) = (side(&w[0]), side(&w[1]));
+                let share =
+                    if (before - after).abs() < 1e-9 { 0.0 } else { before / (before - after) };
+                let crossing = w[0] + share * (w[1] - w[0]);
+                before * after <= 0.0 && (crossing - middle).norm() <= doorway.width() / 2.0 + 1.0
             });
             match at {
                 Some(w) if side(&w[1]) < side(&w[0]) => -across,
