@@ -174,6 +174,14 @@ impl Guide<'_> {
                 }
             }
         }
+        let mut told: Vec<Named> = Vec::new();
+        for stretch in &mut stretches {
+            stretch.passed.retain(|(_, thing)| {
+                let is_new = !told.contains(thing);
+                told.push(thing.clone());
+                is_new
+            });
+        }
         // Turning by a thing is enough to be told of it once.
         for n in 1..stretches.len() {
             if let Some(at) = stretches[n].at.clone() {

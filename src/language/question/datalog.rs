@@ -197,6 +197,7 @@ impl Rule<'_, '_> {
             }
             Query::Why { .. }
             | Query::WhereAreYou(_)
+            | Query::Help
             | Query::WhatDoYouSee
             | Query::WhatDoYouHold => (String::new(), String::new()),
         }

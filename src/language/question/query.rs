@@ -270,6 +270,8 @@ pub enum Query {
     LastSeen(Noun),
     Before(Noun),
     WhereAreYou(Detail),
+    /// What the robot is and can be asked.
+    Help,
     WhatDoYouSee,
     WhatDoYouHold,
     Describe(Noun),
@@ -364,7 +366,7 @@ impl Query {
                     query.each_noun(act);
                 }
             }
-            Self::WhereAreYou(_) | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
+            Self::WhereAreYou(_) | Self::Help | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
         }
     }
 
@@ -397,6 +399,7 @@ impl Query {
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
             Self::WhereAreYou(_) => "where_are_you",
+            Self::Help => "help",
             Self::WhatDoYouSee => "what_do_you_see",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",

@@ -382,7 +382,11 @@ impl Knowledge<'_> {
                 let (holds, why, _) = self.judge(thing, claim)?;
                 if holds {
                     facts.extend(why);
-                    fits.push(self.claim_words(thing, claim)?);
+                    let words = self.claim_words(thing, claim)?;
+                    // What is locked is closed too: once is enough.
+                    if !fits.contains(&words) {
+                        fits.push(words);
+                    }
                 }
             }
             any |= !fits.is_empty();

@@ -94,6 +94,7 @@ impl Knowledge<'_> {
             Query::LastSeen(noun) => self.last_seen(noun)?,
             Query::Before(noun) => self.before(noun)?,
             Query::WhereAreYou(detail) => self.where_are_you(*detail),
+            Query::Help => self.help(),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,

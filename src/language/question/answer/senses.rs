@@ -7,7 +7,7 @@ use crate::language::question::knowledge::Knowledge;
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::report::Detail;
-use crate::language::words::{Case, Number};
+use crate::language::words::{Case, Number, enumerate};
 use crate::map::Entity;
 
 impl Knowledge<'_> {
@@ -89,6 +89,35 @@ impl Knowledge<'_> {
         let said = if text.is_some() { Said::Found } else { Said::Unknown };
         let room = self.area_of(Thing::Robot).map(|a| Thing::Entity(Entity::Area(a)));
         Draft::new(said, text.unwrap_or_else(unknown)).with(room.into_iter().collect())
+    }
+
+    /// What the robot is, and what it can be asked and told, by examples of the map.
+    pub(super) fn help(&self) -> Draft {
+        let room = self.world.areas.keys().next().map(|id| Thing::Entity(Entity::Area(*id)));
+        let thing = self.world.replicas.keys().next().map(|id| Thing::Entity(Entity::Replica(*id)));
+        let mut asked = Vec::new();
+        if let Some(thing) = thing {
+            asked.push(match self.is_russian() {
+                true => format!("«Где {}?»", self.name(thing)),
+                false => format!("\"Where is {}?\"", self.name(thing)),
+            });
+        }
+        if let Some(room) = room {
+            asked.push(match self.is_russian() {
+                true => format!("«Что находится {}?»", self.place(Rel::In, &[room])),
+                false => format!("\"What is {}?\"", self.place(Rel::In, &[room])),
+            });
+            asked.push(match self.is_russian() {
+                true => format!("«Как пройти {}?»", self.place(Rel::To, &[room])),
+                false => format!("\"How do I get {}?\"", self.place(Rel::To, &[room])),
+            });
+        }
+        let asked = enumerate(&asked, self.language);
+        let text = match self.is_russian() {
+            true => format!("я робот РБ-2, знаю эту карту. Спросите, например: {asked}"),
+            false => format!("I am the robot RB-2 and know this map. Ask, for example: {asked}"),
+        };
+        Draft::new(Said::Found, text)
     }
 
     pub(super) fn what_do_you_hold(&self) -> Draft {

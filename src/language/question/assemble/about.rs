@@ -4,7 +4,7 @@
 
 use super::Frame;
 use super::Spot;
-use crate::language::question::query::{Query, Rel, Restriction, Use};
+use crate::language::question::query::{Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::Property;
 use crate::language::question::vocabulary::Mark;
 use crate::language::report::Detail;
@@ -14,12 +14,19 @@ impl Frame<'_, '_> {
         if self.has(Mark::Hold) && self.nouns.is_empty() {
             return Some(Query::WhatDoYouHold);
         }
+        if self.has(Mark::Help) && self.nouns.is_empty() && self.spots.is_empty() {
+            return Some(Query::Help);
+        }
         if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::WhereAreYou(Detail::Heading));
         }
         let rooms_only = self.nouns.iter().all(|s| self.is_rooms(&s.noun));
         let others = !rooms_only || !self.spots.is_empty();
-        if self.has(Mark::See) && self.nouns.is_empty() && self.spots.is_empty() {
+        // «Что ты видишь перед собой?»
+        if self.has(Mark::See)
+            && self.nouns.is_empty()
+            && self.spots.iter().all(|s| s.rel == Rel::InFrontOf && is_robot(&s.nouns[0]))
+        {
             return Some(Query::WhatDoYouSee);
         }
         let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
@@ -121,4 +128,8 @@ impl Frame<'_, '_> {
         let (noun, without) = noun.or(owner).or(spot)?;
         Some(Query::Property { property, of: self.with_rest(noun, &without) })
     }
+}
+
+fn is_robot(noun: &Noun) -> bool {
+    noun.head.things.as_deref() == Some(&[Thing::Robot][..])
 }

@@ -139,6 +139,20 @@ impl Frame<'_, '_> {
         if claims.is_empty() {
             return None;
         }
+        // "Is any door open?" asks whether there is an open one.
+        if subject.indefinite && subject.head.named.is_empty() && subject.head.things.is_none() {
+            let mut noun = Noun { plural: true, ..subject.clone() };
+            for claim in &claims {
+                match claim {
+                    Claim::Value(filter) => noun.filters.push(filter.clone()),
+                    Claim::Related(place) => noun.restrictions.push(place.clone()),
+                    Claim::Kind(_) => {
+                        return Some(Query::Holds { subject, claims, negated: self.negated });
+                    }
+                }
+            }
+            return Some(Query::Exists { what: vec![noun], either: false, negated: self.negated });
+        }
         // «Лежит ли на комоде книга?» asks for any book; «Книга на комоде?» for the one.
         let places = claims.iter().all(|c| matches!(c, Claim::Related(_)));
         let later = self.spots.iter().all(|s| s.at < first.at) && !self.spots.is_empty();

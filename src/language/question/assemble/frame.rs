@@ -93,6 +93,11 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
         }
+        // «Вся ли мебель деревянная?»: the small word stands between.
+        let all = frame.has(Mark::All);
+        if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
+            first.noun.all = true;
+        }
         Ok(frame)
     }
 

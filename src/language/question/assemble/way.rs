@@ -134,8 +134,8 @@ impl Frame<'_, '_> {
             }
             return Some(Query::Find(noun));
         }
-        // «С какими комнатами соединена Комната-В?», «Куда можно выйти из Комнаты-В?»
-        if self.asks() || asks_where {
+        // «С какими комнатами соединена Комната-В?», «С чем граничит Комната-В?», «Куда можно выйти из Комнаты-В?»
+        if self.asks() || asks_where || self.has(Mark::As) {
             let room =
                 self.nouns.iter().rev().find(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
             let anchor = room.map(|s| s.noun.clone()).or_else(|| {
