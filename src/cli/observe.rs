@@ -11,7 +11,6 @@ use super::args::{Common, Lang};
 use super::commands::{open, open_to_write};
 use super::edit::Numbers;
 use super::fault::Failure;
-use super::store::moment;
 use super::{Answer, say};
 
 #[derive(Debug, Subcommand)]
@@ -204,8 +203,8 @@ fn told(engine: &Engine, found: &Believed, lang: Lang) -> Result<String, Failure
     }
     let sure = (b.confidence * 100.0).round();
     let here = place(engine, &b.place, lang)?;
-    let since = moment(b.since);
-    let missed = match (b.missed.map(moment), lang) {
+    let since = b.since.in_words();
+    let missed = match (b.missed.map(Timestamp::in_words), lang) {
         (None, _) => String::new(),
         (Some(at), Lang::Ru) => format!("; осмотр {at} этого не подтвердил"),
         (Some(at), Lang::En) => format!("; a look at {at} did not find it there"),
@@ -264,7 +263,7 @@ fn story(common: &Common, name: &str) -> Result<Answer, Failure> {
                 format!("seen by {observer}, {:.0} % sure", sure * 100.0)
             }
         };
-        lines.push(format!("{}  {here} – {source}", moment(station.at)));
+        lines.push(format!("{}  {here} – {source}", station.at.in_words()));
     }
     say(&lines.join("\n"))
 }

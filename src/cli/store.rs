@@ -6,8 +6,7 @@ use clap::Subcommand;
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Difference, Revision, RevisionKind, Severity, Timestamp, When, change_now, check_store,
-    restore_store,
+    Difference, Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
 };
 use crate::store::ImportReport;
 
@@ -109,12 +108,6 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
 }
 
 /// `2026-11-21 09:30:00 UTC`
-pub(super) fn moment(at: Timestamp) -> String {
-    let text = at.to_string();
-    let (date, time) = text.split_once('T').unwrap_or((&text, ""));
-    format!("{date} {} UTC", time.get(..8).unwrap_or(time))
-}
-
 fn kind(kind: RevisionKind, lang: Lang) -> &'static str {
     match kind {
         RevisionKind::Import => lang.pick("импорт", "import"),
@@ -155,7 +148,7 @@ fn history(common: &Common, last: Option<usize>) -> Result<Answer, Failure> {
         format!(
             "{:>4}  {}  {:<12} {}{of}{reason}  (+{} ~{} -{})",
             r.number,
-            moment(r.at),
+            r.at.in_words(),
             r.user,
             kind(r.kind, common.lang),
             r.counts.created,

@@ -240,7 +240,7 @@ impl Senses for RobotSenses<'_> {
         let Some(store) = &self.engine.store else { return Vec::new() };
         let all = store.reader().observations(thing).unwrap_or_default();
         let sighting = |o: crate::store::Observation| Sighting {
-            at: o.at.to_string(),
+            at: o.at.in_words(),
             place: o.seen.map(|Seen { area, .. }| area),
         };
         all.into_iter().map(sighting).collect()
@@ -263,7 +263,7 @@ impl Senses for RobotSenses<'_> {
                 continue;
             };
             past.push(Past {
-                until: after.stamp.at.to_string(),
+                until: after.stamp.at.in_words(),
                 area: relations.area_of(thing),
                 support: relations.support_of(thing),
             });

@@ -17,6 +17,16 @@ impl Timestamp {
     }
 }
 
+impl Timestamp {
+    /// As people read it: `2026-11-21 09:30:00 UTC`.
+    #[must_use]
+    pub fn in_words(self) -> String {
+        let text = self.to_string();
+        let (date, time) = text.split_once('T').unwrap_or((&text, ""));
+        format!("{date} {} UTC", time.get(..8).unwrap_or(time))
+    }
+}
+
 impl From<std::time::SystemTime> for Timestamp {
     fn from(time: std::time::SystemTime) -> Self {
         let ms = |d: std::time::Duration| i64::try_from(d.as_millis()).unwrap_or(i64::MAX);

@@ -10,6 +10,7 @@
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
+use std::time::Duration;
 
 use super::cell::Bytes;
 use super::error::{Result, StoreError};
@@ -120,15 +121,29 @@ fn guarded<T>(call: impl FnOnce() -> std::result::Result<T, sled::Error>) -> Res
     }
 }
 
+/// Waits for sled's lock a moment: the store's own is held, so whoever has sled's yet is a child of another thread
+/// that shares the file from its fork until it runs.
+fn open_patiently(config: &sled::Config) -> sled::Result<sled::Db> {
+    const TRIES: u32 = 200;
+    const PAUSE: Duration = Duration::from_millis(10);
+    for _ in 0..TRIES {
+        match config.open() {
+            Err(sled::Error::Io(e)) if e.to_string().contains("could not acquire lock") => {
+                std::thread::sleep(PAUSE);
+            }
+            opened => return opened,
+        }
+    }
+    config.open()
+}
+
 impl SledTrees {
     pub(crate) fn open(dir: &Path) -> Result<Self> {
         guarded(|| {
             // No flushing in the background: the journal keeps what sled has yet in memory.
-            let db = sled::Config::new()
-                .path(dir)
-                .cache_capacity(64 << 20)
-                .flush_every_ms(None)
-                .open()?;
+            let config =
+                sled::Config::new().path(dir).cache_capacity(64 << 20).flush_every_ms(None);
+            let db = open_patiently(&config)?;
             let trees = tree_names()
                 .map(|(code, name)| Ok((code, db.open_tree(name)?)))
                 .collect::<sled::Result<_>>()?;

@@ -436,7 +436,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Help,
         "кто ты|кто ты такой|как тебя зовут|что ты умеешь|что ты можешь|что ты умеешь делать|помоги|помощь|справка|о чём тебя можно спросить|что можно спросить|что у тебя можно спросить|\
-        help|who are you|what are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help",
+        help|who are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help",
     ),
     (
         Mark::Heading,

@@ -114,8 +114,8 @@ impl Knowledge<'_> {
         }
         let asked = enumerate(&asked, self.language);
         let text = match self.is_russian() {
-            true => format!("я робот РБ-2, знаю эту карту. Спросите, например: {asked}"),
-            false => format!("I am the robot RB-2 and know this map. Ask, for example: {asked}"),
+            true => format!("я робот и знаю эту карту. Спросите, например: {asked}"),
+            false => format!("I am a robot and know this map. Ask, for example: {asked}"),
         };
         Draft::new(Said::Found, text)
     }
