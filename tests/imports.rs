@@ -295,6 +295,38 @@ fn parts_of_house(path: &std::path::Path) -> usize {
     part.into_values().collect::<BTreeSet<_>>().len()
 }
 
+/// Two imports of one file are one map, ids included, whatever the format.
+#[test]
+fn every_format_gives_its_ids_again() {
+    let scratch = tempfile::tempdir().unwrap();
+    let rb2 = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/rb2.toml")).unwrap();
+    let engine = Engine::in_memory(rb2, None).unwrap();
+    let map = *engine.world().unwrap().maps.keys().next().unwrap();
+    let grid = engine.export_grid(map, 5.0).unwrap();
+    let drawn = scratch.path().join(format!("{}.yaml", grid.name));
+    std::fs::write(&drawn, &grid.yaml).unwrap();
+    std::fs::write(scratch.path().join(format!("{}.pgm", grid.name)), &grid.pgm).unwrap();
+    let plan = scratch.path().join("floors.geojson");
+    std::fs::write(&plan, engine.export_geojson().unwrap()).unwrap();
+
+    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden");
+    let mut files = vec![drawn, plan];
+    files.extend(
+        ["ifc2x3_flat/input.ifc", "ifc4_two_storeys/input.ifc", "imdf_station"]
+            .map(|case| golden.join("formats").join(case)),
+    );
+    files.push(golden.join("pyrobosim/flat.yaml"));
+    files.extend(data("procthor/house_0.json"));
+    files.extend(data("virtualhome/TestScene2_graph.json"));
+    for path in files {
+        let world = || read(&path, &Options::default()).map(|building| building.world);
+        let (one, other) = (world(), world());
+        let one = one.unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+        assert!(!one.areas.is_empty(), "{}", path.display());
+        assert_eq!(one, other.unwrap(), "{}", path.display());
+    }
+}
+
 /// A file that says where its robot is, or where robots charge, gives the map a start.
 #[test]
 fn a_robot_begins_where_the_file_has_it() {

@@ -3,7 +3,7 @@
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-use crate::engine::{Relations, RouteAnswer, Solved, World, steps};
+use crate::engine::{Relations, RouteAnswer, Solved, World, no_way_in_words, steps};
 use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
@@ -147,7 +147,12 @@ fn reasons(faults: &RuleFaults) -> String {
 pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang: Lang) -> String {
     let route = match &answer.route {
         Ok(route) => route,
-        Err(why) => return capitalized(&why.to_string()),
+        Err(why) => {
+            return capitalized(&match lang {
+                Lang::Ru => why.to_string(),
+                Lang::En => no_way_in_words(world, why, lang.language()) + ".",
+            });
+        }
     };
     let mut stages = String::new();
     for stage in &answer.stages {

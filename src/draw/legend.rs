@@ -82,14 +82,24 @@ impl Legend {
     }
 }
 
-/// Two lengths of a round number of metres, some hundred pens each.
-pub(super) fn scale_bar(canvas: &mut Canvas, at: Point, pen: f64, language: Language) {
+/// How far to the right of its start a scale bar reaches with its last number, cm on the sheet.
+pub(super) fn scale_bar_width(pen: f64) -> f64 {
+    200.0 * scale_length(pen) + 2.0 * LETTER * pen
+}
+
+/// A round number of metres, some hundred pens long.
+fn scale_length(pen: f64) -> f64 {
     let wished = 100.0 * pen;
     let metres = [0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0];
     let length = metres
         .into_iter()
         .min_by(|a, b| (a * 100.0 - wished).abs().total_cmp(&(b * 100.0 - wished).abs()));
-    let length = length.expect("the list of lengths is not empty");
+    length.expect("the list of lengths is not empty")
+}
+
+/// Two such lengths.
+pub(super) fn scale_bar(canvas: &mut Canvas, at: Point, pen: f64, language: Language) {
+    let length = scale_length(pen);
     let small = Lettering { halo: false, ..Lettering::plain(LETTER * pen, INK) };
     for (i, color) in [INK, "#ffffff"].into_iter().enumerate() {
         let min = at + Vector::new(length * 100.0 * i as f64, 0.0);

@@ -11,7 +11,7 @@ use super::canvas::{Canvas, Lettering, Style};
 use super::font::text_width;
 use super::furniture;
 use super::labels::{Labels, around};
-use super::legend::{Entry, Legend, scale_bar};
+use super::legend::{Entry, Legend, scale_bar, scale_bar_width};
 
 /// Free floor and its partition, as the drawing needs them.
 #[derive(Debug, Clone, Default)]
@@ -424,7 +424,10 @@ impl PlanDrawing<'_> {
         for (number, directive) in &self.route.directives {
             entries.push(Entry::Line(format!("{number}. {directive}")));
         }
-        let at = Point::new(extent.min.x + 250.0 * pen, extent.min.y - 42.0 * pen);
+        let at = Point::new(
+            extent.min.x + scale_bar_width(pen).max(220.0 * pen) + 30.0 * pen,
+            extent.min.y - 42.0 * pen,
+        );
         let line_start = Point::new(extent.min.x, at.y);
         Legend::new(entries, at, line_start, (extent.max.x - at.x).max(350.0 * pen), pen)
     }
