@@ -1,0 +1,132 @@
+//! `ortho edit`: one step of an edit told in arguments, or a whole file of them.
+//!
+//! The arguments are written out as an edit file (see [`crate::map::edit`]) and go its way, so that both can do the
+//! same and are refused for the same.
+
+mod step;
+mod text;
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use serde_json::json;
+
+use crate::engine::{Difference, Edited, Format, Mode, change_now};
+use crate::units::Source;
+
+use super::args::{Common, Lang};
+use super::commands::{open_to_write, warn};
+use super::fault::Failure;
+use super::{Answer, say};
+
+pub(super) use step::Numbers;
+use step::Step;
+
+#[derive(Debug, Args)]
+#[command(args_conflicts_with_subcommands = false, subcommand_negates_reqs = true)]
+pub(super) struct EditArgs {
+    /// A file of edits (TOML, YAML or JSON): one transaction, all faults at once
+    #[arg(long, value_name = "FILE", required = true)]
+    pub file: Option<PathBuf>,
+    /// Check, say what would change, write nothing
+    #[arg(long, global = true)]
+    pub dry_run: bool,
+    /// Why the change is made, for the history
+    #[arg(long, global = true, value_name = "TEXT")]
+    pub reason: Option<String>,
+    #[command(subcommand)]
+    step: Option<Step>,
+}
+
+pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
+    let (source, format) = match (&args.step, &args.file) {
+        (Some(step), _) => (Source::new("аргументы", step.text()), Format::Toml),
+        (None, Some(file)) => (read(file)?, Format::of(file)),
+        (None, None) => (Source::new("аргументы", ""), Format::Toml),
+    };
+    let mut engine = open_to_write(common)?;
+    let mode = if args.dry_run { Mode::DryRun } else { Mode::Commit };
+    let change = change_now(&common.user, args.reason.as_deref().unwrap_or_default());
+    let edited = engine.edit(&source, format, &change, mode)?;
+    warn(&edited.warnings);
+    if common.json { say(&view(&edited).to_string()) } else { say(&told(&edited, common.lang)) }
+}
+
+fn read(file: &Path) -> Result<Source, Failure> {
+    Source::read(file).map_err(|e| Failure::file(file, &e))
+}
+
+fn view(edited: &Edited) -> serde_json::Value {
+    let counts = edited.report.as_ref().map(|r| r.counts).unwrap_or_default();
+    json!({
+        "outcome": if edited.report.is_some() { "edited" } else { "tried" },
+        "revision": edited.report.as_ref().map(|r| r.revision),
+        "created": counts.created,
+        "changed": counts.changed,
+        "deleted": counts.deleted,
+        "differences": differences(&edited.differences),
+        "left_behind": edited.left_behind,
+        "warnings": edited.warnings.faults.len(),
+    })
+}
+
+pub(super) fn differences(all: &[Difference]) -> Vec<serde_json::Value> {
+    use crate::store::{Cell, Fate};
+    let cell = |cell: &Cell| match cell {
+        Cell::Null => json!(null),
+        Cell::Int(n) => json!(n),
+        Cell::Real(x) => json!(x),
+        Cell::Text(text) => json!(text),
+    };
+    let one = |d: &Difference| {
+        let fields: Vec<_> = d
+            .fields
+            .iter()
+            .map(|f| json!({"column": f.column, "old": cell(&f.old), "new": cell(&f.new)}))
+            .collect();
+        json!({
+            "table": d.table.name(),
+            "fate": match d.fate {
+                Fate::Created => "created",
+                Fate::Changed => "changed",
+                Fate::Deleted => "deleted",
+            },
+            "subject": d.subject,
+            "ru": d.to_string(),
+            "fields": fields,
+        })
+    };
+    all.iter().map(one).collect()
+}
+
+fn told(edited: &Edited, lang: Lang) -> String {
+    if edited.differences.is_empty() {
+        return lang.pick("Ничего не меняется.", "Nothing changes.").to_owned();
+    }
+    let mut text: String = edited.differences.iter().map(|d| format!("{d}\n")).collect();
+    if !edited.left_behind.is_empty() {
+        let names = edited.left_behind.join(", ");
+        let _ = match lang {
+            Lang::Ru if edited.left_behind.len() == 1 => writeln!(
+                text,
+                "{names} остаётся на прежнем месте, хотя опора уходит; --carry перенесёт и это."
+            ),
+            Lang::Ru => writeln!(
+                text,
+                "{names} остаются на прежних местах, хотя опора уходит; --carry перенесёт и их."
+            ),
+            Lang::En => writeln!(
+                text,
+                "Stays behind, though what bears it goes: {names}; --carry takes it along."
+            ),
+        };
+    }
+    text.push_str(&match (&edited.report, lang) {
+        (Some(report), Lang::Ru) => format!("Правка {} записана.", report.revision),
+        (Some(report), Lang::En) => format!("Revision {} is written.", report.revision),
+        (None, Lang::Ru) => "Всё верно; ничего не записано.".to_owned(),
+        (None, Lang::En) => "All is right; nothing was written.".to_owned(),
+    });
+    text
+}

@@ -1,0 +1,204 @@
+//! What is asked of derived relations.
+
+use std::sync::Arc;
+
+use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
+use crate::map::Entity;
+use crate::semantics::measure::Measurements;
+use crate::semantics::names::{Subject, Symbols};
+use crate::semantics::openings::Opening;
+use crate::units::{AreaId, ReplicaId, name_key, nearest_name};
+
+use super::{Join, Profile, RelationCount, RelationError, RelationRules, Relations};
+
+impl Relations {
+    /// Every relation that the rule text puts out and names in both languages, in its order there.
+    #[must_use]
+    pub fn counts(&self) -> Vec<RelationCount> {
+        self.public()
+            .map(|(id, info)| RelationCount {
+                name: info.name.clone(),
+                name_en: info.second_name.clone().unwrap_or_default(),
+                count: self.derived().len(id).unwrap_or(0),
+            })
+            .collect()
+    }
+
+    /// The tuples of a relation, by either of its names, sorted.
+    ///
+    /// # Errors
+    /// [`RelationError::UnknownRelation`] with the nearest name.
+    pub fn tuples(&self, name: &str) -> Result<Vec<Vec<Value>>, RelationError> {
+        let relation = self.rules.program().relation(name).ok_or_else(|| self.unknown(name))?;
+        self.derived().sorted(relation).map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// Every tuple that speaks of a thing, with its relation. What is true of its Object as a kind counts too.
+    #[must_use]
+    pub fn of(&self, name: &str) -> Vec<(String, Vec<Value>)> {
+        let Some(subject) = self.symbols.find(name) else { return Vec::new() };
+        let mut wanted = vec![Value::Symbol(Arc::clone(self.symbols.symbol(subject)))];
+        if let Subject::Entity(Entity::Replica(id)) = subject
+            && let Some(body) = self.measured.bodies.get(&id)
+        {
+            wanted.push(Value::Symbol(Arc::clone(self.symbols.object(body.object))));
+        }
+        let mut found = Vec::new();
+        for (id, info) in self.public() {
+            let kinds = matches!(info.second_name.as_deref(), Some(n) if n.ends_with("PART_OF") || n == "CONSISTS_OF");
+            let wanted = if kinds { wanted.as_slice() } else { &wanted[..1] };
+            let tuples = self.derived().sorted(id).unwrap_or_default();
+            let about = tuples.into_iter().filter(|t| t.iter().any(|v| wanted.contains(v)));
+            found.extend(about.map(|t| (info.name.clone(), t)));
+        }
+        found
+    }
+
+    /// A relation's first name, whichever of its names is given.
+    #[must_use]
+    pub fn display_name(&self, name: &str) -> String {
+        let key = name_key(name);
+        let is_it = |info: &RelationInfo| {
+            name_key(&info.name) == key
+                || info.second_name.as_deref().is_some_and(|n| name_key(n) == key)
+        };
+        let mut relations = self.derived().relations();
+        relations
+            .find(|(_, info)| is_it(info))
+            .map_or_else(|| name.to_owned(), |(_, info)| info.name.clone())
+    }
+
+    /// Whether a tuple of symbols holds.
+    #[must_use]
+    pub fn holds(&self, name: &str, symbols: &[&str]) -> bool {
+        let tuple: Vec<Value> = symbols.iter().map(|&s| Value::from(s)).collect();
+        self.derived().contains(name, &tuple).unwrap_or(false)
+    }
+
+    /// Why a tuple holds: its rules and premises, down to what was measured. None when it does not hold.
+    ///
+    /// # Errors
+    /// [`RelationError::UnknownRelation`], [`RelationError::Schema`] for too many or too few names.
+    pub fn why(&self, name: &str, symbols: &[&str]) -> Result<Option<Proof>, RelationError> {
+        let (relation, tuple) = self.question(name, symbols)?;
+        self.derived().why(relation, &tuple).map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// Why a tuple does not hold: the rule that came closest and the premise that failed, with its numbers.
+    ///
+    /// # Errors
+    /// As [`Relations::why`].
+    pub fn why_not(&self, name: &str, symbols: &[&str]) -> Result<WhyNot, RelationError> {
+        let (relation, tuple) = self.question(name, symbols)?;
+        let answer = self.derived().explain().why_not(relation, &tuple);
+        answer.map_err(|fault| RelationError::Schema { fault })
+    }
+
+    /// A tuple as people spell it.
+    fn question(
+        &self,
+        name: &str,
+        symbols: &[&str],
+    ) -> Result<(RelationId, Vec<Value>), RelationError> {
+        let relation = self.rules.program().relation(name).ok_or_else(|| self.unknown(name))?;
+        let symbol = |&s: &&str| match self.symbols.find(s) {
+            Some(subject) => Value::Symbol(Arc::clone(self.symbols.symbol(subject))),
+            None => Value::from(s),
+        };
+        Ok((relation, symbols.iter().map(symbol).collect()))
+    }
+
+    fn unknown(&self, name: &str) -> RelationError {
+        let names = self
+            .public()
+            .flat_map(|(_, i)| std::iter::once(i.name.as_str()).chain(i.second_name.as_deref()));
+        let nearest = nearest_name(name, names).map(str::to_owned);
+        RelationError::UnknownRelation { name: name.to_owned(), nearest }
+    }
+
+    /// The Area in which a thing is.
+    #[must_use]
+    pub fn area_of(&self, id: ReplicaId) -> Option<AreaId> {
+        self.areas
+            .range((id, AreaId(0))..)
+            .next()
+            .filter(|(of, _)| *of == id)
+            .map(|(_, area)| *area)
+    }
+
+    /// What a thing stands on or lies in.
+    #[must_use]
+    pub fn support_of(&self, id: ReplicaId) -> Option<ReplicaId> {
+        self.supports.get(&id).copied()
+    }
+
+    /// Whether something stands on a thing.
+    #[must_use]
+    pub fn bears_something(&self, id: ReplicaId) -> bool {
+        self.bearing.range((id, ReplicaId(0))..).next().is_some_and(|(lower, _)| *lower == id)
+    }
+
+    /// Doors and passages between Areas, both ways.
+    #[must_use]
+    pub fn joins(&self) -> Vec<Join> {
+        let Ok(tuples) = self.derived().tuples("JOINS") else { return Vec::new() };
+        let area = |symbol: Option<&str>| match self.symbols.subject(symbol?)? {
+            Subject::Entity(Entity::Area(id)) => Some(id),
+            _ => None,
+        };
+        let mut joins: Vec<Join> = tuples
+            .filter_map(|t| {
+                let opening = t.symbol(0)?.to_owned();
+                let door = match self.symbols.subject(&opening) {
+                    Some(Subject::Entity(Entity::Door(id))) => Some(id),
+                    _ => None,
+                };
+                Some(Join { opening, door, from: area(t.symbol(1))?, to: area(t.symbol(2))? })
+            })
+            .collect();
+        joins.sort_unstable();
+        joins
+    }
+
+    #[must_use]
+    pub fn symbols(&self) -> &Symbols {
+        &self.symbols
+    }
+
+    #[must_use]
+    pub fn measurements(&self) -> &Measurements {
+        &self.measured
+    }
+
+    /// Doors and passages in the sides of all Areas.
+    #[must_use]
+    pub fn openings(&self) -> &[Opening] {
+        &self.openings
+    }
+
+    #[must_use]
+    pub fn derived(&self) -> &Derived {
+        self.live.derived()
+    }
+
+    /// The input facts: what was measured.
+    #[must_use]
+    pub fn database(&self) -> &Database {
+        self.live.database()
+    }
+
+    #[must_use]
+    pub fn profile(&self) -> Profile {
+        self.profile
+    }
+
+    #[must_use]
+    pub fn rules(&self) -> &RelationRules {
+        &self.rules
+    }
+
+    /// Relations that people ask for: put out, and named in both languages.
+    fn public(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
+        self.derived().relations().filter(|(_, i)| i.output.is_some() && i.second_name.is_some())
+    }
+}
