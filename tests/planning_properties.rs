@@ -11,21 +11,10 @@ use orthoframe::graphplan::{Limits, Outcome, solve, solve_any, validate};
 use orthoframe::strips::{PlanText, Scenario};
 use orthoframe::units::Source;
 
-/// xorshift64*: a generator with a seed for an argument.
-struct Random(u64);
+#[path = "../benches/planning/random.rs"]
+mod random;
 
-impl Random {
-    fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
-    }
-
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
-    }
-}
+use random::Random;
 
 /// `t1 - t0`, `t2 - t0`, `t3 - t1`; `t4` has no parent but "object".
 const PARENT: [Option<usize>; 5] = [None, Some(0), Some(0), Some(1), None];

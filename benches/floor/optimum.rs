@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
-use orthoframe::geometry::Scene;
+use orthoframe::geometry::{Scene, convex_hull};
 use orthoframe::map::Permeability;
 use orthoframe::units::{MapId, Point, Vector};
 
@@ -164,24 +164,7 @@ fn grow(solid: &[Point], radius: f64) -> Vec<[f64; 2]> {
             points.extend([a + out, b + out, a - out, b - out]);
         }
     }
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let half = |points: &mut dyn Iterator<Item = &Point>| {
-        let mut chain: Vec<Point> = Vec::new();
-        for &p in points {
-            while let [.., a, b] = chain[..] {
-                if (b - a).perp(&(p - b)) > 0.0 {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let lower = half(&mut points.iter());
-    let upper = half(&mut points.iter().rev());
-    lower.into_iter().chain(upper).map(|p| [p.x, p.y]).collect()
+    convex_hull(points).into_iter().map(|p| [p.x, p.y]).collect()
 }
 
 /// The buckets that a segment may pass.

@@ -3,8 +3,10 @@
 
 use std::fmt::Write;
 
+mod random;
 mod transport;
 
+use random::Random;
 pub(crate) use transport::{
     depot, driverlog, logistics, miconic, mystery, rocket, tpp, zenotravel,
 };
@@ -16,28 +18,13 @@ pub(crate) struct Instance {
     pub(crate) problem: String,
 }
 
-/// xorshift64*: the same instances on every machine.
-struct Random(u64);
-
-impl Random {
-    fn new(seed: u64) -> Self {
-        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+/// The numbers below `count` in an order drawn at random (Fisher-Yates).
+fn shuffled(random: &mut Random, count: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..count).collect();
+    for at in (1..count).rev() {
+        order.swap(at, random.below(at + 1));
     }
-
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
-    }
-
-    fn shuffled(&mut self, count: usize) -> Vec<usize> {
-        let mut order: Vec<usize> = (0..count).collect();
-        for at in (1..count).rev() {
-            order.swap(at, self.below(at + 1));
-        }
-        order
-    }
+    order
 }
 
 /// `a0 a1 a2 - kind`
@@ -97,7 +84,7 @@ pub(crate) fn blocks(count: usize, seed: u64) -> Instance {
     let towers = |random: &mut Random, whole: bool| {
         let mut facts = Vec::new();
         let mut top: Option<usize> = None;
-        for block in random.shuffled(count) {
+        for block in shuffled(random, count) {
             match top {
                 Some(below) if random.below(4) > 0 => facts.push(format!("(on b{block} b{below})")),
                 _ => {
@@ -314,7 +301,7 @@ pub(crate) fn freecell(
         init.push(format!("(home k{suit}x0)"));
     }
     let mut column: Vec<Option<String>> = vec![None; columns];
-    for (at, number) in random.shuffled(suits * ranks).into_iter().enumerate() {
+    for (at, number) in shuffled(&mut random, suits * ranks).into_iter().enumerate() {
         let card = format!("k{}x{}", number / ranks, number % ranks + 1);
         match column[at % columns].replace(card.clone()) {
             None => init.push(format!("(bottom {card})")),

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::{Instance, Random, instance, objects};
+use super::{Instance, Random, instance, objects, shuffled};
 
 /// Two rockets with fuel for so many flights each bring cargo to two places.
 pub(crate) fn rocket(cargos: usize, flights: usize, seed: u64) -> Instance {
@@ -111,7 +111,7 @@ pub(crate) fn depot(places: usize, trucks: usize, crates: usize, seed: u64) -> I
     let stack = |random: &mut Random, init: Option<&mut Vec<String>>| {
         let mut top: Vec<String> = (0..places).map(|p| format!("s{p}")).collect();
         let mut facts = Vec::new();
-        for number in random.shuffled(crates) {
+        for number in shuffled(random, crates) {
             let place = random.below(places);
             let below = std::mem::replace(&mut top[place], format!("c{number}"));
             facts.push((format!("(on c{number} {below})"), format!("(rests c{number} p{place})")));

@@ -13,12 +13,12 @@ use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use roxmltree::{Document, Node, ParsingOptions};
 
+use crate::geometry::convex_hull;
 use crate::map::Properties;
 use crate::map::plane::{bounds, doubled_area};
 use crate::units::{Cm, Point, Source, Vector};
 
 use super::assemble::ring::{self, LEAST_AREA, Ring};
-use super::outline;
 use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey};
 
 const FORMAT: &str = "osmAG";
@@ -414,7 +414,7 @@ fn enclosed(line: &[Point], jambs: &[Point], others: &[Ring]) -> Option<Ring> {
         return None;
     }
     let points: Vec<Point> = line.iter().chain(jambs).copied().collect();
-    let hull = ring::clean(&outline::hull(&points), &[])?.region;
+    let hull = ring::clean(&convex_hull(points), &[])?.region;
     Some(ring::largest(ring::subtract(&hull, others))?.outer)
 }
 

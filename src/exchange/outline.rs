@@ -59,13 +59,6 @@ pub(super) fn contains(ring: &[Point], p: Point) -> bool {
         == 1
 }
 
-/// The point of a segment that is nearest to `p`.
-pub(super) fn nearest_on(a: Point, b: Point, p: Point) -> Point {
-    let v = b - a;
-    let t = (p - a).dot(&v) / v.norm_squared().max(f64::MIN_POSITIVE);
-    a + v * t.clamp(0.0, 1.0)
-}
-
 /// The middle line of a long thin ring: along its longest edge, as long as the ring is that way.
 pub(super) fn long_axis(ring: &[Point]) -> Option<[Point; 2]> {
     let (a, b) = edges(ring)
@@ -79,33 +72,6 @@ pub(super) fn long_axis(ring: &[Point]) -> Option<[Point; 2]> {
     let ((from, to), (low, high)) = (span(along), span(across));
     let start = a + across * (low.midpoint(high));
     Some([start + along * from, start + along * to])
-}
-
-/// Corners of the convex hull, counter-clockwise (Andrew's monotone chain).
-pub(super) fn hull(points: &[Point]) -> Vec<Point> {
-    let mut sorted = points.to_vec();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    sorted.dedup();
-    if sorted.len() < 3 {
-        return sorted;
-    }
-    let turn = |a: Point, b: Point, c: Point| (b - a).perp(&(c - a));
-    let mut hull: Vec<Point> = Vec::with_capacity(sorted.len() + 1);
-    for pass in 0..2 {
-        let floor = hull.len();
-        let one_way: Box<dyn Iterator<Item = &Point>> =
-            if pass == 0 { Box::new(sorted.iter()) } else { Box::new(sorted.iter().rev()) };
-        for &p in one_way {
-            while hull.len() >= floor + 2
-                && turn(hull[hull.len() - 2], hull[hull.len() - 1], p) <= 0.0
-            {
-                hull.pop();
-            }
-            hull.push(p);
-        }
-        hull.pop();
-    }
-    hull
 }
 
 #[cfg(test)]
@@ -128,16 +94,5 @@ mod tests {
     fn the_axis_of_a_door_leaf_runs_along_the_wall() {
         let leaf = points(&[(0., 0.), (90., 0.), (90., 10.), (0., 10.)]);
         assert_eq!(long_axis(&leaf), Some([Point::new(90., 5.), Point::new(0., 5.)]));
-    }
-
-    #[test]
-    fn the_hull_holds_every_point() {
-        let cloud: Vec<Point> = (0..200_i32)
-            .map(|n| Point::new(f64::from(n * 37 % 101), f64::from(n * 53 % 89)))
-            .collect();
-        let hull = hull(&cloud);
-        assert!(area(&hull) > 0.0);
-        let left = |p: Point| edges(&hull).all(|(a, b)| (b - a).perp(&(p - a)) >= -1e-9);
-        assert!(cloud.iter().all(|&p| left(p)));
     }
 }

@@ -54,7 +54,7 @@ pub use lift::{Leg, Ride, across};
 pub use obstacle::{Blocker, Obstacle};
 pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
 pub use plan::{DoorStates, FloorPlan};
-pub use polygon::{Bounds, Polygon, nearest_on_segment};
+pub use polygon::{Bounds, Polygon, convex_hull, nearest_on_segment};
 pub use remedy::Remedy;
 pub use route::{Method, Moved, Route, Target};
 pub use scene::{Owner, PlacedArea, PlacedReplica, Prism, PrismSide, Scene};

@@ -177,6 +177,30 @@ impl Polygon {
     }
 }
 
+/// Corners of the convex hull, counter-clockwise and none on a line between two others (Andrew's monotone chain);
+/// fewer than three when all points lie on one line.
+#[must_use]
+pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
+    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    let half = |points: &mut dyn Iterator<Item = &Point>| {
+        let mut chain: Vec<Point> = Vec::new();
+        for &p in points {
+            while let [.., a, b] = chain[..] {
+                if (b - a).perp(&(p - b)) > 0.0 {
+                    break;
+                }
+                chain.pop();
+            }
+            chain.push(p);
+        }
+        chain.pop();
+        chain
+    };
+    let mut corners = half(&mut points.iter());
+    corners.extend(half(&mut points.iter().rev()));
+    corners
+}
+
 /// The point of a segment that lies nearest to `p`.
 #[must_use]
 pub fn nearest_on_segment(p: Point, a: Point, b: Point) -> Point {
@@ -232,5 +256,23 @@ mod tests {
         assert!(!ell().contains(Point::new(15.0, 15.0), 0.1));
         assert!(ell().contains(Point::new(20.05, 5.0), 0.1));
         assert!(!ell().is_convex(1e-9));
+    }
+
+    #[test]
+    fn the_hull_holds_every_point() {
+        let cloud: Vec<Point> = (0..200_i32)
+            .map(|n| Point::new(f64::from(n * 37 % 101), f64::from(n * 53 % 89)))
+            .collect();
+        let hull = Polygon::new(convex_hull(cloud.clone()));
+        assert!(hull.signed_area() > 0.0 && hull.is_convex(0.0));
+        let left = |p: Point| hull.edges().all(|(a, b)| (b - a).perp(&(p - a)) >= -1e-9);
+        assert!(cloud.iter().all(|&p| left(p)));
+    }
+
+    #[test]
+    fn points_on_a_line_have_no_hull() {
+        let line = |n| vec![Point::new(1.0, 2.0); n];
+        assert!((0..4).all(|n| convex_hull(line(n)).len() < 3));
+        assert_eq!(convex_hull((0..9).map(|n| Point::new(f64::from(n), 0.0)).collect()).len(), 2);
     }
 }

@@ -38,7 +38,7 @@ use super::network::Piece;
 use super::plan::FloorPlan;
 use super::route::Anchor;
 use super::search::CellKey;
-use super::{Bounds, Polygon};
+use super::{Bounds, Polygon, convex_hull};
 
 /// A straight leg between two pieces of centre space.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -256,7 +256,8 @@ fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<Strait> {
 fn is_clear(robot: &RobotProfile, site: &Site<'_>, strait: &Strait) -> bool {
     let [a, b] = strait.ends;
     let Some(way) = (b - a).try_normalize(0.0) else { return false };
-    let swept = hull(body(robot, way).into_iter().flat_map(|v| [a + v, b + v]).collect());
+    let swept = body(robot, way).into_iter().flat_map(|v| [a + v, b + v]).collect();
+    let swept = Polygon::new(convex_hull(swept));
     let bounds = swept.bounds();
     let is_off = |solid: &Polygon| !solid.bounds().meets(&bounds) || distance(solid, &swept) > 0.0;
     site.fragments.iter().all(|(_, fragment)| {
@@ -342,7 +343,7 @@ fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
             if Bounds::of([a, b]).meets(&reach) {
                 // The body is symmetric about the centre, so it is its own mirror image.
                 let swept = body.iter().flat_map(|&v| [a + v, b + v]).collect();
-                blocked.push(site.grid.contour(&hull(swept)));
+                blocked.push(site.grid.contour(&Polygon::new(convex_hull(swept))));
             }
         }
     }
@@ -369,27 +370,5 @@ fn body(robot: &RobotProfile, way: Vector) -> Vec<Vector> {
             }
         }
     }
-    hull(points).corners.into_iter().map(|p| p.coords).collect()
-}
-
-/// Convex hull, counter-clockwise (Andrew's monotone chain).
-fn hull(mut points: Vec<Point>) -> Polygon {
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    let half = |points: &mut dyn Iterator<Item = &Point>| {
-        let mut chain: Vec<Point> = Vec::new();
-        for &p in points {
-            while let [.., a, b] = chain[..] {
-                if (b - a).perp(&(p - b)) > 0.0 {
-                    break;
-                }
-                chain.pop();
-            }
-            chain.push(p);
-        }
-        chain.pop();
-        chain
-    };
-    let mut corners = half(&mut points.iter());
-    corners.extend(half(&mut points.iter().rev()));
-    Polygon::new(corners)
+    convex_hull(points).into_iter().map(|p| p.coords).collect()
 }

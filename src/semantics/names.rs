@@ -99,6 +99,22 @@ impl Symbols {
         self.subjects.get(symbol).copied()
     }
 
+    /// The replica that a column of a tuple names.
+    pub(super) fn replica_of(&self, symbol: Option<&str>) -> Option<ReplicaId> {
+        match self.subject(symbol?)? {
+            Subject::Entity(Entity::Replica(id)) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The Area that a column of a tuple names.
+    pub(super) fn area_of(&self, symbol: Option<&str>) -> Option<AreaId> {
+        match self.subject(symbol?)? {
+            Subject::Entity(Entity::Area(id)) => Some(id),
+            _ => None,
+        }
+    }
+
     pub(super) fn area(&self, id: AreaId) -> &Arc<str> {
         self.symbol(Subject::Entity(Entity::Area(id)))
     }

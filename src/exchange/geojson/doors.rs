@@ -1,6 +1,7 @@
 //! Doors and windows: a line from jamb to jamb, a leaf as a thin polygon, or a point to be set into the nearest wall.
 
 use crate::exchange::{Opening, OpeningKind, ReadError, outline};
+use crate::geometry::nearest_on_segment;
 use crate::map::{DoorKind, DoorStatus};
 use crate::units::{Cm, Point};
 
@@ -101,7 +102,7 @@ impl Reader {
         };
         let rooms = self.survey.levels[level].rooms.iter().zip(bounds);
         let walls = rooms.filter(|(_, b)| near(b)).flat_map(|(r, _)| outline::edges(&r.outline));
-        let distance = |(a, b): &(Point, Point)| (outline::nearest_on(*a, *b, at) - at).norm();
+        let distance = |(a, b): &(Point, Point)| (nearest_on_segment(at, *a, *b) - at).norm();
         let (a, b) = walls.min_by(|x, y| distance(x).total_cmp(&distance(y)))?;
         if distance(&(a, b)) > FARTHEST {
             return None;
@@ -110,7 +111,7 @@ impl Reader {
         let width = width(feature).unwrap_or(USUAL_WIDTH).min(wall);
         let along = (b - a) / wall;
         let middle =
-            (outline::nearest_on(a, b, at) - a).norm().clamp(width / 2.0, wall - width / 2.0);
+            (nearest_on_segment(at, a, b) - a).norm().clamp(width / 2.0, wall - width / 2.0);
         Some([a + along * (middle - width / 2.0), a + along * (middle + width / 2.0)])
     }
 }

@@ -6,6 +6,7 @@ use std::path::Path;
 use nalgebra::Vector3;
 
 use crate::exchange::{Kind, Level, Part, ReadError, Remark, Room, Survey, Thing, outline, shafts};
+use crate::geometry::convex_hull;
 use crate::map::{Permeability, Properties};
 use crate::units::{Cm, Deg, Point};
 
@@ -339,7 +340,7 @@ impl Reader<'_> {
             let corners: Vec<Point> =
                 parts.iter().flat_map(|p| p.outline.iter().copied()).collect();
             let top = parts.iter().map(|p| p.bottom.get() + p.height.get()).fold(0.0, f64::max);
-            let outline = outline::hull(&corners);
+            let outline = convex_hull(corners);
             parts.truncate(1);
             parts[0] = Part { outline, bottom: Cm::ZERO, height: Cm::of(top), ..parts[0].clone() };
         }

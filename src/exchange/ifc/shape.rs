@@ -9,6 +9,7 @@ use std::collections::HashMap;
 use nalgebra::{Point3, Vector3};
 
 use crate::exchange::outline;
+use crate::geometry::convex_hull;
 use crate::units::Point;
 
 use super::place::{Place, coordinates, point};
@@ -294,7 +295,7 @@ fn prism_of(ring: &[Point3<f64>], holes: &[Line], along: Vector3<f64>) -> Option
         ring.iter().map(flat).collect()
     } else {
         let swept = ring.iter().flat_map(|p| [flat(p), flat(&(p + along))]);
-        outline::hull(&swept.collect::<Vec<_>>())
+        convex_hull(swept.collect())
     };
     let holes = holes.iter().map(|h| h.iter().map(flat).collect()).collect();
     (outline.len() >= 3).then_some(Prism { outline, holes, bottom, top })
@@ -314,7 +315,7 @@ fn prism_of_faces(faces: &[Vec<Point3<f64>>]) -> Option<Prism> {
     let heights = || faces.iter().flatten().map(|p| p.z);
     let bottom = heights().fold(f64::INFINITY, f64::min);
     let top = heights().fold(f64::NEG_INFINITY, f64::max);
-    let hull = outline::hull(&corners);
+    let hull = convex_hull(corners);
     if hull.len() < 3 {
         return None;
     }

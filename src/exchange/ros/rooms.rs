@@ -11,6 +11,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::exchange::{Kind, Level, Opening, OpeningKind, Part, Remark, Room, Thing, outline};
+use crate::geometry::convex_hull;
 use crate::map::{Permeability, Properties};
 use crate::units::{Cm, Deg, Point, Vector};
 
@@ -445,7 +446,7 @@ fn things(
             [(0, 0), (1, 0), (0, 1), (1, 1)]
                 .map(|(dx, dy)| corner(sheet, (x + dx) as f64, (y + dy) as f64))
         });
-        let hull = outline::hull(&corners.collect::<Vec<_>>());
+        let hull = convex_hull(corners.collect());
         let Some(ring) = outline::ring(hull) else { continue };
         let (at, _) = outline::bounds(&ring);
         let no = kinds.len() + 1;

@@ -4,6 +4,7 @@ use crate::units::{Point, Vector};
 
 use super::grid::Grid;
 use crate::exchange::outline;
+use crate::geometry::nearest_on_segment;
 
 /// A border may stray from its wall by this, in cells.
 const STRAY: f64 = 2.2;
@@ -92,7 +93,7 @@ fn thinned(ring: &[Point]) -> Vec<Point> {
     let mut open = vec![(low, high), (high, low + ring.len())];
     while let Some((a, b)) = open.pop() {
         let at = |i: usize| ring[i % ring.len()];
-        let off = |i: &usize| (outline::nearest_on(at(a), at(b), at(*i)) - at(*i)).norm();
+        let off = |i: &usize| (nearest_on_segment(at(*i), at(a), at(b)) - at(*i)).norm();
         let worst = (a + 1..b).max_by(|x, y| off(x).total_cmp(&off(y)));
         if let Some(worst) = worst.filter(|w| off(w) > STRAY) {
             kept[worst % ring.len()] = true;

@@ -142,10 +142,6 @@ impl Relations {
     #[must_use]
     pub fn joins(&self) -> Vec<Join> {
         let Ok(tuples) = self.derived().tuples("JOINS") else { return Vec::new() };
-        let area = |symbol: Option<&str>| match self.symbols.subject(symbol?)? {
-            Subject::Entity(Entity::Area(id)) => Some(id),
-            _ => None,
-        };
         let mut joins: Vec<Join> = tuples
             .filter_map(|t| {
                 let opening = t.symbol(0)?.to_owned();
@@ -153,7 +149,12 @@ impl Relations {
                     Some(Subject::Entity(Entity::Door(id))) => Some(id),
                     _ => None,
                 };
-                Some(Join { opening, door, from: area(t.symbol(1))?, to: area(t.symbol(2))? })
+                Some(Join {
+                    opening,
+                    door,
+                    from: self.symbols.area_of(t.symbol(1))?,
+                    to: self.symbols.area_of(t.symbol(2))?,
+                })
             })
             .collect();
         joins.sort_unstable();
