@@ -7,6 +7,7 @@
 //! the segmentation is a watershed of that distance in which a basin counts by its persistence (Bormann et al.,
 //! "Room segmentation: survey, implementation, and analysis", 2016, compares such ways).
 
+mod doorways;
 mod grid;
 mod image;
 mod rooms;
