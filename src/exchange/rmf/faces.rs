@@ -10,6 +10,7 @@
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::ControlFlow;
 
+use crate::geometry::nearest_on_segment;
 use crate::map::plane::{bounds, contains, doubled_area, meeting, near_pairs};
 use crate::units::Point;
 
@@ -504,11 +505,9 @@ fn bridges(cycles: &[Cycle]) -> BTreeSet<(usize, usize)> {
     bridges
 }
 
+/// The point of an edge that is nearest to `p`.
 fn foot(p: Point, (a, b): (Point, Point)) -> Point {
-    let along = b - a;
-    let square = along.norm_squared();
-    let t = if square > 0.0 { ((p - a).dot(&along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    a + along * t
+    nearest_on_segment(p, a, b)
 }
 
 #[cfg(test)]
