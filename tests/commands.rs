@@ -3,11 +3,13 @@
 use std::collections::BTreeSet;
 
 use orthoframe::Engine;
-use orthoframe::engine::{Memory, Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words};
+use orthoframe::engine::{
+    Memory, Progress, TaskAnswer, TaskEnding, change_now, deeds_in_words, directive_in_words,
+};
 use orthoframe::geometry::Scene;
 use orthoframe::language::Language;
 use orthoframe::language::command::Command;
-use orthoframe::map::{Entity, World, is_on, switch};
+use orthoframe::map::{DoorState, Entity, World, is_on, switch};
 use orthoframe::robot::{Deed, Surprise};
 use orthoframe::semantics::{Profile, RelationRules, derive};
 use orthoframe::units::{AreaId, ReplicaId};
@@ -283,5 +285,108 @@ fn the_operator_is_called_with_the_place_said() {
         let place = answer.reports[0].position.as_ref().unwrap().say(Language::Russian);
         assert!(place.contains("Комнаты-В"), "{place}");
         assert_eq!(answer.start, answer.end);
+    }
+}
+
+/// A small lab that knows no Russian.
+fn lab() -> Engine {
+    let map = concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml");
+    Engine::in_memory(World::load(map).expect("the lab is sound"), None).unwrap()
+}
+
+#[test]
+fn what_is_brought_into_a_room_lies_there_afterwards() {
+    for (command, name, room) in [
+        ("Отнеси лекарство в Комнату-В", "Лекарство", "Комната-В"),
+        ("Принеси чашку-1 в Комнату-Z", "Чашка-1", "Комната-Z"),
+        ("Перенеси зонт в Комнату-Y", "Зонт-1", "Комната-Y"),
+    ] {
+        let dir = tempfile::tempdir().unwrap();
+        let mut engine = stored(&dir);
+        let answer = perform_and_remember(&mut engine, command);
+        assert!(matches!(answer.ending, TaskEnding::Done), "{command}: {:?}", answer.ending);
+        let world = world_now(&engine);
+        assert_eq!(world.replicas[&thing(&world, name)].area, area(&world, room), "{command}");
+        // A table takes it, not a chair.
+        let on = support(&world, name).unwrap_or_else(|| panic!("{command}: on the floor"));
+        assert!(!on.starts_with("Стул"), "{command}: on {on}");
+        let again = perform(&engine, command);
+        assert!(matches!(again.ending, TaskEnding::AlreadyTrue), "{command}: {:?}", again.ending);
+    }
+}
+
+#[test]
+fn what_cannot_be_carried_is_refused_and_not_left_behind() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    for command in ["Принеси Стол-1", "Возьми Диван-1", "Перенеси Кресло-1 в Комнату-Z"]
+    {
+        let refused = engine.perform(command, &mut |_| {}).unwrap_err().to_string();
+        assert!(refused.contains("не носит"), "{command}: {refused}");
+    }
+    let lab = lab();
+    let refused = lab.perform("Move the stool to the office", &mut |_| {}).unwrap_err();
+    assert_eq!(refused.english().as_deref(), Some("The robot does not carry Stool 1."));
+    // "Go" takes nothing along, and what was said of a thing is not passed over.
+    assert!(lab.understand("Go the toolbox to the office").is_err());
+}
+
+#[test]
+fn a_verb_that_is_also_a_state_orders() {
+    let mut world = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml")).unwrap();
+    for open in [true, false] {
+        for door in world.doors.values_mut() {
+            door.state = if open { DoorState::OPEN } else { DoorState::CLOSED };
+        }
+        let lab = Engine::in_memory(world.clone(), None).unwrap();
+        for command in [
+            "Open the lab door",
+            "Please open the lab door",
+            "Go to the lab, then open the lab door",
+            "Go to the lab and open the lab door",
+        ] {
+            let heard = lab.understand(command).unwrap_or_else(|e| panic!("{command}: {e}"));
+            let Some(Command::Open(door)) = heard.last() else { panic!("{command}: {heard:?}") };
+            assert_eq!(lab.world().unwrap().name(door.id), "Lab door", "{command}");
+        }
+    }
+}
+
+/// Every directive of a plan can be told in both languages, and the English has no Russian word left in it.
+#[test]
+fn directives_are_told_in_words() {
+    let lab = lab();
+    let answer = perform(&lab, "Take the battery to the lab");
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    let told: Vec<String> = answer
+        .reports
+        .iter()
+        .map(|r| directive_in_words(lab.world().unwrap(), &r.directive, Language::English))
+        .collect();
+    assert_eq!(
+        told,
+        [
+            "drive to the office door",
+            "open the office door",
+            "go through the office door into the office",
+            "drive to Desk 1",
+            "take Battery 1",
+            "drive to the office door",
+            "go through the office door into the corridor",
+            "drive to the lab door",
+            "go through the lab door into the lab",
+            "drive to Workbench 1",
+            "put Battery 1 on Workbench 1",
+        ]
+    );
+    let flat = Engine::in_memory(rb2(), None).unwrap();
+    let answer = perform(&flat, "Открой Дверь-КY и включи торшер-1");
+    let told: Vec<String> = answer
+        .reports
+        .iter()
+        .map(|r| directive_in_words(flat.world().unwrap(), &r.directive, Language::Russian))
+        .collect();
+    for words in ["подъехать к Двери-КY", "открыть Дверь-КY", "включить Торшер-1"]
+    {
+        assert!(told.iter().any(|t| t == words), "{words}: {told:?}");
     }
 }

@@ -58,7 +58,7 @@ fn every_fault_is_reported_in_its_place() {
 
 #[test]
 fn the_worked_examples_are_without_fault() {
-    for name in ["rb2", "box", "room"] {
+    for name in ["rb2", "box", "room", "lab"] {
         let path = format!("{}/maps/{name}.toml", env!("CARGO_MANIFEST_DIR"));
         let source = Source::read(Path::new(&path)).expect("the examples are part of the crate");
         let reading = read(&source, Format::Toml);

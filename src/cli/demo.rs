@@ -5,8 +5,13 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::engine::{Engine, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words};
+use crate::engine::{
+    Engine, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words,
+    directive_in_words, surprise_in_words,
+};
 use crate::graphplan::Outcome;
+use crate::language::Language;
+use crate::robot::Directive;
 
 use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
@@ -119,13 +124,19 @@ impl<'w> Teller<'w> {
         match progress {
             Progress::Planned(planned) => {
                 if matches!(planned.solved.outcome, Outcome::Plan(_)) && !planned.steps.is_empty() {
-                    self.line(&format!("{}\n", text::plan(&planned.solved, self.lang)));
+                    let steps: Vec<Vec<String>> = planned
+                        .steps
+                        .iter()
+                        .map(|step| step.iter().map(|d| self.directive(d)).collect())
+                        .collect();
+                    let plan = text::plan_of(&planned.solved, &steps, self.lang);
+                    self.line(&format!("{plan}\n"));
                 }
                 self.bar.set_length(planned.steps.iter().map(Vec::len).sum::<usize>() as u64);
                 self.bar.set_position(0);
             }
             Progress::Started { directive, .. } => {
-                self.bar.set_message(directive.to_string());
+                self.bar.set_message(self.directive(directive));
                 self.bar.tick();
             }
             Progress::Finished(report) => {
@@ -142,7 +153,7 @@ impl<'w> Teller<'w> {
                 self.line(&format!(
                     "{:>4} {} – {way}{time}",
                     format!("{}.", report.number),
-                    report.directive
+                    self.directive(&report.directive)
                 ));
                 let language = self.lang.language();
                 for sentence in deeds_in_words(self.world, &report.directive, language) {
@@ -153,10 +164,18 @@ impl<'w> Teller<'w> {
                 }
             }
             Progress::Surprised { directive, surprise } => {
-                let what = text::surprise(self.world, surprise);
-                self.line(&format!("   ! {directive}: {what}"));
+                let what = surprise_in_words(self.world, surprise, self.lang.language());
+                self.line(&format!("   ! {}: {what}", self.directive(directive)));
                 self.line(self.lang.pick("     Новый план.", "     Planning anew."));
             }
+        }
+    }
+
+    /// As the paper prints it; in English, where its Russian names tell nothing, in words.
+    fn directive(&self, directive: &Directive) -> String {
+        match self.lang {
+            Lang::Ru => directive.to_string(),
+            Lang::En => directive_in_words(self.world, directive, Language::English),
         }
     }
 
@@ -180,10 +199,10 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
         },
         TaskEnding::AlreadyTrue => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
         TaskEnding::NoPlan(planned) => text::plan(&planned.solved, lang),
-        TaskEnding::Stuck(surprise) => match lang {
-            Lang::Ru => format!("Не выходит: {}.", text::surprise(world, surprise)),
-            Lang::En => format!("Stuck: {}.", text::surprise(world, surprise)),
-        },
+        TaskEnding::Stuck(surprise) => {
+            let what = surprise_in_words(world, surprise, lang.language());
+            format!("{}: {what}.", lang.pick("Не выходит", "Stuck"))
+        }
     }
 }
 

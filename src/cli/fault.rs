@@ -7,6 +7,8 @@ use serde::Serialize;
 
 use crate::engine::{Error, RequestError};
 
+use super::args::Lang;
+
 /// Why a command ended without an answer.
 #[derive(Debug)]
 pub(super) enum Failure {
@@ -38,9 +40,12 @@ impl Failure {
     }
 
     /// The fault in a sentence; none where there is nobody left to tell.
-    pub(super) fn message(&self) -> Option<String> {
+    pub(super) fn message(&self, lang: Lang) -> Option<String> {
         match self {
-            Self::Engine(error) => Some(error.to_string()),
+            Self::Engine(error) => Some(match lang {
+                Lang::Ru => error.to_string(),
+                Lang::En => error.english().unwrap_or_else(|| error.to_string()),
+            }),
             Self::Output(_) => None,
         }
     }
@@ -55,7 +60,7 @@ impl Failure {
         clippy::print_stdout,
         reason = "this is where faults are printed"
     )]
-    pub(super) fn show(&self, as_json: bool) -> ExitCode {
+    pub(super) fn show(&self, as_json: bool, lang: Lang) -> ExitCode {
         match self {
             Self::Output(reason) => {
                 eprintln!("ortho: вывод прерван: {reason}");
@@ -68,7 +73,10 @@ impl Failure {
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
                     println!("{view}");
                 } else {
-                    eprint!("{}", drawn(error.as_ref()));
+                    match error.english().filter(|_| lang == Lang::En) {
+                        Some(text) => eprintln!("  × {text}"),
+                        None => eprint!("{}", drawn(error.as_ref())),
+                    }
                 }
                 ExitCode::from(if error.is_input() { 2 } else { 3 })
             }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
-    World, deeds_in_words, steps,
+    World, deeds_in_words, directive_in_words, steps, surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{Ride, Route};
@@ -257,7 +257,8 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
     match &answer.ending {
         TaskEnding::NoPlan(planned) => view["plan"] = plan(&planned.solved),
         TaskEnding::Stuck(surprise) => {
-            view["explanation"] = json!(super::text::surprise(world, surprise))
+            view["explanation"] = json!(surprise_in_words(world, surprise, Language::Russian));
+            view["explanation_en"] = json!(surprise_in_words(world, surprise, Language::English))
         }
         TaskEnding::Done | TaskEnding::AlreadyTrue => {}
     }
@@ -266,7 +267,10 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
 
 fn report(world: &World, report: &Report) -> Value {
     let said = |language| deeds_in_words(world, &report.directive, language);
+    let asked = |language| directive_in_words(world, &report.directive, language);
     json!({
+        "do_ru": asked(Language::Russian),
+        "do_en": asked(Language::English),
         "done_ru": said(Language::Russian),
         "done_en": said(Language::English),
         "number": report.number,

@@ -49,7 +49,7 @@ pub fn run() -> ExitCode {
         Ok(Ok(Answer::Yes)) => ExitCode::SUCCESS,
         Ok(Ok(Answer::No)) => ExitCode::from(1),
         Ok(Ok(Answer::Wrong)) => ExitCode::from(2),
-        Ok(Err(failure)) => failure.show(arguments.common.json),
+        Ok(Err(failure)) => failure.show(arguments.common.json, arguments.common.lang),
         Err(_) => ExitCode::from(3),
     }
 }

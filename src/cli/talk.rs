@@ -125,7 +125,10 @@ impl Dialogue {
         let commands = match self.engine.understand_in(line, &mut self.memory) {
             Ok(commands) => commands,
             Err(Error::Misheard(misheard)) => return self.put("misheard", &misheard.say(language)),
-            Err(other) => return self.put("refused", &other.to_string()),
+            Err(other) => {
+                let text = Failure::from(other).message(lang).unwrap_or_default();
+                return self.put("refused", &text);
+            }
         };
         match &commands[..] {
             [Command::Stop] => return self.put("stopped", lang.pick("Стою.", "I have stopped.")),
@@ -146,12 +149,15 @@ impl Dialogue {
                     self.remember(&answer)?;
                     say(&super::json::task(self.engine.world()?, &answer).to_string()).map(|_| ())
                 }
-                Err(e) => self.put("refused", &e.to_string()),
+                Err(e) => {
+                    let text = Failure::from(e).message(lang).unwrap_or_default();
+                    self.put("refused", &text)
+                }
             };
         }
         match demo::carry_out(&self.engine, &commands, lang) {
             Ok(answer) => self.remember(&answer),
-            Err(failure) => match failure.message() {
+            Err(failure) => match failure.message(lang) {
                 Some(text) => self.put("refused", &text),
                 None => Err(failure),
             },

@@ -3,13 +3,12 @@
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-use crate::engine::{Relations, RouteAnswer, Solved, World, no_way_in_words, steps};
+use crate::engine::{PlanStep, Relations, RouteAnswer, Solved, World, no_way_in_words, steps};
 use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::map::Entity;
-use crate::robot::{Obstruction, Refusal, Surprise};
 use crate::strips::{Broken, Replayed, RuleFaults};
 
 use super::args::Lang;
@@ -69,7 +68,14 @@ fn fact(relation: &str, values: &[Value]) -> String {
 
 /// A plan as the paper prints it, one directive a line, parallel ones under one number.
 pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
-    let steps = steps(solved);
+    let directive = |action: &PlanStep| format!("{}_({})", action.action, action.args.join(", "));
+    let steps: Vec<Vec<String>> =
+        steps(solved).iter().map(|step| step.iter().map(directive).collect()).collect();
+    plan_of(solved, &steps, lang)
+}
+
+/// A plan, its directives given in words.
+pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> String {
     if !matches!(solved.outcome, Outcome::Plan(_)) {
         let head = match solved.outcome {
             Outcome::LimitReached(_) => lang.pick("План не найден", "No plan was found"),
@@ -94,7 +100,7 @@ pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {
             let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
-            text.push_str(&format!("\n{label:>4} {}_({})", action.action, action.args.join(", ")));
+            text.push_str(&format!("\n{label:>4} {action}"));
         }
     }
     if !solved.assumptions.is_empty() {
@@ -205,40 +211,4 @@ pub(super) fn decimal(value: f64, unit: &str, lang: Lang) -> String {
 fn capitalized(text: &str) -> String {
     let mut chars = text.chars();
     chars.next().map(|c| c.to_uppercase().chain(chars).collect()).unwrap_or_default()
-}
-
-/// What went otherwise than believed.
-pub(super) fn surprise(world: &World, surprise: &Surprise) -> String {
-    let thing = |what: Obstruction| match what {
-        Obstruction::Wall(area) => format!("стена ({})", world.name(Entity::Area(area))),
-        Obstruction::Door(door) => world.name(Entity::Door(door)).to_owned(),
-        Obstruction::Replica(id) => {
-            world.replicas.get(&id).map_or_else(String::new, |r| r.name.clone())
-        }
-    };
-    match surprise {
-        Surprise::Blocked { bump, .. } => format!("путь преграждает {}", thing(bump.against)),
-        Surprise::NoWay { to, why } => format!("«{to}»: {why}"),
-        Surprise::NotSeen { thing, area } => {
-            format!("{}: «{thing}» не видно", world.name(Entity::Area(*area)))
-        }
-        Surprise::Unknown { name } => format!("на карте нет «{name}»"),
-        Surprise::Refused { refusal, .. } => match *refusal {
-            Refusal::Locked(door) => format!("{} заперта", thing(Obstruction::Door(door))),
-            Refusal::DoorJammed(door) => {
-                format!("{} не открывается: створке мешает робот", thing(Obstruction::Door(door)))
-            }
-            Refusal::OutOfReach(id) => {
-                format!("до «{}» не дотянуться", thing(Obstruction::Replica(id)))
-            }
-            Refusal::NotThere(id) => format!("«{}» нет на месте", thing(Obstruction::Replica(id))),
-            Refusal::HandFull(id) => {
-                format!("рука занята: в ней «{}»", thing(Obstruction::Replica(id)))
-            }
-            Refusal::NotHeld(id) => format!("«{}» нет в руке", thing(Obstruction::Replica(id))),
-            Refusal::NoRoom(id) => {
-                format!("на «{}» нет свободного места", thing(Obstruction::Replica(id)))
-            }
-        },
-    }
 }

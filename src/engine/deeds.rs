@@ -1,8 +1,9 @@
-//! What a directive has done, in words: what was switched, found, put away, and who was called.
+//! A directive in words: what it asks for, and what it has done: what was switched, found, put away, who was called.
 
 use crate::language::{Case, Language};
-use crate::map::{Entity, World};
-use crate::robot::{Deed, Directive};
+use crate::map::{DoorStatus, Entity, World};
+use crate::robot::{Deed, Directive, STARTING_POINT};
+use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
 
 use super::OPERATOR;
@@ -45,4 +46,108 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
         _ => None,
     };
     directive.deeds().iter().filter_map(sentence).collect()
+}
+
+/// What a directive asks for, as one tells a person: «открыть Дверь-КY», "open Door KY". An action that asks nothing of
+/// the vehicle is told by its name.
+#[must_use]
+pub fn directive_in_words(world: &World, directive: &Directive, language: Language) -> String {
+    let words = Words { world, language };
+    let opened = |status| match (status, directive.needs(predicate::DOOR_LOCKED)) {
+        (DoorStatus::Open, _) => ("открыть", "open"),
+        (DoorStatus::Closed, true) => ("отпереть", "unlock"),
+        (DoorStatus::Closed, false) => ("закрыть", "close"),
+        (DoorStatus::Locked, _) => ("запереть", "lock"),
+    };
+    let told: Vec<String> = directive.deeds().iter().map(|deed| words.deed(deed, opened)).collect();
+    match told.is_empty() {
+        true => directive.to_string(),
+        false => told.join(language.pick(" и ", " and ")),
+    }
+}
+
+struct Words<'w> {
+    world: &'w World,
+    language: Language,
+}
+
+impl Words<'_> {
+    fn deed(
+        &self,
+        deed: &Deed,
+        opened: impl Fn(DoorStatus) -> (&'static str, &'static str),
+    ) -> String {
+        let pick = |ru, en| self.language.pick(ru, en);
+        let accusative = |name: &str| self.name(name, Case::Accusative);
+        match deed {
+            Deed::GoToPlace(to) | Deed::GoToDoor(to) => {
+                format!("{} {}", pick("подъехать к", "drive to"), self.name(to, Case::Dative))
+            }
+            Deed::Cross { door, into } => format!(
+                "{} {} {} {}",
+                pick("проехать через", "go through"),
+                accusative(door),
+                pick("в", "into"),
+                accusative(into)
+            ),
+            Deed::SetDoor { door, status } => {
+                let (ru, en) = opened(*status);
+                format!("{} {}", pick(ru, en), accusative(door))
+            }
+            Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
+            Deed::Put { thing, onto: Some(onto) } => format!(
+                "{} {} {} {}",
+                pick("положить", "put"),
+                accusative(thing),
+                pick("на", "on"),
+                accusative(onto)
+            ),
+            Deed::Put { thing, onto: None } => match self.language {
+                Language::Russian => format!("положить {} на пол", accusative(thing)),
+                Language::English => format!("put {} down", accusative(thing)),
+            },
+            Deed::HandOver { thing, person } => match self.language {
+                Language::Russian => {
+                    format!("передать {} ({})", accusative(thing), self.person(person))
+                }
+                Language::English => {
+                    format!("give {} to {}", accusative(thing), self.person(person))
+                }
+            },
+            Deed::Switch { device, on } => {
+                let (ru, en) = if *on {
+                    ("включить", "switch on")
+                } else {
+                    ("выключить", "switch off")
+                };
+                format!("{} {}", pick(ru, en), accusative(device))
+            }
+            Deed::LookRound => pick("осмотреться", "look round").to_owned(),
+            Deed::Seek(thing) => format!("{} {}", pick("найти", "look for"), accusative(thing)),
+            Deed::Call(person) => match self.language {
+                Language::Russian => format!("позвать ({})", self.person(person)),
+                Language::English => format!("call {}", self.person(person)),
+            },
+        }
+    }
+
+    /// A name of the map; a place of the plan that the map has not is told by the thing that it is before.
+    fn name(&self, name: &str, case: Case) -> String {
+        let known = name.strip_prefix(PLACE_BESIDE).unwrap_or(name);
+        match (self.world.find(known).first(), self.language) {
+            (Some(&entity), Language::Russian) => named(self.world, entity).phrase().case(case),
+            (Some(&entity), Language::English) => named(self.world, entity).english(),
+            (None, Language::English) if name == STARTING_POINT || name == ROBOT_PLACE => {
+                "its starting place".to_owned()
+            }
+            (None, _) => name.to_owned(),
+        }
+    }
+
+    fn person(&self, person: &str) -> String {
+        match self.language {
+            Language::English if person == OPERATOR => "the operator".to_owned(),
+            _ => person.to_owned(),
+        }
+    }
 }

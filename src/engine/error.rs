@@ -6,6 +6,7 @@ use thiserror::Error;
 use crate::corridor::{CorridorError, CorridorFileError};
 use crate::exchange::ImportError;
 use crate::facts::FilesError;
+use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::map::MapErrors;
 use crate::robot::MissionError;
@@ -169,6 +170,19 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
     NoGoal { command: String },
 
+    /// Something that is to be carried and is too large or stands fast.
+    #[error("«{name}» робот не носит")]
+    #[diagnostic(
+        code(engine::not_portable),
+        help("носить можно то, чей тип имеет признак portable")
+    )]
+    NotPortable { name: String },
+
+    /// Nothing in a room can take a thing.
+    #[error("«{area}»: «{thing}» там некуда положить")]
+    #[diagnostic(code(engine::no_space), help("назовите, на что положить"))]
+    NoSpace { thing: String, area: String },
+
     /// Something that is to be opened or shut and is no door between rooms.
     #[error("«{name}» – не дверь между помещениями")]
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
@@ -245,6 +259,16 @@ pub enum RequestError {
 }
 
 impl Error {
+    /// The fault in English; None for the many whose texts are Russian only. What a task in English may meet has one.
+    #[must_use]
+    pub fn english(&self) -> Option<String> {
+        match self {
+            Self::Misheard(misheard) => Some(misheard.say(Language::English)),
+            Self::Request(request) => request.english(),
+            _ => None,
+        }
+    }
+
     /// The input is at fault, not the program or the disk.
     #[must_use]
     pub fn is_input(&self) -> bool {
@@ -266,5 +290,29 @@ impl Error {
                 !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
             }
         }
+    }
+}
+
+impl RequestError {
+    fn english(&self) -> Option<String> {
+        Some(match self {
+            Self::NoGoal { command } => {
+                format!("The robot's rules have no goal for this: \"{command}\".")
+            }
+            Self::NotPortable { name } => format!("The robot does not carry {name}."),
+            Self::NoSpace { thing, area } => {
+                format!("{area}: there is nothing that {thing} could be put on.")
+            }
+            Self::NotADoor { name } => format!("{name} is no door between rooms."),
+            Self::NotADevice { name } => format!("{name} can be switched neither on nor off."),
+            Self::NotAPlace { name } => format!("One cannot stand at {name}."),
+            Self::NoHome { thing, home } => {
+                format!("{thing} is kept on \"{home}\", and the map has no such thing.")
+            }
+            Self::RobotNowhere => {
+                "It is not known where the robot is; tell it: ortho do … --from PLACE.".to_owned()
+            }
+            _ => return None,
+        })
     }
 }

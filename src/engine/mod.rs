@@ -17,6 +17,7 @@
 
 mod barriers;
 mod deeds;
+mod delivery;
 mod directions;
 mod drawing;
 mod edit;
@@ -35,6 +36,7 @@ mod present;
 mod reading;
 mod route;
 mod rules;
+mod surprises;
 mod talk;
 mod task;
 mod tidy;
@@ -46,7 +48,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 
 pub use barriers::no_way_in_words;
-pub use deeds::deeds_in_words;
+pub use deeds::{deeds_in_words, directive_in_words};
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
@@ -60,6 +62,7 @@ pub use position::Whereabout;
 pub use reading::Region;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
+pub use surprises::surprise_in_words;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use upkeep::{check_store, restore_store};
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::graphplan::Limits;
-use crate::language::command::{Command, Listener, Relation};
+use crate::language::command::{Command, Listener};
 use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
@@ -151,7 +151,7 @@ impl Engine {
         // What is asked for is brought about together, and then each misplaced thing is put away by itself.
         let mut goals = vec![Vec::new()];
         for command in commands {
-            goals[0].extend(self.goal_of(command, &here, &now.world, relations)?);
+            goals[0].extend(self.goal_of(command, &here, now, relations)?);
         }
         for command in commands {
             let Command::Tidy(within) = command else { continue };
@@ -287,7 +287,7 @@ impl Engine {
         &self,
         command: &Command<Entity>,
         here: &str,
-        now: &World,
+        now: &Now,
         relations: &Relations,
     ) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
@@ -295,26 +295,22 @@ impl Engine {
         let fact =
             |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
         Ok(match command {
-            Command::GoTo { to, .. } => vec![self.being_at(to.anchor, now, relations)?],
+            Command::GoTo { to, .. } => vec![self.being_at(to.anchor, &now.world, relations)?],
             Command::ComeHere => vec![fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()])],
             Command::Bring { what, to: None } => {
+                self.portable(what.id)?;
                 vec![fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()])]
             }
             Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
-                match (to.relation, to.anchor) {
-                    (Relation::On | Relation::In, Entity::Replica(_)) => {
-                        vec![fact(predicate::THING_ON, vec![name(what.id), name(to.anchor)])]
-                    }
-                    (_, Entity::Place(_)) => {
-                        vec![fact(predicate::THING_AT_PLACE, vec![name(what.id), name(to.anchor)])]
-                    }
-                    _ => return Err(RequestError::NoGoal { command: name(to.anchor) }.into()),
-                }
+                self.delivered(what.id, to, now, relations)?
             }
-            Command::Take { what } => vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])],
+            Command::Take { what } => {
+                self.portable(what.id)?;
+                vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]
+            }
             Command::Find(what) => match what.id {
                 Entity::Replica(_) => vec![fact(predicate::FOUND, vec![name(what.id)])],
-                place => vec![self.being_at(place, now, relations)?],
+                place => vec![self.being_at(place, &now.world, relations)?],
             },
             Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
             Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,

@@ -157,6 +157,12 @@ impl Directive {
         self.added(predicate).is_some()
     }
 
+    /// Whether it takes a fact of this predicate.
+    #[must_use]
+    pub fn needs(&self, predicate: &str) -> bool {
+        find(&self.needs, predicate).is_some()
+    }
+
     fn added(&self, predicate: &str) -> Option<&[String]> {
         find(&self.adds, predicate)
     }

@@ -81,6 +81,9 @@ pub struct Initial {
 /// Name of the place where the robot stands when it stands at no named one.
 pub const ROBOT_PLACE: &str = "Место-робота";
 
+/// What the name of a place beside a thing begins with, where the thing cannot lend it its own.
+pub const PLACE_BESIDE: &str = "Место-у-";
+
 /// Facts for a plan from the Map as it is.
 #[must_use]
 pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
@@ -282,7 +285,7 @@ impl Writer<'_> {
         let thing = self.relations.symbols().replica(root);
         // What can be carried is no place by its own name: a name has one type in a rule file.
         let name = if self.is(root, "portable") || self.is(root, "person") {
-            format!("Место-у-{thing}")
+            format!("{PLACE_BESIDE}{thing}")
         } else {
             thing.to_string()
         };

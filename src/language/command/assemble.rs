@@ -135,6 +135,12 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         roles: Roles<T>,
     ) -> Result<Vec<Command<T>>, Misheard> {
         let Roles { mut objects, mut at, mut to, via, to_me } = roles;
+        let verb = match verb {
+            Verb::Move | Verb::Get if objects.is_empty() => Verb::GoTo,
+            Verb::Move => Verb::Put,
+            Verb::Get => Verb::Bring,
+            verb => verb,
+        };
         match verb {
             Verb::CallOperator => return Ok(vec![Command::CallOperator]),
             Verb::Report => return Ok(vec![Command::Report]),
@@ -144,6 +150,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             {
                 let place = at.map(|place| place.anchor).or_else(|| objects.pop());
                 return Ok(vec![Command::Tidy(place)]);
+            }
+            Verb::GoTo if to.is_some() && !objects.is_empty() => {
+                let hint = "эта команда ничего с собой не везёт; может быть, «отвези … в …»?";
+                return Err(self.not_understood(words, hint.into()));
             }
             Verb::GoTo => {
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
@@ -202,7 +212,16 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::SwitchOn, toward) => Command::SwitchOn(Thing { toward, ..what }),
             (Verb::SwitchOff, toward) => Command::SwitchOff(Thing { toward, ..what }),
             (Verb::Find, toward) => Command::Find(Thing { toward, ..what }),
-            (Verb::GoTo | Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop, _) => {
+            (
+                Verb::GoTo
+                | Verb::Move
+                | Verb::Get
+                | Verb::Tidy
+                | Verb::CallOperator
+                | Verb::Report
+                | Verb::Stop,
+                _,
+            ) => {
                 return Err(self.incomplete(words, question(verb)));
             }
         })
@@ -409,7 +428,7 @@ fn direction<T>(verb: Verb, link: Link, argument: &Argument<'_, T>) -> Role {
 
 fn by_verb(verb: Verb) -> Role {
     match verb {
-        Verb::GoTo | Verb::Put | Verb::Bring | Verb::Clear => Role::Whither,
+        Verb::GoTo | Verb::Move | Verb::Put | Verb::Bring | Verb::Clear => Role::Whither,
         _ => Role::Where,
     }
 }
@@ -426,7 +445,7 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::SwitchOn => ("что включить", "what to switch on"),
         Verb::SwitchOff => ("что выключить", "what to switch off"),
         Verb::Find => ("что найти", "what to find"),
-        Verb::GoTo => ("куда ехать", "where to go"),
+        Verb::GoTo | Verb::Move | Verb::Get => ("куда ехать", "where to go"),
         Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop => {
             ("что сделать", "what to do")
         }

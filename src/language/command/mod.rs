@@ -264,6 +264,38 @@ pub fn is_command(text: &str) -> bool {
     false
 }
 
+/// The text with the verbs that begin its clauses blanked out, every other word where it was: in "Open the lab door"
+/// the first word orders, in "Close the open door" the third describes.
+#[must_use]
+pub(in crate::language) fn without_verbs(text: &str) -> String {
+    let words = super::words::word_ranges(text);
+    let keys: Vec<String> =
+        words.iter().map(|range| crate::units::name_key(&text[range.clone()])).collect();
+    let mut blanked = text.to_owned();
+    let (mut at, mut begins) = (0, true);
+    while at < keys.len() {
+        use vocabulary::Meaning;
+        let rest = keys[at..].iter().map(String::as_str);
+        let (taken, meaning) = match vocabulary::longest(&rest) {
+            Some((taken, meaning)) => (taken, Some(meaning)),
+            None => (1, None),
+        };
+        if begins && matches!(meaning, Some(Meaning::Verb(_))) {
+            let span = words[at].start..words[at + taken - 1].end;
+            blanked.replace_range(span.clone(), &" ".repeat(span.len()));
+        }
+        at += taken;
+        let comma =
+            at < words.len() && text[words[at - 1].end..words[at].start].contains([',', ';', '.']);
+        begins = match meaning {
+            Some(Meaning::And) => true,
+            Some(Meaning::Filler | Meaning::Me) => begins || comma,
+            _ => comma,
+        };
+    }
+    blanked
+}
+
 fn sentences(first: &str, second: &str) -> String {
     let mut text = String::new();
     for part in [first, second].into_iter().filter(|part| !part.is_empty()) {

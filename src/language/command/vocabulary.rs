@@ -27,6 +27,10 @@ pub(super) enum Meaning {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Verb {
     GoTo,
+    /// "move": what is named is carried, and without a name the robot goes itself.
+    Move,
+    /// "get": what is named is brought, and without a name the robot goes itself.
+    Get,
     Bring,
     /// «нужно лекарство»: asks for it without saying how.
     Need,
@@ -75,8 +79,13 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "поезжай|поезжайте|поехал|подъехал|езжай|езжайте|поехали|едь|едьте|ехать|поехать|съезди|съездите|подъедь|подъедьте|подъезжай|подъезжайте|\
         подъехать|заедь|заезжай|иди|идите|идти|пойди|пойдите|пойти|сходи|сходите|подойди|подойдите|подойти|зайди|зайдите|зайти|пройди|пройдите|\
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
-        вернись|вернитесь|вернуться|возвращайся|направляйся|следуй|go|go back|drive|move|navigate|come|return|get|head|walk|proceed|enter",
+        вернись|вернитесь|вернуться|возвращайся|направляйся|следуй|go|go back|drive|navigate|come|return|head|walk|proceed|enter",
     ),
+    (
+        Meaning::Verb(Verb::Move),
+        "перемести|переместите|переместить|передвинь|передвиньте|передвинуть|подвинь|подвиньте|сдвинь|сдвиньте|перетащи|перетащите|move|shift",
+    ),
+    (Meaning::Verb(Verb::Get), "get"),
     (
         Meaning::Verb(Verb::Bring),
         "принеси|принесите|принёс|принесла|привёз|достал|подал|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\

@@ -344,7 +344,9 @@ impl Asker<'_> {
         if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
             return text.to_owned();
         }
-        let sentence = Sentence::new(text, &self.mind.lexicon);
+        // "Open the lab door" orders; it does not speak of the open one.
+        let described = crate::language::command::without_verbs(text);
+        let sentence = Sentence::new(&described, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         let mut settled = text.to_owned();
         // From the end, so that the places before stay where they are.

@@ -1,0 +1,146 @@
+//! Where a thing goes that is to be brought somewhere: onto what was named, or onto what stands in the room that was
+//! named and has space for it.
+
+use crate::language::command::{Placement, Relation};
+use crate::map::{Entity, World};
+use crate::robot::{GoalFact, facts_of_map, spot_on};
+use crate::semantics::{Relations, predicate};
+use crate::units::{AreaId, ReplicaId};
+
+use super::memory::Now;
+use super::{Engine, Error, Method, RequestError};
+
+impl Engine {
+    /// The name of a thing that the robot can carry.
+    ///
+    /// # Errors
+    /// It is no such thing.
+    pub(super) fn portable(&self, entity: Entity) -> Result<ReplicaId, Error> {
+        let world = self.world()?;
+        match entity {
+            Entity::Replica(id) if is(world, id, "portable") => Ok(id),
+            other => Err(RequestError::NotPortable { name: world.name(other).to_owned() }.into()),
+        }
+    }
+
+    /// What is to hold when a thing has been brought to a place.
+    ///
+    /// # Errors
+    /// It cannot be carried, or nothing there can take it.
+    pub(super) fn delivered(
+        &self,
+        thing: Entity,
+        to: &Placement<Entity>,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let id = self.portable(thing)?;
+        let name = |e: Entity| world.name(e).to_owned();
+        let fact = |predicate: &str, anchor: Entity| {
+            vec![GoalFact {
+                predicate: predicate.to_owned(),
+                args: vec![name(thing), name(anchor)],
+            }]
+        };
+        match (to.relation, to.anchor) {
+            // "to the table": what is carried to a table is put onto it.
+            (Relation::On | Relation::In | Relation::At, Entity::Replica(_)) => {
+                Ok(fact(predicate::THING_ON, to.anchor))
+            }
+            (_, Entity::Place(_)) => Ok(fact(predicate::THING_AT_PLACE, to.anchor)),
+            (Relation::On | Relation::In | Relation::At, Entity::Area(area)) => {
+                self.laid_in_area(id, area, now, relations)
+            }
+            (_, anchor) => Err(RequestError::NoGoal { command: name(anchor) }.into()),
+        }
+    }
+
+    /// A thing that is to lie in an Area: it stays where it is when it lies there, else goes onto the thing to which
+    /// the way is the shortest of those that have space for it, a table before a chair, else to a place of the map.
+    fn laid_in_area(
+        &self,
+        thing: ReplicaId,
+        area: AreaId,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let name = world.name(Entity::Replica(thing)).to_owned();
+        let facts = facts_of_map(&now.world, relations);
+        if relations.area_of(thing) == Some(area) {
+            let lies = |p: &str| p == predicate::THING_ON || p == predicate::THING_AT_PLACE;
+            let here = facts.iter().find(|f| lies(f.predicate) && f.arguments[0].name == name);
+            return Ok(here
+                .map(|f| GoalFact {
+                    predicate: f.predicate.to_owned(),
+                    args: f.arguments.iter().map(|a| a.name.clone()).collect(),
+                })
+                .into_iter()
+                .collect());
+        }
+        let bears = |id: ReplicaId| !is(&now.world, id, "portable") && self.takes(id, thing, now);
+        let reached = |id: ReplicaId| {
+            let support = world.name(Entity::Replica(id));
+            facts
+                .iter()
+                .any(|f| f.predicate == predicate::PLACE_BY && f.arguments[1].name == support)
+        };
+        let in_area = |id: &ReplicaId| relations.area_of(*id) == Some(area);
+        let supports = now.world.replicas.keys().copied().filter(in_area);
+        let supports = supports.filter(|id| reached(*id) && bears(*id)).map(Entity::Replica);
+        let places = now.world.places.values().filter(|p| p.area == area);
+        let places = places.map(|p| Entity::Place(p.id));
+        for (predicate, anchors) in [
+            (predicate::THING_ON, supports.collect::<Vec<_>>()),
+            (predicate::THING_AT_PLACE, places.collect()),
+        ] {
+            let rank = |e: &Entity| (unfit(&now.world, *e), self.way_to(*e, now));
+            let order = |(a, far_a): &(u8, f64), (b, far_b): &(u8, f64)| {
+                a.cmp(b).then(far_a.total_cmp(far_b))
+            };
+            if let Some(anchor) = anchors.into_iter().min_by(|a, b| order(&rank(a), &rank(b))) {
+                let args = vec![name, world.name(anchor).to_owned()];
+                return Ok(vec![GoalFact { predicate: predicate.to_owned(), args }]);
+            }
+        }
+        let area = world.name(Entity::Area(area)).to_owned();
+        Err(RequestError::NoSpace { thing: name, area }.into())
+    }
+
+    /// Whether a thing has space for another, where the robot can reach it.
+    fn takes(&self, support: ReplicaId, thing: ReplicaId, now: &Now) -> bool {
+        let Some(area) = now.world.replicas.get(&support).map(|r| r.area) else { return false };
+        let floor = now.world.placement(area).and_then(|(map, _)| self.floor(map).ok());
+        let (Some(floor), Ok(world)) = (floor, self.world()) else { return false };
+        // What the robot carries stands on the surveyed map only; its shape is the same.
+        spot_on(world, floor.scene(), thing, support, now.pose.at)
+            .is_some_and(|frame| frame.z <= now.world.robot.height)
+    }
+
+    /// Length of the way from the robot, cm; infinite where there is none on this floor.
+    fn way_to(&self, entity: Entity, now: &Now) -> f64 {
+        let way = || {
+            let goal = self.locate_entity(entity).ok().filter(|goal| goal.map == now.map)?;
+            let floor = self.floor(now.map).ok()?;
+            Some(floor.route(&now.world, now.pose.at, goal.target, Method::Shortest).ok()?.length)
+        };
+        way().unwrap_or(f64::INFINITY)
+    }
+}
+
+/// How unfit a thing is to be put on: what is made to bear things before others, and seats last.
+fn unfit(world: &World, entity: Entity) -> u8 {
+    match entity {
+        Entity::Replica(id) if is(world, id, "seat") => 2,
+        Entity::Replica(id) if !is(world, id, "support") => 1,
+        _ => 0,
+    }
+}
+
+fn is(world: &World, id: ReplicaId, wanted: &str) -> bool {
+    world
+        .replicas
+        .get(&id)
+        .is_some_and(|r| world.types.object.has_trait(world.objects[&r.object].object_type, wanted))
+}

@@ -1,0 +1,71 @@
+//! What went otherwise than believed, in words.
+
+use crate::language::Language;
+use crate::map::{Entity, World};
+use crate::robot::{Obstruction, Refusal, Surprise};
+
+use super::barriers::no_way_in_words;
+use super::lexicon::named;
+
+/// What stood in the way, what the vehicle would not do, or what the map does not know.
+#[must_use]
+pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language) -> String {
+    let said = |entity: Entity| match language {
+        Language::Russian => world.name(entity).to_owned(),
+        Language::English => named(world, entity).english(),
+    };
+    let thing = |what: Obstruction| match what {
+        Obstruction::Wall(area) => match language {
+            Language::Russian => format!("стена ({})", said(Entity::Area(area))),
+            Language::English => format!("a wall of {}", said(Entity::Area(area))),
+        },
+        Obstruction::Door(door) => said(Entity::Door(door)),
+        Obstruction::Replica(id) if world.replicas.contains_key(&id) => said(Entity::Replica(id)),
+        Obstruction::Replica(_) => language.pick("вещь", "a thing").to_owned(),
+    };
+    let told = |ru: &str, en: &str, what: Obstruction| {
+        let (pattern, name) = (language.pick(ru, en), thing(what));
+        pattern.replacen("{}", &name, 1)
+    };
+    match surprise {
+        Surprise::Blocked { bump, .. } => {
+            told("путь преграждает {}", "{} is in the way", bump.against)
+        }
+        Surprise::NoWay { to, why } => format!("«{to}»: {}", no_way_in_words(world, why, language)),
+        Surprise::NotSeen { thing, area } => match language {
+            Language::Russian => format!("{}: «{thing}» не видно", said(Entity::Area(*area))),
+            Language::English => format!("{thing} is not seen in {}", said(Entity::Area(*area))),
+        },
+        Surprise::Unknown { name } => match language {
+            Language::Russian => format!("на карте нет «{name}»"),
+            Language::English => format!("the map has no \"{name}\""),
+        },
+        Surprise::Refused { refusal, .. } => match *refusal {
+            Refusal::Locked(door) => told("{} заперта", "{} is locked", Obstruction::Door(door)),
+            Refusal::DoorJammed(door) => told(
+                "{} не открывается: створке мешает робот",
+                "{} does not open: the robot is in the way of its leaf",
+                Obstruction::Door(door),
+            ),
+            Refusal::OutOfReach(id) => {
+                told("до «{}» не дотянуться", "{} is out of reach", Obstruction::Replica(id))
+            }
+            Refusal::NotThere(id) => {
+                told("«{}» нет на месте", "{} is not in its place", Obstruction::Replica(id))
+            }
+            Refusal::HandFull(id) => told(
+                "рука занята: в ней «{}»",
+                "the hand is full: it holds {}",
+                Obstruction::Replica(id),
+            ),
+            Refusal::NotHeld(id) => {
+                told("«{}» нет в руке", "{} is not in the hand", Obstruction::Replica(id))
+            }
+            Refusal::NoRoom(id) => told(
+                "на «{}» нет свободного места",
+                "there is no room on {}",
+                Obstruction::Replica(id),
+            ),
+        },
+    }
+}
