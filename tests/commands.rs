@@ -390,3 +390,25 @@ fn directives_are_told_in_words() {
         assert!(told.iter().any(|t| t == words), "{words}: {told:?}");
     }
 }
+
+#[test]
+fn what_the_program_understands_of_a_map_may_be_english() {
+    let text = include_str!("../maps/lab.toml")
+        .replace("properties = { colour = \"red\" }", "properties = { KEPT_ON = \"Workbench 1\" }");
+    let map = tempfile::Builder::new().suffix(".toml").tempfile().unwrap();
+    std::fs::write(map.path(), text).unwrap();
+    let lab = Engine::in_memory(World::load(map.path()).unwrap(), None).unwrap();
+    let lamp = |world: &World| is_on(&world.replicas[&thing(world, "Lamp 1")].properties);
+    assert_eq!(lamp(lab.world().unwrap()), Some(false));
+    let answer = lab.ask("Is the lamp on?", &mut Memory::default()).unwrap().unwrap();
+    assert_eq!(answer.text, "No, Lamp 1 is switched off.");
+    let lit = perform(&lab, "Switch on the lamp");
+    assert!(matches!(lit.ending, TaskEnding::Done), "{:?}", lit.ending);
+    let tidied = perform(&lab, "Tidy the lab");
+    let words: Vec<String> = tidied
+        .reports
+        .iter()
+        .map(|r| directive_in_words(lab.world().unwrap(), &r.directive, Language::English))
+        .collect();
+    assert!(words.iter().any(|w| w.contains("Toolbox 1 on Workbench 1")), "{words:?}");
+}

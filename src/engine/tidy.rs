@@ -2,15 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::map::{Entity, World};
+use crate::map::{Entity, Mark, World};
 use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
 use super::memory::Now;
 use super::{Engine, Error, RequestError};
-
-/// The property of a thing that names what it is kept on or in.
-const HOME: &str = "ХРАНИТСЯ_НА";
 
 impl Engine {
     /// The things that are not where they belong, each with the name of its home, in the order of their names.
@@ -26,10 +23,10 @@ impl Engine {
         let world = self.world()?;
         let mut homes = supports(world, self.relations()?);
         for replica in world.replicas.values() {
-            let Some(kept) = replica.properties.get(HOME) else { continue };
+            let Some((_, kept)) = Mark::KeptOn.of(&replica.properties) else { continue };
             let is_thing = |e: &Entity| matches!(e, Entity::Replica(_));
             let Some(home) = world.find(kept).into_iter().find(is_thing) else {
-                let (thing, home) = (replica.name.clone(), kept.clone());
+                let (thing, home) = (replica.name.clone(), kept.to_owned());
                 return Err(RequestError::NoHome { thing, home }.into());
             };
             homes.insert(replica.name.clone(), world.name(home).to_owned());

@@ -1,35 +1,47 @@
 //! Whether a device is switched on: what its properties say of it, and how they change.
 
-use super::Properties;
+use super::{Mark, Properties};
 
 /// Of the two properties the first that is there counts: a thing that opens and is switched has its power apart.
-const STATES: [&str; 2] = ["ПИТАНИЕ", "СОСТОЯНИЕ"];
+const STATES: [Mark; 2] = [Mark::Power, Mark::State];
 
 /// `None` when the properties say nothing of it.
 #[must_use]
 pub fn is_on(properties: &Properties) -> Option<bool> {
-    STATES.iter().find_map(|key| {
-        let value = properties.get(*key)?.to_lowercase();
-        if value.starts_with("включ") {
-            Some(true)
-        } else if value.starts_with("выключ") {
-            Some(false)
-        } else {
-            None
-        }
-    })
+    STATES.iter().find_map(|mark| says(mark.of(properties)?.1))
 }
 
-/// Writes the state where it stood; in СОСТОЯНИЕ when none was known and that is free, else in ПИТАНИЕ.
+/// «Включено», "on"; «выключена», "switched off".
+fn says(value: &str) -> Option<bool> {
+    let value = value.to_lowercase();
+    let word = value.rsplit(' ').next().unwrap_or_default();
+    match word {
+        "on" => Some(true),
+        "off" => Some(false),
+        word if word.starts_with("включ") => Some(true),
+        word if word.starts_with("выключ") => Some(false),
+        _ => None,
+    }
+}
+
+/// Writes the state where it stood, in the language in which it stood; in СОСТОЯНИЕ when none was known and that is
+/// free, else in ПИТАНИЕ.
 pub fn switch(properties: &mut Properties, on: bool) {
-    let says = |key: &str| properties.get(key).map(|v| v.to_lowercase());
-    let is_power = |v: String| v.starts_with("включ") || v.starts_with("выключ");
-    let key = STATES
-        .into_iter()
-        .find(|key| says(key).is_some_and(is_power))
-        .unwrap_or(if properties.contains_key(STATES[1]) { STATES[0] } else { STATES[1] });
-    let word = if on { "Включено" } else { "Выключено" };
-    properties.insert(key.to_owned(), word.to_owned());
+    let found = STATES.iter().find_map(|mark| {
+        let (name, value) = mark.of(properties)?;
+        says(value).map(|_| (name.to_owned(), value.is_ascii()))
+    });
+    let (key, is_english) = found.unwrap_or_else(|| {
+        let mark = if Mark::State.of(properties).is_some() { Mark::Power } else { Mark::State };
+        (mark.names()[0].to_owned(), false)
+    });
+    let word = match (on, is_english) {
+        (true, false) => "Включено",
+        (false, false) => "Выключено",
+        (true, true) => "on",
+        (false, true) => "off",
+    };
+    properties.insert(key, word.to_owned());
 }
 
 #[cfg(test)]
@@ -38,6 +50,14 @@ mod tests {
 
     fn of(pairs: &[(&str, &str)]) -> Properties {
         pairs.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())).collect()
+    }
+
+    #[test]
+    fn an_english_state_stays_english() {
+        let mut lamp = of(&[("State", "switched off")]);
+        assert_eq!(is_on(&lamp), Some(false));
+        switch(&mut lamp, true);
+        assert_eq!(lamp, of(&[("State", "on")]));
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::facts::Value;
 use crate::geometry::contact::extent;
-use crate::map::{DoorState, DoorStatus, Entity, Permeability, World};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, World};
 use crate::units::{Cm, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
@@ -272,7 +272,7 @@ impl Feed<'_> {
             }
         }
         for door in world.doors.values().filter(|d| !d.leaves.is_empty()) {
-            if !door.properties.contains_key("СОСТОЯНИЕ") {
+            if Mark::State.of(&door.properties).is_none() {
                 let state = state_word(door.state);
                 row!(sink, "property", self.symbols.door(door.id), "СОСТОЯНИЕ", state);
             }
@@ -285,8 +285,7 @@ impl Feed<'_> {
             });
             // A wardrobe with one door open stands open.
             let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
-            if let Some(state) = widest.filter(|_| !replica.properties.contains_key("СОСТОЯНИЕ"))
-            {
+            if let Some(state) = widest.filter(|_| Mark::State.of(&replica.properties).is_none()) {
                 let x = self.symbols.replica(replica.id);
                 row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
             }

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{DoorKind, DoorStatus, World, is_on};
+use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_on};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::measure::Located;
@@ -217,8 +217,13 @@ impl Writer<'_> {
             if self.is(id, "device") {
                 self.device(id, &name, root, area);
             }
-            if let Some(door) = replica.properties.get("КЛЮЧ_ОТ") {
-                self.fact(predicate::KEY_FITS, &[(&name, ITEM), (door, DOOR)]);
+            if let Some((_, door)) = Mark::KeyOf.of(&replica.properties) {
+                let known = self.world.find(door).into_iter().find_map(|entity| match entity {
+                    Entity::Door(id) => Some(self.relations.symbols().door(id).to_string()),
+                    _ => None,
+                });
+                let door = known.unwrap_or_else(|| door.to_owned());
+                self.fact(predicate::KEY_FITS, &[(&name, ITEM), (&door, DOOR)]);
             }
         }
     }

@@ -228,8 +228,10 @@ impl Values {
     fn learn(&mut self, name: &str, value: &str) {
         let property = Property::of(name);
         self.properties.entry(name_key(name)).or_insert_with(|| property.clone());
-        let known = self.words.contains_key(&name_key(value));
-        if known || self.entries.len() >= usize::from(u16::MAX) || value.trim().is_empty() {
+        if self.meaning(value).is_some()
+            || self.entries.len() >= usize::from(u16::MAX)
+            || value.trim().is_empty()
+        {
             return;
         }
         let lower = value.to_lowercase();
@@ -253,7 +255,14 @@ impl Values {
     /// The value that a map's text stands for.
     #[must_use]
     pub fn meaning(&self, text: &str) -> Option<ValueId> {
-        self.words.get(&name_key(text)).copied()
+        let key = name_key(text);
+        // No words of their own: in a sentence "on" and "off" are mostly something else.
+        let word = match &*key {
+            "on" => "switched on",
+            "off" => "switched off",
+            word => word,
+        };
+        self.words.get(word).copied()
     }
 
     /// The word for a value that is most like a mistyped one.
