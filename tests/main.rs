@@ -17,6 +17,7 @@ mod floors;
 mod footprint;
 mod formats;
 mod generated_worlds;
+mod guides;
 mod hostile;
 mod imports;
 mod lifts;

@@ -66,28 +66,6 @@ fn the_worked_examples_are_without_fault() {
     }
 }
 
-/// docs/map.md builds the lab piece by piece: every piece that it shows stands in the map file.
-#[test]
-fn the_guide_shows_the_map_as_it_is() {
-    let lines = |text: &str| -> String {
-        text.lines()
-            .map(str::trim)
-            .filter(|line| !line.is_empty())
-            .fold(String::new(), |all, l| all + l + "\n")
-    };
-    let map = lines(include_str!("../maps/lab.toml"));
-    let guide = include_str!("../docs/map.md");
-    let pieces: Vec<&str> = guide
-        .split("```toml\n")
-        .skip(1)
-        .map(|rest| rest.split("```").next().expect("split gives at least one piece"))
-        .collect();
-    assert!(pieces.len() > 7);
-    for piece in pieces {
-        assert!(map.contains(&lines(piece)), "not in maps/lab.toml:\n{piece}");
-    }
-}
-
 #[test]
 fn the_robot_drives_from_everywhere_to_everywhere() {
     let all = ["as it is", "with a fifth room", "mirrored, renamed and turned by 200"];

@@ -1,8 +1,9 @@
 //! Faults as a person or a program sees them.
 
+use std::fmt;
 use std::process::ExitCode;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, SourceCode};
 use serde::Serialize;
 
 use crate::engine::{Error, RequestError};
@@ -68,8 +69,9 @@ impl Failure {
             }
             Self::Engine(error) => {
                 if as_json {
-                    let mut faults = Vec::new();
-                    collect(error.as_ref(), None, &mut faults);
+                    let mut leaves = Vec::new();
+                    gather(error.as_ref(), None, &mut leaves);
+                    let faults: Vec<FaultView> = leaves.iter().map(view).collect();
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
                     println!("{view}");
                 } else {
@@ -85,43 +87,98 @@ impl Failure {
 }
 
 /// Faults with the lines that they stand in; plain signs when the output is no terminal.
+///
+/// Of a tree of faults the root is told in a line, where it holds several, and then each leaf.
 pub(super) fn drawn(error: &dyn Diagnostic) -> String {
     let colored = std::io::IsTerminal::is_terminal(&std::io::stderr());
     let theme = if colored { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
     let handler = GraphicalReportHandler::new_themed(theme).with_context_lines(1).with_links(false);
+    let mut leaves = Vec::new();
+    gather(error, None, &mut leaves);
     let mut text = String::new();
-    // Writing to a String cannot fail.
-    let _ = handler.render_report(&mut text, error);
+    if leaves.len() > 1 {
+        text.push_str(&format!("  × {error}\n\n"));
+    }
+    for (n, leaf) in leaves.iter().enumerate() {
+        if n > 0 {
+            text.push('\n');
+        }
+        // Writing to a String cannot fail.
+        let _ = handler.render_report(&mut text, leaf);
+    }
     text
 }
 
-/// Leaves of the tree of faults, each with its first place.
-fn collect(
-    error: &dyn Diagnostic,
-    source: Option<&dyn miette::SourceCode>,
-    into: &mut Vec<FaultView>,
+/// A fault with the text that it stands in, which the fault around it may hold.
+struct Leaf<'e> {
+    fault: &'e dyn Diagnostic,
+    source: Option<&'e dyn SourceCode>,
+}
+
+impl fmt::Display for Leaf<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self.fault, f)
+    }
+}
+
+impl fmt::Debug for Leaf<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Debug::fmt(self.fault, f)
+    }
+}
+
+impl std::error::Error for Leaf<'_> {}
+
+impl Diagnostic for Leaf<'_> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.fault.code()
+    }
+
+    fn severity(&self) -> Option<miette::Severity> {
+        self.fault.severity()
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.fault.help()
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.source
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
+        self.fault.labels()
+    }
+}
+
+/// The leaves of the tree of faults, in order.
+fn gather<'e>(
+    error: &'e dyn Diagnostic,
+    source: Option<&'e dyn SourceCode>,
+    into: &mut Vec<Leaf<'e>>,
 ) {
     let source = error.source_code().or(source);
-    if let Some(related) = error.related() {
-        let mut any = false;
-        for inner in related {
-            any = true;
-            collect(inner, source, into);
-        }
-        if any {
-            return;
-        }
+    let before = into.len();
+    for inner in error.related().into_iter().flatten() {
+        gather(inner, source, into);
     }
-    let place = error.labels().and_then(|mut labels| labels.next()).and_then(|label| {
-        let contents = source?.read_span(label.inner(), 0, 0).ok()?;
+    if into.len() == before {
+        into.push(Leaf { fault: error, source });
+    }
+}
+
+/// A leaf with its first place, for programs.
+fn view(leaf: &Leaf<'_>) -> FaultView {
+    let place = leaf.labels().and_then(|mut labels| labels.next()).and_then(|label| {
+        let contents = leaf.source?.read_span(label.inner(), 0, 0).ok()?;
         Some((contents.name().map(str::to_owned), contents.line() + 1, contents.column() + 1))
     });
-    into.push(FaultView {
-        code: error.code().map(|c| c.to_string()),
-        message: error.to_string(),
-        help: error.help().map(|h| h.to_string()),
+    FaultView {
+        code: leaf.code().map(|c| c.to_string()),
+        message: leaf.to_string(),
+        help: leaf.help().map(|h| h.to_string()),
         file: place.as_ref().and_then(|p| p.0.clone()),
         line: place.as_ref().map(|p| p.1),
         column: place.as_ref().map(|p| p.2),
-    });
+    }
 }

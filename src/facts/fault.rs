@@ -229,11 +229,7 @@ impl FileFaults {
 
 impl fmt::Display for FileFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (n, (line, column, fault)) in self.placed().enumerate() {
-            let end = if n == 0 { "" } else { "\n" };
-            write!(f, "{end}{}:{line}:{column}: {fault}", self.source.name())?;
-        }
-        Ok(())
+        write!(f, "«{}»: ошибок {}", self.source.name(), self.faults.len())
     }
 }
 
@@ -251,7 +247,7 @@ impl Diagnostic for FileFaults {
 
 /// All faults of all texts of a program; never empty.
 #[derive(Debug, Clone, Error, Diagnostic)]
-#[error("{}", list(files))]
+#[error("{}", head(files))]
 #[diagnostic(code(facts::program))]
 pub struct Faults {
     #[related]
@@ -265,8 +261,17 @@ impl Faults {
     }
 }
 
-fn list(files: &[FileFaults]) -> String {
-    files.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+/// One fault with its place; of several their number and the first.
+fn head(files: &[FileFaults]) -> String {
+    let mut all = files.iter().flat_map(|file| {
+        file.placed()
+            .map(|(line, column, fault)| format!("{}:{line}:{column}: {fault}", file.source.name()))
+    });
+    let first = all.next().unwrap_or_default();
+    match all.count() {
+        0 => first,
+        more => format!("ошибок в правилах: {}; первая – {first}", more + 1),
+    }
 }
 
 fn did_you_mean(nearest: Option<&str>, otherwise: &str) -> String {

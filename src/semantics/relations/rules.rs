@@ -1,6 +1,6 @@
 //! The rule text of the relations: read, checked, and asked how far measuring must look for it.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -103,22 +103,20 @@ impl RelationRules {
             .expect("the standard rules are sound")
     }
 
+    /// The rules of a file, else those that the crate brings along, and after them those of more files.
+    ///
     /// # Errors
     /// [`RelationError::Unreadable`], [`RelationError::TooLarge`], [`RelationError::Empty`],
-    /// [`RelationError::Rules`] with all faults of the text, [`RelationError::Schema`].
-    pub fn load(path: &Path) -> Result<Self, RelationError> {
-        let name = || path.to_string_lossy().into_owned();
-        let unreadable =
-            |e: std::io::Error| RelationError::Unreadable { path: name(), message: e.to_string() };
-        let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-        if bytes > MAX_FILE_BYTES {
-            return Err(RelationError::TooLarge { path: name(), bytes });
+    /// [`RelationError::Rules`] with all faults of all texts, [`RelationError::Schema`].
+    pub fn load(base: Option<&Path>, more: &[PathBuf]) -> Result<Self, RelationError> {
+        let mut texts = vec![match base {
+            Some(path) => text_of(path)?,
+            None => Source::new("rules/relations.dl", STANDARD),
+        }];
+        for path in more {
+            texts.push(text_of(path)?);
         }
-        let source = Source::read(path).map_err(unreadable)?;
-        if source.text().trim().is_empty() {
-            return Err(RelationError::Empty { path: name() });
-        }
-        Self::parse(&[source])
+        Self::parse(&texts)
     }
 
     /// The standard rules with more of one's own after them.
@@ -172,6 +170,21 @@ impl RelationRules {
     pub fn program(&self) -> &Program {
         &self.program
     }
+}
+
+fn text_of(path: &Path) -> Result<Source, RelationError> {
+    let name = || path.to_string_lossy().into_owned();
+    let unreadable =
+        |e: std::io::Error| RelationError::Unreadable { path: name(), message: e.to_string() };
+    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
+    if bytes > MAX_FILE_BYTES {
+        return Err(RelationError::TooLarge { path: name(), bytes });
+    }
+    let source = Source::read(path).map_err(unreadable)?;
+    if source.text().trim().is_empty() {
+        return Err(RelationError::Empty { path: name() });
+    }
+    Ok(source)
 }
 
 #[cfg(test)]

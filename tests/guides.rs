@@ -1,0 +1,66 @@
+//! What the guides show is so: the pieces of docs/*.md, run.
+
+use orthoframe::Engine;
+use orthoframe::engine::{Rules, plan_alone};
+use orthoframe::graphplan::{Limits, Outcome};
+use orthoframe::robot::Wanted;
+use orthoframe::strips::Scenario;
+use orthoframe::units::Source;
+
+use crate::worlds::rb2;
+
+/// The texts of a guide between fences of one language.
+fn pieces<'g>(guide: &'g str, language: &str) -> Vec<&'g str> {
+    let fence = format!("```{language}\n");
+    let after = guide.split(fence.as_str()).skip(1);
+    after.map(|rest| rest.split("```").next().expect("split gives at least one piece")).collect()
+}
+
+/// docs/map.md builds the lab piece by piece: every piece that it shows stands in the map file.
+#[test]
+fn the_guide_to_maps_shows_the_map_as_it_is() {
+    let lines = |text: &str| -> String {
+        let lines = text.lines().map(str::trim).filter(|line| !line.is_empty());
+        lines.fold(String::new(), |all, line| all + line + "\n")
+    };
+    let map = lines(include_str!("../maps/lab.toml"));
+    let pieces = pieces(include_str!("../docs/map.md"), "toml");
+    assert!(pieces.len() > 7);
+    for piece in pieces {
+        assert!(map.contains(&lines(piece)), "not in maps/lab.toml:\n{piece}");
+    }
+}
+
+#[test]
+fn the_relation_of_the_guide_to_rules_is_derived() {
+    let rules = tempfile::tempdir().unwrap();
+    let [relation] = pieces(include_str!("../docs/rules.md"), "datalog")[..] else {
+        panic!("one relation is shown")
+    };
+    std::fs::write(rules.path().join("seats.dl"), relation).unwrap();
+    let engine = Engine::in_memory(rb2(), Some(rules.path())).unwrap();
+    for name in ["AT_HAND_OF", "ПОД_РУКОЙ_У"] {
+        let facts = engine.facts(Some(name), None).unwrap();
+        let told: Vec<Vec<String>> =
+            facts.iter().map(|(_, fact)| fact.iter().map(ToString::to_string).collect()).collect();
+        assert_eq!(told, [["Лекарство", "Кровать-1"]]);
+    }
+    // The standard relations are there as before.
+    assert!(!engine.facts(Some("ON_TOP_OF"), Some("Стол-1")).unwrap().is_empty());
+    // A fault of the added file is told, and in its own text.
+    std::fs::write(rules.path().join("more.dl"), "X(a) :- NEXT_TWO(a, _).").unwrap();
+    let fault = Rules::read(Some(rules.path())).unwrap_err().to_string();
+    assert!(fault.contains("more.dl"), "{fault}");
+}
+
+#[test]
+fn the_robot_of_the_guide_to_rules_waters_its_pots() {
+    let [rules] = pieces(include_str!("../docs/rules.md"), "strips")[..] else {
+        panic!("one rule file is shown")
+    };
+    let scenario = Scenario::parse(&Source::new("docs/rules.md", rules)).unwrap();
+    let solved = plan_alone(scenario, &Limits::default(), Wanted::Shortest).unwrap().solved;
+    let Outcome::Plan(plan) = &solved.outcome else { panic!("{:?}", solved.outcome) };
+    assert_eq!(plan.steps.len(), 8);
+    assert!(solved.is_shortest);
+}
