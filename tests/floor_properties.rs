@@ -130,7 +130,7 @@ fn near_doorway(plan: &FloorPlan, q: Point) -> bool {
 }
 
 /// Shortest way over a visibility graph of the centre space's corners, by brute force.
-fn by_visibility_graph(regions: &[&Region], from: Point, to: Point) -> Option<f64> {
+pub(crate) fn by_visibility_graph(regions: &[&Region], from: Point, to: Point) -> Option<f64> {
     let edges: Vec<(Point, Point)> = regions
         .iter()
         .flat_map(|r| r.contours())

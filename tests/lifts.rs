@@ -84,7 +84,7 @@ fn plans(world: &World) -> BTreeMap<MapId, FloorPlan> {
     world.maps.keys().map(plan).collect()
 }
 
-fn way(world: &World, from: Point, to: Point) -> Result<Vec<Leg>, (MapId, NoRoute)> {
+fn way(world: &World, from: Point, to: Point) -> Result<Vec<Leg>, Box<NoWay>> {
     let ends = ((MapId(1), from), (MapId(2), Target::Point(to)));
     across(world, &plans(world), ends.0, ends.1, Method::Shortest)
 }
@@ -131,9 +131,10 @@ fn a_lift_behind_a_shut_door_is_left_aside() {
     let legs = way(&house.world, p(100., 100.), p(200., 100.)).expect("the right one runs");
     assert_eq!(legs[0].ride.as_ref().unwrap().lift, 1);
     house.world.doors.get_mut(&house.doors[1]).unwrap().state = shut;
-    let (map, no) = way(&house.world, p(100., 100.), p(200., 100.)).expect_err("both are shut");
-    assert_eq!(map, MapId(1));
-    assert!(matches!(no.barriers(), [Barrier::Door { status: DoorStatus::Locked, .. }]), "{no}");
+    let no = way(&house.world, p(100., 100.), p(200., 100.)).expect_err("both are shut");
+    assert_eq!(no.map, MapId(1));
+    let barriers = no.why.barriers();
+    assert!(matches!(barriers, [Barrier::Door { status: DoorStatus::Locked, .. }]), "{no:?}");
 }
 
 #[test]
@@ -141,8 +142,8 @@ fn without_a_lift_there_is_no_way_and_stairs_are_none() {
     let mut house = house();
     let lifts = std::mem::take(&mut house.world.domain.lifts);
     let other = |world: &World| {
-        let (_, no) = way(world, p(100., 100.), p(200., 100.)).expect_err("no lift");
-        assert!(matches!(no, NoRoute::OtherMap { .. }), "{no}");
+        let no = way(world, p(100., 100.), p(200., 100.)).expect_err("no lift");
+        assert!(matches!(no.why, NoRoute::OtherMap { .. }), "{no:?}");
     };
     other(&house.world);
     house.world.domain.lifts = lifts;
@@ -215,5 +216,9 @@ fn what_would_open_a_way_is_said() {
     assert!(journey.legs[0].route.is_err());
     let advice = journey.advice.expect("the chair can be pushed");
     let text = advice.in_words(engine.world().unwrap(), Language::Russian);
-    assert!(text.starts_with("подвиньте Стул-2 на 1") && text.ends_with(" см"), "{text}");
+    // The box stands below the chair, and nothing above it.
+    assert!(text.starts_with("подвиньте Стул-2 на 1"), "{text}");
+    assert!(text.ends_with(" см в сторону от Вещи-6"), "{text}");
+    let text = advice.in_words(engine.world().unwrap(), Language::English);
+    assert!(text.contains(" cm away from "), "{text}");
 }

@@ -41,5 +41,6 @@ mod store_world;
 mod story;
 mod talk;
 mod talk_ways;
+mod ugly_floors;
 mod words;
 mod worlds;

@@ -36,25 +36,42 @@ fn barred(seed: u64) -> Builder {
 }
 
 fn make(world: &mut World, remedy: &Remedy) {
-    let doors = match remedy {
-        Remedy::Open(doors) | Remedy::Move { open: doors, .. } => doors,
-    };
+    let (Remedy::Open(doors)
+    | Remedy::Move { open: doors, .. }
+    | Remedy::Shut { open: doors, .. }
+    | Remedy::Remove { open: doors, .. }) = remedy;
     for door in doors {
         world.doors.get_mut(door).expect("a door of this world").state = DoorState::OPEN;
     }
-    if let Remedy::Move { replica, by, .. } = remedy {
-        let replica = world.replicas.get_mut(replica).expect("a thing of this world");
-        assert!(replica.move_prob > 0, "what never moves is not to be pushed");
-        let frame = replica.frame;
-        // The rooms of these worlds are not turned, so a push is the same in each frame.
-        replica.frame =
-            Frame::new(frame.x.get() + by.x, frame.y.get() + by.y, frame.z.get(), frame.angle);
+    match remedy {
+        Remedy::Open(_) => {}
+        Remedy::Move { replica, by, .. } => {
+            let replica = world.replicas.get_mut(replica).expect("a thing of this world");
+            assert!(replica.move_prob > 0, "what never moves is not to be pushed");
+            let frame = replica.frame;
+            // The rooms of these worlds are not turned, so a push is the same in each frame.
+            replica.frame =
+                Frame::new(frame.x.get() + by.x, frame.y.get() + by.y, frame.z.get(), frame.angle);
+        }
+        Remedy::Shut { door, of: None, .. } => {
+            world.doors.get_mut(door).expect("a door of this world").state = DoorState::CLOSED;
+        }
+        Remedy::Shut { door, of: Some(replica), .. } => {
+            let thing = world.replicas.get_mut(replica).expect("a thing of this world");
+            thing.door_states.insert(*door, DoorState::CLOSED);
+        }
+        Remedy::Remove { replicas, .. } => {
+            for id in replicas {
+                let gone = world.replicas.remove(id).expect("a thing of this world");
+                assert!(gone.move_prob > 0, "what never moves is not to be taken away");
+            }
+        }
     }
 }
 
 #[test]
 fn every_change_that_is_named_opens_the_way() {
-    let (mut opened, mut pushed, mut both) = (0, 0, 0);
+    let (mut opened, mut pushed, mut both, mut cleared) = (0, 0, 0, 0);
     for seed in 0..14 {
         let b = barred(seed);
         let plan = build(&b.world);
@@ -65,6 +82,7 @@ fn every_change_that_is_named_opens_the_way() {
             Remedy::Open(_) => opened += 1,
             Remedy::Move { open, .. } if open.is_empty() => pushed += 1,
             Remedy::Move { .. } => both += 1,
+            Remedy::Shut { .. } | Remedy::Remove { .. } => cleared += 1,
         }
         let mut changed = b.world.clone();
         make(&mut changed, &remedy);
@@ -82,6 +100,6 @@ fn every_change_that_is_named_opens_the_way() {
             }
         }
     }
-    eprintln!("{opened} doors, {pushed} pushes, {both} both");
+    eprintln!("{opened} doors, {pushed} pushes, {both} both, {cleared} cleared");
     assert!(opened + pushed + both > 2, "{opened} {pushed} {both}");
 }

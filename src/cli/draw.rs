@@ -5,7 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
-use crate::engine::{Drawing, Engine, Lens, Method, RequestError, TaskAnswer, parse_pose};
+use crate::engine::{
+    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, no_way_in_words, parse_pose,
+};
 use crate::units::MapId;
 
 use super::args::{Common, CorridorArgs};
@@ -114,7 +116,7 @@ pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
                     engine.draw(answer.map, &Drawing { legs, ..plain })?
                 }
                 Err(why) => {
-                    note(&why.to_string());
+                    note(&no_way_in_words(engine.world()?, &why, language));
                     return Ok(Answer::No);
                 }
             }

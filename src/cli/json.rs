@@ -5,16 +5,16 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
-    World, deeds_in_words, directive_in_words, steps, surprise_in_words,
+    World, deeds_in_words, directive_in_words, no_way_in_words, steps, surprise_in_words,
 };
 use crate::facts;
-use crate::geometry::{Ride, Route};
+use crate::geometry::{Remedy, Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
 use crate::semantics::Spot;
 use crate::strips::Replayed;
-use crate::units::{Point, Pose};
+use crate::units::{Point, Pose, ReplicaId};
 
 #[derive(Debug, Serialize)]
 struct StepView {
@@ -136,7 +136,7 @@ pub(super) fn tuple(values: &[facts::Value]) -> Vec<Value> {
         .collect()
 }
 
-pub(super) fn route(world: &World, answer: &RouteAnswer) -> Value {
+pub(super) fn route(world: &World, answer: &RouteAnswer, language: Language) -> Value {
     let mut view = json!({
         "from": answer.from,
         "to": answer.to,
@@ -151,7 +151,33 @@ pub(super) fn route(world: &World, answer: &RouteAnswer) -> Value {
         }
         Err(why) => {
             view["outcome"] = json!("no_route");
-            view["explanation"] = json!(why.to_string());
+            view["explanation"] = json!(no_way_in_words(world, why, language));
+        }
+    }
+    view
+}
+
+/// What would open a way: doors to open, and what is to be done once they are.
+fn remedy(world: &World, remedy: &Remedy) -> Value {
+    let name = |entity: Entity| world.name(entity).to_owned();
+    let thing = |id: &ReplicaId| name(Entity::Replica(*id));
+    let (Remedy::Open(open)
+    | Remedy::Move { open, .. }
+    | Remedy::Shut { open, .. }
+    | Remedy::Remove { open, .. }) = remedy;
+    let open: Vec<String> = open.iter().map(|&door| name(Entity::Door(door))).collect();
+    let mut view = json!({ "open": open });
+    match remedy {
+        Remedy::Open(_) => {}
+        Remedy::Move { replica, by, .. } => {
+            view["move"] = json!({ "thing": thing(replica), "by": [round(by.x), round(by.y)] });
+        }
+        Remedy::Shut { door, of, .. } => {
+            let of = of.as_ref().map(thing);
+            view["shut"] = json!({ "door": name(Entity::Door(*door)), "of": of });
+        }
+        Remedy::Remove { replicas, .. } => {
+            view["remove"] = json!(replicas.iter().map(thing).collect::<Vec<_>>());
         }
     }
     view
@@ -160,9 +186,10 @@ pub(super) fn route(world: &World, answer: &RouteAnswer) -> Value {
 /// A single leg as [`route`] gives it; several as a list of those, with the rides between them.
 pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> Value {
     if let [leg] = &journey.legs[..] {
-        let mut view = route(world, leg);
+        let mut view = route(world, leg, language);
         if let Some(advice) = &journey.advice {
             view["advice"] = json!(advice.in_words(world, language));
+            view["remedy"] = remedy(world, &advice.remedy);
         }
         return view;
     }
@@ -178,7 +205,7 @@ pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> V
     json!({
         "outcome": "route",
         "length_cm": round(journey.legs.iter().map(length).sum()),
-        "legs": journey.legs.iter().map(|leg| route(world, leg)).collect::<Vec<_>>(),
+        "legs": journey.legs.iter().map(|leg| route(world, leg, language)).collect::<Vec<_>>(),
         "rides": journey.rides.iter().map(ride).collect::<Vec<_>>(),
     })
 }

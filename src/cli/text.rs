@@ -8,6 +8,7 @@ use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
 use crate::language::Language;
+use crate::language::names::english_name;
 use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFaults};
 
@@ -154,17 +155,22 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
     let route = match &answer.route {
         Ok(route) => route,
         Err(why) => {
-            return capitalized(&match lang {
-                Lang::Ru => why.to_string(),
-                Lang::En => no_way_in_words(world, why, lang.language()) + ".",
-            });
+            let why = no_way_in_words(world, why, lang.language()) + ".";
+            return match lang {
+                Lang::Ru => format!("Пути нет: {why}"),
+                Lang::En => capitalized(&why),
+            };
         }
+    };
+    let name = |entity: Entity| match lang {
+        Lang::En if !english_name(world, entity).is_empty() => english_name(world, entity),
+        _ => world.name(entity),
     };
     let mut stages = String::new();
     for stage in &answer.stages {
-        stages.push_str(&world.areas[&stage.area].name);
+        stages.push_str(name(Entity::Area(stage.area)));
         if let Some(door) = stage.leaves_by.and_then(|d| floor.doorways()[d].door) {
-            stages.push_str(&format!(" → {} → ", world.name(Entity::Door(door))));
+            stages.push_str(&format!(" → {} → ", name(Entity::Door(door))));
         } else if stage.leaves_by.is_some() {
             stages.push_str(" → ");
         }

@@ -25,12 +25,34 @@ pub(super) struct Labels {
     taken: HashMap<(i64, i64), Vec<Bounds>>,
     /// Lines that a name should not lie on, such as walls and the route, by the same grid.
     lines: HashMap<(i64, i64), Vec<(Point, Point)>>,
+    /// Where names may stand at all.
+    sheet: Option<Bounds>,
+    /// Left free between names, cm on the sheet.
+    margin: f64,
 }
 
 impl Labels {
     /// `letter` is the size of an ordinary letter on this drawing.
     pub(super) fn new(letter: f64) -> Self {
-        Self { cell: letter * 12.0, taken: HashMap::new(), lines: HashMap::new() }
+        Self {
+            cell: letter * 12.0,
+            taken: HashMap::new(),
+            lines: HashMap::new(),
+            sheet: None,
+            margin: 0.0,
+        }
+    }
+
+    /// No name reaches beyond these bounds.
+    pub(super) fn within(mut self, sheet: Bounds) -> Self {
+        self.sheet = Some(sheet);
+        self
+    }
+
+    /// Names stand so far apart at least, cm on the sheet.
+    pub(super) fn spaced(mut self, margin: f64) -> Self {
+        self.margin = margin;
+        self
     }
 
     fn cells(&self, frame: &Bounds) -> impl Iterator<Item = (i64, i64)> + use<> {
@@ -58,8 +80,11 @@ impl Labels {
     }
 
     fn is_free(&self, frame: &Bounds) -> bool {
-        self.cells(frame)
-            .all(|cell| self.taken.get(&cell).is_none_or(|t| !t.iter().any(|t| t.meets(frame))))
+        let on_sheet = self.sheet.is_none_or(|s| s.contains(frame.min) && s.contains(frame.max));
+        on_sheet
+            && self
+                .cells(frame)
+                .all(|cell| self.taken.get(&cell).is_none_or(|t| !t.iter().any(|t| t.meets(frame))))
     }
 
     fn crosses_line(&self, frame: &Bounds) -> bool {
@@ -77,11 +102,11 @@ impl Labels {
             [(0.0, 1.0), (0.0, -1.0), (0.56, 0.8), (-0.56, 0.8), (0.56, -0.8), (-0.56, -0.8)];
         let away = |distance: f64| {
             AROUND.map(|(dx, dy)| {
-                let by = Vector::new(dx * width, dy * height) * distance;
+                let by = Vector::new(dx * width, dy * height * distance);
                 around(dot + by, width, height)
             })
         };
-        let frames: Vec<Bounds> = [1.0, 1.4, 2.0].into_iter().flat_map(away).collect();
+        let frames: Vec<Bounds> = [1.0, 1.4, 2.0, 2.8].into_iter().flat_map(away).collect();
         let free = || frames.iter().filter(|f| self.is_free(f));
         let best = free().find(|f| !self.crosses_line(f)).or_else(|| free().next()).copied();
         if let Some(frame) = best {
@@ -102,7 +127,6 @@ impl Labels {
         style: Lettering,
     ) {
         let bounds = room.bounds();
-        let diagonal = (bounds.max - bounds.min).norm();
         let spots = spots(room, bounds);
         let mut best: Option<(f64, Placed)> = None;
         for share in [1.0, 0.82, 0.66, 0.52, 0.42] {
@@ -116,11 +140,9 @@ impl Labels {
                 if width > bounds.max.x - bounds.min.x || height > bounds.max.y - bounds.min.y {
                     continue;
                 }
-                for &(spot, off_centre) in &spots {
+                for &(spot, off) in &spots {
                     let frame = around(spot, width, height);
-                    let cost = 2.2 * (1.0 - share)
-                        + if turn > 0.0 { 0.5 } else { 0.0 }
-                        + 0.9 * off_centre / diagonal;
+                    let cost = 2.2 * (1.0 - share) + if turn > 0.0 { 0.5 } else { 0.0 } + 0.9 * off;
                     if best.as_ref().is_some_and(|(least, _)| cost >= *least) {
                         continue;
                     }
@@ -163,6 +185,10 @@ impl Labels {
                 let lettering = Lettering { size: style.size * share, turn, ..style };
                 let long = text_width(text, lettering.size, style.bold);
                 let tall = lettering.size * 1.1;
+                // A single letter gains nothing from being turned.
+                if turn > 0.0 && long < 1.3 * tall {
+                    continue;
+                }
                 let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
                 let spare = (thing.max - thing.min) - Vector::new(width, height);
                 if spare.x < 0.0 || spare.y < 0.0 {
@@ -227,7 +253,7 @@ impl Labels {
 
     fn put(&mut self, canvas: &mut Canvas, text: &str, placed: &Placed) {
         canvas.text(placed.at, text, placed.lettering);
-        self.take(placed.frame);
+        self.take(placed.frame.grown(self.margin));
     }
 }
 
@@ -236,19 +262,28 @@ pub(super) fn around(p: Point, width: f64, height: f64) -> Bounds {
     Bounds { min: p - half, max: p + half }
 }
 
-/// Points of a room where a name may stand, with their distances from its centre, the nearest first.
+/// Points of a room where a name may stand, the best first, each with what it is off the best place: by the way from
+/// the centre as a share of the room's diagonal; in a room of many corners, where the centre may lie in a bay or
+/// behind a wall, also by how much nearer it is to a wall than the widest place.
 fn spots(room: &Polygon, bounds: Bounds) -> Vec<(Point, f64)> {
-    const STEPS: i32 = 9;
-    let centre = room.centroid();
-    let extent = bounds.max - bounds.min;
+    let winding = room.corners.len() > 8;
+    let steps = if winding { 24 } else { 9 };
+    let (centre, extent) = (room.centroid(), bounds.max - bounds.min);
     let grid =
-        (1..STEPS).flat_map(|i| (1..STEPS).map(move |j| Vector::new(f64::from(i), f64::from(j))));
-    let mut spots: Vec<(Point, f64)> = grid
-        .map(|v| bounds.min + v.component_mul(&extent) / f64::from(STEPS))
+        (1..steps).flat_map(|i| (1..steps).map(move |j| Vector::new(f64::from(i), f64::from(j))));
+    let on_floor = grid
+        .map(|v| bounds.min + v.component_mul(&extent) / f64::from(steps))
         .chain([centre])
-        .filter(|p| room.contains(*p, 0.0))
-        .map(|p| (p, (p - centre).norm()))
-        .collect();
+        .filter(|p| room.contains(*p, 0.0));
+    let mut spots: Vec<(Point, f64)> = if winding {
+        let clear: Vec<(Point, f64)> = on_floor.map(|p| (p, room.border_distance(p))).collect();
+        let widest = clear.iter().map(|c| c.1).fold(1e-9, f64::max);
+        let narrow = |width: f64| 0.8 * (0.75 - width / widest).max(0.0);
+        let off = |p: Point| 0.5 * (p - centre).norm() / extent.norm();
+        clear.into_iter().map(|(p, width)| (p, narrow(width) + off(p))).collect()
+    } else {
+        on_floor.map(|p| (p, (p - centre).norm() / extent.norm())).collect()
+    };
     spots.sort_by(|a, b| a.1.total_cmp(&b.1));
     spots
 }

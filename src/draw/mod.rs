@@ -16,6 +16,7 @@ mod object;
 #[cfg(feature = "pictures")]
 mod picture;
 mod plan;
+mod rooms;
 mod view;
 
 pub use corridor::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
@@ -23,4 +24,4 @@ pub use object::object_svg;
 #[cfg(feature = "pictures")]
 pub use picture::{PngError, png};
 pub use plan::{DoorGlyph, FloorLayer, NetworkLayer, PlanDrawing, RouteLayer, ViewLayer};
-pub use view::{LeafBody, ViewDrawing};
+pub use view::{LeafBody, Mouth, ViewDrawing};

@@ -8,7 +8,7 @@
 //!   plan
 //! ```
 
-use crate::geometry::{Bounds, Polygon};
+use crate::geometry::{Bounds, Polygon, nearest_on_segment};
 use crate::map::{Object, Permeability, World};
 use crate::units::{Language, Point, Vector};
 
@@ -138,11 +138,18 @@ pub fn object_svg(world: &World, object: &Object, language: Language) -> String 
         shown[i].iter().fold(Bounds::EMPTY, |b, s: &Silhouette<'_>| b.union(&s.outline.bounds()))
     });
     let [facade, profile, plan] = extents;
+    let ends = |view: usize, least: f64| {
+        let bounds = shown[view].iter().map(|s| s.outline.bounds());
+        let mut ends: Vec<f64> = bounds.flat_map(|b| [b.min.x, b.max.x]).collect();
+        apart(&mut ends, least);
+        ends
+    };
     let size = |b: Bounds| b.max - b.min;
     let (width, height, depth) = (size(facade).x, size(facade).y, size(plan).y);
     // A letter is a fixed share of the sheet.
     let pen = ((width + depth).max(height + depth) / 620.0).max(0.004);
     let letter = 13.0 * pen;
+    let shown_ends = [ends(0, 15.0 * pen), ends(1, 15.0 * pen)];
     let gap = 104.0 * pen;
     // Where each view's own origin stands on the sheet.
     let below = Vector::new(0.0, facade.min.y - gap - plan.max.y);
@@ -185,14 +192,18 @@ pub fn object_svg(world: &World, object: &Object, language: Language) -> String 
     } else {
         ruler.upright(&mut canvas, x, facade.min.x, &[facade.min.y, facade.max.y]);
     }
+    // Widths under the façade and depths under the profile: what the parts take, and below that the whole.
     let y = facade.min.y - 26.0 * pen;
-    ruler.level(&mut canvas, y, facade.min.y, &[facade.min.x, facade.max.x]);
-    ruler.level(
-        &mut canvas,
-        y,
-        facade.min.y,
-        &[profile.min.x + beside.x, profile.max.x + beside.x],
-    );
+    for (view, extent, offset) in [(0, facade, 0.0), (1, profile, beside.x)] {
+        let ends = shown_ends[view].iter().map(|x| x + offset).collect::<Vec<f64>>();
+        let whole = [extent.min.x + offset, extent.max.x + offset];
+        if ends.len() > 2 {
+            ruler.level(&mut canvas, y, facade.min.y, &ends);
+            ruler.level(&mut canvas, y - 32.0 * pen, y, &whole);
+        } else {
+            ruler.level(&mut canvas, y, facade.min.y, &whole);
+        }
+    }
     let (low, high) = (plan.min.y + below.y, plan.max.y + below.y);
     ruler.upright(&mut canvas, x, plan.min.x, &[low, high]);
     canvas.into_svg(title)
@@ -285,12 +296,21 @@ fn draw_view(
                 && over.contains(frame.min)
                 && over.contains(frame.max)
         };
-        if silhouettes.iter().any(|s| hides(&s)) {
+        let nearer: Vec<&Silhouette<'_>> = silhouettes.iter().filter(hides).collect();
+        // An edge that is seen takes the place of a hidden one behind it.
+        let is_seen = |(a, b): &(Point, Point)| {
+            let on =
+                |p: Point, (u, v): (Point, Point)| (nearest_on_segment(p, u, v) - p).norm() < 1e-3;
+            nearer.iter().any(|s| s.outline.edges().any(|e| on(*a, e) && on(*b, e)))
+        };
+        if !nearer.is_empty() {
             let dashes = Style::line(HIDDEN, line * 0.6).dashed(5.0 * pen, 3.5 * pen);
-            canvas.polygon(&placed(&hidden.outline), dashes, None);
+            for (a, b) in hidden.outline.edges().filter(|edge| !is_seen(edge)) {
+                canvas.segment(a + offset, b + offset, dashes);
+            }
         }
     }
-    let mut labels = Labels::new(11.0 * pen);
+    let mut labels = Labels::new(11.0 * pen).spaced(4.0 * pen);
     for s in silhouettes.iter() {
         let bounds = s.outline.bounds();
         let frame = Bounds { min: bounds.min + offset, max: bounds.max + offset };
@@ -335,6 +355,20 @@ fn distinct(values: &mut Vec<f64>, least: f64) {
     if let (Some(last), Some(kept)) = (last, values.last_mut()) {
         *kept = last;
     }
+}
+
+/// Sorted, the outermost and those that no other is closer to than `least`: of a pole in the middle neither side stays.
+fn apart(values: &mut Vec<f64>, least: f64) {
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|next, kept| *next - *kept < 1e-3);
+    let all = values.clone();
+    let last = all.len().saturating_sub(1);
+    let mut index = 0..;
+    values.retain(|v| {
+        let i = index.next().unwrap_or(0);
+        let is_close = |j: usize| (all[j] - v).abs() < least;
+        i == 0 || i == last || !is_close(i - 1) && !is_close(i + 1)
+    });
 }
 
 /// Draws chains of dimensions.

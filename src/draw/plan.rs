@@ -4,7 +4,7 @@
 use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
-use crate::map::{BaseVector, DoorStatus, Permeability, RobotProfile, TypeEntry, World};
+use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{AreaId, Language, Point, Pose, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
@@ -12,6 +12,7 @@ use super::font::text_width;
 use super::furniture;
 use super::labels::{Labels, around};
 use super::legend::{Entry, Legend, scale_bar, scale_bar_width};
+use super::rooms;
 
 /// Free floor and its partition, as the drawing needs them.
 #[derive(Debug, Clone, Default)]
@@ -116,14 +117,9 @@ pub struct PlanDrawing<'a> {
     pub language: Language,
 }
 
-const ROOM: Style = Style::fill("#faf7f0");
-const WALL: Style = Style::line("#3b3a36", 7.0);
-const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed(6.0, 5.0);
 const LEAF: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.2);
 const LOCKED: Style = Style::fill("#b3261e").outlined("#3b3a36", 1.2);
 const SWING: Style = Style::line("#8c887d", 0.9).dashed(3.0, 3.0);
-const GLASS: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.0);
-const PANE: Style = Style::line("#5aa0c8", 1.2);
 const PASSFRAME: Style = Style::fill("#e4f1e3").outlined("#69a869", 0.9);
 const DEAD_ZONE: Style = Style::fill("#e8a39b").faint(0.75);
 const NETWORK: Style = Style::line("#7a4fa3", 1.3);
@@ -131,7 +127,6 @@ const VERTEX: Style = Style::fill("#7a4fa3");
 const ROUTE: Style = Style::line("#1f5fbf", 4.0);
 const SIGHT: Style = Style::fill("#ffd766").faint(0.35);
 const SEEN: Style = Style::line("#e07b00", 3.4);
-const STAIRS: Style = Style::line("#b9b2a2", 1.2);
 /// From this pen on a sheet shows a large building: some twenty metres.
 const LARGE: f64 = 1.5;
 const INK: &str = "#2b2a27";
@@ -172,12 +167,12 @@ impl PlanDrawing<'_> {
         let width = sheet.max.x - sheet.min.x;
         let mut canvas = Canvas::new(sheet).wide((width / pen).clamp(760.0, 4000.0));
         for area in self.areas() {
-            self.floor_of(&mut canvas, area, pen);
+            rooms::floor(&mut canvas, self.world, area, pen);
         }
         self.floor(&mut canvas, pen);
         furniture::draw(&mut canvas, self.world, self.things(), pen);
         for area in self.areas() {
-            self.walls(&mut canvas, area, pen);
+            rooms::walls(&mut canvas, self.world, area, pen);
         }
         for door in self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())) {
             draw_door(&mut canvas, door, pen);
@@ -185,7 +180,11 @@ impl PlanDrawing<'_> {
         self.network(&mut canvas, pen);
         self.view(&mut canvas, pen);
         self.route(&mut canvas, pen);
-        self.labels(&mut canvas, pen);
+        let names = Bounds {
+            min: Point::new(sheet.min.x + 4.0 * pen, whole.min.y.min(extent.min.y) - 30.0 * pen),
+            max: sheet.max - Vector::new(4.0, 4.0) * pen,
+        };
+        self.labels(&mut canvas, names, pen);
         scale_bar(
             &mut canvas,
             Point::new(extent.min.x, extent.min.y - 42.0 * pen),
@@ -208,59 +207,12 @@ impl PlanDrawing<'_> {
         if self.language == Language::English && !english.is_empty() { english } else { russian }
     }
 
-    /// Paper-coloured floor; a lift with the cross and stairs with the steps by which plans show them.
-    fn floor_of(&self, canvas: &mut Canvas, area: &PlacedArea, pen: f64) {
-        for prism in &area.prisms {
-            canvas.polygon(&prism.polygon, ROOM, None);
-        }
-        let kind = self.world.types.area.get(self.world.areas[&area.id].area_type);
-        let is = |words: &[&str]| kind.is_some_and(|kind| is_called(kind, words));
-        let Some(prism) = area.prisms.first().filter(|p| p.polygon.corners.len() >= 4) else {
-            return;
-        };
-        let style = STAIRS.thick(pen);
-        if is(&["lift", "elevator"]) && prism.polygon.corners.len() == 4 {
-            let c = &prism.polygon.corners;
-            canvas.segment(c[0], c[2], style);
-            canvas.segment(c[1], c[3], style);
-        } else if is(&["stairs", "staircase", "stairwell"]) && prism.polygon.corners.len() == 4 {
-            let c = &prism.polygon.corners;
-            let long = (c[1] - c[0]).norm() > (c[2] - c[1]).norm();
-            let (a, b, d, e) =
-                if long { (c[0], c[1], c[3], c[2]) } else { (c[1], c[2], c[0], c[3]) };
-            let steps = ((b - a).norm() / (28.0 * pen)).floor() as i32;
-            for i in 1..steps {
-                let t = f64::from(i) / f64::from(steps);
-                canvas.segment(a + (b - a) * t, d + (e - d) * t, style);
-            }
-        }
-    }
-
     fn floor(&self, canvas: &mut Canvas, pen: f64) {
         for (cell, id) in &self.floor.passframes {
             canvas.polygon(cell, PASSFRAME.thick(pen), Some(id));
         }
         for zone in &self.floor.dead_zones {
             canvas.polygons(zone.contours().map(|c| c.corners.as_slice()), DEAD_ZONE, None);
-        }
-    }
-
-    fn walls(&self, canvas: &mut Canvas, area: &PlacedArea, pen: f64) {
-        for prism in &area.prisms {
-            let orthoframe = &self.world.orthoframes[&prism.orthoframe];
-            for (((a, b), side), vector) in
-                prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
-            {
-                match side.permeability {
-                    Permeability::Impermeable if is_window(self.world, vector) => {
-                        window(canvas, a, b, pen)
-                    }
-                    Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
-                    Permeability::Permeable | Permeability::Conditional => {
-                        canvas.segment(a, b, PASSAGE.thick(pen));
-                    }
-                }
-            }
         }
     }
 
@@ -297,8 +249,13 @@ impl PlanDrawing<'_> {
         for (_, leg) in &self.route.legs {
             canvas.polyline(leg, ROUTE.thick(pen));
         }
-        if let Some(pose) = self.route.start {
-            robot(canvas, pose, &self.world.robot, pen);
+        match (self.route.start, self.route.legs.first().and_then(|(_, leg)| leg.first())) {
+            (Some(pose), _) => robot(canvas, pose, &self.world.robot, pen),
+            (None, Some(&first)) => {
+                let ring = Style::fill("#ffffff").outlined("#1f5fbf", 2.6).thick(pen);
+                canvas.circle(first, 5.5 * pen, ring);
+            }
+            (None, None) => {}
         }
     }
 
@@ -329,8 +286,8 @@ impl PlanDrawing<'_> {
     }
 
     /// Names of places, rooms and furniture, the large before the small.
-    fn labels(&self, canvas: &mut Canvas, pen: f64) {
-        let mut labels = Labels::new(10.0 * pen);
+    fn labels(&self, canvas: &mut Canvas, sheet: Bounds, pen: f64) {
+        let mut labels = Labels::new(10.0 * pen).within(sheet);
         for (_, leg) in &self.route.legs {
             leg.windows(2).for_each(|w| labels.avoid_line(w[0], w[1]));
         }
@@ -347,6 +304,10 @@ impl PlanDrawing<'_> {
             labels.take(around(*p, 7.0 * pen, 7.0 * pen));
         }
         self.badges(canvas, &mut labels, pen);
+        for pose in self.route.start.iter().chain(&self.view.eye) {
+            let wide = 2.0 * robot_reach(&self.world.robot, pen);
+            labels.take(around(pose.at, wide, wide));
+        }
         for (p, name) in &self.places {
             labels.beside(canvas, *p, name, Lettering::bold(12.0 * pen, PLACE));
         }
@@ -433,32 +394,6 @@ impl PlanDrawing<'_> {
     }
 }
 
-fn is_called(kind: &TypeEntry, words: &[&str]) -> bool {
-    let names = [&kind.name, &kind.name_en].into_iter().chain(&kind.synonyms);
-    names
-        .map(|n| n.to_lowercase())
-        .any(|name| words.iter().any(|w| name.split(' ').any(|part| part == *w)))
-}
-
-/// Whether a side is a window, by the words of its type.
-pub(super) fn is_window(world: &World, vector: &BaseVector) -> bool {
-    world.types.side.get(vector.side_type).is_some_and(|t| is_called(t, &["window", "окно"]))
-}
-
-/// A window is a pane in a gap of the wall.
-fn window(canvas: &mut Canvas, a: Point, b: Point, pen: f64) {
-    let along = b - a;
-    let Some(unit) = along.try_normalize(1e-9) else { return };
-    let half = Vector::new(unit.y, -unit.x) * (WALL.width * pen / 2.0);
-    canvas.segment(a, b, WALL.thick(pen));
-    canvas.polygon(
-        &Polygon::new(vec![a - half, b - half, b + half, a + half]),
-        GLASS.thick(pen),
-        None,
-    );
-    canvas.segment(a, b, PANE.thick(pen));
-}
-
 fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
     if let Some(swept) = &door.swept {
         canvas.polygon(swept, SWING.thick(pen), None);
@@ -467,12 +402,17 @@ fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
     canvas.polygon(&door.leaf, style.thick(pen), None);
 }
 
+/// How far ahead the drawn robot reaches: what is too small to be seen is drawn larger.
+fn robot_reach(profile: &RobotProfile, pen: f64) -> f64 {
+    let ahead = profile.footprint.iter().map(|p| p.x).reduce(f64::max);
+    ahead.unwrap_or(profile.radius.get()).max(6.0 * pen)
+}
+
 fn robot(canvas: &mut Canvas, pose: Pose, profile: &RobotProfile, pen: f64) {
     let (sin, cos) = pose.heading.sin_cos();
     let at = |p: Point| pose.at + Vector::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos);
     let style = Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85).thick(pen);
-    let ahead = profile.footprint.iter().map(|p| p.x).reduce(f64::max);
-    let nose = ahead.unwrap_or(profile.radius.get()).max(6.0 * pen);
+    let nose = robot_reach(profile, pen);
     if profile.footprint.is_empty() {
         canvas.circle(pose.at, nose, style);
     } else {

@@ -6,7 +6,7 @@ use crate::geometry::{Barrier, Blocker, NoRoute};
 use crate::language::report::Named;
 use crate::language::{Case, Gender, Language, Number, enumerate};
 use crate::map::{DoorStatus, Entity, World};
-use crate::units::{AreaId, DoorId};
+use crate::units::{AreaId, DoorId, ReplicaId};
 
 use super::lexicon::named;
 
@@ -47,14 +47,30 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         let names = [room(areas[0], Case::Instrumental), room(areas[1], Case::Instrumental)];
         enumerate(&names, language)
     };
+    let cm = |length: f64| {
+        // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
+        let tenth = (length * 10.0 + 1e-6).floor() / 10.0;
+        let text = format!("{tenth:.1}").trim_end_matches('0').trim_end_matches('.').to_owned();
+        if russian { text.replace('.', ",") + " см" } else { text + " cm" }
+    };
     let list = |blockers: &[Blocker]| {
         let leaf = |entity: Entity| match russian {
             true => format!("створка {}", form(&of(entity), Case::Genitive)),
             false => format!("a leaf of {}", form(&of(entity), Case::Nominative)),
         };
         let name = |b: &Blocker| match (b, russian) {
-            (Blocker::Replica { replica, .. }, _) => {
-                form(&of(Entity::Replica(*replica)), Case::Nominative)
+            (Blocker::Replica { replica, item }, _) => {
+                let name = form(&of(Entity::Replica(*replica)), Case::Nominative);
+                match overhang(world, *replica, *item) {
+                    Some((low, tall)) if russian => {
+                        format!("{name} (низ на высоте {}, робот высотой {})", cm(low), cm(tall))
+                    }
+                    Some((low, tall)) => {
+                        let (low, tall) = (cm(low), cm(tall));
+                        format!("{name} (its underside at {low}, the robot is {tall} tall)")
+                    }
+                    None => name,
+                }
             }
             (Blocker::DoorLeaf { door, .. }, _) => leaf(Entity::Door(*door)),
             (Blocker::ReplicaLeaf { replica, .. }, _) => leaf(Entity::Replica(*replica)),
@@ -66,12 +82,6 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
         let mut names: Vec<String> = blockers.iter().map(name).collect();
         names.dedup();
         enumerate(&names, language)
-    };
-    let cm = |length: f64| {
-        // Rounded down, so that 59.96 cm never reads as the 60 that are needed.
-        let tenth = (length * 10.0 + 1e-6).floor() / 10.0;
-        let text = format!("{tenth:.1}").trim_end_matches('0').trim_end_matches('.').to_owned();
-        if russian { text.replace('.', ",") + " см" } else { text + " cm" }
     };
     match barrier {
         Barrier::Door { door: id, status } => {
@@ -163,4 +173,15 @@ fn shut(name: &Named, locked: bool) -> &'static str {
         (_, Gender::Masculine, true) => "заперт",
         (_, Gender::Masculine, false) => "закрыт",
     }
+}
+
+/// How high above the floor the part of a thing hangs that is in the robot's way, and how tall the robot is; none for
+/// what the robot would meet with its wheels.
+fn overhang(world: &World, replica: ReplicaId, item: usize) -> Option<(f64, f64)> {
+    /// Lower things are met, not passed under, by any robot.
+    const HANGS: f64 = 20.0;
+    let model = world.replicas.get(&replica)?;
+    let part = world.objects[&model.object].items.get(item)?;
+    let low = model.frame.z.get() + part.frame.z.get();
+    (low > HANGS.max(world.robot.step.get())).then(|| (low, world.robot.height.get()))
 }

@@ -1,10 +1,10 @@
 //! Drawings of a map with what is known of it.
 
 use crate::draw::{
-    DoorGlyph, FloorLayer, LeafBody, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing, ViewLayer,
-    object_svg,
+    DoorGlyph, FloorLayer, LeafBody, Mouth, NetworkLayer, PlanDrawing, RouteLayer, ViewDrawing,
+    ViewLayer, object_svg,
 };
-use crate::geometry::{FloorPlan, Polygon, Sight};
+use crate::geometry::{Doorway, FloorPlan, PlacedArea, Sight};
 use crate::map::{DoorKind, Entity, Object, World};
 use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, nearest_name};
 
@@ -108,6 +108,7 @@ impl Engine {
             world,
             scene: floor.scene(),
             leaves: leaf_bodies(world, floor),
+            mouths: mouths(world, floor),
             pose: lens.pose,
             height: lens.height,
             field: lens.field,
@@ -141,7 +142,7 @@ impl Engine {
 }
 
 fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
-    let glyphs = |doorway: &crate::geometry::Doorway| {
+    let glyphs = |doorway: &Doorway| {
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
         };
@@ -151,57 +152,52 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
         let status = door.state.status;
         leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next(), status }).collect()
     };
-    let shown = |d: &&crate::geometry::Doorway| only.is_none_or(|a| d.areas.contains(&a));
-    let between = floor.doorways().iter().filter(shown).flat_map(glyphs);
-    between.chain(outer_doors(world, floor, only)).collect()
+    let between = floor.doorways().iter().filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
+    between.chain(&outer_doors(world, floor, only)).flat_map(glyphs).collect()
 }
 
 /// Door leaves as they stand on the floor of the first Area.
 fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
-    let bottom = |area: AreaId| {
-        let prisms = floor.scene().areas.get(&area).map_or(&[][..], |a| &a.prisms);
-        prisms.first().map_or(0.0, |p| p.bottom)
-    };
-    let bodies = |doorway: &crate::geometry::Doorway| {
+    /// Of a door of which the map does not say how high it is, cm.
+    const USUAL: f64 = 200.0;
+    let bodies = |doorway: &Doorway| {
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
         };
-        let bottom = bottom(doorway.areas[0]);
-        let top = bottom + if door.height.get() > 0.0 { door.height.get() } else { 200.0 };
+        let room = floor.scene().areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
+        let bottom = room.map_or(0.0, |p| p.bottom);
+        let top = bottom + if door.height.get() > 0.0 { door.height.get() } else { USUAL };
         let body = |base| LeafBody { base, bottom, top, status: door.state.status };
         doorway.leaves(door, door.state).into_iter().map(body).collect()
     };
-    let between = floor.doorways().iter().flat_map(bodies);
-    let outer = outer_doors(world, floor, None).into_iter().map(|glyph| LeafBody {
-        base: glyph.leaf,
-        bottom: 0.0,
-        top: 205.0,
-        status: glyph.status,
-    });
-    between.chain(outer).collect()
+    floor.doorways().iter().chain(&outer_doors(world, floor, None)).flat_map(bodies).collect()
 }
 
-/// Doors that lead out of the map: a shut leaf in the wall.
-fn outer_doors(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<DoorGlyph> {
+/// The doorways and passages through walls that are no mere lines.
+fn mouths(world: &World, floor: &FloorPlan) -> Vec<Mouth> {
+    const THIN: f64 = 0.5;
+    let mouth = |doorway: &Doorway| {
+        let room = floor.scene().areas.get(&doorway.areas[0])?.prisms.first()?;
+        let door = doorway.door.and_then(|id| world.doors.get(&id));
+        let height = door.map_or(0.0, |d| d.height.get());
+        let (t0, t1) = doorway.span();
+        let jamb = |t: f64| (doorway.at(t, 0.0), doorway.at(t, doorway.gap));
+        let top = if height > 0.0 { room.bottom + height } else { room.top };
+        Some(Mouth { jambs: [jamb(t0), jamb(t1)], bottom: room.bottom, top: top.min(room.top) })
+    };
+    floor.doorways().iter().filter(|d| d.gap > THIN).filter_map(mouth).collect()
+}
+
+/// The doors that lead out of the map, each in its only room.
+fn outer_doors(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Doorway> {
     let joined: std::collections::HashSet<_> =
         floor.doorways().iter().filter_map(|d| d.door).collect();
-    let mut glyphs = Vec::new();
-    let areas = floor.scene().areas.iter().filter(|(id, _)| only.is_none_or(|a| a == **id));
-    for (id, placed) in areas {
-        for mount in world.areas[id].doors.iter().filter(|m| !joined.contains(&m.door)) {
-            let door = &world.doors[&mount.door];
-            if door.kind == DoorKind::Passage {
-                continue;
-            }
-            let Some((right, left)) = world.threshold(*id, mount.door) else { continue };
-            let (right, left) = (placed.frame.apply(right), placed.frame.apply(left));
-            let Some(along) = (left - right).try_normalize(1e-9) else { continue };
-            let half = Vector::new(along.y, -along.x) * 2.5;
-            let leaf = Polygon::new(vec![right - half, right + half, left + half, left - half]);
-            glyphs.push(DoorGlyph { leaf, swept: None, status: door.state.status });
-        }
-    }
-    glyphs
+    let areas = floor.scene().areas.values().filter(|a| only.is_none_or(|only| only == a.id));
+    let of = |placed: &PlacedArea| {
+        let mounts = world.areas[&placed.id].doors.iter().filter(|m| !joined.contains(&m.door));
+        mounts.filter_map(|m| Doorway::outer(world, placed, m.door)).collect::<Vec<_>>()
+    };
+    areas.flat_map(of).collect()
 }
 
 fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {

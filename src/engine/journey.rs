@@ -1,12 +1,12 @@
 //! Ways over several floors, in legs and rides, and what would open a way where there is none.
 
-use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, across};
+use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, Target, across};
+use crate::language::Language;
 use crate::language::report::Detail;
-use crate::language::{Case, Language};
-use crate::map::{Entity, World};
-use crate::units::{Deg, DoorId, ReplicaId};
+use crate::map::World;
+use crate::units::{Deg, MapId, Point};
 
-use super::lexicon::named;
+use super::advice::Advice;
 use super::route::{End, Located, RouteAnswer, stages};
 use super::{Engine, Error};
 
@@ -19,20 +19,6 @@ pub struct Journey {
     pub rides: Vec<Ride>,
     /// The smallest change that would open a way where there is none.
     pub advice: Option<Advice>,
-}
-
-/// A change that is known to open a way.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Advice {
-    Open(Vec<DoorId>),
-    /// So far, in cm, in a direction of the Map's axes.
-    Move {
-        replica: ReplicaId,
-        distance: f64,
-        by: (f64, f64),
-        /// Once these doors are open.
-        open: Vec<DoorId>,
-    },
 }
 
 impl Engine {
@@ -74,15 +60,31 @@ impl Engine {
                 let legs = found.into_iter().enumerate().map(leg).collect();
                 Ok(Journey { legs, rides, advice: None })
             }
-            Err((map, no)) => {
-                let advice = (start.map == goal.map)
-                    .then(|| floors[&map].remedy(world, start.at, goal.target, &no))
-                    .flatten()
-                    .map(Advice::from);
-                let leg = answer(map, from, (to, goal.end), Err(no));
+            Err(no) => {
+                let advice = floors.get(&no.map).and_then(|floor| {
+                    let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
+                    let alone = start.map == goal.map;
+                    let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
+                    (alone || opens()).then(|| Advice::of(world, floor, remedy))
+                });
+                let leg = answer(no.map, from, (to, goal.end), Err(no.why));
                 Ok(Journey { legs: vec![leg], rides: vec![], advice })
             }
         }
+    }
+
+    /// Whether a change that opens one leg opens the whole way, which other things may bar as well.
+    fn opens(
+        &self,
+        remedy: &Remedy,
+        map: MapId,
+        ends: ((MapId, Point), (MapId, Target)),
+    ) -> Option<bool> {
+        let mut world = self.world().ok()?.clone();
+        let mut floors = self.floors().ok()?.clone();
+        let floor = floors.get_mut(&map)?;
+        *floor = floor.remedied(&mut world, remedy);
+        Some(across(&world, &floors, ends.0, ends.1, Method::Shortest).is_ok())
     }
 
     /// A journey as sentences: those of its legs, and of the rides between them. `heading` is how one stands at its
@@ -142,47 +144,6 @@ pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
                 ""
             };
             format!("Take the lift “{lift}” {way}to the floor “{floor_en}”.")
-        }
-    }
-}
-
-impl From<Remedy> for Advice {
-    fn from(remedy: Remedy) -> Self {
-        match remedy {
-            Remedy::Open(doors) => Self::Open(doors),
-            Remedy::Move { replica, by, open } => {
-                Self::Move { replica, distance: by.norm(), by: (by.x, by.y), open }
-            }
-        }
-    }
-}
-
-impl Advice {
-    /// «подвиньте Стул-2 на 14 см»
-    #[must_use]
-    pub fn in_words(&self, world: &World, language: Language) -> String {
-        let thing = |entity: Entity| {
-            let name = named(world, entity);
-            match language {
-                Language::Russian => name.phrase().case(Case::Accusative),
-                Language::English => name.english(),
-            }
-        };
-        let opening = |doors: &[DoorId]| {
-            let doors: Vec<String> = doors.iter().map(|&d| thing(Entity::Door(d))).collect();
-            let verb = if language == Language::Russian { "откройте" } else { "open" };
-            format!("{verb} {}", doors.join(", "))
-        };
-        match self {
-            Self::Open(doors) => opening(doors),
-            Self::Move { replica, distance, open, .. } => {
-                let thing = thing(Entity::Replica(*replica));
-                let (push, and) = match language {
-                    Language::Russian => (format!("подвиньте {thing} на {distance:.0} см"), "и"),
-                    Language::English => (format!("move {thing} by {distance:.0} cm"), "and"),
-                };
-                if open.is_empty() { push } else { format!("{} {and} {push}", opening(open)) }
-            }
         }
     }
 }

@@ -15,6 +15,7 @@
 //! **Invariant.** Only the engine writes to the store; what it derives belongs to the map that it holds, and is
 //! derived anew when that map changes.
 
+mod advice;
 mod barriers;
 mod deeds;
 mod delivery;
@@ -47,6 +48,7 @@ use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+pub use advice::Advice;
 pub use barriers::no_way_in_words;
 pub use deeds::{deeds_in_words, directive_in_words};
 pub use drawing::{Drawing, Lens};
@@ -54,7 +56,7 @@ pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
 pub use forms::uncertain_names;
 pub use history::When;
-pub use journey::{Advice, Journey, ride_in_words};
+pub use journey::{Journey, ride_in_words};
 pub use memory::{After, Now, ROBOT};
 pub use observe::{Believed, Proposal, Source, Station};
 pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};

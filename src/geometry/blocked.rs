@@ -8,9 +8,10 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use miette::Diagnostic;
 use thiserror::Error;
 
-use crate::map::{DoorKind, DoorStatus, World};
+use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
+use super::doors::{Doorway, opening_of};
 use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;
@@ -71,12 +72,25 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
     let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
     let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
     let start = piece(from);
-    let mut between = Between { plan, world, pieces: plan.network.pieces(), gaps: HashMap::new() };
+    let mut between = Between {
+        plan,
+        world,
+        pieces: plan.network.pieces(),
+        gaps: HashMap::new(),
+        only_passing: true,
+    };
     let ends = [
         BTreeSet::from([plan.network.region(start)]),
         goals.iter().map(|&g| plan.network.region(g)).collect(),
     ];
-    let mut barriers = between.fewest(ends).unwrap_or_default();
+    // A way over what can be changed is told before a shorter one over a step or a doorway that is too low.
+    let mut barriers = between
+        .fewest(ends.clone())
+        .or_else(|| {
+            between.only_passing = false;
+            between.fewest(ends)
+        })
+        .unwrap_or_default();
     if barriers.is_empty() {
         barriers = vec![enclosure(plan, start, &goals)];
     }
@@ -91,6 +105,8 @@ struct Between<'a> {
     pieces: BTreeMap<u32, Vec<Piece>>,
     /// By Fragment.
     gaps: HashMap<u32, Vec<(u32, u32, Barrier)>>,
+    /// Only over what opening, shutting or moving something can do away with.
+    only_passing: bool,
 }
 
 /// The regions reached from one end, each with the region before it and what lies between; none for the first.
@@ -170,7 +186,9 @@ impl Between<'_> {
                 found.push((plan.network.region((number, other)), barrier.clone()));
             }
         }
-        found.retain(|(other, _)| *other != region);
+        found.retain(|(other, barrier)| {
+            *other != region && !(self.only_passing && is_lasting(plan, self.world, barrier))
+        });
         found
     }
 }
@@ -184,34 +202,93 @@ fn before(plan: &FloorPlan, index: usize, side: usize) -> Option<Piece> {
     Some((number, cells.component[cell as usize]))
 }
 
+/// What bars a doorway: what opening the door does not help comes first.
 fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Barrier {
     let doorway = &plan.doorways()[index];
     let door = doorway.door.and_then(|d| world.doors.get(&d));
-    let height = plan.robot().height.get();
-    if let Some(door) = door {
-        let state = plan.door_state(world, door.id);
-        let is_shut = state.status != DoorStatus::Open || state.opening <= 0.0;
-        if is_shut && door.kind != DoorKind::Passage {
-            let status = if state.status == DoorStatus::Locked {
-                DoorStatus::Locked
-            } else {
-                DoorStatus::Closed
-            };
-            return Barrier::Door { door: door.id, status };
-        }
-        if door.height.get() > 0.0 && door.height.get() < height {
-            return Barrier::Low { door: door.id, height: door.height.get(), needed: height };
-        }
+    let (height, needed) = (plan.robot().height.get(), plan.robot().passing_width());
+    if let Some(door) = door.filter(|d| d.height.get() > 0.0 && d.height.get() < height) {
+        return Barrier::Low { door: door.id, height: door.height.get(), needed: height };
     }
     if doorway.rise.abs() > plan.robot().step.get() {
         return Barrier::Step { areas: doorway.areas, rise: doorway.rise };
     }
-    let state = door.map_or(crate::map::DoorState::OPEN, |d| plan.door_state(world, d.id));
-    Barrier::Narrow {
-        door: doorway.door,
-        areas: doorway.areas,
-        width: doorway.clear_width(door, state),
-        needed: plan.robot().passing_width(),
+    let narrow =
+        |width: f64| Barrier::Narrow { door: doorway.door, areas: doorway.areas, width, needed };
+    let widest = doorway.clear_width(door, DoorState::OPEN);
+    if widest < needed {
+        return narrow(widest);
+    }
+    let state = door.map_or(DoorState::OPEN, |d| plan.door_state(world, d.id));
+    if let Some(door) = door.filter(|d| d.kind != DoorKind::Passage && opening_of(state) <= 0.0) {
+        let is_locked = state.status == DoorStatus::Locked;
+        let status = if is_locked { DoorStatus::Locked } else { DoorStatus::Closed };
+        return Barrier::Door { door: door.id, status };
+    }
+    let width = doorway.clear_width(door, state);
+    if width < needed { narrow(width) } else { clutter(plan, doorway, needed) }
+}
+
+/// The things that stand in a doorway, or so close before it that the robot cannot pass it.
+fn clutter(plan: &FloorPlan, doorway: &Doorway, needed: f64) -> Barrier {
+    let around = plan.reach() + 2.0;
+    let mouth = doorway.rectangle(-around, doorway.gap + around, 0.0);
+    let bounds = mouth.bounds();
+    let (right, left) = doorway.line();
+    let along = (left - right) / doorway.width().max(1e-9);
+    let (mut owners, mut taken) = (Vec::new(), vec![(doorway.width(), doorway.width())]);
+    for area in doorway.areas {
+        let fragment = plan.fragment(area);
+        for obstacle in fragment.iter().flat_map(|f| &f.obstacles) {
+            let at = obstacle.polygon.bounds();
+            if !at.meets(&bounds) || super::doors::distance(&obstacle.polygon, &mouth) > 0.0 {
+                continue;
+            }
+            owners.push(obstacle.blocker);
+            let part = obstacle.polygon.clone().within_convex(&mouth);
+            let places = part.corners.iter().map(|c| (c - right).dot(&along));
+            let ends =
+                places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), t| (l.min(t), h.max(t)));
+            taken.push(ends);
+        }
+    }
+    taken.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (mut free, mut until) = (0.0_f64, 0.0_f64);
+    for (from, to) in taken {
+        free = free.max(from - until);
+        until = until.max(to);
+    }
+    let between = things(plan.scene(), &owners);
+    let stands_in = between.iter().find_map(|b| match b {
+        Blocker::Replica { replica, .. } => plan.scene().replicas.get(replica).map(|r| r.area),
+        _ => None,
+    });
+    let area = stands_in.unwrap_or(doorway.areas[0]);
+    if free > 0.0 && free < needed {
+        Barrier::Gap { area, width: free, needed, between }
+    } else {
+        Barrier::Enclosed { area, by: between }
+    }
+}
+
+/// Whether nothing that can be opened, shut or moved does away with a barrier.
+fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
+    let moves = |b: &Blocker| match b {
+        Blocker::Replica { replica, .. } => {
+            world.replicas.get(replica).is_some_and(|r| r.move_prob > 0)
+        }
+        Blocker::DoorLeaf { .. } | Blocker::ReplicaLeaf { .. } => true,
+        Blocker::Wall { .. } | Blocker::Floor { .. } => false,
+    };
+    match barrier {
+        Barrier::Door { .. } => false,
+        Barrier::Narrow { door, .. } => door.is_none_or(|door| {
+            let is_passage = world.doors.get(&door).is_none_or(|d| d.kind == DoorKind::Passage);
+            is_passage || opening_of(plan.door_state(world, door)) >= 100.0
+        }),
+        Barrier::Gap { between, .. } => !between.iter().any(moves),
+        Barrier::Enclosed { by, .. } => !by.iter().any(moves),
+        Barrier::Low { .. } | Barrier::Step { .. } | Barrier::Apart { .. } => true,
     }
 }
 
@@ -238,7 +315,7 @@ fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
                     area: floor.area,
                     width,
                     needed: plan.robot().passing_width(),
-                    between: things(&zone.owners),
+                    between: things(plan.scene(), &zone.owners),
                 };
                 found.push((a, b, barrier));
             }
@@ -271,7 +348,7 @@ fn enclosure(plan: &FloorPlan, start: Piece, goals: &BTreeSet<Piece>) -> Barrier
             by.push(obstacle.blocker);
         }
     }
-    Barrier::Enclosed { area: floor.area, by: things(&by) }
+    Barrier::Enclosed { area: floor.area, by: things(plan.scene(), &by) }
 }
 
 impl Barrier {

@@ -50,6 +50,28 @@ pub struct Doorway {
 }
 
 impl Doorway {
+    /// A door that leads out of the Map, as a doorway of the only Area that mounts it: its index is 0, and there is
+    /// nothing beyond.
+    #[must_use]
+    pub fn outer(world: &World, placed: &PlacedArea, door: DoorId) -> Option<Self> {
+        let mount = world.areas.get(&placed.id)?.doors.iter().find(|m| m.door == door)?;
+        let (right, left) = world.threshold(placed.id, door)?;
+        let (origin, left) = (placed.frame.apply(right), placed.frame.apply(left));
+        let side = SideRef { item: mount.item.clone(), side: mount.side.clone() };
+        Some(Self {
+            areas: [placed.id; 2],
+            sides: [side.clone(), side],
+            door: Some(door),
+            permeability: Permeability::Conditional,
+            opens_to: usize::from(mount.opens == OpensTo::Outside),
+            gap: 0.0,
+            rise: 0.0,
+            origin,
+            along: (left - origin).try_normalize(1e-9)?,
+            span: (0.0, (left - origin).norm()),
+        })
+    }
+
     /// The point at `t` along the first Area's side, `s` out of that Area.
     #[must_use]
     pub fn at(&self, t: f64, s: f64) -> Point {

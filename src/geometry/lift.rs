@@ -50,6 +50,15 @@ struct Stop {
     height: f64,
 }
 
+/// Where a way over several Maps fails: a leg that would be needed, and why it is barred.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NoWay {
+    pub map: MapId,
+    pub from: Point,
+    pub target: Target,
+    pub why: NoRoute,
+}
+
 enum Edge {
     Drive(Box<Route>),
     Ride(Ride),
@@ -58,33 +67,36 @@ enum Edge {
 /// The shortest way between places of any Maps, by as many lifts as it takes.
 ///
 /// # Errors
-/// Why there is none, and on which Map: [`NoRoute::OtherMap`] when no lift links the Maps, else what bars the way
-/// to or from the lifts.
+/// The leg that fails: [`NoRoute::OtherMap`] when no lift links the Maps; else what bars the way to the lift where it
+/// is the start that is cut off, from the lift where it is the goal, or between lifts; of several the least barred.
 pub fn across(
     world: &World,
     plans: &BTreeMap<MapId, FloorPlan>,
     (map, from): (MapId, Point),
     (goal_map, target): (MapId, Target),
     method: Method,
-) -> Result<Vec<Leg>, (MapId, NoRoute)> {
-    let plan = |map: MapId| plans.get(&map).ok_or((map, NoRoute::NoFloor));
+) -> Result<Vec<Leg>, Box<NoWay>> {
+    let drive_on = |map: MapId, from: Point, target: Target| {
+        let plan = plans.get(&map).ok_or(NoRoute::NoFloor);
+        plan.and_then(|p| p.route(world, from, target, method))
+            .map_err(|why| Box::new(NoWay { map, from, target, why }))
+    };
     if map == goal_map {
-        let route = plan(map)?.route(world, from, target, method).map_err(|no| (map, no))?;
+        let route = drive_on(map, from, target)?;
         return Ok(vec![Leg { map, route, ride: None }]);
     }
     let stops = stops(world, plans);
     let mut graph = DiGraph::<MapId, (f64, Edge)>::new();
     let nodes: Vec<NodeIndex> = stops.iter().map(|s| graph.add_node(s.map)).collect();
     let (start, goal) = (graph.add_node(map), graph.add_node(goal_map));
-    let mut barred: Vec<(MapId, NoRoute)> = Vec::new();
-    let mut drive = |graph: &mut DiGraph<MapId, (f64, Edge)>, a, b, from, target| {
-        let on = graph[a];
-        match plan(on).and_then(|p| p.route(world, from, target, method).map_err(|no| (on, no))) {
-            Ok(route) => {
-                graph.add_edge(a, b, (route.length, Edge::Drive(Box::new(route))));
-            }
-            Err(no) => barred.push(no),
+    let mut barred: Vec<(NodeIndex, NodeIndex, Box<NoWay>)> = Vec::new();
+    let mut drive = |graph: &mut DiGraph<MapId, (f64, Edge)>, a, b, from, target| match drive_on(
+        graph[a], from, target,
+    ) {
+        Ok(route) => {
+            graph.add_edge(a, b, (route.length, Edge::Drive(Box::new(route))));
         }
+        Err(no) => barred.push((a, b, no)),
     };
     for (i, one) in stops.iter().enumerate() {
         if one.map == map {
@@ -105,8 +117,26 @@ pub fn across(
     }
     let cost = |e: petgraph::graph::EdgeReference<'_, (f64, Edge)>| e.weight().0;
     let Some((_, way)) = petgraph::algo::astar(&graph, start, |n| n == goal, cost, |_| 0.0) else {
-        let to_other = || (goal_map, NoRoute::OtherMap { area: area_of(world, target, goal_map) });
-        return Err(barred.into_iter().next().unwrap_or_else(to_other));
+        let linked = stops.iter().any(|s| s.map == map) && stops.iter().any(|s| s.map == goal_map);
+        let place = |(a, b, no): &(NodeIndex, NodeIndex, Box<NoWay>)| {
+            let cut_off = |n: NodeIndex| graph.neighbors_undirected(n).next().is_none();
+            let at = if *a == start && cut_off(start) {
+                0
+            } else if *b == goal && cut_off(goal) {
+                1
+            } else {
+                2
+            };
+            (at, no.why.barriers().len())
+        };
+        return Err(barred.into_iter().filter(|_| linked).min_by_key(place).map_or_else(
+            || {
+                let area = area_of(world, target, goal_map);
+                let why = NoRoute::OtherMap { area };
+                Box::new(NoWay { map: goal_map, from, target, why })
+            },
+            |(_, _, no)| no,
+        ));
     };
     let mut legs = Vec::new();
     for step in way.windows(2) {

@@ -50,7 +50,7 @@ pub use dead_zone::DeadZone;
 pub use doors::{Doorway, clear_width, doorways, object_leaves, opening_of};
 pub use floor::{FragmentFloor, SLACK};
 pub use grid::Region;
-pub use lift::{Leg, Ride, across};
+pub use lift::{Leg, NoWay, Ride, across};
 pub use obstacle::{Blocker, Obstacle};
 pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
 pub use plan::{DoorStates, FloorPlan};

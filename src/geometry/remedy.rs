@@ -1,14 +1,17 @@
-//! The smallest change that would open a way (W5): a door to open, or a thing to push aside and by how much.
+//! The smallest change that would open a way (W5): a door to open, an open leaf to shut, a thing to push aside and by
+//! how much, things to take away.
 //!
-//! Changes are tried on a copy of the plan, so that what is answered is known to work.
+//! Changes are tried on a copy of the plan, so that what is answered is known to work. What takes the least effort
+//! comes first.
 
 use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
-use crate::map::{DoorState, World};
+use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::blocked::{Barrier, NoRoute};
+use super::doors::opening_of;
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Target};
@@ -21,6 +24,17 @@ pub enum Remedy {
     Move {
         replica: ReplicaId,
         by: Vector,
+        open: Vec<DoorId>,
+    },
+    /// Shut a door whose open leaf stands in the way: one between Areas, or one of a thing such as a wardrobe.
+    Shut {
+        door: DoorId,
+        of: Option<ReplicaId>,
+        open: Vec<DoorId>,
+    },
+    /// Take things away that no single push brings out of the way; none of them may stay.
+    Remove {
+        replicas: Vec<ReplicaId>,
         open: Vec<DoorId>,
     },
 }
@@ -41,27 +55,143 @@ impl FloorPlan {
         target: Target,
         no: &NoRoute,
     ) -> Option<Remedy> {
-        let doors: Vec<DoorId> = no
-            .barriers()
-            .iter()
-            .filter_map(|b| match b {
-                Barrier::Door { door, .. } => Some(*door),
-                _ => None,
-            })
-            .collect();
+        let doors = self.openable(world, no);
         let open: DoorStates = doors.iter().map(|&d| (d, DoorState::OPEN)).collect();
         let opened = if doors.is_empty() { self.clone() } else { self.with_doors(world, &open) };
         if !doors.is_empty() && opened.route(world, from, target, Method::Shortest).is_ok() {
             return Some(Remedy::Open(doors));
         }
+        if let Some((door, of)) = opened.shut(world, (from, target), no) {
+            return Some(Remedy::Shut { door, of, open: doors });
+        }
         let mut best: Option<(f64, Remedy)> = None;
-        for replica in movable(world, no) {
+        let things = movable(world, no);
+        for &replica in &things {
             let limit = best.as_ref().map_or(FURTHEST, |b| b.0 - STEP);
             if let Some((way, by)) = opened.shortest_push(world, from, target, replica, limit) {
                 best = Some((way, Remedy::Move { replica, by, open: doors.clone() }));
             }
         }
-        best.map(|b| b.1)
+        best.map(|b| b.1).or_else(|| {
+            let replicas = opened.removal(world, from, target, &things)?;
+            Some(Remedy::Remove { replicas, open: doors })
+        })
+    }
+
+    /// The floor after a change that [`FloorPlan::remedy`] names, which is made in the world as well.
+    #[must_use]
+    pub fn remedied(&self, world: &mut World, remedy: &Remedy) -> Self {
+        let (Remedy::Open(open)
+        | Remedy::Move { open, .. }
+        | Remedy::Shut { open, .. }
+        | Remedy::Remove { open, .. }) = remedy;
+        let mut states: DoorStates = open.iter().map(|&d| (d, DoorState::OPEN)).collect();
+        let mut changed: Vec<ReplicaId> = Vec::new();
+        match remedy {
+            Remedy::Open(_) => {}
+            Remedy::Move { replica, by, .. } => {
+                let home =
+                    world.replicas.get(replica).and_then(|r| self.scene().areas.get(&r.area));
+                let turn = home.map(|h| h.frame);
+                if let (Some(turn), Some(thing)) = (turn, world.replicas.get_mut(replica)) {
+                    thing.frame = pushed(&thing.frame, &turn, *by);
+                }
+                changed.push(*replica);
+            }
+            Remedy::Shut { door, of: None, .. } => {
+                states.insert(*door, DoorState::CLOSED);
+            }
+            Remedy::Shut { door, of: Some(replica), .. } => {
+                if let Some(thing) = world.replicas.get_mut(replica) {
+                    thing.door_states.insert(*door, DoorState::CLOSED);
+                }
+                changed.push(*replica);
+            }
+            Remedy::Remove { replicas, .. } => {
+                replicas.iter().for_each(|id| drop(world.replicas.remove(id)));
+                changed.clone_from(replicas);
+            }
+        }
+        let mut plan =
+            if states.is_empty() { self.clone() } else { self.with_doors(world, &states) };
+        plan.rebuild(world, &changed);
+        plan
+    }
+
+    /// The doors in the way that are shut, or not as wide open as they go.
+    fn openable(&self, world: &World, no: &NoRoute) -> Vec<DoorId> {
+        let doors = no.barriers().iter().filter_map(|b| match *b {
+            Barrier::Door { door, .. } => Some(door),
+            Barrier::Narrow { door: Some(door), .. } => {
+                let model = world.doors.get(&door)?;
+                let ajar = opening_of(self.door_state(world, door)) < 100.0;
+                (ajar && model.kind != DoorKind::Passage).then_some(door)
+            }
+            _ => None,
+        });
+        doors.collect()
+    }
+
+    /// The first door among those in the way that opens it when it is shut, and the thing that it belongs to.
+    fn shut(
+        &self,
+        world: &World,
+        (from, target): (Point, Target),
+        no: &NoRoute,
+    ) -> Option<(DoorId, Option<ReplicaId>)> {
+        let leaves: BTreeSet<_> = blockers(no)
+            .filter_map(|b| match b {
+                Blocker::DoorLeaf { door, .. } => Some((door, None)),
+                Blocker::ReplicaLeaf { door, replica, .. } => Some((door, Some(replica))),
+                _ => None,
+            })
+            .collect();
+        leaves.into_iter().find(|&(door, of)| match of {
+            None => {
+                let shut = self.with_doors(world, &DoorStates::from([(door, DoorState::CLOSED)]));
+                shut.route(world, from, target, Method::Shortest).is_ok()
+            }
+            Some(replica) => {
+                let mut trial = world.clone();
+                let Some(thing) = trial.replicas.get_mut(&replica) else { return false };
+                thing.door_states.insert(door, DoorState::CLOSED);
+                let mut plan = self.clone();
+                plan.rebuild(&trial, &[replica]);
+                plan.route(&trial, from, target, Method::Shortest).is_ok()
+            }
+        })
+    }
+
+    /// The things to take away so that a way opens: one if one will do, else none too many. The goal itself stays.
+    fn removal(
+        &self,
+        world: &World,
+        from: Point,
+        target: Target,
+        things: &BTreeSet<ReplicaId>,
+    ) -> Option<Vec<ReplicaId>> {
+        let opens = |gone: &[ReplicaId]| {
+            let mut trial = world.clone();
+            gone.iter().for_each(|id| drop(trial.replicas.remove(id)));
+            let mut plan = self.clone();
+            plan.rebuild(&trial, gone);
+            plan.route(&trial, from, target, Method::Shortest).is_ok()
+        };
+        let mut gone: Vec<ReplicaId> =
+            things.iter().copied().filter(|&id| target != Target::Replica(id)).collect();
+        if let Some(&one) = gone.iter().find(|&&id| opens(&[id])) {
+            return Some(vec![one]);
+        }
+        if gone.is_empty() || !opens(&gone) {
+            return None;
+        }
+        for id in gone.clone() {
+            let fewer: Vec<ReplicaId> = gone.iter().copied().filter(|&g| g != id).collect();
+            if opens(&fewer) {
+                gone = fewer;
+            }
+        }
+        Some(gone)
     }
 
     /// The shortest push of one thing that opens the way, in sixteen directions.
@@ -83,14 +213,7 @@ impl FloorPlan {
                 let by = Vector::new(angle.cos(), angle.sin()) * (STEP * k as f64);
                 let moved = trial.replicas.get_mut(&replica)?;
                 let own = &world.replicas[&replica].frame;
-                let (sin, cos) = home.angle.sin_cos();
-                let local = Vector::new(by.x * cos + by.y * sin, by.y * cos - by.x * sin);
-                moved.frame = Frame::new(
-                    own.x.get() + local.x,
-                    own.y.get() + local.y,
-                    own.z.get(),
-                    own.angle,
-                );
+                moved.frame = pushed(own, &home, by);
                 if !self.has_room(&trial, replica, area) {
                     continue;
                 }
@@ -124,14 +247,25 @@ impl FloorPlan {
     }
 }
 
-/// The things in the way that may be moved at all.
-fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
-    let blockers = no.barriers().iter().flat_map(|b| match b {
+/// A replica's frame in its Area's own, which lies as `home` on the Map, after a push in the Map's frame.
+fn pushed(own: &Frame, home: &Frame, by: Vector) -> Frame {
+    let (sin, cos) = home.angle.sin_cos();
+    let local = Vector::new(by.x * cos + by.y * sin, by.y * cos - by.x * sin);
+    Frame::new(own.x.get() + local.x, own.y.get() + local.y, own.z.get(), own.angle)
+}
+
+/// What stands in the way, as far as it is known by name.
+fn blockers(no: &NoRoute) -> impl Iterator<Item = Blocker> + '_ {
+    no.barriers().iter().flat_map(|b| match b {
         Barrier::Gap { between, .. } => between.clone(),
         Barrier::Enclosed { by, .. } => by.clone(),
         _ => Vec::new(),
-    });
-    blockers
+    })
+}
+
+/// The things in the way that may be moved at all.
+fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
+    blockers(no)
         .filter_map(|b| match b {
             Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => {
                 Some(replica)

@@ -6,7 +6,7 @@
 //!
 //! **Invariant**: every point of a route lies in the centre space, so that the robot keeps its clearance on all of it.
 
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::map::DoorKind;
 use crate::map::World;
@@ -20,6 +20,7 @@ use super::network::Walkable;
 use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
+use super::scene::Scene;
 use super::search::{CellKey, shortest};
 use super::strait;
 
@@ -301,10 +302,18 @@ impl FloorPlan {
         door: DoorId,
         area: AreaId,
     ) -> Vec<Goal> {
-        self.doorways_of(door)
+        let goals: Vec<Goal> = self
+            .doorways_of(door)
             .filter_map(|d| Some((d, d.index_of(area)?)))
             .filter_map(|(doorway, side)| self.stand(world, region, doorway, side))
-            .collect()
+            .collect();
+        if !goals.is_empty() {
+            return goals;
+        }
+        // A door that leads outside joins no two Areas.
+        let placed = self.scene().areas.get(&area);
+        let outer = placed.and_then(|placed| Doorway::outer(world, placed, door));
+        outer.and_then(|d| self.stand(world, region, &d, 0)).into_iter().collect()
     }
 
     /// A place before a doorway: straight before its middle, clear of the leaves' way.
@@ -610,12 +619,26 @@ fn facing(from: Point, to: Point) -> Option<Deg> {
     (v.norm() > 1e-9).then(|| Deg::from_radians(v.y.atan2(v.x)))
 }
 
-/// The distinct things among blockers, without their parts.
-pub(super) fn things(blockers: &[Blocker]) -> Vec<Blocker> {
+/// The distinct things among blockers, each with its part that is in the way: of several the lowest.
+pub(super) fn things(scene: &Scene, blockers: &[Blocker]) -> Vec<Blocker> {
+    let bottom = |b: &Blocker| match *b {
+        Blocker::Replica { replica, item } => {
+            let prisms = scene.replicas.get(&replica).map_or(&[][..], |r| &r.prisms);
+            prisms.iter().find(|p| p.item == item).map_or(0.0, |p| p.bottom)
+        }
+        _ => 0.0,
+    };
     let whole = |b: &Blocker| match *b {
         Blocker::Replica { replica, .. } => Blocker::Replica { replica, item: 0 },
         Blocker::DoorLeaf { door, .. } => Blocker::DoorLeaf { door, leaf: 0 },
         other => other,
     };
-    blockers.iter().map(whole).collect::<BTreeSet<_>>().into_iter().collect()
+    let mut parts: BTreeMap<Blocker, Blocker> = BTreeMap::new();
+    for part in blockers {
+        let kept = parts.entry(whole(part)).or_insert(*part);
+        if bottom(part) < bottom(kept) {
+            *kept = *part;
+        }
+    }
+    parts.into_iter().map(|(whole, part)| if bottom(&part) > 0.0 { part } else { whole }).collect()
 }

@@ -1,8 +1,8 @@
-//! Where doors are: which Areas they join, and the segment of floor that each of them leaves to go through.
+//! Where doors and windows are: which Areas they join, and the segment of floor that each of them leaves to go through.
 
 use crate::units::{AreaId, DoorId, Point};
 
-use super::{Door, DoorMount, World};
+use super::{BaseVector, Door, DoorMount, World};
 
 impl World {
     /// The Areas that mount a door, in the order of their ids: two, or one when it leads outside, or none when it
@@ -48,6 +48,12 @@ impl World {
         }
         let inset = along.normalize() * margin;
         Some((right + inset, left - inset))
+    }
+
+    /// Whether a side is a window, by the words of its type.
+    #[must_use]
+    pub fn is_window(&self, side: &BaseVector) -> bool {
+        self.types.side.get(side.side_type).is_some_and(|t| t.is_called(&["window", "окно"]))
     }
 
     /// The bases of an Area's items, counter-clockwise, in the Area's frame.

@@ -55,6 +55,17 @@ pub struct TypeEntry {
     pub traits: Vec<String>,
 }
 
+impl TypeEntry {
+    /// Whether one of its names, in either language, has one of these words.
+    #[must_use]
+    pub fn is_called(&self, words: &[&str]) -> bool {
+        let names = [&self.name, &self.name_en].into_iter().chain(&self.synonyms);
+        names
+            .map(|n| n.to_lowercase())
+            .any(|name| words.iter().any(|w| name.split(' ').any(|part| part == *w)))
+    }
+}
+
 /// The entries of one …TypeList table.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct TypeList {

@@ -1,14 +1,13 @@
 //! What stands around an eye, as facets: walls with their openings and windows, door leaves, things.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{PlacedArea, PlacedReplica, Polygon, Prism};
 use crate::map::{DoorStatus, Permeability, Properties, World};
 use crate::units::{Language, Point, Vector};
 
-use super::bsp::Facet;
-use super::{Body, ViewDrawing};
-use crate::draw::plan::is_window;
+use super::bsp::{Facet, Plane};
+use super::{Body, Mouth, ViewDrawing};
 
 const WALL: [f64; 3] = [0.95, 0.93, 0.88];
 const FLOOR: [f64; 3] = [0.80, 0.74, 0.63];
@@ -44,10 +43,22 @@ const COLORS: [(&[&str], [f64; 3]); 14] = [
 pub(super) fn of(view: &ViewDrawing<'_>, eye: Point3<f64>) -> (Vec<Body>, Vec<Facet>) {
     let mut room = Collector { view, eye, bodies: Vec::new(), facets: Vec::new() };
     let reach = crate::geometry::Bounds::of([view.pose.at]).grown(view.range);
+    // Walls seen from behind come first: of two faces in one plane, as between two rooms that touch, the later one is
+    // drawn over the other.
+    for within in [false, true] {
+        for area in view.scene.areas.values() {
+            if area.prisms.iter().any(|p| p.bounds.meets(&reach)) {
+                room.walls(area, within);
+            }
+        }
+    }
     for area in view.scene.areas.values() {
         if area.prisms.iter().any(|p| p.bounds.meets(&reach)) {
-            room.area(area);
+            room.floor(area);
         }
+    }
+    for mouth in &view.mouths {
+        room.mouth(mouth);
     }
     for leaf in view.leaves.iter().filter(|l| l.base.bounds().meets(&reach)) {
         let color = if leaf.status == DoorStatus::Locked { LOCKED } else { LEAF };
@@ -77,19 +88,27 @@ impl Collector<'_> {
         self.view.world
     }
 
-    fn area(&mut self, placed: &PlacedArea) {
-        let (wall, floor) = (self.body(WALL, String::new()), self.body(FLOOR, String::new()));
-        let (glass, frame) = (self.body(GLASS, String::new()), self.body(FRAME, String::new()));
-        let area = &self.view.world.areas[&placed.id];
-        for (item, prism) in area.items.iter().zip(&placed.prisms) {
+    fn floor(&mut self, placed: &PlacedArea) {
+        let floor = self.body(FLOOR, String::new());
+        for prism in &placed.prisms {
             for part in convex_parts(&prism.polygon) {
                 self.level(&part, prism.bottom, floor);
             }
+        }
+    }
+
+    /// The walls of an Area that are seen from within, or those that are seen from behind, such as from the depth of a
+    /// doorway: walls hide what is beyond them on either side.
+    fn walls(&mut self, placed: &PlacedArea, within: bool) {
+        let wall = self.body(WALL, String::new());
+        let (glass, frame) = (self.body(GLASS, String::new()), self.body(FRAME, String::new()));
+        let area = &self.view.world.areas[&placed.id];
+        for (item, prism) in area.items.iter().zip(&placed.prisms) {
             let orthoframe = self.view.world.orthoframe_of(item);
             let corners = &prism.polygon.corners;
             let n = corners.len();
             for (i, ((a, b), vector)) in prism.polygon.edges().zip(&orthoframe.base).enumerate() {
-                if !self.sees_inside(a, b) {
+                if self.sees_inside(a, b) != within {
                     continue;
                 }
                 // A wall that goes straight on shows no edge there.
@@ -102,7 +121,7 @@ impl Collector<'_> {
                     Permeability::Impermeable => {
                         self.wall(a, b, (prism.bottom, prism.top), wall, [at_a, at_b]);
                         let (low, high) = (prism.bottom + SILL, prism.top - ABOVE_WINDOW);
-                        if is_window(self.world(), vector) && high > low {
+                        if within && self.world().is_window(vector) && high > low {
                             self.upright(a, b, low, high, frame);
                             let inset = (b - a) * (6.0 / (b - a).norm()).min(0.4);
                             self.upright(a + inset, b - inset, low + 5.0, high - 5.0, glass);
@@ -135,6 +154,18 @@ impl Collector<'_> {
         }
     }
 
+    /// The depth of a doorway: its jambs, the floor between them, and what is above them.
+    fn mouth(&mut self, mouth: &Mouth) {
+        let (wall, floor) = (self.body(WALL, String::new()), self.body(FLOOR, String::new()));
+        let [right, left] = mouth.jambs;
+        for (a, b) in [right, left] {
+            self.upright(a, b, mouth.bottom, mouth.top, wall);
+        }
+        let between = Polygon::new(vec![right.0, right.1, left.1, left.0]).counter_clockwise();
+        self.level(&between, mouth.bottom, floor);
+        self.level(&between, mouth.top, wall);
+    }
+
     /// Walls are seen from within their room: the room lies to the left of its base vectors.
     fn sees_inside(&self, a: Point, b: Point) -> bool {
         let to_eye = Point::new(self.eye.x, self.eye.y) - a;
@@ -151,9 +182,41 @@ impl Collector<'_> {
         let english = self.view.language == Language::English && !replica.name_en.is_empty();
         let name = if english { &replica.name_en } else { &replica.name };
         let owner = self.body(color, name.clone());
+        let before = self.facets.len();
         for prism in &placed.prisms {
             self.prism(prism, owner);
         }
+        // What stands against a wall of its room, or reaches into it, ends there: else its back would be seen from the
+        // next room, in the wall's own plane.
+        let walls = self.walls_at(placed);
+        for facet in self.facets.split_off(before) {
+            let whole = walls.iter().try_fold(facet, |f, wall| f.clipped(wall));
+            let flush = |facet: &Facet| walls.iter().any(|wall| facet.lies_against(wall));
+            self.facets.extend(whole.filter(|facet| !flush(facet)));
+        }
+    }
+
+    /// The planes of the walls of a thing's own room that it touches, their normals into the room.
+    fn walls_at(&self, placed: &PlacedReplica) -> Vec<Plane> {
+        const TOUCHES: f64 = 1e-3;
+        let Some(home) = self.view.scene.areas.get(&placed.area) else { return Vec::new() };
+        let sides = home.prisms.iter().flat_map(|p| p.polygon.edges().zip(&p.sides));
+        let walls = sides.filter(|(_, s)| s.permeability == Permeability::Impermeable);
+        let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
+        let planes = walls.filter_map(|((a, b), _)| {
+            let along = (b - a).try_normalize(1e-9)?;
+            let inwards = Vector::new(-along.y, along.x);
+            let reaches = |p: &Point| {
+                let t = (p - a).dot(&along);
+                (p - a).dot(&inwards) <= TOUCHES && t > -TOUCHES && t < (b - a).norm() + TOUCHES
+            };
+            let corners = || placed.prisms.iter().flat_map(|p| &p.polygon.corners);
+            ((middle - a).dot(&inwards) > TOUCHES && corners().any(reaches)).then(|| Plane {
+                normal: Vector3::new(inwards.x, inwards.y, 0.0),
+                offset: inwards.dot(&a.coords),
+            })
+        });
+        planes.collect()
     }
 
     fn prism(&mut self, prism: &Prism, owner: usize) {

@@ -45,6 +45,13 @@ impl Facet {
         self.split(plane).0
     }
 
+    /// Whether it lies in a plane and looks to its back.
+    pub(super) fn lies_against(&self, plane: &Plane) -> bool {
+        const FLUSH: f64 = 2e-3;
+        self.normal.dot(&plane.normal) < 0.0
+            && self.corners.iter().all(|p| plane.height(p).abs() < FLUSH)
+    }
+
     /// The parts in front of and behind a plane.
     fn split(&self, plane: &Plane) -> (Option<Self>, Option<Self>) {
         let heights: Vec<f64> = self.corners.iter().map(|p| plane.height(p)).collect();

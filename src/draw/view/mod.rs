@@ -26,12 +26,23 @@ pub struct LeafBody {
     pub status: DoorStatus,
 }
 
+/// An opening through a wall that has a depth.
+#[derive(Debug, Clone)]
+pub struct Mouth {
+    /// On the right and on the left: from the face of the wall on one side to that on the other.
+    pub jambs: [(Point, Point); 2],
+    pub bottom: f64,
+    /// Of the opening.
+    pub top: f64,
+}
+
 /// What is to be shown, and from where.
 #[derive(Debug)]
 pub struct ViewDrawing<'a> {
     pub world: &'a World,
     pub scene: &'a Scene,
     pub leaves: Vec<LeafBody>,
+    pub mouths: Vec<Mouth>,
     pub pose: Pose,
     /// Of the eye above the Map's zero, cm.
     pub height: f64,

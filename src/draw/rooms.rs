@@ -1,0 +1,141 @@
+//! Rooms as architects draw them: floor, walls, windows, stairs, lifts.
+
+use crate::geometry::{PlacedArea, Polygon};
+use crate::map::{Permeability, World};
+use crate::units::{Point, Vector};
+
+use super::canvas::{Canvas, Style};
+
+const ROOM: Style = Style::fill("#faf7f0");
+const WALL: Style = Style::line("#3b3a36", 7.0);
+const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed(6.0, 5.0);
+const GLASS: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.0);
+const PANE: Style = Style::line("#5aa0c8", 1.2);
+const STAIRS: Style = Style::line("#b9b2a2", 1.2);
+/// Depth of a step as it is drawn, cm.
+const TREAD: f64 = 28.0;
+
+/// Paper-coloured floor; a lift with the cross and stairs with the steps by which plans show them.
+pub(super) fn floor(canvas: &mut Canvas, world: &World, area: &PlacedArea, pen: f64) {
+    let kind = world.types.area.get(world.areas[&area.id].area_type);
+    let is = |words: &[&str]| kind.is_some_and(|kind| kind.is_called(words));
+    let (lift, stairs) =
+        (is(&["lift", "elevator"]), is(&["stairs", "stair", "staircase", "stairwell"]));
+    for prism in &area.prisms {
+        canvas.polygon(&prism.polygon, ROOM, None);
+        let lines = match (lift, stairs) {
+            (true, _) => cross(&prism.polygon),
+            (_, true) => steps(&prism.polygon, TREAD * pen),
+            _ => Vec::new(),
+        };
+        for (a, b) in lines {
+            canvas.segment(a, b, STAIRS.thick(pen));
+        }
+    }
+}
+
+/// Along the longest side of a room, as unit vector, with the room's box in these axes: start and size.
+fn long_box(room: &Polygon) -> Option<(Point, Vector, Vector)> {
+    let along = room.edges().map(|(a, b)| b - a).max_by(|u, v| u.norm().total_cmp(&v.norm()))?;
+    let along = along.try_normalize(1e-9)?;
+    let across = Vector::new(-along.y, along.x);
+    let span = |axis: Vector| {
+        let at = room.corners.iter().map(|p| p.coords.dot(&axis));
+        at.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), t| (l.min(t), h.max(t)))
+    };
+    let ((x0, x1), (y0, y1)) = (span(along), span(across));
+    Some((Point::from(along * x0 + across * y0), along * (x1 - x0), across * (y1 - y0)))
+}
+
+fn cross(room: &Polygon) -> Vec<(Point, Point)> {
+    let Some((at, long, short)) = long_box(room) else { return Vec::new() };
+    let lines = [(at, at + long + short), (at + short, at + long)];
+    lines.into_iter().flat_map(|(a, b)| inside(room, a, b)).collect()
+}
+
+fn steps(room: &Polygon, tread: f64) -> Vec<(Point, Point)> {
+    let Some((at, long, short)) = long_box(room) else { return Vec::new() };
+    let count = (long.norm() / tread).floor().max(1.0) as i32;
+    let line = |i: i32| {
+        let start = at + long * (f64::from(i) / f64::from(count));
+        inside(room, start, start + short)
+    };
+    (1..count).flat_map(line).collect()
+}
+
+/// The pieces of a segment that lie within a room.
+fn inside(room: &Polygon, a: Point, b: Point) -> Vec<(Point, Point)> {
+    let way = b - a;
+    let mut cuts: Vec<f64> = room
+        .edges()
+        .filter_map(|(p, q)| {
+            let turn = way.perp(&(q - p));
+            if turn.abs() < 1e-9 {
+                return None;
+            }
+            let (t, s) = ((p - a).perp(&(q - p)) / turn, (p - a).perp(&way) / turn);
+            ((0.0..=1.0).contains(&t) && (-1e-9..=1.0 + 1e-9).contains(&s)).then_some(t)
+        })
+        .chain([0.0, 1.0])
+        .collect();
+    cuts.sort_by(f64::total_cmp);
+    let pieces = cuts.windows(2).filter(|w| w[1] - w[0] > 1e-6);
+    pieces
+        .filter(|w| room.contains(a + way * f64::midpoint(w[0], w[1]), 0.0))
+        .map(|w| (a + way * w[0], a + way * w[1]))
+        .collect()
+}
+
+pub(super) fn walls(canvas: &mut Canvas, world: &World, area: &PlacedArea, pen: f64) {
+    for prism in &area.prisms {
+        let orthoframe = &world.orthoframes[&prism.orthoframe];
+        for (((a, b), side), vector) in
+            prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
+        {
+            match side.permeability {
+                Permeability::Impermeable if world.is_window(vector) => window(canvas, a, b, pen),
+                Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
+                Permeability::Permeable | Permeability::Conditional => {
+                    canvas.segment(a, b, PASSAGE.thick(pen));
+                }
+            }
+        }
+    }
+}
+
+/// A window is a pane in a gap of the wall.
+fn window(canvas: &mut Canvas, a: Point, b: Point, pen: f64) {
+    let along = b - a;
+    let Some(unit) = along.try_normalize(1e-9) else { return };
+    let half = Vector::new(unit.y, -unit.x) * (WALL.width * pen / 2.0);
+    canvas.segment(a, b, WALL.thick(pen));
+    canvas.polygon(
+        &Polygon::new(vec![a - half, b - half, b + half, a + half]),
+        GLASS.thick(pen),
+        None,
+    );
+    canvas.segment(a, b, PANE.thick(pen));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn steps_and_crosses_stay_within_a_room_of_any_shape() {
+        let room = Polygon::new(
+            [(0.0, 0.0), (300.0, 0.0), (300.0, 90.0), (120.0, 90.0), (120.0, 200.0), (0.0, 200.0)]
+                .map(|(x, y)| Point::new(x, y))
+                .into(),
+        );
+        let lines: Vec<_> = steps(&room, 28.0).into_iter().chain(cross(&room)).collect();
+        assert_eq!(steps(&room, 28.0).len(), 9);
+        for (a, b) in lines {
+            for t in [0.01, 0.3, 0.7, 0.99] {
+                assert!(room.contains(a + (b - a) * t, 1e-6), "{a} {b}");
+            }
+        }
+        // One of the diagonals leaves the room at its inner corner, so it is cut.
+        assert!(cross(&room).iter().any(|(a, b)| (b - a).norm() < 300.0));
+    }
+}

@@ -1,0 +1,192 @@
+//! What would open a way, in words of both languages: doors to open or to shut, things to push, and where to.
+//!
+//! A push is told by what lies that way in the room, as people tell it: a window, a door, a piece of furniture;
+//! otherwise by what lies the opposite way, and where nothing does by the angle on the Map.
+
+use crate::geometry::{FloorPlan, Remedy};
+use crate::language::{Case, Language, enumerate};
+use crate::map::{DoorStatus, Entity, World};
+use crate::units::{DoorId, Point, ReplicaId, Vector};
+
+use super::lexicon::named;
+
+/// A change that is known to open a way.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Advice {
+    pub remedy: Remedy,
+    /// Of a push.
+    pub whither: Option<Whither>,
+}
+
+/// Which way a thing is pushed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Whither {
+    Towards(Landmark),
+    AwayFrom(Landmark),
+    /// Degrees counter-clockwise from +x of the Map.
+    Angle(f64),
+}
+
+/// What people name a direction by.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Landmark {
+    Window,
+    Door(DoorId),
+    Thing(ReplicaId),
+}
+
+/// A landmark lies in a direction that is off by so much at most, degrees.
+const OFF: f64 = 25.0;
+/// What stands higher is no landmark on the floor, cm.
+const ON_FLOOR: f64 = 20.0;
+
+impl Advice {
+    pub(super) fn of(world: &World, floor: &FloorPlan, remedy: Remedy) -> Self {
+        let whither = match &remedy {
+            Remedy::Move { replica, by, .. } => Some(whither(world, floor, *replica, *by)),
+            _ => None,
+        };
+        Self { remedy, whither }
+    }
+
+    /// «подвиньте Стул-2 на 14 см к окну»
+    #[must_use]
+    pub fn in_words(&self, world: &World, language: Language) -> String {
+        let russian = language == Language::Russian;
+        let of = |entity: Entity, case: Case| {
+            let name = named(world, entity);
+            if russian { name.phrase().case(case) } else { name.english() }
+        };
+        let pick = |ru: &str, en: &str| if russian { ru.to_owned() } else { en.to_owned() };
+        let opening = |doors: &[DoorId]| {
+            let verb = |door: &DoorId| match world.doors.get(door).map(|d| d.state) {
+                Some(s) if s.status == DoorStatus::Locked => {
+                    pick("отоприте и откройте", "unlock and open")
+                }
+                Some(s) if s.status == DoorStatus::Open && s.opening > 0.0 => {
+                    pick("откройте настежь", "open wide")
+                }
+                _ => pick("откройте", "open"),
+            };
+            let mut told: Vec<(String, Vec<String>)> = Vec::new();
+            for door in doors {
+                let (verb, name) = (verb(door), of(Entity::Door(*door), Case::Accusative));
+                match told.last_mut().filter(|(last, _)| *last == verb) {
+                    Some((_, names)) => names.push(name),
+                    None => told.push((verb, vec![name])),
+                }
+            }
+            let parts = told.iter().map(|(v, names)| format!("{v} {}", enumerate(names, language)));
+            enumerate(&parts.collect::<Vec<_>>(), language)
+        };
+        let (open, change) = match &self.remedy {
+            Remedy::Open(doors) => return opening(doors),
+            Remedy::Move { replica, by, open } => {
+                let thing = of(Entity::Replica(*replica), Case::Accusative);
+                let distance = by.norm();
+                let push = if russian {
+                    format!("подвиньте {thing} на {distance:.0} см")
+                } else {
+                    format!("move {thing} by {distance:.0} cm")
+                };
+                let way = self.whither.map(|w| self.way(world, w, language));
+                (open, way.map_or(push.clone(), |way| format!("{push} {way}")))
+            }
+            Remedy::Shut { door, of: None, open } => {
+                let door = of(Entity::Door(*door), Case::Accusative);
+                (open, format!("{} {door}", pick("закройте", "shut")))
+            }
+            Remedy::Shut { of: Some(replica), open, .. } => {
+                let change = if russian {
+                    format!("закройте дверцы {}", of(Entity::Replica(*replica), Case::Genitive))
+                } else {
+                    format!("shut the doors of {}", of(Entity::Replica(*replica), Case::Nominative))
+                };
+                (open, change)
+            }
+            Remedy::Remove { replicas, open } => {
+                let things: Vec<String> =
+                    replicas.iter().map(|&r| of(Entity::Replica(r), Case::Accusative)).collect();
+                let change =
+                    format!("{} {}", pick("уберите", "take away"), enumerate(&things, language));
+                (open, change)
+            }
+        };
+        if open.is_empty() {
+            return change;
+        }
+        format!("{} {} {change}", opening(open), pick("и", "and"))
+    }
+
+    fn way(&self, world: &World, whither: Whither, language: Language) -> String {
+        let russian = language == Language::Russian;
+        let name = |landmark: Landmark, case: Case| match landmark {
+            Landmark::Window if !russian => "the window".to_owned(),
+            Landmark::Window if case == Case::Dative => "окну".to_owned(),
+            Landmark::Window => "окна".to_owned(),
+            Landmark::Door(id) => spoken(world, Entity::Door(id), case, russian),
+            Landmark::Thing(id) => spoken(world, Entity::Replica(id), case, russian),
+        };
+        match whither {
+            Whither::Towards(to) if russian => format!("к {}", name(to, Case::Dative)),
+            Whither::Towards(to) => format!("towards {}", name(to, Case::Nominative)),
+            Whither::AwayFrom(from) if russian => {
+                format!("в сторону от {}", name(from, Case::Genitive))
+            }
+            Whither::AwayFrom(from) => format!("away from {}", name(from, Case::Nominative)),
+            Whither::Angle(degrees) if russian => format!("под углом {degrees:.0}° по карте"),
+            Whither::Angle(degrees) => format!("at {degrees:.0}° on the map"),
+        }
+    }
+}
+
+fn spoken(world: &World, entity: Entity, case: Case, russian: bool) -> String {
+    let name = named(world, entity);
+    if russian { name.phrase().case(case) } else { name.english() }
+}
+
+/// What lies in the direction of a push, seen from the thing that is pushed.
+fn whither(world: &World, floor: &FloorPlan, replica: ReplicaId, by: Vector) -> Whither {
+    let angle = || Whither::Angle(by.y.atan2(by.x).to_degrees().round().rem_euclid(360.0));
+    let Some(thing) = floor.scene().replicas.get(&replica) else { return angle() };
+    let centre = nalgebra::center(&thing.bounds.min, &thing.bounds.max);
+    let off = |way: Vector, at: Point| {
+        let to = at - centre;
+        way.perp(&to).atan2(way.dot(&to)).abs().to_degrees()
+    };
+    let landmarks = landmarks(world, floor, replica);
+    let nearest = |way: Vector| {
+        let that_way = landmarks.iter().filter(|(_, at)| off(way, *at) <= OFF);
+        that_way.min_by(|a, b| off(way, a.1).total_cmp(&off(way, b.1))).map(|(l, _)| *l)
+    };
+    nearest(by)
+        .map(Whither::Towards)
+        .or_else(|| nearest(-by).map(Whither::AwayFrom))
+        .unwrap_or_else(angle)
+}
+
+/// Windows, doors and furniture of a thing's room, and where they are.
+fn landmarks(world: &World, floor: &FloorPlan, replica: ReplicaId) -> Vec<(Landmark, Point)> {
+    let Some(area) = world.replicas.get(&replica).map(|r| r.area) else { return Vec::new() };
+    let Some(placed) = floor.scene().areas.get(&area) else { return Vec::new() };
+    let mut found = Vec::new();
+    for prism in &placed.prisms {
+        let vectors = world.orthoframes.get(&prism.orthoframe).map_or(&[][..], |o| &o.base);
+        let windows = prism.polygon.edges().zip(vectors).filter(|(_, v)| world.is_window(v));
+        found.extend(windows.map(|((a, b), _)| (Landmark::Window, nalgebra::center(&a, &b))));
+    }
+    let doorways = floor.doorways().iter().filter(|d| d.index_of(area).is_some());
+    let is_named = |id: DoorId| world.doors.get(&id).is_some_and(|d| !d.name.is_empty());
+    let doors = doorways.filter_map(|d| Some((Landmark::Door(d.door?), d.middle())));
+    found.extend(doors.filter(|(l, _)| matches!(l, Landmark::Door(id) if is_named(*id))));
+    let level = placed.prisms.first().map_or(0.0, |p| p.bottom);
+    let things = floor.scene().replicas_in(area).filter(|r| r.id != replica);
+    let standing = things.filter(|r| r.bottom - level < ON_FLOOR).filter(|r| {
+        let model = world.replicas.get(&r.id);
+        model.is_some_and(|m| !m.name.is_empty())
+    });
+    found.extend(
+        standing.map(|r| (Landmark::Thing(r.id), nalgebra::center(&r.bounds.min, &r.bounds.max))),
+    );
+    found
+}
