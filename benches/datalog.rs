@@ -26,16 +26,19 @@ use orthoframe::units::Source;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Engine {
     Rules,
+    /// The rules again, and on top what is needed to ask why of any tuple.
+    Explained,
     ByHand,
     Ascent,
 }
 
 impl Engine {
-    const ALL: [Self; 3] = [Self::Rules, Self::ByHand, Self::Ascent];
+    const ALL: [Self; 4] = [Self::Rules, Self::Explained, Self::ByHand, Self::Ascent];
 
     fn name(self) -> &'static str {
         match self {
             Self::Rules => "rules",
+            Self::Explained => "explained",
             Self::ByHand => "by-hand",
             Self::Ascent => "ascent",
         }
@@ -83,9 +86,9 @@ impl Case {
 
     /// What evaluates the case on an engine and counts the derived tuples; the input is at hand in the engine's form.
     fn on(self, engine: Engine) -> Box<dyn Fn() -> usize> {
-        if engine == Engine::Rules {
+        if matches!(engine, Engine::Rules | Engine::Explained) {
             let rules = Rules::of(self);
-            return Box::new(move || rules.run());
+            return Box::new(move || rules.run(engine == Engine::Explained));
         }
         let by_hand = engine == Engine::ByHand;
         Box::new(move || match &self {
@@ -154,9 +157,12 @@ impl Rules {
     }
 
     /// Derived tuples, input left out.
-    fn run(&self) -> usize {
+    fn run(&self, is_explained: bool) -> usize {
         let derived =
             self.program.evaluate(&self.database).expect("the benchmark's program is finite");
+        if is_explained {
+            black_box(derived.explain());
+        }
         let sizes = self.program.relations().map(|(id, info)| {
             let is_counted = info.input.is_none() && info.name != "target";
             if is_counted { derived.len(id).expect("the relation is declared") } else { 0 }
@@ -220,25 +226,28 @@ fn in_process(case: &str, engine: Engine) -> Figures {
 #[expect(clippy::print_stdout, reason = "a benchmark prints its table")]
 fn table(only: Option<&str>) {
     println!(
-        "| program | tuples | rules, ms | by hand, ms | ascent, ms | of by hand | of ascent | rules, MiB | by hand, MiB | ascent, MiB | of by hand |"
+        "| program | tuples | rules, ms | by hand, ms | ascent, ms | of by hand | of ascent | explained, of rules | rules, MiB | by hand, MiB | ascent, MiB | of by hand |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|");
-    let (mut of_hand, mut of_ascent, mut of_memory) = (Vec::new(), Vec::new(), Vec::new());
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    let [mut of_hand, mut of_ascent, mut of_memory, mut of_rules] = [const { Vec::new() }; 4];
     for case in CASES.iter().filter(|case| only.is_none_or(|only| case.contains(only))) {
-        let [rules, by_hand, ascent] = Engine::ALL.map(|engine| in_process(case, engine));
+        let [rules, explained, by_hand, ascent] =
+            Engine::ALL.map(|engine| in_process(case, engine));
         assert_eq!(rules.tuples, by_hand.tuples, "{case}: both find the same");
         assert_eq!(rules.tuples, ascent.tuples, "{case}: ascent finds the same");
         of_hand.push(rules.ms / by_hand.ms);
         of_ascent.push(rules.ms / ascent.ms);
         of_memory.push(rules.mib / by_hand.mib);
+        of_rules.push(explained.ms / rules.ms);
         println!(
-            "| {case} | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {:.0} | {:.0} | {:.0} | {:.2} |",
+            "| {case} | {} | {:.1} | {:.1} | {:.1} | {:.2} | {:.2} | {:.2} | {:.0} | {:.0} | {:.0} | {:.2} |",
             rules.tuples,
             rules.ms,
             by_hand.ms,
             ascent.ms,
             rules.ms / by_hand.ms,
             rules.ms / ascent.ms,
+            explained.ms / rules.ms,
             rules.mib,
             by_hand.mib,
             ascent.mib,
@@ -250,9 +259,10 @@ fn table(only: Option<&str>) {
         ratios[ratios.len() / 2]
     };
     println!(
-        "| *median* | | | | | {:.2} | {:.2} | | | | {:.2} |",
+        "| *median* | | | | | {:.2} | {:.2} | {:.2} | | | | {:.2} |",
         middle(of_hand),
         middle(of_ascent),
+        middle(of_rules),
         middle(of_memory)
     );
 }

@@ -164,6 +164,13 @@ pub(crate) fn heights(
     heights
 }
 
+/// The least number of premises that fail in any instance of any rule for the tuple, over the instances whose
+/// variables all stand in the head or in a premise that holds; none where there is no such instance.
+pub(crate) fn nearest(model: &Model, name: &str, tuple: &Tuple, finished: &Facts) -> Option<usize> {
+    let rules = model.rules.iter().filter(|rule| rule.head.relation == name);
+    rules.filter_map(|rule| rule.fewest_failures(tuple, finished)).min()
+}
+
 fn random_rule(
     head: &str,
     columns: usize,
@@ -242,6 +249,55 @@ fn random_rule(
 }
 
 impl Rule {
+    fn fewest_failures(&self, tuple: &Tuple, finished: &Facts) -> Option<usize> {
+        let instances = (0..VALUES.pow(self.variables as u32)).map(|n| {
+            let digit = |v: usize| n / VALUES.pow(v as u32) % VALUES;
+            (0..self.variables).map(digit).collect::<Vec<i64>>()
+        });
+        let failures = instances.filter_map(|values| {
+            let mut known: BTreeSet<usize> = BTreeSet::new();
+            // The first column of a variable is where it takes its value; a further one compares.
+            let mut count = 0;
+            for (arg, wanted) in self.head.args.iter().zip(tuple) {
+                match arg {
+                    Term::Variable(v) if known.insert(*v) => {
+                        if values[*v] != *wanted {
+                            return None;
+                        }
+                    }
+                    _ => count += usize::from(value(*arg, &values) != *wanted),
+                }
+            }
+            let mut used: BTreeSet<usize> = self.head.args.iter().flat_map(variables_of).collect();
+            for premise in &self.body {
+                let does_hold = holds(premise, &values, finished, finished);
+                match premise {
+                    Premise::Atom(atom) | Premise::Not(atom) => {
+                        let variables = atom.args.iter().flat_map(variables_of);
+                        used.extend(variables.clone());
+                        if does_hold && matches!(premise, Premise::Atom(_)) {
+                            known.extend(variables);
+                        }
+                    }
+                    Premise::Compare(a, _, b) => {
+                        used.extend([a, b].into_iter().flat_map(variables_of));
+                    }
+                    Premise::Aggregate { target, .. } => {
+                        used.insert(*target);
+                        if does_hold {
+                            known.insert(*target);
+                        }
+                    }
+                }
+                // The engine judges an aggregate and its comparison apart.
+                let worth = if matches!(premise, Premise::Aggregate { .. }) { 2 } else { 1 };
+                count += if does_hold { 0 } else { worth };
+            }
+            used.is_subset(&known).then_some(count)
+        });
+        failures.min()
+    }
+
     /// Atoms are looked up in `facts`, negations and aggregates in `finished`.
     fn consequences(&self, facts: &Facts, finished: &Facts) -> Vec<(String, Tuple)> {
         let mut found = Vec::new();
@@ -267,6 +323,15 @@ impl Rule {
         }
         found
     }
+}
+
+fn variables_of(term: &Term) -> impl Iterator<Item = usize> + Clone + use<> {
+    let both = match term {
+        Term::Variable(v) => [Some(*v), None],
+        Term::Sum(a, b) => [Some(*a), Some(*b)],
+        Term::Any | Term::Constant(_) => [None, None],
+    };
+    both.into_iter().flatten()
 }
 
 fn value(term: Term, values: &[i64]) -> i64 {

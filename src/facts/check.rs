@@ -24,6 +24,8 @@ pub(super) struct Type {
     pub(super) name: String,
     pub(super) kind: Kind,
     above: BTreeSet<usize>,
+    /// Of a union: what its values may be.
+    parts: Vec<usize>,
 }
 
 /// What the declarations say.
@@ -41,7 +43,10 @@ pub(super) struct Declared {
 impl Declared {
     /// Whether every value of type `a` is a value of type `b`.
     pub(super) fn is_subtype(&self, a: usize, b: usize) -> bool {
-        a == b || self.types[a].above.contains(&b)
+        let parts = &self.types[a].parts;
+        a == b
+            || self.types[a].above.contains(&b)
+            || !parts.is_empty() && parts.iter().all(|part| self.is_subtype(*part, b))
     }
 
     /// The position of a type in `types`.
@@ -60,21 +65,22 @@ impl Declared {
     }
 }
 
-pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) -> Program {
-    let mut declared = declare(&items, faults);
-    direct(&items, &mut declared, faults);
+pub(super) fn program(sources: &[Source], items: &[Item], faults: &mut Found) -> Program {
+    let mut declared = declare(items, faults);
+    direct(items, &mut declared, faults);
     let mut words = Words::default();
     let (mut clauses, mut facts) = (Vec::new(), Vec::new());
     let mut made = clause::Made::default();
     let closed: Vec<Rule> = items.iter().flat_map(|item| equivalence(item, faults)).collect();
-    for item in items.into_iter().chain(closed.into_iter().map(Item::Rule)) {
-        if let Item::Rule(rule) = item {
-            single_variables(&rule, faults);
-            for clause in clause::clauses(&rule, &declared, &mut words, &mut made, faults) {
-                match constant_words(&clause) {
-                    Some(words) => facts.push(Fact { relation: clause.head, words, at: clause.at }),
-                    None => clauses.push(clause),
-                }
+    let rule = |item: &Item| if let Item::Rule(rule) = item { Some(rule.clone()) } else { None };
+    let rules: Vec<Rule> = items.iter().filter_map(rule).chain(closed).collect();
+    rules.iter().for_each(|rule| single_variables(rule, faults));
+    let (rules, gone) = super::inline::unfold(rules, items, &declared, faults);
+    for rule in &rules {
+        for clause in clause::clauses(rule, &declared, &mut words, &mut made, faults) {
+            match constant_words(&clause) {
+                Some(words) => facts.push(Fact { relation: clause.head, words, at: clause.at }),
+                None => clauses.push(clause),
             }
         }
     }
@@ -84,7 +90,7 @@ pub(super) fn program(sources: &[Source], items: Vec<Item>, faults: &mut Found) 
     }
     clauses.extend(made.clauses);
     let strata = strata(&declared, &clauses, faults);
-    unused(&declared, &clauses, &facts, faults);
+    unused(&declared, &clauses, &facts, &gone, faults);
     Program {
         sources: sources.into(),
         relations: Arc::new(declared.relations),
@@ -142,7 +148,12 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
     for kind in [Kind::Symbol, Kind::Number, Kind::Unsigned, Kind::Float] {
         let name = kind_name(kind);
         declared.type_names.insert(name.into(), declared.types.len());
-        declared.types.push(Type { name: name.into(), kind, above: BTreeSet::new() });
+        declared.types.push(Type {
+            name: name.into(),
+            kind,
+            above: BTreeSet::new(),
+            parts: vec![],
+        });
     }
     let is_type = |item: &&Item| matches!(item, Item::Type { .. });
     let mut open: Vec<&Item> = items.iter().filter(is_type).collect();
@@ -195,7 +206,8 @@ fn declare_type(
         // The primitive type is above a union as it is above the union's parts.
         above.insert(primitive(kind));
     }
-    declared.types.push(Type { name: name.text.clone(), kind, above });
+    let parts = if is_union { known.clone() } else { Vec::new() };
+    declared.types.push(Type { name: name.text.clone(), kind, above, parts });
     if is_union {
         for (part, base) in known.iter().zip(bases) {
             if declared.types[*part].kind != kind {
@@ -308,10 +320,16 @@ fn direct(items: &[Item], declared: &mut Declared, faults: &mut Found) {
 fn give_role(role: Role, parameters: &[(String, String)], info: &mut RelationInfo) {
     match role {
         Role::Input => info.input = Some(parameters.to_vec()),
-        Role::Output => info.output = Some(parameters.to_vec()),
+        Role::Output => {
+            if !info.outputs.iter().any(|known| known == parameters) {
+                info.outputs.push(parameters.to_vec());
+            }
+        }
         Role::PrintSize => info.print_size = true,
         // Becomes rules, see `equivalence`.
         Role::Equivalence => {}
+        // Is unfolded where it must be, see `inline`.
+        Role::Inline => {}
         Role::LimitSize => {
             let limit = parameters.iter().find(|(name, _)| name == "n");
             info.limit_size = limit.and_then(|(_, n)| n.parse().ok()).or(info.limit_size);
@@ -363,7 +381,7 @@ pub(super) fn reads(body: &[Literal], not: bool, f: &mut impl FnMut(RelationId, 
         match literal {
             Literal::Atom(atom) => f(atom.relation, not, atom.at),
             Literal::Not(atom) => f(atom.relation, true, atom.at),
-            Literal::Compare(_) => {}
+            Literal::Compare(_) | Literal::Range(_) => {}
             Literal::Aggregate(aggregate) => reads(&aggregate.body, true, f),
         }
     }
@@ -400,7 +418,13 @@ fn cycle_text(
     text
 }
 
-fn unused(declared: &Declared, clauses: &[Clause], facts: &[Fact], faults: &mut Found) {
+fn unused(
+    declared: &Declared,
+    clauses: &[Clause],
+    facts: &[Fact],
+    unfolded: &BTreeSet<RelationId>,
+    faults: &mut Found,
+) {
     let mut read = vec![false; declared.relations.len()];
     let mut filled = vec![false; declared.relations.len()];
     for clause in clauses {
@@ -410,7 +434,10 @@ fn unused(declared: &Declared, clauses: &[Clause], facts: &[Fact], faults: &mut 
     facts.iter().for_each(|fact| filled[fact.relation.index()] = true);
     for (n, info) in declared.relations.iter().enumerate() {
         let (name, at) = (info.name.clone(), declared.places[n]);
-        let is_seen = info.output.is_some() || info.print_size;
+        if unfolded.contains(&RelationId(n as u32)) {
+            continue;
+        }
+        let is_seen = !info.outputs.is_empty() || info.print_size;
         if read[n] && !filled[n] && info.input.is_none() {
             faults.push(at, RuleError::NeverDerived { name, at: at.into() });
         } else if !read[n] && !is_seen {

@@ -10,8 +10,8 @@ use super::fault::RuleError;
 use super::ground::used_variables;
 use super::kinds::is_whole;
 use super::program::{
-    Aggregate, Atom, Clause, Column, Compare, Expr, Found, Kind, Literal, RelationId, RelationInfo,
-    Term, Variable, VariableId,
+    Aggregate, Atom, Bounds, Clause, Column, Compare, Expr, Found, Kind, Literal, NumberRange,
+    RelationId, RelationInfo, Term, Variable, VariableId,
 };
 use super::syntax::{self, Aggregation, Body, Comparison, Functor, Rule, Span};
 use super::word::Words;
@@ -41,8 +41,15 @@ pub(super) fn clauses(
                 faults.push(rule.at, RuleError::TooLarge { what, limit, at });
                 continue;
             }
-            let mut builder =
-                Builder { declared, words, faults, made, variables: Vec::new(), is_sound: true };
+            let mut builder = Builder {
+                declared,
+                words,
+                faults,
+                made,
+                variables: Vec::new(),
+                is_sound: true,
+                excused: Vec::new(),
+            };
             clauses.extend(builder.clause(head, choice, rule.at));
         }
     }
@@ -121,6 +128,8 @@ pub(super) struct Builder<'a> {
     made: &'a mut Made,
     pub(super) variables: Vec<VariableType>,
     pub(super) is_sound: bool,
+    /// Variables of premises that are themselves at fault: what would bind them is told already.
+    pub(super) excused: Vec<VariableId>,
 }
 
 impl Builder<'_> {
@@ -184,18 +193,19 @@ impl Builder<'_> {
         let mut body = Vec::with_capacity(premises.len());
         for premise in premises {
             match premise {
-                Premise::Atom(atom) => {
-                    if let Some(atom) = self.atom(atom, scope, &mut body) {
-                        body.push(Literal::Atom(atom));
-                    }
-                }
+                Premise::Atom(atom) => match self.atom(atom, scope, &mut body) {
+                    Some(atom) => body.push(Literal::Atom(atom)),
+                    None => self.excuse(premise, scope),
+                },
                 Premise::Not(atom) => {
                     if let Some(atom) = self.atom(atom, scope, &mut body) {
                         body.push(Literal::Not(atom));
                     }
                 }
                 Premise::Compare { op, left, right, at } => {
-                    self.compare(*op, left, right, *at, scope, &mut body);
+                    if self.compare(*op, left, right, *at, scope, &mut body).is_none() {
+                        self.excuse(premise, scope);
+                    }
                 }
             }
         }
@@ -261,7 +271,7 @@ impl Builder<'_> {
         at: Span,
         scope: &Scope,
         body: &mut Vec<Literal>,
-    ) {
+    ) -> Option<()> {
         let is_contains = matches!(op, Comparison::Contains | Comparison::NotContains);
         let kind = self.common_kind(left, right, scope);
         let wanted = if is_contains { Some(Kind::Symbol) } else { kind };
@@ -269,16 +279,20 @@ impl Builder<'_> {
             let wrong = [left, right].into_iter().find(|side| !self.fits(side, wanted, scope));
             if let Some(wrong) = wrong {
                 self.wrong_kind(wrong, wanted, scope);
-                return;
+                return None;
             }
         }
-        let (Some(left), Some(right)) =
-            (self.expr(left, wanted, scope, body), self.expr(right, wanted, scope, body))
-        else {
-            return;
-        };
+        let left = self.expr(left, wanted, scope, body);
+        let (left, right) = left.zip(self.expr(right, wanted, scope, body))?;
         let kind = kind.unwrap_or(Kind::Symbol);
         body.push(Literal::Compare(Compare { op, left, right, kind, at }));
+        Some(())
+    }
+
+    fn excuse(&mut self, premise: &Premise<'_>, scope: &Scope) {
+        let mut names = Vec::new();
+        names_in(premise, &mut names);
+        self.excused.extend(names.iter().filter_map(|name| scope.get(&name.text)));
     }
 
     /// The expression over variables; `wanted` tells a whole number whether it stands for a decimal.
@@ -310,14 +324,14 @@ impl Builder<'_> {
             syntax::Expr::As { value, type_name, at } => {
                 self.cast(value, type_name, *at, scope, body)?
             }
-            syntax::Expr::Call { functor, args, .. } => {
+            syntax::Expr::Call { functor, args, at } => {
                 let is_float = wanted == Some(Kind::Float) && is_whole(expr)
                     || self.kind_of(expr, scope) == Some(Kind::Float);
                 let first = match functor.is_arithmetic() {
                     true => is_float.then_some(Kind::Float),
                     false => args.first().and_then(|arg| self.kind_of(arg, scope)),
                 };
-                self.call(functor.for_kinds(first), args, scope, body)?
+                self.call(functor.for_kinds(first), args, *at, scope, body)?
             }
             syntax::Expr::Aggregate { function, value, body: inner, at } => {
                 let target =
@@ -368,6 +382,7 @@ impl Builder<'_> {
         &mut self,
         functor: Functor,
         args: &[syntax::Expr],
+        at: Span,
         scope: &Scope,
         body: &mut Vec<Literal>,
     ) -> Option<Expr> {
@@ -385,6 +400,9 @@ impl Builder<'_> {
         if functor == Functor::Ordinal && self.kind_of(&args[0], scope) == Some(Kind::Number) {
             return values.pop();
         }
+        if functor == Functor::Range {
+            return Some(self.range(values, at, body));
+        }
         let call = Expr::Call(functor, values);
         // What is computed from constants alone is computed here.
         if call.has_variables() {
@@ -392,6 +410,18 @@ impl Builder<'_> {
         }
         let word = super::value::compute(&call, &|_| 0, self.words);
         Some(word.map_or(call, Expr::Constant))
+    }
+
+    /// The variable that stands for the range's numbers, one after the other.
+    fn range(&mut self, mut values: Vec<Expr>, at: Span, body: &mut Vec<Literal>) -> Expr {
+        let target = self.fresh("", at);
+        self.variables[target as usize].kind = Some(Kind::Number);
+        let step = if values.len() > 2 { values.pop() } else { None };
+        let (to, from) = (values.pop(), values.pop());
+        let (from, to) = from.zip(to).expect("the reader counts the arguments");
+        let bounds = Bounds { from, to, step };
+        body.push(Literal::Range(NumberRange { target, bounds, at }));
+        Expr::Variable(target)
     }
 
     /// The variable that holds the aggregate's value.
@@ -487,6 +517,7 @@ impl Builder<'_> {
         let mut clauses = Vec::new();
         for premises in choices {
             let (variables, is_sound) = (std::mem::take(&mut self.variables), self.is_sound);
+            let excused = std::mem::take(&mut self.excused);
             let mut scope = Scope::new();
             self.enter(premises, &[], None, &mut scope);
             self.find_kinds(premises, &scope);
@@ -499,6 +530,7 @@ impl Builder<'_> {
                 .collect();
             let own = std::mem::replace(&mut self.variables, variables);
             self.is_sound &= is_sound;
+            self.excused = excused;
             let kind = |variable: VariableType| Variable {
                 name: variable.name,
                 kind: variable.kind.unwrap_or(Kind::Symbol),

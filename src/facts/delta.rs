@@ -90,7 +90,7 @@ impl Deltas {
                     Literal::Aggregate(aggregate) => atoms(&aggregate.body, &mut |atom| {
                         put_before(atom, Touch::Counted, Some(&aggregate.shared));
                     }),
-                    Literal::Compare(_) => {}
+                    Literal::Compare(_) | Literal::Range(_) => {}
                 }
             }
         }
@@ -173,7 +173,7 @@ fn atoms(body: &[Literal], f: &mut dyn FnMut(&Atom)) {
         match literal {
             Literal::Atom(atom) | Literal::Not(atom) => f(atom),
             Literal::Aggregate(aggregate) => atoms(&aggregate.body, f),
-            Literal::Compare(_) => {}
+            Literal::Compare(_) | Literal::Range(_) => {}
         }
     }
 }

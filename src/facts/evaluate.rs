@@ -560,7 +560,7 @@ mod tests {
             Program::parse(&Source::new("t.dl", text)).unwrap_or_else(|faults| panic!("{faults}"));
         let derived = program.evaluate(&program.database()).unwrap();
         let mut shown = String::new();
-        for (id, info) in program.relations().filter(|(_, info)| info.output.is_some()) {
+        for (id, info) in program.relations().filter(|(_, info)| !info.outputs.is_empty()) {
             for tuple in derived.sorted(id).unwrap() {
                 let values: Vec<String> = tuple.iter().map(ToString::to_string).collect();
                 shown += &format!("{}({})\n", info.name, values.join(", "));

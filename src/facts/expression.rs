@@ -237,9 +237,6 @@ fn foreign(input: Input<'_>) -> Option<RuleError> {
         Word::Name(name) if name == "nil" && behind != Some(&Word::Sign("(")) => {
             ("пустая запись nil", "разложите запись на столбцы отношения")
         }
-        Word::Name(name) if name == "range" && behind == Some(&Word::Sign("(")) => {
-            ("range", "дайте числа фактами или правилом: n(X + 1) :- n(X), X < 10.")
-        }
         _ => return None,
     };
     Some(RuleError::Unsupported { what: what.into(), help, at: token.at.into() })
@@ -262,7 +259,7 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
     match rest.rest.first() {
         Some(Token { word: Word::Sign("("), at }) => {
             let what = format!("функция «{}»", name.text);
-            let help = "есть арифметика, cat, strlen, substr, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
+            let help = "есть арифметика, cat, strlen, substr, range, to_string, to_number, to_unsigned, to_float, ord, as, min, max, битовые и логические действия";
             rest.doubt(RuleError::Unsupported { what, help, at: name.at.to(*at).into() })
         }
         _ if name.text == "_" => Ok((rest, Expr::Any(name.at))),
@@ -270,7 +267,7 @@ fn variable(input: Input<'_>) -> Read<'_, Expr> {
     }
 }
 
-// strlen(X), cat(X, Y, Z)
+// strlen(X), cat(X, Y, Z), range(0, N)
 fn call(input: Input<'_>) -> Read<'_, Expr> {
     let (rest, name) = name(input)?;
     let Some(functor) = functor(&name.text) else { return input.fail("значение") };
@@ -286,7 +283,8 @@ fn call(input: Input<'_>) -> Read<'_, Expr> {
         });
         return Ok((rest, joined.expect("a list has at least one element")));
     }
-    if args.len() != wanted {
+    let may_lack = usize::from(functor == Functor::Range);
+    if args.len() > wanted || args.len() + may_lack < wanted {
         let (name, found, at) = (name.text, args.len(), at.into());
         return input.refuse(RuleError::Arity { name, expected: wanted, found, at });
     }

@@ -227,9 +227,21 @@ impl FileFaults {
     }
 }
 
+/// What is drawn above the faults themselves, each of which comes with its lines.
 impl fmt::Display for FileFaults {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "«{}»: ошибок {}", self.source.name(), self.faults.len())
+        let warnings = self.faults.iter().filter(|fault| fault.is_warning()).count();
+        let errors = self.faults.len() - warnings;
+        let (name, mut sep) = (self.source.name(), ":");
+        write!(f, "«{name}»")?;
+        for (what, count) in [("ошибок", errors), ("предупреждений", warnings)]
+        {
+            if count > 0 {
+                write!(f, "{sep} {what} {count}")?;
+                sep = ",";
+            }
+        }
+        Ok(())
     }
 }
 
@@ -312,8 +324,6 @@ n(Y) :- n(X), !n(Z).
 n(\"три\").
 n(_).",
             &expect![[r#"
-                3:10 facts::ungrounded переменная «A» ничем не связана
-                3:13 facts::ungrounded переменная «B» ничем не связана
                 3:19 facts::unknown_relation неизвестное отношение «стоит_нa»
                 4:3 facts::types «X»: нужен тип number, а здесь symbol
                 5:1 facts::arity у «n» аргументов 1, а дано 2

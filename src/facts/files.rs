@@ -1,5 +1,6 @@
 //! Programs run over Soufflé's files: a line for each tuple, a tab between values.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Write as _;
 use std::io::{BufWriter, Write as _};
@@ -25,27 +26,22 @@ pub enum FilesError {
     #[error("{path}: {cause}", path = path.display())]
     #[diagnostic(
         code(facts::file),
-        help("проверьте имя и права: факты отношения r лежат в файле r.facts")
+        help(
+            "проверьте имя и права: факты отношения r читаются из r.facts, папка для вывода должна уже быть"
+        )
     )]
-    File {
-        path: PathBuf,
-        #[source]
-        cause: std::io::Error,
-    },
+    File { path: PathBuf, cause: std::io::Error },
     /// A line of facts that does not fit its relation.
     #[error("{path}:{line}: {cause}", path = path.display())]
     #[diagnostic(code(facts::line), help("значения разделяются табуляцией, по одному на столбец"))]
-    Line {
-        path: PathBuf,
-        line: usize,
-        #[source]
-        cause: Box<FactError>,
-    },
+    Line { path: PathBuf, line: usize, cause: Box<FactError> },
     /// A parameter of `.input` or `.output` that asks for what is not done here.
     #[error("«{relation}»: не поддерживается {name}={value}")]
     #[diagnostic(
         code(facts::parameter),
-        help("есть IO=file и для .output IO=stdout, filename, delimiter, headers")
+        help(
+            "есть IO=file и для .output IO=stdout, filename, delimiter, headers, rfc4180, для .input columns=\"1:0\""
+        )
     )]
     Parameter { relation: String, name: String, value: String },
     #[error(transparent)]
@@ -68,8 +64,9 @@ pub struct FilesReport {
 /// Runs a program: `.input` relations from `facts_dir`, `.output` relations into `out_dir`.
 ///
 /// A relation `r` is read from `r.facts` and written to `r.csv` unless its directive says `filename="…"`;
-/// `delimiter="…"` replaces the tab, `headers=true` stands for a first line with the columns' names, and
-/// `IO=stdout` prints instead of writing a file.
+/// `delimiter="…"` replaces the tab, `headers=true` stands for a first line with the columns' names, `rfc4180=true`
+/// for values in quotes, `columns="1:0"` for the file's columns to read, and `IO=stdout` prints instead of writing
+/// a file.
 ///
 /// # Errors
 /// [`FilesError`] with the place in the program or in the file of facts.
@@ -80,9 +77,8 @@ pub fn run_files(
 ) -> Result<FilesReport, FilesError> {
     let program = Program::parse_included(&with_included(program)?)?;
     for (_, info) in program.relations() {
-        for (parameters, may_print) in [(&info.input, false), (&info.output, true)] {
-            parameters.iter().try_for_each(|known| check(info, known, may_print))?;
-        }
+        info.input.iter().try_for_each(|known| check(info, known, false))?;
+        info.outputs.iter().try_for_each(|known| check(info, known, true))?;
     }
     let mut database = program.database();
     for (relation, info) in program.relations() {
@@ -98,7 +94,7 @@ pub fn run_files(
             let size = derived.len(relation).expect("the relation is the program's own");
             report.sizes.push((info.name.clone(), size));
         }
-        if let Some(parameters) = &info.output {
+        for parameters in &info.outputs {
             if is_printed(parameters) {
                 print(&derived, relation, info, parameters, &mut report.printed);
                 continue;
@@ -143,8 +139,9 @@ fn check(info: &RelationInfo, parameters: &Parameters, may_print: bool) -> Resul
     for (name, value) in parameters {
         let is_known = match name.as_str() {
             "IO" => value == "file" || may_print && value == "stdout",
-            "headers" => matches!(value.as_str(), "true" | "false"),
+            "headers" | "rfc4180" => matches!(value.as_str(), "true" | "false"),
             "filename" | "delimiter" => true,
+            "columns" => !may_print && file_columns(value, info.columns.len()).is_some(),
             _ => false,
         };
         if !is_known {
@@ -163,13 +160,25 @@ fn has_headers(parameters: &Parameters) -> bool {
     parameter(parameters, "headers") == Some("true")
 }
 
+/// Values in quotes where they hold a delimiter, a quote or a line's end.
+fn is_quoted(parameters: &Parameters) -> bool {
+    parameter(parameters, "rfc4180") == Some("true")
+}
+
+/// `1:0`: which of the file's columns, from 0, each column of the relation is read from.
+fn file_columns(value: &str, columns: usize) -> Option<Vec<usize>> {
+    let places: Option<Vec<usize>> = value.split(':').map(|place| place.parse().ok()).collect();
+    places.filter(|places| places.len() == columns)
+}
+
 fn file_name(info: &RelationInfo, parameters: &Parameters, extension: &str) -> String {
     parameter(parameters, "filename")
         .map_or_else(|| format!("{}.{extension}", info.name), str::to_owned)
 }
 
 fn delimiter(parameters: &Parameters) -> &str {
-    parameter(parameters, "delimiter").filter(|text| !text.is_empty()).unwrap_or("\t")
+    let usual = if is_quoted(parameters) { "," } else { "\t" };
+    parameter(parameters, "delimiter").filter(|text| !text.is_empty()).unwrap_or(usual)
 }
 
 fn read(
@@ -183,15 +192,38 @@ fn read(
     let text = std::fs::read_to_string(&path).map_err(|cause| file_error(&path, cause))?;
     let mut loader = database.load();
     let mut tuple = Vec::new();
-    for (n, line) in text.lines().enumerate().skip(usize::from(has_headers(parameters))) {
+    let places =
+        parameter(parameters, "columns").and_then(|of| file_columns(of, info.columns.len()));
+    let mut records = Records { rest: &text, line: 0, parameters };
+    let mut values = Vec::new();
+    let mut is_header = has_headers(parameters);
+    while let Some(line) = records.next(&mut values) {
+        if std::mem::take(&mut is_header) {
+            continue;
+        }
         tuple.clear();
-        if !info.columns.is_empty() || !matches!(line, "" | "()") {
-            let values = line.split(delimiter(parameters)).enumerate();
-            tuple.extend(values.map(|(n, text)| known(info.columns.get(n), text, &mut loader)));
+        let is_flag =
+            info.columns.is_empty() && matches!(&*values, [one] if one.is_empty() || one == "()");
+        // Short lines keep their length, so that the fault names it.
+        let has_all = |places: &&Vec<usize>| places.iter().all(|place| *place < values.len());
+        match places.as_ref().filter(has_all) {
+            _ if is_flag => {}
+            Some(places) => tuple.extend(
+                places
+                    .iter()
+                    .zip(&info.columns)
+                    .map(|(place, column)| known(Some(column), &values[*place], &mut loader)),
+            ),
+            None => tuple.extend(
+                values
+                    .iter()
+                    .enumerate()
+                    .map(|(n, text)| known(info.columns.get(n), text, &mut loader)),
+            ),
         }
         loader.push(relation, &tuple).map_err(|cause| FilesError::Line {
             path: path.clone(),
-            line: n + 1,
+            line,
             cause: cause.into(),
         })?;
     }
@@ -199,11 +231,83 @@ fn read(
     Ok(())
 }
 
+/// The records of a text: one a line, but that a value in quotes may go over several.
+struct Records<'a> {
+    rest: &'a str,
+    line: usize,
+    parameters: &'a Parameters,
+}
+
+impl<'a> Records<'a> {
+    /// The next record's values, and its first line from 1.
+    fn next(&mut self, values: &mut Vec<Cow<'a, str>>) -> Option<usize> {
+        values.clear();
+        if self.rest.is_empty() {
+            return None;
+        }
+        let first = self.line + 1;
+        let delimiter = delimiter(self.parameters);
+        loop {
+            let (value, behind) = match self.rest.strip_prefix('"') {
+                Some(inside) if is_quoted(self.parameters) => unquoted(inside),
+                _ => {
+                    let line = self.rest.find('\n').unwrap_or(self.rest.len());
+                    let end = self.rest[..line].find(delimiter).unwrap_or(line);
+                    (Cow::Borrowed(&self.rest[..end]), &self.rest[end..])
+                }
+            };
+            self.line += value.matches('\n').count();
+            if let Some(more) = behind.strip_prefix(delimiter) {
+                values.push(value);
+                self.rest = more;
+                continue;
+            }
+            // Behind a closing quote nothing else may stand; what does is left to the next column's fault.
+            let end = behind.find('\n').unwrap_or(behind.len());
+            let value = match value {
+                Cow::Borrowed(text) => Cow::Borrowed(text.strip_suffix('\r').unwrap_or(text)),
+                owned => owned,
+            };
+            values.push(value);
+            self.line += 1;
+            self.rest = behind.get(end + 1..).unwrap_or_default();
+            return Some(first);
+        }
+    }
+}
+
+/// The value up to the closing quote, two quotes standing for one, and what follows.
+fn unquoted(inside: &str) -> (Cow<'_, str>, &str) {
+    let mut value = String::new();
+    let mut rest = inside;
+    while let Some(at) = rest.find('"') {
+        value.push_str(&rest[..at]);
+        rest = &rest[at + 1..];
+        match rest.strip_prefix('"') {
+            Some(more) => {
+                value.push('"');
+                rest = more;
+            }
+            None => return (Cow::Owned(value), rest),
+        }
+    }
+    value.push_str(rest);
+    (Cow::Owned(value), "")
+}
+
 /// What stands for no number stays a symbol, and is refused with its column.
 fn known(column: Option<&Column>, text: &str, loader: &mut Loader<'_>) -> Known {
     let value = match column.map(|column| column.kind) {
-        Some(Kind::Number | Kind::Unsigned) => {
-            text.trim().parse().ok().map(|number| loader.number(number))
+        Some(Kind::Number) => text.trim().parse().ok().map(|number| loader.number(number)),
+        // Soufflé reads 0x and 0b in files for these alone.
+        Some(Kind::Unsigned) => {
+            let text = text.trim();
+            let number = match (text.strip_prefix("0x"), text.strip_prefix("0b")) {
+                (Some(hex), _) => i64::from_str_radix(hex, 16),
+                (_, Some(binary)) => i64::from_str_radix(binary, 2),
+                _ => text.parse(),
+            };
+            number.ok().map(|number| loader.number(number))
         }
         Some(Kind::Float) => text.trim().parse().ok().map(|decimal| loader.decimal(decimal)),
         _ => None,
@@ -234,7 +338,14 @@ fn lines(
         text.clear();
         for n in 0..tuple.arity() {
             text.push_str(if n == 0 { "" } else { delimiter });
+            let start = text.len();
             tuple.write(n, &mut text);
+            let needs_quotes =
+                |value: &str| value.contains(['"', '\n', '\r']) || value.contains(delimiter);
+            if is_quoted(parameters) && needs_quotes(&text[start..]) {
+                let value = text.split_off(start).replace('"', "\"\"");
+                let _ = write!(text, "\"{value}\"");
+            }
         }
         line(&text)
     })

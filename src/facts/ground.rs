@@ -8,6 +8,7 @@ use super::syntax::Comparison;
 impl Builder<'_> {
     pub(super) fn check_bound(&mut self, body: &[Literal], args: &[Expr]) {
         let mut bound = vec![false; self.variables.len()];
+        self.excused.iter().for_each(|v| bound[*v as usize] = true);
         let mut loose = Vec::new();
         find_unbound(body, None, &mut bound, &mut loose);
         for arg in args {
@@ -55,6 +56,11 @@ fn find_unbound(
             changed |= match literal {
                 Literal::Compare(Compare { op: Comparison::Equal, left, right, .. }) => {
                     bind(left, right, bound) || bind(right, left, bound)
+                }
+                Literal::Range(range) => {
+                    let is_known = |expr: &Expr| expr.all_variables(|v| bound[v as usize]);
+                    let ready = range.bounds.exprs().all(is_known);
+                    ready && !std::mem::replace(&mut bound[range.target as usize], true)
                 }
                 Literal::Aggregate(aggregate) => {
                     let ready = aggregate.shared.iter().all(|v| bound[*v as usize]);
@@ -114,6 +120,10 @@ pub(super) fn used_variables(
             Literal::Compare(compare) => {
                 compare.left.for_each_variable(f);
                 compare.right.for_each_variable(f);
+            }
+            Literal::Range(range) => {
+                f(range.target);
+                range.bounds.exprs().for_each(|expr| expr.for_each_variable(f));
             }
             Literal::Aggregate(aggregate) => {
                 f(aggregate.target);

@@ -202,8 +202,8 @@ fn decimal(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
 
 fn number(text: &str, at: Span, faults: &mut Vec<RuleError>) -> i64 {
     let parsed = match (text.strip_prefix("0x"), text.strip_prefix("0b")) {
-        (Some(hex), _) => i64::from_str_radix(hex, 16),
-        (_, Some(binary)) => i64::from_str_radix(binary, 2),
+        (Some(hex), _) => i64::from_str_radix(hex.trim_end_matches('u'), 16),
+        (_, Some(binary)) => i64::from_str_radix(binary.trim_end_matches('u'), 2),
         _ => text.trim_end_matches('u').parse(),
     };
     parsed.unwrap_or_else(|_| {

@@ -43,6 +43,7 @@ mod fault;
 mod files;
 mod ground;
 mod index;
+mod inline;
 mod kept;
 mod kinds;
 mod lex;

@@ -14,8 +14,11 @@ use nom::sequence::{delimited, preceded, separated_pair};
 use super::expression::{aggregation, expression, functor};
 use super::fault::RuleError;
 use super::lex::{self, Token, Word};
-use super::read::{Furthest, Input, Read, list, many, name, number, sign, text_word};
+use super::read::{Failure, Furthest, Input, Read, list, many, name, number, sign, text_word};
 use super::syntax::{Atom, Body, Comparison, Item, Name, Role, Rule};
+
+const COMPONENTS: &str =
+    "компонентов, своих функций и решёток здесь нет; напишите правила прямо в этом файле";
 
 /// All items of a text; what could not be read is in `faults`.
 pub(super) fn items(text: &str, file: u32, faults: &mut Vec<RuleError>) -> Vec<Item> {
@@ -96,14 +99,11 @@ fn item(input: Input<'_>) -> Read<'_, Item> {
         Word::Directive("pragma") => {
             (text_word, opt(text_word)).map(|_| Item::Nothing).parse(behind)
         }
-        Word::Directive(word) => {
-            let help = "компонентов, своих функций и решёток здесь нет; напишите правила прямо в этом файле";
-            input.refuse(RuleError::Unsupported {
-                what: format!(".{word}"),
-                help,
-                at: token.at.into(),
-            })
-        }
+        Word::Directive(word) => input.refuse(RuleError::Unsupported {
+            what: format!(".{word}"),
+            help: COMPONENTS,
+            at: token.at.into(),
+        }),
         _ => rule(input),
     }
 }
@@ -136,7 +136,8 @@ fn qualifier(input: Input<'_>) -> Read<'_, Option<Role>> {
         "output" => Ok((rest, Some(Role::Output))),
         "printsize" => Ok((rest, Some(Role::PrintSize))),
         "eqrel" => Ok((rest, Some(Role::Equivalence))),
-        "btree" | "brie" | "inline" | "no_inline" | "magic" | "no_magic" | "overridable" => {
+        "inline" => Ok((rest, Some(Role::Inline))),
+        "btree" | "btree_delete" | "brie" | "no_inline" | "magic" | "no_magic" | "overridable" => {
             Ok((rest, None))
         }
         word => {
@@ -192,11 +193,19 @@ fn old_type<'a>(base: &str, input: Input<'a>) -> Read<'a, Item> {
 // .output above, under(IO=file, filename="above.csv")
 fn directive(role: Role, input: Input<'_>) -> Read<'_, Item> {
     let (input, relations) = list(name, sign(",")).parse(input)?;
+    if let Some(last) = relations.last() {
+        refuse_dotted(last, input)?;
+    }
     let value = alt((text_word, name.map(|name| name.text), number.map(|n| n.0.to_string())));
     let parameter = separated_pair(name.map(|name| name.text), sign("="), value);
-    let (input, parameters) =
-        opt(delimited(sign("("), opt(list(parameter, sign(","))), sign(")"))).parse(input)?;
-    let parameters = parameters.flatten().unwrap_or_default();
+    // No rule starts with a bracket, so one that stands here must be read to its end.
+    let (input, parameters) = match input.rest.first() {
+        Some(Token { word: Word::Sign("("), .. }) => {
+            delimited(sign("("), opt(list(parameter, sign(","))), sign(")")).parse(input)?
+        }
+        _ => (input, None),
+    };
+    let parameters = parameters.unwrap_or_default();
     Ok((input, Item::Directive { role, relations, parameters }))
 }
 
@@ -283,8 +292,21 @@ fn matching(input: Input<'_>) -> Read<'_, Body> {
     Ok((rest, Body::Compare { op: Comparison::Contains, left, right, at }))
 }
 
+/// `g.edge` is a relation of a component.
+fn refuse_dotted(relation: &Name, behind: Input<'_>) -> Result<(), nom::Err<Failure>> {
+    let [dot, Token { word: Word::Name(part), at }, ..] = behind.rest else { return Ok(()) };
+    if dot.word != Word::Sign(".") || dot.at.start != relation.at.end || at.start != dot.at.end {
+        return Ok(());
+    }
+    let what = format!("имя из компонента: {}.{part}", relation.text);
+    // Reading goes on behind the rule's full stop, not behind this dot.
+    let after = Input { rest: &behind.rest[2..], ..behind };
+    after.refuse(RuleError::Unsupported { what, help: COMPONENTS, at: relation.at.to(*at).into() })
+}
+
 pub(super) fn atom(input: Input<'_>) -> Read<'_, Atom> {
     let (rest, relation) = name(input)?;
+    refuse_dotted(&relation, rest)?;
     if functor(&relation.text).is_some() || aggregation(&relation.text).is_some() {
         return input.fail("отношение");
     }

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use super::ground::used_variables;
 use super::program::{
-    Aggregate, Atom, Clause, Compare, Expr, Literal, RelationId, Term, VariableId,
+    Aggregate, Atom, Clause, Compare, Expr, Literal, NumberRange, RelationId, Term, VariableId,
 };
 use super::run::{ColumnFilter, Scan, Step};
 use super::syntax::Comparison;
@@ -71,6 +71,9 @@ pub(super) trait Statistics {
 /// What is taken for the share of rows that pass a comparison of which nothing is known.
 pub(super) const UNKNOWN_SHARE: f64 = 0.5;
 
+/// What is taken for the length of a range.
+const UNKNOWN_RANGE: f64 = 30.0;
+
 /// What a plan is to be made for.
 pub(super) struct Task<'a> {
     pub(super) clause: &'a Clause,
@@ -126,7 +129,9 @@ fn mark_once(steps: &mut [Step], wanted: &[VariableId]) {
                 sets_wanted |= scan.loads.iter().any(|(_, v)| wanted.contains(v));
                 scan.once = !sets_wanted;
             }
-            Step::Let { register, .. } => sets_wanted |= wanted.contains(register),
+            Step::Let { register, .. } | Step::Each { register, .. } => {
+                sets_wanted |= wanted.contains(register);
+            }
             Step::Aggregate { register, .. } => sets_wanted |= wanted.contains(register),
             _ => {}
         }
@@ -197,14 +202,22 @@ impl<'a> Draft<'a> {
             if self.lay_needed_aggregate(body, &mut open) {
                 continue;
             }
-            let atoms = open.iter().copied().filter(|n| matches!(body[*n], Literal::Atom(_)));
             let next = first.take().or_else(|| {
-                let fan_out = |n: &usize| {
-                    self.access(body, *n, versions[*n], &open).map_or(f64::MAX, |a| a.fan_out)
+                let fan_out = |n: usize| match &body[n] {
+                    Literal::Atom(_) => Some(
+                        self.access(body, n, versions[n], &open).map_or(f64::MAX, |a| a.fan_out),
+                    ),
+                    Literal::Range(range) => self.range_fan_out(range),
+                    _ => None,
                 };
-                atoms.map(|n| (n, fan_out(&n))).min_by(|a, b| a.1.total_cmp(&b.1)).map(|(n, _)| n)
+                let ways = open.iter().filter_map(|n| Some((*n, fan_out(*n)?)));
+                ways.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(n, _)| n)
             });
             match next {
+                Some(n) if matches!(body[n], Literal::Range(_)) => {
+                    self.lay_range(&body[n]);
+                    open.retain(|other| *other != n);
+                }
                 Some(n) => self.lay_atom(body, n, versions[n], &mut open),
                 None => {
                     let before = open.len();
@@ -223,6 +236,7 @@ impl<'a> Draft<'a> {
             let laid = match literal {
                 Literal::Compare(compare) => self.lay_compare(compare),
                 Literal::Not(atom) => self.lay_absent(atom),
+                Literal::Range(range) => self.lay_known_range(range),
                 Literal::Atom(_) | Literal::Aggregate(_) => false,
             };
             if laid {
@@ -260,6 +274,34 @@ impl<'a> Draft<'a> {
         }
         self.plan.steps.push(step);
         true
+    }
+
+    /// A range whose variable has its value already.
+    fn lay_known_range(&mut self, range: &NumberRange) -> bool {
+        let is_known = self.bound[range.target as usize]
+            && range.bounds.exprs().all(|expr| self.is_known(expr));
+        if is_known {
+            let (register, bounds) = (range.target, range.bounds.clone());
+            self.plan.steps.push(Step::Each { register, bounds, is_known });
+            self.solutions *= 0.5;
+        }
+        is_known
+    }
+
+    /// Numbers for one solution so far, roughly; none while a bound is unknown.
+    fn range_fan_out(&self, range: &NumberRange) -> Option<f64> {
+        let is_ready = range.bounds.exprs().all(|expr| self.is_known(expr));
+        is_ready.then_some(UNKNOWN_RANGE)
+    }
+
+    fn lay_range(&mut self, literal: &Literal) {
+        let Literal::Range(range) = literal else { return };
+        let (register, bounds) = (range.target, range.bounds.clone());
+        self.plan.steps.push(Step::Each { register, bounds, is_known: false });
+        self.bound[register as usize] = true;
+        self.solutions *= UNKNOWN_RANGE;
+        self.cost += self.solutions;
+        self.spend(literal);
     }
 
     fn lay_absent(&mut self, atom: &Atom) -> bool {

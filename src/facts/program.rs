@@ -63,8 +63,8 @@ pub struct RelationInfo {
     pub columns: Vec<Column>,
     /// `.input`, with its parameters.
     pub input: Option<Parameters>,
-    /// `.output`, with its parameters.
-    pub output: Option<Parameters>,
+    /// `.output`, each time that it is said, with its parameters.
+    pub outputs: Vec<Parameters>,
     pub print_size: bool,
     /// `.limitsize`: evaluation of the relation stops at so many tuples.
     pub limit_size: Option<usize>,
@@ -99,6 +99,7 @@ pub(super) enum Literal {
     Not(Atom),
     Compare(Compare),
     Aggregate(Aggregate),
+    Range(NumberRange),
 }
 
 #[derive(Debug, Clone)]
@@ -135,6 +136,28 @@ pub(super) struct Aggregate {
     /// Variables of the rule outside that the body reads.
     pub(super) shared: Vec<VariableId>,
     pub(super) at: Span,
+}
+
+/// `target = range(from, to, step)`: each of the numbers from `from` on, `to` not among them.
+#[derive(Debug, Clone)]
+pub(super) struct NumberRange {
+    pub(super) target: VariableId,
+    pub(super) bounds: Bounds,
+    pub(super) at: Span,
+}
+
+/// Where a range begins, ends, and by how much it steps: by one towards the end where that is not said.
+#[derive(Debug, Clone)]
+pub(super) struct Bounds {
+    pub(super) from: Expr,
+    pub(super) to: Expr,
+    pub(super) step: Option<Expr>,
+}
+
+impl Bounds {
+    pub(super) fn exprs(&self) -> impl Iterator<Item = &Expr> {
+        [&self.from, &self.to].into_iter().chain(&self.step)
+    }
 }
 
 /// A computed value; its variables are a clause's, or an index's columns.
@@ -218,17 +241,17 @@ impl Program {
                 faults.push(*at, RuleError::Unsupported { what, help, at: (*at).into() });
             }
         }
-        Self::of_items(sources, items, faults)
+        Self::of_items(sources, &items, faults)
     }
 
     /// Texts that were read with all that they include.
     pub(super) fn parse_included(sources: &[Source]) -> Result<Self, Faults> {
         let mut faults = Found::default();
         let items = all_items(sources, &mut faults);
-        Self::of_items(sources, items, faults)
+        Self::of_items(sources, &items, faults)
     }
 
-    fn of_items(sources: &[Source], items: Vec<Item>, mut faults: Found) -> Result<Self, Faults> {
+    fn of_items(sources: &[Source], items: &[Item], mut faults: Found) -> Result<Self, Faults> {
         let mut program = check::program(sources, items, &mut faults);
         let (warnings, errors): (Vec<_>, Vec<_>) =
             faults.all.into_iter().partition(|(_, fault)| fault.is_warning());

@@ -533,6 +533,11 @@ pub(super) fn premise(
                 None => Premise::Unknown { text },
             }
         }
+        Literal::Range(range) => {
+            let word = registers[range.target as usize];
+            let value = (word != NO_WORD).then(|| words.value(word, Kind::Number));
+            Premise::Counted { text: excerpt(range.at), value }
+        }
         Literal::Aggregate(aggregate) => {
             let word = registers[aggregate.target as usize];
             let value = (word != NO_WORD).then(|| words.value(word, aggregate.kind));

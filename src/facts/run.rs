@@ -8,7 +8,7 @@ use std::ops::Range;
 
 use super::index::{Index, IndexColumn};
 use super::kept::{KeptIndex, column_word};
-use super::program::{Compare, Expr};
+use super::program::{Bounds, Compare, Expr};
 use super::rows::RowSet;
 use super::stored::{Slot, Stored};
 use super::syntax::{Aggregation, Comparison};
@@ -79,6 +79,12 @@ pub(super) enum Step {
     Let {
         register: u32,
         value: Expr,
+    },
+    /// The register takes each of the numbers in turn, or has one of them already.
+    Each {
+        register: u32,
+        bounds: Bounds,
+        is_known: bool,
     },
     /// No row of the source has the key.
     Absent {
@@ -195,6 +201,9 @@ impl<'a> Machine<'a, '_> {
                 }
                 None => false,
             },
+            Step::Each { register, bounds, is_known } => {
+                self.each(*register, bounds, *is_known, at + 1)
+            }
             Step::Absent { source, key } => {
                 let has_row = match key.as_slice() {
                     [one] => self.compute(one).map(|word| self.has_row(*source, &[word])),
@@ -217,6 +226,22 @@ impl<'a> Machine<'a, '_> {
             }
             Step::Reached => self.goal.reached(self.registers, self.words),
         }
+    }
+
+    fn each(&mut self, register: u32, bounds: &Bounds, is_known: bool, next: usize) -> bool {
+        let known = |v: u32| self.registers[v as usize];
+        let Some(numbers) = value::numbers(bounds, &known, self.words) else { return false };
+        let register = register as usize;
+        if is_known {
+            let number = self.words.to_number(self.registers[register]);
+            return numbers.contains(number) && self.run(next);
+        }
+        let mut found = false;
+        for number in numbers.iter() {
+            self.registers[register] = self.words.number(number);
+            found |= self.run(next);
+        }
+        found
     }
 
     fn compute(&mut self, expr: &Expr) -> Option<Word> {

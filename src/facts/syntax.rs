@@ -66,6 +66,8 @@ pub(super) enum Role {
     LimitSize,
     /// `eqrel`: closed under equivalence.
     Equivalence,
+    /// `inline`: its rules are put where it is read.
+    Inline,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -272,13 +274,19 @@ functors! {
     Length "strlen" N(S);
     Part "substr" S(S, N, N);
     ToText "to_string" S(N);
+    TextToText "to_string" S(S);
     DecimalToText "to_string" S(D);
     ToNumber "to_number" N(S);
     DecimalToNumber "to_number" N(D);
+    NumberToNumber "to_number" N(N);
     ToUnsigned "to_unsigned" N(S);
+    NumberToUnsigned "to_unsigned" N(N);
+    DecimalToUnsigned "to_unsigned" N(D);
     ToDecimal "to_float" D(S);
+    DecimalToDecimal "to_float" D(D);
     NumberToDecimal "to_float" D(N);
     Ordinal "ord" N(S);
+    Range "range" N(N, N, N);
 }
 
 impl Functor {
@@ -295,7 +303,12 @@ impl Functor {
             (Self::Larger, Some(Kind::Float)) => Self::LargerOfDecimals,
             (Self::ToText, Some(Kind::Float)) => Self::DecimalToText,
             (Self::ToNumber, Some(Kind::Float)) => Self::DecimalToNumber,
+            (Self::ToText, Some(Kind::Symbol)) => Self::TextToText,
+            (Self::ToNumber, Some(Kind::Number)) => Self::NumberToNumber,
+            (Self::ToUnsigned, Some(Kind::Number)) => Self::NumberToUnsigned,
+            (Self::ToUnsigned, Some(Kind::Float)) => Self::DecimalToUnsigned,
             (Self::ToDecimal, Some(Kind::Number)) => Self::NumberToDecimal,
+            (Self::ToDecimal, Some(Kind::Float)) => Self::DecimalToDecimal,
             _ => self,
         }
     }

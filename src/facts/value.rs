@@ -6,7 +6,7 @@
 use std::cmp::Ordering;
 
 use super::decimal::{self, Decimal};
-use super::program::{Expr, VariableId};
+use super::program::{Bounds, Expr, VariableId};
 use super::syntax::{Comparison, Functor};
 use super::word::{Word, Words, is_in_place};
 
@@ -52,6 +52,13 @@ pub(super) fn number(
         }
         // Towards zero, as Soufflé does.
         (Functor::DecimalToNumber, [a]) => Some(number(a, variable, words)? / decimal::ONE),
+        (Functor::DecimalToUnsigned, [a]) => {
+            Some(number(a, variable, words)? / decimal::ONE).filter(|number| *number >= 0)
+        }
+        (Functor::NumberToNumber | Functor::DecimalToDecimal, [a]) => number(a, variable, words),
+        (Functor::NumberToUnsigned, [a]) => {
+            number(a, variable, words).filter(|number| *number >= 0)
+        }
         (Functor::NumberToDecimal, [a]) => number(a, variable, words)?.checked_mul(decimal::ONE),
         (Functor::Ordinal, [a]) => compute(a, variable, words).map(i64::from),
         (Functor::Negate | Functor::NegateDecimals, [a]) => {
@@ -114,11 +121,61 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
             Some(whole.chars().skip(from).take(length).collect())
         }
         (Functor::ToText, [a]) => number(a, variable, words).map(|number| number.to_string()),
+        (Functor::TextToText, [a]) => text(a, variable, words),
         (Functor::DecimalToText, [a]) => {
             number(a, variable, words).map(|number| Decimal::from_millionths(number).to_string())
         }
         _ => None,
     }
+}
+
+/// The numbers of a range, as Soufflé counts them: a step of none gives the first number alone.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Numbers {
+    from: i64,
+    step: i64,
+    count: i64,
+}
+
+/// Longer ranges are no values: a rule over one would not end.
+const MAX_NUMBERS: i128 = 1 << 31;
+
+impl Numbers {
+    pub(super) fn contains(self, number: i64) -> bool {
+        let far = i128::from(number) - i128::from(self.from);
+        let step = i128::from(self.step);
+        match step {
+            0 => self.count > 0 && far == 0,
+            _ => far % step == 0 && (0..i128::from(self.count)).contains(&(far / step)),
+        }
+    }
+
+    pub(super) fn iter(self) -> impl Iterator<Item = i64> {
+        (0..self.count).map(move |n| self.from + n * self.step)
+    }
+}
+
+/// None where a bound has no value, or the range is too long.
+pub(super) fn numbers(
+    bounds: &Bounds,
+    variable: &impl Fn(VariableId) -> Word,
+    words: &mut Words,
+) -> Option<Numbers> {
+    let from = number(&bounds.from, variable, words)?;
+    let to = number(&bounds.to, variable, words)?;
+    let step = match &bounds.step {
+        Some(step) => number(step, variable, words)?,
+        None if from <= to => 1,
+        None => -1,
+    };
+    let far = i128::from(to) - i128::from(from);
+    let count = match i128::from(step) {
+        0 => i128::from(far > 0),
+        step if far.signum() != step.signum() => 0,
+        step => (far.abs() + step.abs() - 1) / step.abs(),
+    };
+    let count = i64::try_from(count).ok().filter(|count| i128::from(*count) <= MAX_NUMBERS)?;
+    Some(Numbers { from, step, count })
 }
 
 /// Longer texts are no values: a recursive rule with `cat` would fill the memory.

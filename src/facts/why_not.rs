@@ -59,6 +59,8 @@ impl FailedRule {
 
 /// Premises tried at most for one question, over all rules.
 const MAX_TRIED: usize = 200_000;
+/// Of them for instances in which a premise fails although other values would let it hold.
+const MAX_TRIED_WITHOUT: usize = 20_000;
 /// Rules below rules at most.
 const MAX_DEPTH: usize = 24;
 
@@ -109,7 +111,15 @@ impl Explainer {
             .collect();
         let mut best: Option<Best> = None;
         let mut tried = 0;
-        for clause in clauses {
+        for (clause, goes_without) in
+            clauses.iter().map(|n| (*n, false)).chain(clauses.iter().map(|n| (*n, true)))
+        {
+            if goes_without && best.as_ref().is_none_or(|best| best.distance.0 <= 1) {
+                break;
+            }
+            if goes_without && clause == clauses[0] {
+                tried = MAX_TRIED - MAX_TRIED_WITHOUT;
+            }
             self.ask(clause);
             let asked = self.asked(clause);
             let mut registers = vec![NO_WORD; asked.clause.variables.len()];
@@ -117,7 +127,8 @@ impl Explainer {
                 registers[*v as usize] = *word;
             }
             let body = asked.clause.body.clone();
-            let search = Search { holds: vec![None; body.len()], registers, distance: (0, 0.0) };
+            let holds = vec![None; body.len()];
+            let search = Search { holds, registers, distance: (0, 0.0), goes_without };
             let open: Vec<usize> = (0..body.len()).collect();
             self.search(clause, &body, open, search, &mut best, &mut tried);
         }
@@ -188,13 +199,14 @@ impl Explainer {
                 self.nearest(atom.relation, &row, above).map(Below::Missing)
             }
             Literal::Not(atom) => {
-                let search =
-                    Search { registers: registers.to_vec(), holds: Vec::new(), distance: (0, 0.0) };
+                let registers = registers.to_vec();
+                let (holds, distance) = (Vec::new(), (0, 0.0));
+                let search = Search { registers, holds, distance, goes_without: false };
                 let mut row = self.matching(atom, &search).into_iter().next()?;
                 row.truncate(atom.args.len());
                 self.prove(atom.relation, row.into()).map(Below::There)
             }
-            Literal::Compare(_) | Literal::Aggregate(_) => None,
+            Literal::Compare(_) | Literal::Aggregate(_) | Literal::Range(_) => None,
         }
     }
 
@@ -221,8 +233,18 @@ impl Explainer {
         // The best known atom next; of equals the first.
         let Some(next) = atoms.rev().max_by_key(known) else {
             search.distance.0 += open.len();
+            // What was gone without must fail for the values that others gave.
+            let fails = |n: usize, this: &mut Self| match &body[n] {
+                Literal::Atom(atom) => this.matching(atom, &search).is_empty(),
+                _ => true,
+            };
+            if search.goes_without
+                && !(0..body.len()).all(|n| search.holds[n] != Some(false) || fails(n, self))
+            {
+                return;
+            }
             if best.as_ref().is_none_or(|best| search.distance < best.distance) {
-                let Search { registers, holds, distance } = search;
+                let Search { registers, holds, distance, .. } = search;
                 *best = Some(Best { distance, clause, registers, holds });
             }
             return;
@@ -246,6 +268,10 @@ impl Explainer {
                 return;
             }
         }
+        if search.goes_without {
+            search.fail(next, f64::INFINITY);
+            self.search(clause, body, open, search, best, tried);
+        }
     }
 
     /// Judges and computes everything whose variables are known.
@@ -266,6 +292,19 @@ impl Explainer {
                     let is_absent = self.matching(atom, search).is_empty();
                     if is_absent { Judged::Holds } else { Judged::Fails(f64::INFINITY) }
                 }),
+                Literal::Range(range) => {
+                    let register = |v: VariableId| search.registers[v as usize];
+                    let target = register(range.target);
+                    let is_known = |expr: &Expr| expr.all_variables(|v| register(v) != NO_WORD);
+                    let ready = target != NO_WORD && range.bounds.exprs().all(is_known);
+                    ready.then(|| {
+                        let words = &mut self.finished.words;
+                        let number = words.to_number(target);
+                        let numbers = value::numbers(&range.bounds, &register, words);
+                        let is_there = numbers.is_some_and(|numbers| numbers.contains(number));
+                        if is_there { Judged::Holds } else { Judged::Fails(f64::INFINITY) }
+                    })
+                }
                 Literal::Aggregate(aggregate) => {
                     let ready =
                         aggregate.shared.iter().all(|v| search.registers[*v as usize] != NO_WORD);
@@ -382,6 +421,8 @@ struct Search {
     registers: Vec<Word>,
     holds: Vec<Option<bool>>,
     distance: Distance,
+    /// Whether premises may fail that some values would let hold.
+    goes_without: bool,
 }
 
 impl Search {

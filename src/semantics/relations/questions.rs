@@ -200,6 +200,6 @@ impl Relations {
 
     /// Relations that people ask for: put out, and named in both languages.
     fn public(&self) -> impl Iterator<Item = (RelationId, &RelationInfo)> {
-        self.derived().relations().filter(|(_, i)| i.output.is_some() && i.second_name.is_some())
+        self.derived().relations().filter(|(_, i)| !i.outputs.is_empty() && i.second_name.is_some())
     }
 }
