@@ -12,7 +12,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use super::evaluate::head_variables;
+use super::head::head_variables;
 use super::kept::Kept;
 use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Atom, Clause, Literal, Program, RelationId, Term, VariableId};

@@ -7,7 +7,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::{Arc, OnceLock};
 
-use super::evaluate::distinct;
+use super::finished::distinct;
 use super::index::Index;
 use super::plan::{Plan, Request, Statistics};
 use super::program::{Expr, RelationId};

@@ -1,0 +1,129 @@
+//! The relations that are derived already, their indexes, and what plans ask of their sizes.
+
+use std::cell::{Ref, RefCell};
+use std::collections::HashMap;
+
+use super::index::Index;
+use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
+use super::program::{Expr, RelationId};
+use super::rows::{RowSet, SharedRows};
+use super::run::{Goal, Source, Step, run};
+use super::word::{Word, Words};
+
+/// Finished relations, and what is known and built about them.
+pub(super) struct Finished {
+    pub(super) words: Words,
+    pub(super) rows: Vec<Option<SharedRows>>,
+    pub(super) indexes: HashMap<(RelationId, Vec<Expr>), Index>,
+    distinct: RefCell<HashMap<(RelationId, usize), f64>>,
+}
+
+impl Finished {
+    pub(super) fn new(words: Words, rows: Vec<Option<SharedRows>>) -> Self {
+        Self { words, rows, indexes: HashMap::new(), distinct: RefCell::default() }
+    }
+
+    pub(super) fn relation(&self, relation: RelationId) -> &dyn RowSet {
+        self.rows[relation.index()].as_deref().expect("strata come after those they read")
+    }
+
+    /// Builds the indexes that a plan asks for, and points the plan's scans to their columns.
+    pub(super) fn provide(&mut self, plan: &mut Plan) {
+        let mut places: Vec<Option<Vec<usize>>> = Vec::with_capacity(plan.requests.len());
+        for request in &plan.requests {
+            let Request::Index { relation, key, columns } = request else {
+                places.push(None);
+                continue;
+            };
+            let rows =
+                self.rows[relation.index()].as_deref().expect("strata come after those they read");
+            let entry = self.indexes.entry((*relation, key.clone()));
+            let index = entry.or_insert_with(|| Index::new(rows, key, &mut self.words));
+            let place = columns.iter().map(|column| index.column(rows, column, &mut self.words));
+            places.push(Some(place.collect()));
+        }
+        for step in &mut plan.steps {
+            let Step::Scan(scan) = step else { continue };
+            let Some(place) = &places[scan.source] else { continue };
+            scan.loads.iter_mut().for_each(|(column, _)| *column = place[*column]);
+            scan.same.iter_mut().for_each(|(column, _)| *column = place[*column]);
+            scan.filters.iter_mut().for_each(|filter| filter.column = place[filter.column]);
+        }
+    }
+
+    /// Runs a provided plan from the given registers.
+    pub(super) fn run(
+        &mut self,
+        plan: &Plan,
+        growing: &[Vec<Ref<'_, dyn RowSet>>],
+        registers: &mut [Word],
+        goal: &mut dyn Goal,
+    ) -> bool {
+        let mut sources = Vec::with_capacity(plan.requests.len());
+        for (request, parts) in plan.requests.iter().zip(growing) {
+            sources.push(match request {
+                Request::Whole(relation) => {
+                    let rows = self.rows[relation.index()].as_deref();
+                    let rows: &dyn RowSet = rows.expect("strata come after those they read");
+                    Source::Rows(vec![rows])
+                }
+                Request::Index { relation, key, .. } => {
+                    let index = self.indexes.get(&(*relation, key.clone()));
+                    Source::Index(index.expect("a provided plan has its indexes"))
+                }
+                Request::Growing { .. } => Source::Rows(parts.iter().map(|part| &**part).collect()),
+            });
+        }
+        run(&plan.steps, &sources, registers, &mut self.words, goal)
+    }
+}
+
+impl Statistics for Finished {
+    fn size(&self, relation: RelationId) -> f64 {
+        // A relation that is still growing may become large.
+        self.rows[relation.index()].as_ref().map_or(1e6, |rows| rows.len().max(1) as f64)
+    }
+
+    fn distinct(&self, relation: RelationId, column: usize) -> f64 {
+        if self.rows[relation.index()].is_none() {
+            return 1e3;
+        }
+        let mut known = self.distinct.borrow_mut();
+        *known
+            .entry((relation, column))
+            .or_insert_with(|| distinct(self.relation(relation), column))
+    }
+
+    fn share(
+        &self,
+        relation: RelationId,
+        column: usize,
+        holds: &dyn Fn(Word, &Words) -> bool,
+    ) -> f64 {
+        const SAMPLE: usize = 512;
+        let Some(rows) = self.rows[relation.index()].as_deref() else { return UNKNOWN_SHARE };
+        let step = rows.len().div_ceil(SAMPLE).max(1);
+        let (mut all, mut held) = (0, 0);
+        for at in (0..rows.len()).step_by(step) {
+            all += 1;
+            held += usize::from(holds(rows.row(at)[column], &self.words));
+        }
+        // A sample that misses the few that hold does not show that there are none.
+        (held as f64 + 0.5) / (f64::from(all) + 1.0)
+    }
+}
+
+/// Different words in a column, estimated from a sample where the relation is large.
+pub(super) fn distinct(rows: &dyn RowSet, column: usize) -> f64 {
+    const SAMPLE: usize = 1024;
+    let step = rows.len().div_ceil(SAMPLE).max(1);
+    let mut words: Vec<Word> =
+        (0..rows.len()).step_by(step).map(|at| rows.row(at)[column]).collect();
+    let sampled = words.len().max(1);
+    words.sort_unstable();
+    let unique = words.chunk_by(|a, b| a == b).filter(|same| same.len() == 1).count();
+    words.dedup();
+    // Words seen once in the sample stand for others that were not seen.
+    let unseen = unique as f64 * (rows.len() as f64 / sampled as f64 - 1.0);
+    (words.len() as f64 + unseen).max(1.0)
+}

@@ -1,0 +1,95 @@
+//! The head of a clause: its tuple for each solution of the body.
+
+use super::evaluate::MAX_ROWS;
+use super::program::{Clause, Expr, Kind, Program, VariableId};
+use super::rows::Sink;
+use super::run::Goal;
+use super::value;
+use super::word::{Word, Words};
+
+/// The variables whose values a clause's head reads.
+pub(super) fn head_variables(clause: &Clause) -> Vec<VariableId> {
+    let mut wanted: Vec<VariableId> = Vec::new();
+    clause.args.iter().for_each(|arg| arg.for_each_variable(&mut |v| wanted.push(v)));
+    wanted
+}
+
+/// Puts the head's tuple for each solution into the sink.
+pub(super) struct Head<'a> {
+    args: &'a [Expr],
+    /// Columns that hold no negative number; a solution that would put one there is none.
+    unsigned: Vec<usize>,
+    /// Of `.limitsize`.
+    limit: usize,
+    /// Solutions still accepted, whatever the rules say.
+    left: usize,
+    row: Vec<Word>,
+    sink: &'a mut dyn Sink,
+}
+
+impl<'a> Head<'a> {
+    pub(super) fn new(
+        program: &Program,
+        clause: &'a Clause,
+        limit: usize,
+        sink: &'a mut dyn Sink,
+    ) -> Self {
+        let columns = &program.info(clause.head).columns;
+        let unsigned: Vec<usize> =
+            (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
+        let row = vec![0; clause.args.len()];
+        Self { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink }
+    }
+}
+
+/// The heads of a clause's solutions, one by one.
+#[derive(Debug, Default)]
+pub(super) struct Rows {
+    pub(super) rows: Vec<Box<[Word]>>,
+}
+
+impl Rows {
+    /// Takes the solutions that `run` finds for the goal that it is given.
+    pub(super) fn fill(
+        &mut self,
+        program: &Program,
+        clause: &Clause,
+        run: impl FnOnce(&mut dyn Goal),
+    ) {
+        run(&mut Head::new(program, clause, MAX_ROWS, self));
+    }
+}
+
+impl Sink for Rows {
+    fn push(&mut self, row: &[Word]) {
+        self.rows.push(row.into());
+    }
+
+    fn len(&self) -> usize {
+        self.rows.len()
+    }
+}
+
+impl Goal for Head<'_> {
+    fn reached(&mut self, registers: &[Word], words: &mut Words) -> bool {
+        for (word, arg) in self.row.iter_mut().zip(self.args) {
+            *word = match arg {
+                Expr::Variable(v) => registers[*v as usize],
+                Expr::Constant(word) => *word,
+                Expr::Call(..) => match value::compute(arg, &|v| registers[v as usize], words) {
+                    Some(word) => word,
+                    None => return false,
+                },
+            };
+        }
+        if self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0) {
+            return false;
+        }
+        if self.left == 0 || self.limit < MAX_ROWS && self.sink.len() >= self.limit {
+            return false;
+        }
+        self.left -= 1;
+        self.sink.push(&self.row);
+        true
+    }
+}
