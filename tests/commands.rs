@@ -9,10 +9,10 @@ use orthoframe::engine::{
 use orthoframe::geometry::Scene;
 use orthoframe::language::Language;
 use orthoframe::language::command::Command;
-use orthoframe::map::{DoorState, Entity, World, is_on, switch};
+use orthoframe::map::{DoorState, Entity, Format, World, is_on, switch};
 use orthoframe::robot::{Deed, Surprise};
 use orthoframe::semantics::{Profile, RelationRules, derive};
-use orthoframe::units::{AreaId, ReplicaId};
+use orthoframe::units::{AreaId, ReplicaId, Source};
 
 use crate::worlds::{mirrored, rb2};
 
@@ -411,4 +411,79 @@ fn what_the_program_understands_of_a_map_may_be_english() {
         .map(|r| directive_in_words(lab.world().unwrap(), &r.directive, Language::English))
         .collect();
     assert!(words.iter().any(|w| w.contains("Toolbox 1 on Workbench 1")), "{words:?}");
+}
+
+/// «в» is not «на»: a shelf takes a thing between its boards, a table has no inside, a shut door keeps things out.
+#[test]
+fn what_is_put_into_a_thing_is_inside_of_it() {
+    let mut world = rb2();
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    for (command, why) in [
+        ("Положи чашку-1 в Обеденный стол", "внутри нет места"),
+        ("Положи чашку-1 в Холодильник-1", "дверцы закрыты"),
+    ] {
+        let refused = engine.perform(command, &mut |_| {}).unwrap_err().to_string();
+        assert!(refused.contains(why), "{command}: {refused}");
+    }
+    for door in world.doors.values_mut() {
+        if door.name == "Дверца холодильника" {
+            door.state = DoorState::OPEN;
+        }
+    }
+    for (command, into) in [
+        ("Положи чашку-1 в Стеллаж-1", "Стеллаж-1"),
+        ("Поставь чашку-1 в Холодильник-1", "Холодильник-1"),
+    ] {
+        let engine = Engine::in_memory(world.clone(), None).unwrap();
+        let answer = perform(&engine, command);
+        assert!(matches!(answer.ending, TaskEnding::Done), "{command}: {:?}", answer.ending);
+        let after = answer.after.expect("something was done");
+        let (&replica, seen) = after.moved.iter().next().expect("the cup is elsewhere");
+        let seen = seen.as_ref().expect("the cup is somewhere");
+        let mut now = world.clone();
+        let cup = now.replicas.get_mut(&replica).expect("a thing of the map");
+        (cup.area, cup.frame) = (seen.area, seen.frame);
+        let relations = derive(&now, &RelationRules::standard(), Profile::Surveyed).unwrap();
+        let inside = relations.derived().tuples("INSIDE").unwrap();
+        let held: Vec<Option<&str>> =
+            inside.filter(|t| t.symbol(0) == Some("Чашка-1")).map(|t| t.symbol(1)).collect();
+        assert!(held.contains(&Some(into)), "{command}: {held:?}");
+    }
+}
+
+#[test]
+fn a_room_to_which_nothing_leads_is_named() {
+    let text = include_str!("../maps/lab.toml");
+    let between = |text: &str, from: &str, to: &str| {
+        let start = text.find(from).unwrap();
+        start..start + text[start..].find(to).unwrap()
+    };
+    // The door of the office walled up on both sides.
+    let mut text = text.to_owned();
+    text.replace_range(between(&text, "[door.office]", "# Furniture"), "");
+    for (room, side) in [("office", "side.B"), ("corridor", "side.D")] {
+        let head = text.find(&format!("[orthoframe.{room}]")).unwrap();
+        let at = head + text[head..].find(side).unwrap();
+        let end = at + text[at..].find('\n').unwrap();
+        text.replace_range(at..end, &format!("{side} = {{ type = \"wall\" }}"));
+    }
+    let walled = text
+        .replace("  { side = \"D\", door = \"office\", opens = \"outside\" },\n", "")
+        .replace("doors = [{ side = \"B\", door = \"office\", opens = \"inside\" }]\n", "");
+    let walled = format!(
+        "{walled}links = [\n  {{ from = \"lab.B\", to = \"corridor.F\" }},\n  \
+         {{ from = \"office.F\", to = \"lab.D\" }},\n]\n"
+    );
+    let world = World::parse(&Source::new("walled", walled), Format::Toml).unwrap();
+    let lab = Engine::in_memory(world, None).unwrap();
+    for (command, told) in [
+        ("Bring the battery", vec!["Neither door nor passage leads to the office."]),
+        ("Go to the desk", vec!["Neither door nor passage leads to the office."]),
+        ("Bring the toolbox", vec![]),
+    ] {
+        let answer = perform(&lab, command);
+        let has_plan = matches!(answer.ending, TaskEnding::Done);
+        assert_eq!(has_plan, told.is_empty(), "{command}: {:?}", answer.ending);
+        assert_eq!(lab.unconnected_in_words(&answer, Language::English), told, "{command}");
+    }
 }

@@ -86,7 +86,7 @@ fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnsw
     say(&format!("{} «{task}»", common.lang.pick("Задание:", "Task:")))?;
     let answer = engine.perform(task, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
-    say(&ending(world, &answer, common.lang))?;
+    say_ending(engine, &answer, common.lang)?;
     Ok(answer)
 }
 
@@ -100,7 +100,7 @@ pub(super) fn carry_out(
     let mut teller = Teller::new(world, lang);
     let answer = engine.carry_out(commands, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
-    say(&ending(world, &answer, lang))?;
+    say_ending(engine, &answer, lang)?;
     Ok(answer)
 }
 
@@ -183,6 +183,20 @@ impl<'w> Teller<'w> {
         // A closed pipe is noticed by the command's last words.
         self.bar.suspend(|| drop(say(line)));
     }
+}
+
+fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Failure> {
+    if let TaskEnding::NoPlan(planned) = &answer.ending
+        && matches!(planned.solved.outcome, Outcome::NoPlan { .. })
+    {
+        // Where nothing leads at all, that is the reason; the rules would only say it in more words.
+        let apart = engine.unconnected_in_words(answer, lang.language());
+        if !apart.is_empty() {
+            let head = lang.pick("Плана нет, и это доказано.", "There is no plan; this is proven.");
+            return say(&format!("{head} {}", apart.join(" "))).map(|_| ());
+        }
+    }
+    say(&ending(engine.world()?, answer, lang)).map(|_| ())
 }
 
 fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {

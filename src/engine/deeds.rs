@@ -1,5 +1,6 @@
 //! A directive in words: what it asks for, and what it has done: what was switched, found, put away, who was called.
 
+use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Deed, Directive, STARTING_POINT};
@@ -81,14 +82,13 @@ impl Words<'_> {
         let accusative = |name: &str| self.name(name, Case::Accusative);
         match deed {
             Deed::GoToPlace(to) | Deed::GoToDoor(to) => {
-                format!("{} {}", pick("подъехать к", "drive to"), self.name(to, Case::Dative))
+                format!("{} {}", pick("подъехать", "drive"), self.at(Preposition::K, "to", to))
             }
             Deed::Cross { door, into } => format!(
-                "{} {} {} {}",
+                "{} {} {}",
                 pick("проехать через", "go through"),
                 accusative(door),
-                pick("в", "into"),
-                accusative(into)
+                self.at(Preposition::V, "into", into)
             ),
             Deed::SetDoor { door, status } => {
                 let (ru, en) = opened(*status);
@@ -96,11 +96,14 @@ impl Words<'_> {
             }
             Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
             Deed::Put { thing, onto: Some(onto) } => format!(
-                "{} {} {} {}",
+                "{} {} {}",
                 pick("положить", "put"),
                 accusative(thing),
-                pick("на", "on"),
-                accusative(onto)
+                if self.is_container(onto) {
+                    self.at(Preposition::V, "in", onto)
+                } else {
+                    format!("{} {}", pick("на", "on"), accusative(onto))
+                }
             ),
             Deed::Put { thing, onto: None } => match self.language {
                 Language::Russian => format!("положить {} на пол", accusative(thing)),
@@ -131,6 +134,16 @@ impl Words<'_> {
         }
     }
 
+    /// A name after a preposition, «ко Входной двери», "to the entrance door".
+    fn at(&self, preposition: Preposition, english: &str, name: &str) -> String {
+        let case = if preposition == Preposition::K { Case::Dative } else { Case::Accusative };
+        let name = self.name(name, case);
+        match self.language {
+            Language::Russian => format!("{} {name}", russian::preposition(preposition, &name)),
+            Language::English => format!("{english} {name}"),
+        }
+    }
+
     /// A name of the map; a place of the plan that the map has not is told by the thing that it is before.
     fn name(&self, name: &str, case: Case) -> String {
         let known = name.strip_prefix(PLACE_BESIDE).unwrap_or(name);
@@ -142,6 +155,18 @@ impl Words<'_> {
             }
             (None, _) => name.to_owned(),
         }
+    }
+
+    /// Made to have things in it, and not on it.
+    fn is_container(&self, name: &str) -> bool {
+        self.world.find(name).iter().any(|entity| match entity {
+            Entity::Replica(id) => {
+                let kind = self.world.objects[&self.world.replicas[id].object].object_type;
+                let has = |wanted| self.world.types.object.has_trait(kind, wanted);
+                has("container") && !has("support")
+            }
+            _ => false,
+        })
     }
 
     fn person(&self, person: &str) -> String {

@@ -1,9 +1,9 @@
 //! Where a thing goes that is to be brought somewhere: onto what was named, or onto what stands in the room that was
 //! named and has space for it.
 
-use crate::language::command::{Placement, Relation};
+use crate::language::command::{Command, Placement, Relation};
 use crate::map::{Entity, World};
-use crate::robot::{GoalFact, facts_of_map, spot_on};
+use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, ReplicaId};
 
@@ -44,8 +44,12 @@ impl Engine {
             }]
         };
         match (to.relation, to.anchor) {
+            (Relation::In, Entity::Replica(support)) => {
+                self.opens(support, now)?;
+                Ok(fact(predicate::THING_ON, to.anchor))
+            }
             // "to the table": what is carried to a table is put onto it.
-            (Relation::On | Relation::In | Relation::At, Entity::Replica(_)) => {
+            (Relation::On | Relation::At, Entity::Replica(_)) => {
                 Ok(fact(predicate::THING_ON, to.anchor))
             }
             (_, Entity::Place(_)) => Ok(fact(predicate::THING_AT_PLACE, to.anchor)),
@@ -53,6 +57,35 @@ impl Engine {
                 self.laid_in_area(id, area, now, relations)
             }
             (_, anchor) => Err(RequestError::NoGoal { command: name(anchor) }.into()),
+        }
+    }
+
+    /// Of a command that puts a thing into another: the names of both.
+    pub(super) fn put_into(&self, command: &Command<Entity>) -> Option<(String, String)> {
+        let world = self.world().ok()?;
+        match command {
+            Command::Bring { what, to: Some(to) } | Command::Put { what, to }
+                if to.relation == Relation::In && matches!(to.anchor, Entity::Replica(_)) =>
+            {
+                Some((world.name(what.id).to_owned(), world.name(to.anchor).to_owned()))
+            }
+            _ => None,
+        }
+    }
+
+    /// That things can be put into another.
+    fn opens(&self, support: ReplicaId, now: &Now) -> Result<(), Error> {
+        let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
+        let area = now.world.replicas.get(&support).map(|r| r.area);
+        let map = area.and_then(|area| now.world.placement(area)).map(|(map, _)| map);
+        let hollow = match map {
+            Some(map) => hollow(&now.world, self.floor(map)?.scene(), support),
+            None => Hollow::No,
+        };
+        match hollow {
+            Hollow::Open => Ok(()),
+            Hollow::Shut => Err(RequestError::Shut { name: name()? }.into()),
+            Hollow::No => Err(RequestError::NotHollow { name: name()? }.into()),
         }
     }
 

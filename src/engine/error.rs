@@ -178,6 +178,19 @@ pub enum RequestError {
     )]
     NotPortable { name: String },
 
+    /// Something that has no inside.
+    #[error("в «{name}» ничего не положить: внутри нет места")]
+    #[diagnostic(code(engine::not_hollow), help("скажите, на что положить"))]
+    NotHollow { name: String },
+
+    /// Something whose inside is behind doors that are shut.
+    #[error("«{name}»: дверцы закрыты, а дверцы мебели робот не открывает")]
+    #[diagnostic(
+        code(engine::shut),
+        help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
+    )]
+    Shut { name: String },
+
     /// Nothing in a room can take a thing.
     #[error("«{area}»: «{thing}» там некуда положить")]
     #[diagnostic(code(engine::no_space), help("назовите, на что положить"))]
@@ -300,6 +313,12 @@ impl RequestError {
                 format!("The robot's rules have no goal for this: \"{command}\".")
             }
             Self::NotPortable { name } => format!("The robot does not carry {name}."),
+            Self::NotHollow { name } => {
+                format!("Nothing can be put into {name}: it has no inside.")
+            }
+            Self::Shut { name } => {
+                format!("{name} is shut, and the robot does not open doors of furniture.")
+            }
             Self::NoSpace { thing, area } => {
                 format!("{area}: there is nothing that {thing} could be put on.")
             }

@@ -16,6 +16,7 @@
 //! derived anew when that map changes.
 
 mod advice;
+mod apart;
 mod barriers;
 mod deeds;
 mod delivery;

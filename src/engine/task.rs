@@ -162,6 +162,7 @@ impl Engine {
             }
         }
         goals.retain(|goal| !goal.is_empty());
+        belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
         for command in commands {
             let Command::Find(what) = command else { continue };

@@ -60,6 +60,8 @@ pub struct Belief {
     pub found: BTreeSet<String>,
     /// Where things belong: by the names of a thing and of its support.
     pub homes: Vec<(String, String)>,
+    /// What is to be put into another thing, not onto it: by the names of both.
+    pub into: BTreeSet<(String, String)>,
     pub floor: FloorPlan,
 }
 
@@ -92,6 +94,7 @@ impl Belief {
             sought: BTreeMap::new(),
             found: BTreeSet::new(),
             homes: Vec::new(),
+            into: BTreeSet::new(),
             floor,
         })
     }

@@ -14,7 +14,7 @@ use thiserror::Error;
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
-use super::placing::spot_on;
+use super::placing::{spot_in, spot_on};
 use super::solve::{Solved, solve_again};
 
 /// One fact that is to hold in the end.
@@ -374,7 +374,9 @@ impl<'r> Mission<'r> {
                 let mut world = self.belief.world.clone();
                 let replica = self.belief.held.clone().expect("checked by held()");
                 world.replicas.insert(replica.id, replica);
-                let frame = spot_on(&world, self.belief.scene(), held, support, from.at)
+                let within = self.belief.into.contains(&(thing.to_owned(), name.to_owned()));
+                let spot = if within { spot_in } else { spot_on };
+                let frame = spot(&world, self.belief.scene(), held, support, from.at)
                     .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(support), seen: None })?;
                 (self.belief.world.replicas[&support].area, frame)
             }

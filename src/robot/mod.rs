@@ -19,6 +19,6 @@ pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
-pub use placing::spot_on;
+pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use simulator::{Moment, Simulator};
 pub use solve::{Reason, Solved, Wanted, solve};

@@ -1,7 +1,7 @@
-//! Where a thing can be set down on another: the free spot nearest to the robot.
+//! Where a thing can be set down on another, or in it: the free spot nearest to the robot.
 
-use crate::geometry::{Bounds, PlacedReplica, Scene};
-use crate::map::{Permeability, World};
+use crate::geometry::{Bounds, PlacedReplica, Polygon, Prism, Scene};
+use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Deg, Frame, Point, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
@@ -23,46 +23,166 @@ pub fn spot_on(
     from: Point,
 ) -> Option<Frame> {
     let support = scene.replicas.get(&support)?;
-    // Turned to the Map's axes at the origin: the size of the thing's own box.
-    let shape = PlacedReplica::new(world, thing, Frame::IDENTITY);
-    let height = shape.top - shape.bottom;
-    let mut roofs: Vec<_> = support
+    let mut roofs: Vec<Surface<'_>> = support
         .prisms
         .iter()
         .filter(|p| p.roof_permeability == Permeability::Impermeable)
+        .map(|p| Surface { polygon: &p.polygon, height: p.top, within: None })
         .collect();
-    roofs.sort_by(|a, b| b.top.total_cmp(&a.top));
+    roofs.sort_by(|a, b| b.height.total_cmp(&a.height));
+    spot(world, scene, thing, support, &roofs, from)
+}
+
+/// Whether a thing can have others in it, and whether a hand gets in.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Hollow {
+    /// Solid, or a flat top.
+    No,
+    /// Behind doors that are shut.
+    Shut,
+    Open,
+}
+
+/// Whether and how a thing is hollow.
+///
+/// # Panics
+/// When the support is not of this world.
+#[must_use]
+pub fn hollow(world: &World, scene: &Scene, support: ReplicaId) -> Hollow {
+    let Some(placed) = scene.replicas.get(&support) else { return Hollow::No };
+    let hollow = || placed.prisms.iter().filter(|p| is_hollow(p));
+    if hollow().any(|p| is_open(world, support, p)) {
+        Hollow::Open
+    } else if hollow().next().is_some() {
+        Hollow::Shut
+    } else {
+        Hollow::No
+    }
+}
+
+/// As [`spot_on`], inside of what is open of `support`: on its bottom or on a shelf in it.
+///
+/// # Panics
+/// When `thing` is not of this world.
+#[must_use]
+pub fn spot_in(
+    world: &World,
+    scene: &Scene,
+    thing: ReplicaId,
+    support: ReplicaId,
+    from: Point,
+) -> Option<Frame> {
+    let placed = scene.replicas.get(&support)?;
+    let mut surfaces = Vec::new();
+    for around in placed.prisms.iter().filter(|p| is_hollow(p) && is_open(world, support, p)) {
+        surfaces.push(Surface {
+            polygon: &around.polygon,
+            height: around.bottom,
+            within: Some(around),
+        });
+        let shelves = placed.prisms.iter().filter(|p| {
+            p.roof_permeability == Permeability::Impermeable
+                && p.top > around.bottom + 1e-6
+                && p.top < around.top - 1e-6
+                && p.bounds.meets(&around.bounds)
+        });
+        surfaces.extend(shelves.map(|shelf| Surface {
+            polygon: &shelf.polygon,
+            height: shelf.top,
+            within: Some(around),
+        }));
+    }
+    surfaces.sort_by(|a, b| b.height.total_cmp(&a.height));
+    spot(world, scene, thing, placed, &surfaces, from)
+}
+
+/// What a thing may be set down on.
+struct Surface<'p> {
+    polygon: &'p Polygon,
+    height: f64,
+    /// The hollow that it is in: the thing must fit in there.
+    within: Option<&'p Prism>,
+}
+
+/// The spot nearest to `from` on the first surface that has room.
+fn spot(
+    world: &World,
+    scene: &Scene,
+    thing: ReplicaId,
+    support: &PlacedReplica,
+    surfaces: &[Surface<'_>],
+    from: Point,
+) -> Option<Frame> {
+    // Turned to the Map's axes at the origin: the size of the thing's own box.
+    let shape = PlacedReplica::new(world, thing, Frame::IDENTITY);
+    let height = shape.top - shape.bottom;
     let area = scene.areas.get(&support.area)?;
-    let fits = |at: Vector, top: f64| {
+    let half = (shape.bounds.max - shape.bounds.min) / 2.0;
+    let middle = shape.bounds.min + half;
+    let corners = |c: Point| {
+        [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+            .map(|(sx, sy)| Point::new(c.x + sx * half.x, c.y + sy * half.y))
+    };
+    let fits = |at: Vector, surface: &Surface<'_>| {
         let bounds =
             Bounds { min: shape.bounds.min + at, max: shape.bounds.max + at }.grown(MARGIN);
+        let (bottom, top) = (surface.height, surface.height + height);
+        // A hollow thing is not in its own way.
+        let is_solid = |r: &PlacedReplica, p: &Prism| {
+            surface.within.is_none() || r.id != support.id || !is_hollow(p)
+        };
         scene
             .replicas
             .values()
             .filter(|r| r.id != thing && r.bounds.meets(&bounds))
-            .flat_map(|r| &r.prisms)
-            .all(|p| p.top <= top + 1e-6 || p.bottom >= top + height || !p.bounds.meets(&bounds))
+            .flat_map(|r| r.prisms.iter().filter(move |p| is_solid(r, p)))
+            .all(|p| p.top <= bottom + 1e-6 || p.bottom >= top || !p.bounds.meets(&bounds))
     };
-    roofs.into_iter().find_map(|roof| {
-        let half = (shape.bounds.max - shape.bounds.min) / 2.0;
-        let middle = shape.bounds.min + half;
-        let corners = |c: Point| {
-            [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-                .map(|(sx, sy)| Point::new(c.x + sx * half.x, c.y + sy * half.y))
+    surfaces.iter().find_map(|surface| {
+        let holds = |c: Point| {
+            let roofed = |p: &Prism| {
+                p.roof_permeability != Permeability::Permeable && surface.height + height > p.top
+            };
+            corners(c).iter().all(|&p| {
+                surface.polygon.contains(p, 1e-6)
+                    && surface.within.is_none_or(|w| w.polygon.contains(p, 1e-6))
+            }) && !surface.within.is_some_and(roofed)
         };
-        grid(roof.bounds)
-            .filter(|&c| corners(c).iter().all(|&p| roof.polygon.contains(p, 1e-6)))
-            .filter(|&c| fits(c - middle, roof.top))
+        grid(surface.polygon.bounds())
+            .filter(|&c| holds(c) && fits(c - middle, surface))
             .min_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()))
             .map(|c| {
                 let origin = area.frame.invert(Point::origin() + (c - middle));
                 Frame::new(
                     origin.x,
                     origin.y,
-                    roof.top - shape.bottom - area.frame.z.get(),
+                    surface.height - shape.bottom - area.frame.z.get(),
                     Deg::ZERO - area.frame.angle,
                 )
             })
+    })
+}
+
+/// Some face of it is no wall.
+fn is_hollow(prism: &Prism) -> bool {
+    prism.roof_permeability != Permeability::Impermeable
+        || prism.sides.iter().any(|s| s.permeability != Permeability::Impermeable)
+}
+
+/// A hand gets in: by a face that is open, or by a door that is.
+fn is_open(world: &World, replica: ReplicaId, prism: &Prism) -> bool {
+    if prism.roof_permeability == Permeability::Permeable
+        || prism.sides.iter().any(|s| s.permeability == Permeability::Permeable)
+    {
+        return true;
+    }
+    let Some(replica) = world.replicas.get(&replica) else { return false };
+    let object = &world.objects[&replica.object];
+    let item = object.items.get(prism.item).map(|item| item.id.as_str());
+    object.doors.iter().filter(|mount| item == Some(&*mount.item)).any(|mount| {
+        let own = replica.door_states.get(&mount.door).copied();
+        let state = own.or_else(|| world.doors.get(&mount.door).map(|door| door.state));
+        state.is_some_and(|state| state.status == DoorStatus::Open)
     })
 }
 
