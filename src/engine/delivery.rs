@@ -45,7 +45,7 @@ impl Engine {
         };
         match (to.relation, to.anchor) {
             (Relation::In, Entity::Replica(support)) => {
-                self.opens(support, now)?;
+                self.has_open_inside(support, now)?;
                 Ok(fact(predicate::THING_ON, to.anchor))
             }
             // "to the table": what is carried to a table is put onto it.
@@ -74,7 +74,7 @@ impl Engine {
     }
 
     /// That things can be put into another.
-    fn opens(&self, support: ReplicaId, now: &Now) -> Result<(), Error> {
+    fn has_open_inside(&self, support: ReplicaId, now: &Now) -> Result<(), Error> {
         let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
         let area = now.world.replicas.get(&support).map(|r| r.area);
         let map = area.and_then(|area| now.world.placement(area)).map(|(map, _)| map);
