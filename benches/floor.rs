@@ -3,7 +3,7 @@
 //! `cargo bench --bench floor [-- NAME]` prints three tables: building, asking the way, rebuilding after a move.
 //! Every program does its part of a floor in a process of its own, so that memory is told apart. Times are of the
 //! processor, of all threads together; a query's is the least of five on the clock. `-- --build NAME` builds one
-//! floor of ours over and over, for a profiler.
+//! floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 #[path = "../tests/floors.rs"]
@@ -57,6 +57,15 @@ fn main() {
             let floor = floor(name);
             (0..10).for_each(|_| drop(black_box(plan(&floor.builder.world))));
         }
+        ["--ask", name] => {
+            let floor = floor(name);
+            let (plan, pairs) = (plan(&floor.builder.world), floor.pairs(QUERIES, RADIUS));
+            let joined = |(from, to): &&(Point, Point)| plan.are_joined(*from, *to);
+            for (from, to) in (0..400).flat_map(|_| pairs.iter().filter(joined)) {
+                let to = Target::Point(*to);
+                let _ = black_box(plan.route(&floor.builder.world, *from, to, Method::Shortest));
+            }
+        }
         _ => tables(arguments.first().copied().unwrap_or_default()),
     }
 }
@@ -108,7 +117,7 @@ fn ratio(above: Option<&f64>, below: Option<&f64>) -> String {
 
 fn tables(wanted: &str) {
     let mut build = String::from(
-        "| floor | build, ms | Recast, ms (without detail mesh) | times faster | polyanya, ms | Passframes | Recast's polygons | peak memory, MB | Recast's |\n|---|---|---|---|---|---|---|---|---|\n",
+        "| floor | build, ms | Recast, ms (without detail mesh) | times faster | polyanya, ms | Passframes | Recast's polygons | peak memory, MB (before building) | Recast's |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     let mut query = String::from(
         "| floor | ways | median, µs | p99 | polyanya, median | p99 | Detour's mean elsewhere | our median of it | over the optimum: mean | worst | polyanya's mean |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -120,7 +129,7 @@ fn tables(wanted: &str) {
         let (fast, slow) = (ours.numbers.get("build"), recast.numbers.get("build"));
         let _ = writeln!(
             build,
-            "| {name} | {} | {} ({}) | {} | {} | {} | {} | {} | {} |",
+            "| {name} | {} | {} ({}) | {} | {} | {} | {} | {} ({}) | {} ({}) |",
             ours.shown("build", 2),
             recast.shown("build", 1),
             recast.shown("bare", 1),
@@ -129,7 +138,9 @@ fn tables(wanted: &str) {
             ours.shown("cells", 0),
             recast.shown("cells", 0),
             ours.shown("peak", 0),
+            ours.shown("before", 0),
             recast.shown("peak", 0),
+            recast.shown("before", 0),
         );
         let (own, other) = (ours.times(), polyanya.times());
         let at =
@@ -180,8 +191,9 @@ fn alone(program: &str, name: &str) {
     match program {
         "ours" => {
             let world = &floor.builder.world;
+            println!("before\t{}", held("VmRSS:"));
             let (plan, build) = least(times, || plan(world));
-            println!("build\t{}\npeak\t{}", build * 1e3, peak());
+            println!("build\t{}\npeak\t{}", build * 1e3, held("VmHWM:"));
             println!("cells\t{}", plan.fragments().map(|f| f.passframes.len()).sum::<usize>());
             ask(&pairs, |from, to| {
                 let found = plan.route(world, from, Target::Point(to), Method::Shortest).ok()?;
@@ -192,30 +204,42 @@ fn alone(program: &str, name: &str) {
         }
         "recast" => {
             let mesh = peers::triangles(&floor);
-            let (cells, build) = least(times.min(5), || peers::recast(&mesh, RADIUS, true));
-            println!("build\t{}\ncells\t{cells}\npeak\t{}", build * 1e3, peak());
+            println!("before\t{}", held("VmRSS:"));
+            let (tiles, build) = least(times.min(5), || peers::recast(&mesh, RADIUS, true));
+            let cells: usize = tiles.iter().map(|(polygons, _)| polygons.polygon_count()).sum();
+            println!("build\t{}\ncells\t{cells}\npeak\t{}", build * 1e3, held("VmHWM:"));
             let (_, bare) = least(times.min(5), || peers::recast(&mesh, RADIUS, false));
             println!("bare\t{}", bare * 1e3);
         }
         "polyanya" => {
             let outlines = peers::outlines(&plan(&floor.builder.world));
             let (meshes, build) = least(1, || peers::polyanya(&outlines));
-            println!("build\t{}\npeak\t{}", build * 1e3, peak());
+            println!("build\t{}\npeak\t{}", build * 1e3, held("VmHWM:"));
             ask(&pairs, |from, to| meshes.iter().find_map(|mesh| peers::way(mesh, from, to)));
         }
         _ => {
-            // Beyond a building of this size the slow way takes too long.
-            if name == "hospital-40000" {
-                return;
-            }
             let plan = plan(&floor.builder.world);
             let sight = optimum::Sight::of(&floor, RADIUS);
-            let sample = if name == "office-3000" { 40 } else { QUERIES };
-            for (i, &(from, to)) in pairs.iter().enumerate().take(sample) {
-                let found =
-                    plan.route(&floor.builder.world, from, Target::Point(to), Method::Shortest);
-                let Ok(found) = found else { continue };
-                if let Some(length) = sight.shortest(from, to, found.length) {
+            let length = |(from, to): (Point, Point)| {
+                let to = Target::Point(to);
+                let found = plan.route(&floor.builder.world, from, to, Method::Shortest);
+                Some(found.ok()?.length)
+            };
+            let lengths = pairs.iter().map(|&pair| length(pair));
+            let mut known: Vec<(usize, f64)> =
+                lengths.enumerate().filter_map(|(i, length)| Some((i, length?))).collect();
+            // The slow way is slower the longer the way.
+            let sample = match name {
+                "office-3000" => 40,
+                "hospital-40000" => {
+                    known.sort_by(|a, b| a.1.total_cmp(&b.1));
+                    20
+                }
+                _ => QUERIES,
+            };
+            for (i, length) in known.into_iter().take(sample) {
+                let (from, to) = pairs[i];
+                if let Some(length) = sight.shortest(from, to, length) {
                     println!("way\t{i}\t0\t{length}");
                 }
             }
@@ -272,10 +296,11 @@ fn rebuild(mut plan: FloorPlan, floor: &mut Generated) {
     println!("rebuild\t{}\nrebuild worst\t{}", times[times.len() / 2], times[times.len() - 1]);
 }
 
-/// The most memory that this process has held, in MB.
-fn peak() -> f64 {
+/// A size that the system tells of this process, in MB: `VmHWM:` is the most memory it has held, `VmRSS:` what it
+/// holds now.
+fn held(key: &str) -> f64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
-    let line = status.lines().find_map(|l| l.strip_prefix("VmHWM:")).unwrap_or_default();
+    let line = status.lines().find_map(|l| l.strip_prefix(key)).unwrap_or_default();
     let kilobytes = line.split_whitespace().next().and_then(|n| n.parse::<f64>().ok());
     kilobytes.unwrap_or(f64::NAN) / 1024.0
 }

@@ -7,7 +7,10 @@ use orthoframe::geometry::{FloorPlan, Scene};
 use orthoframe::map::Permeability;
 use orthoframe::units::{MapId, Point};
 use polyanya::{Coords, Mesh, Triangulation};
-use rerecast::{Aabb3d, AreaType, BuildContoursFlags, DetailNavmesh, HeightfieldBuilder, TriMesh};
+use rerecast::{
+    Aabb3d, AreaType, BuildContoursFlags, DetailNavmesh, HeightfieldBuilder, PolygonNavmesh,
+    TriMesh,
+};
 
 use crate::generated::Generated;
 
@@ -61,8 +64,11 @@ const CELL: f32 = 0.05;
 const LARGEST: f32 = 2600.0;
 const TILE: f32 = 512.0;
 
-/// Builds the navigation mesh; answers the number of its polygons.
-pub(crate) fn recast(triangles: &[Triangle], radius: f64, with_detail: bool) -> usize {
+/// What is kept of a tile: its polygons, and their heights if asked for.
+pub(crate) type Tile = (PolygonNavmesh, Option<DetailNavmesh>);
+
+/// Builds the navigation mesh, tile by tile where it is large.
+pub(crate) fn recast(triangles: &[Triangle], radius: f64, with_detail: bool) -> Vec<Tile> {
     let corners = || triangles.iter().flatten();
     let low = [0, 2].map(|k| corners().map(|c| c[k]).fold(f32::INFINITY, f32::min));
     let high = [0, 2].map(|k| corners().map(|c| c[k]).fold(f32::NEG_INFINITY, f32::max));
@@ -70,7 +76,8 @@ pub(crate) fn recast(triangles: &[Triangle], radius: f64, with_detail: bool) -> 
     let border = walkable_radius + 3;
     let size = (high[0] - low[0]).max(high[1] - low[1]) / CELL;
     if size <= LARGEST {
-        return tile(triangles.iter(), low, high, walkable_radius, 0, with_detail);
+        let whole = tile(triangles.iter(), low, high, walkable_radius, 0, with_detail);
+        return whole.into_iter().collect();
     }
     let step = TILE * CELL;
     let pad = f32::from(border) * CELL;
@@ -91,22 +98,22 @@ pub(crate) fn recast(triangles: &[Triangle], radius: f64, with_detail: bool) -> 
             }
         }
     }
-    let mut polygons = 0;
+    let mut tiles = Vec::new();
     for row in 0..rows {
         for column in 0..columns {
             let from = [low[0] + column as f32 * step, low[1] + row as f32 * step];
             let numbers = &by_tile[row * columns + column];
-            polygons += tile(
+            tiles.extend(tile(
                 numbers.iter().map(|&n| &triangles[n as usize]),
                 from.map(|v| v - pad),
                 from.map(|v| v + step + pad),
                 walkable_radius,
                 border,
                 with_detail,
-            );
+            ));
         }
     }
-    polygons
+    tiles
 }
 
 /// Recast's own sequence of steps, with the settings of its demonstration.
@@ -117,7 +124,7 @@ fn tile<'a>(
     walkable_radius: u16,
     border: u16,
     with_detail: bool,
-) -> usize {
+) -> Option<Tile> {
     let mut mesh = TriMesh::default();
     for triangle in triangles {
         let first = mesh.vertices.len() as u32;
@@ -143,12 +150,9 @@ fn tile<'a>(
     compact.build_regions(border, 64, 400).expect("regions");
     let contours = compact.build_contours(1.3, walkable_radius * 8, BuildContoursFlags::default());
     // The port refuses a contour here and there on the rims of tiles; such a tile costs what it costs up to there.
-    let Ok(polygons) = contours.into_polygon_mesh(6) else { return 0 };
-    if with_detail {
-        let made = DetailNavmesh::new(&polygons, &compact, 6.0 * CELL, CELL);
-        std::hint::black_box(made.is_ok());
-    }
-    polygons.polygon_count()
+    let polygons = contours.into_polygon_mesh(6).ok()?;
+    let detail = with_detail.then(|| DetailNavmesh::new(&polygons, &compact, 6.0 * CELL, CELL));
+    Some((polygons, detail.and_then(Result::ok)))
 }
 
 /// A piece of the plane: its outline, then its holes.

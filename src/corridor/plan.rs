@@ -148,7 +148,8 @@ fn gates<'a>(world: &World, map: &Map, scene: &Scene, area: &'a Area) -> Vec<Gat
     for prism in &scene.areas[&area.id].prisms {
         let item = &area.items[prism.item].id;
         for (side, (a, b)) in prism.polygon.edges().enumerate() {
-            let PrismSide { id, permeability } = &prism.sides[side];
+            let PrismSide { permeability } = &prism.sides[side];
+            let id = &world.orthoframes[&prism.orthoframe].base[side].id;
             let mount = area.doors.iter().find(|m| m.item == *item && m.side == *id);
             if mount.is_none() && *permeability == Permeability::Impermeable {
                 continue;

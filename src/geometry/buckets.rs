@@ -1,6 +1,6 @@
 //! Boxes by place: a grid of square buckets, each with the boxes that reach into it.
 //!
-//! **Invariant**: every answer is in the order of the boxes, each of them once.
+//! **Invariant**: every list is in the order of the boxes, each of them once.
 
 use crate::units::Point;
 
@@ -40,24 +40,26 @@ impl Buckets {
         let size =
             (extent.x * extent.y / boxes.len() as f64).sqrt().max(extent.amax() / 256.0).max(1e-3);
         let (columns, rows) = ((extent.x / size) as usize + 1, (extent.y / size) as usize + 1);
-        let starts = vec![0; columns * rows + 1];
+        // Counts are kept two places on, so that filling the buckets moves every start to its place.
+        let starts = vec![0; columns * rows + 2];
         let mut buckets = Self { bounds, size, columns, rows, starts, items: vec![] };
         for reach in boxes {
             for bucket in buckets.covering(reach) {
-                buckets.starts[bucket + 1] += 1;
+                buckets.starts[bucket + 2] += 1;
             }
         }
-        for i in 0..columns * rows {
+        for i in 1..=columns * rows {
             buckets.starts[i + 1] += buckets.starts[i];
         }
-        buckets.items = vec![0; buckets.starts[columns * rows] as usize];
-        let mut filled = buckets.starts.clone();
+        buckets.items = vec![0; buckets.starts[columns * rows + 1] as usize];
         for (item, reach) in boxes.iter().enumerate() {
             for bucket in buckets.covering(reach) {
-                buckets.items[filled[bucket] as usize] = item as u32;
-                filled[bucket] += 1;
+                let at = buckets.starts[bucket + 1];
+                buckets.items[at as usize] = item as u32;
+                buckets.starts[bucket + 1] = at + 1;
             }
         }
+        buckets.starts.pop();
         buckets
     }
 
@@ -103,6 +105,16 @@ impl Buckets {
             found.dedup();
         }
     }
+
+    /// The boxes that may meet another, in no order, some perhaps more than once.
+    pub(super) fn visit_meeting(&self, reach: &Bounds, mut visit: impl FnMut(u32)) {
+        if self.columns > 0 && self.bounds.meets(reach) {
+            for bucket in self.covering(reach) {
+                self.bucket(bucket).iter().copied().for_each(&mut visit);
+            }
+        }
+    }
+
     /// The boxes that a segment may meet, written into `found`.
     pub(super) fn along(&self, a: Point, b: Point, found: &mut Vec<u32>) {
         const TOUCH: f64 = 1e-6;

@@ -378,7 +378,7 @@ pub(super) fn distance(a: &Polygon, b: &Polygon) -> f64 {
 /// Distance between two polygons if it is less than a limit.
 pub(super) fn distance_within(a: &Polygon, b: &Polygon, limit: f64) -> Option<f64> {
     let inside = |p: &Polygon, q: &Polygon| {
-        p.corners.len() > 2 && q.corners.first().is_some_and(|&c| p.contains(c, 0.0))
+        p.corners.len() > 2 && q.corners.first().is_some_and(|&c| p.winds_around(c))
     };
     if inside(a, b) || inside(b, a) {
         return Some(0.0);
@@ -494,7 +494,8 @@ fn open_sides(world: &World, area: &PlacedArea) -> Vec<OpenSide> {
                 continue;
             }
             let corners = &prism.polygon.corners;
-            let reference = SideRef { item: item.id.clone(), side: side.id.clone() };
+            let id = world.orthoframe_of(item).base[i].id.clone();
+            let reference = SideRef { item: item.id.clone(), side: id };
             let mount =
                 model.doors.iter().find(|m| m.item == reference.item && m.side == reference.side);
             sides.push(OpenSide {

@@ -195,6 +195,7 @@ impl FragmentFloor {
             cells,
             exits,
         };
+        built.obstacles.shrink_to_fit();
         built.passframes = passframes(site, &built, &storey.sides);
         built
     }

@@ -9,6 +9,7 @@
 //! were convex are convex.
 
 use std::cell::RefCell;
+use std::ops::Range;
 
 use i_overlay::core::solver::Solver;
 use i_triangle::advanced::delaunay::IntDelaunay;
@@ -45,6 +46,22 @@ pub(super) struct HalfEdges {
     /// The other half; [`NONE`] for a border of the floor.
     pub(super) twin: Vec<u32>,
     dropped: Vec<bool>,
+    /// For each vertex a border edge that arrives and one that leaves; [`NONE`] within the floor.
+    borders: Vec<(u32, u32)>,
+    /// Vertices where several pieces of the border touch, so that `borders` does not tell all.
+    touching: Vec<u32>,
+}
+
+/// Faces of a subdivision, one chain after another.
+pub(super) struct Faces {
+    chain: Vec<u32>,
+    spans: Vec<Range<usize>>,
+}
+
+impl Faces {
+    pub(super) fn iter(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        self.spans.iter().map(|span| &self.chain[span.clone()])
+    }
 }
 
 impl HalfEdges {
@@ -59,25 +76,27 @@ impl HalfEdges {
             prev: (0..n as u32).map(|h| if h % 3 == 0 { h + 2 } else { h - 1 }).collect(),
             twin: vec![NONE; n],
             dropped: vec![false; n],
+            borders: Vec::new(),
+            touching: Vec::new(),
         };
+        // Which corner of its triangle lies opposite to each half-edge.
+        let mut opposite = Vec::with_capacity(n);
         for triangle in &found.triangles {
             let [a, b, c] = triangle.vertices.map(|v| v.index as u32);
             let turns_right = orientation(edges.node(a), edges.node(b), edges.node(c)) < 0;
             edges.origin.extend(if turns_right { [a, c, b] } else { [a, b, c] });
+            opposite.extend(if turns_right { [1, 0, 2] } else { [2, 0, 1] });
         }
-        for (t, triangle) in found.triangles.iter().enumerate() {
-            for h in 3 * t as u32..3 * t as u32 + 3 {
-                let ends = (edges.node(edges.origin[h as usize]), edges.node(edges.end(h)));
+        for (h, corner) in opposite.into_iter().enumerate() {
+            let other = found.triangles[h / 3].neighbors[corner];
+            if other < found.triangles.len() {
+                let ends = (edges.node(edges.origin[h]), edges.node(edges.end(h as u32)));
                 // Shapes that touch in a point have that corner twice: it is places that are compared.
-                edges.twin[h as usize] = triangle
-                    .neighbors
-                    .iter()
-                    .filter(|&&other| other < found.triangles.len())
-                    .flat_map(|&other| 3 * other as u32..3 * other as u32 + 3)
-                    .find(|&k| {
-                        (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends
-                    })
-                    .unwrap_or(NONE);
+                let is_twin = |&k: &u32| {
+                    (edges.node(edges.end(k)), edges.node(edges.origin[k as usize])) == ends
+                };
+                let found = (3 * other as u32..3 * other as u32 + 3).find(is_twin);
+                edges.twin[h] = found.unwrap_or(NONE);
             }
         }
         for h in 0..n {
@@ -86,6 +105,7 @@ impl HalfEdges {
                 edges.twin[h] = NONE;
             }
         }
+        edges.find_borders();
         edges
     }
 
@@ -100,16 +120,15 @@ impl HalfEdges {
     /// Drops every edge that convexity does not need: first those that straighten no inward corner, last those
     /// that straighten one at each end; the longer of equals first.
     pub(super) fn merge(&mut self) {
-        let borders = self.borders();
         let inner = (0..self.origin.len() as u32)
             .filter(|&h| self.twin[h as usize] != NONE && h < self.twin[h as usize]);
         let mut ranked: Vec<_> = inner
             .map(|h| {
                 let (a, b) = (self.node(self.origin[h as usize]), self.node(self.end(h)));
+                // Coordinates leave two bits of 32 free.
                 let (dx, dy) = (i64::from(a.x) - i64::from(b.x), i64::from(a.y) - i64::from(b.y));
-                let service =
-                    self.usefulness(&borders, h) + self.usefulness(&borders, self.twin[h as usize]);
-                let length = i128::from(dx).pow(2) + i128::from(dy).pow(2);
+                let service = self.usefulness(h) + self.usefulness(self.twin[h as usize]);
+                let length = dx.unsigned_abs().pow(2) + dy.unsigned_abs().pow(2);
                 (
                     service,
                     std::cmp::Reverse(length),
@@ -141,11 +160,10 @@ impl HalfEdges {
     /// Where no turn saves a cell any more, edges that serve one corner are turned on to their next end, which may
     /// let others meet; after `patience` such rounds without a cell saved no more is tried.
     pub(super) fn pair_up(&mut self, patience: usize) {
-        let borders = self.borders();
         let order = self.inner_edges();
         let mut idle = 0;
         loop {
-            if self.save_cells(&borders, &order) {
+            if self.save_cells(&order) {
                 idle = 0;
             }
             if idle == patience {
@@ -183,7 +201,7 @@ impl HalfEdges {
     }
 
     /// Turns edges as long as that makes others needless; whether it ever did.
-    fn save_cells(&mut self, borders: &[(u32, u32)], order: &[u32]) -> bool {
+    fn save_cells(&mut self, order: &[u32]) -> bool {
         let (mut has_saved, mut ends) = (false, Vec::new());
         loop {
             let mut is_better = false;
@@ -198,8 +216,7 @@ impl HalfEdges {
                     }
                     self.other_ends(h, &mut ends);
                     let at = self.node(self.origin[h as usize]);
-                    let found =
-                        ends.iter().copied().filter(|&to| self.straightens(borders, to, at));
+                    let found = ends.iter().copied().filter(|&to| self.straightens(to, at));
                     let mut found = found.filter_map(|to| Some((to, self.useless_at(to, h)?)));
                     if let Some((to, useless)) = found.next() {
                         self.turn(h, to);
@@ -263,8 +280,8 @@ impl HalfEdges {
     }
 
     /// Whether an edge from the origin of `to` towards `from` would make that corner convex on both sides.
-    fn straightens(&self, borders: &[(u32, u32)], to: u32, from: Node) -> bool {
-        let (arriving, leaving) = borders[self.origin[to as usize] as usize];
+    fn straightens(&self, to: u32, from: Node) -> bool {
+        let (arriving, leaving) = self.borders[self.origin[to as usize] as usize];
         if arriving == NONE || leaving == NONE {
             return false;
         }
@@ -328,20 +345,23 @@ impl HalfEdges {
         self.prev[after as usize] = before;
     }
 
-    /// For each vertex the border edges that arrive and leave.
-    fn borders(&self) -> Vec<(u32, u32)> {
-        let mut borders = vec![(NONE, NONE); self.nodes.len()];
+    /// Border edges keep their ends whatever is dropped or turned.
+    fn find_borders(&mut self) {
+        self.borders = vec![(NONE, NONE); self.nodes.len()];
         for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
-            borders[self.origin[h as usize] as usize].1 = h;
-            borders[self.end(h) as usize].0 = h;
+            let (from, to) = (self.origin[h as usize], self.end(h));
+            if std::mem::replace(&mut self.borders[from as usize].1, h) != NONE {
+                self.touching.push(from);
+            }
+            self.borders[to as usize].0 = h;
         }
-        borders
+        self.touching.sort_unstable();
     }
 
     /// What an edge does for the convexity of its origin: nothing, a part, or all.
-    fn usefulness(&self, borders: &[(u32, u32)], h: u32) -> u8 {
+    fn usefulness(&self, h: u32) -> u8 {
         let at = self.origin[h as usize];
-        let (arriving, leaving) = borders[at as usize];
+        let (arriving, leaving) = self.borders[at as usize];
         if arriving == NONE || leaving == NONE {
             return 0;
         }
@@ -360,17 +380,30 @@ impl HalfEdges {
 
     /// The vertices where the border turns to the right, so that a shortest way may bend there.
     pub(super) fn corners(&self) -> Vec<bool> {
-        let mut corner = vec![false; self.nodes.len()];
+        let turns_right = |arriving: u32, leaving: u32| {
+            let [a, b, c] = [self.origin[arriving as usize], self.end(arriving), self.end(leaving)];
+            orientation(self.node(a), self.node(b), self.node(c)) < 0
+        };
+        let at_vertex = |&(arriving, leaving): &(u32, u32)| {
+            arriving != NONE && leaving != NONE && turns_right(arriving, leaving)
+        };
+        let mut corner: Vec<bool> = self.borders.iter().map(at_vertex).collect();
+        if self.touching.is_empty() {
+            return corner;
+        }
+        self.touching.iter().for_each(|&v| corner[v as usize] = false);
         for h in (0..self.origin.len() as u32).filter(|&h| self.twin[h as usize] == NONE) {
-            // Round the end to the border that leaves it within the same floor.
-            let mut leaving = self.next[h as usize];
-            let mut steps = 0;
-            while self.twin[leaving as usize] != NONE && steps < self.origin.len() {
-                leaving = self.next[self.twin[leaving as usize] as usize];
-                steps += 1;
+            let end = self.end(h);
+            if self.touching.binary_search(&end).is_ok() {
+                // Round the end to the border that leaves it within the same floor.
+                let mut leaving = self.next[h as usize];
+                let mut steps = 0;
+                while self.twin[leaving as usize] != NONE && steps < self.origin.len() {
+                    leaving = self.next[self.twin[leaving as usize] as usize];
+                    steps += 1;
+                }
+                corner[end as usize] |= turns_right(h, leaving);
             }
-            let [a, b, c] = [self.origin[h as usize], self.end(h), self.end(leaving)];
-            corner[b as usize] |= orientation(self.node(a), self.node(b), self.node(c)) < 0;
         }
         corner
     }
@@ -410,10 +443,10 @@ impl HalfEdges {
 
     /// The remaining faces as chains of half-edges, in the order of their lowest corners, which come first; those
     /// without area are left out.
-    pub(super) fn faces(&self) -> Vec<Vec<u32>> {
+    pub(super) fn faces(&self) -> Faces {
         let mut seen = self.dropped.clone();
-        let mut faces = Vec::new();
-        let place = |h: u32| {
+        let mut faces = Faces { chain: Vec::with_capacity(self.origin.len()), spans: Vec::new() };
+        let place = |&h: &u32| {
             let node = self.node(self.origin[h as usize]);
             (node.y, node.x)
         };
@@ -421,20 +454,24 @@ impl HalfEdges {
             if seen[seed] {
                 continue;
             }
-            let mut face = Vec::new();
+            let from = faces.chain.len();
             let mut h = seed;
             while !seen[h] {
                 seen[h] = true;
-                face.push(h as u32);
+                faces.chain.push(h as u32);
                 h = self.next[h] as usize;
             }
-            if face.len() >= 3 && self.has_area(&face) {
-                let first = (0..face.len()).min_by_key(|&i| place(face[i])).unwrap_or(0);
+            let face = &mut faces.chain[from..];
+            if face.len() >= 3 && self.has_area(face) {
+                let first = (0..face.len()).min_by_key(|&i| place(&face[i])).unwrap_or(0);
                 face.rotate_left(first);
-                faces.push(face);
+                faces.spans.push(from..faces.chain.len());
+            } else {
+                faces.chain.truncate(from);
             }
         }
-        faces.sort_by(|a, b| a.iter().map(|&h| place(h)).cmp(b.iter().map(|&h| place(h))));
+        let places = |span: &Range<usize>| faces.chain[span.clone()].iter().map(place);
+        faces.spans.sort_by(|a, b| places(a).cmp(places(b)));
         faces
     }
 

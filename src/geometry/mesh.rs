@@ -71,7 +71,11 @@ impl Mesh {
             NONE => NONE,
             twin => face_of[twin as usize],
         };
-        for face in &faces {
+        let count = faces.iter().map(<[u32]>::len).sum();
+        mesh.ring.reserve_exact(count);
+        mesh.across.reserve_exact(count);
+        mesh.starts.reserve_exact(faces.iter().len());
+        for face in faces.iter() {
             mesh.ring.extend(face.iter().map(|&h| edges.origin[h as usize]));
             mesh.across.extend(face.iter().map(|&h| beyond(h)));
             mesh.starts.push(mesh.ring.len() as u32);
@@ -151,7 +155,16 @@ impl Mesh {
 
     /// A cell that holds `p`, its border within `tolerance` cm; the lowest of several.
     pub(super) fn locate(&self, p: Point, tolerance: f64) -> Option<u32> {
-        self.buckets.near(p).iter().copied().find(|&c| self.depth(c, p) >= -tolerance)
+        self.buckets.near(p).iter().copied().find(|&c| self.holds(c, p, tolerance))
+    }
+
+    /// Whether a point lies in a cell, its border within `tolerance` cm.
+    pub(super) fn holds(&self, cell: u32, p: Point, tolerance: f64) -> bool {
+        (0..self.ring(cell).len()).all(|i| {
+            let (a, b) = self.edge(cell, i);
+            let side = (b - a).perp(&(p - a));
+            side >= 0.0 || side >= -tolerance * (b - a).norm()
+        })
     }
 
     /// How far inside a cell a point lies, in cm; negative outside.
@@ -198,11 +211,13 @@ impl Mesh {
         for i in 0..self.ring(cell).len() {
             let (u, v) = self.edge(cell, i);
             let along = v - u;
-            let length = along.norm();
-            if length <= 0.0 {
+            let (da, db) = (along.perp(&(a - u)), along.perp(&(b - u)));
+            // Most edges have all of the segment on their inner side.
+            if da >= 0.0 && db >= 0.0 {
                 continue;
             }
-            let (da, db) = (along.perp(&(a - u)) / length, along.perp(&(b - u)) / length);
+            let length = along.norm();
+            let (da, db) = (da / length, db / length);
             const TOUCH: f64 = 1e-4;
             if da < -TOUCH && db < -TOUCH {
                 return None;
@@ -219,27 +234,38 @@ impl Mesh {
         (from <= to).then_some((from, to))
     }
 
-    /// The cells whose boxes come near segment `a`-`b`.
-    pub(super) fn near_segment(&self, a: Point, b: Point) -> Vec<u32> {
-        let mut found = Vec::new();
-        self.buckets.along(a, b, &mut found);
-        found
+    /// The cells whose boxes come near segment `a`-`b`, written into `found`.
+    pub(super) fn near_segment(&self, a: Point, b: Point, found: &mut Vec<u32>) {
+        self.buckets.along(a, b, found);
     }
 
     /// The stretches of segment `a`-`b` that lie on the floor, as fractions of its length.
     pub(super) fn stretches(&self, a: Point, b: Point) -> Vec<(f64, f64)> {
-        let mut parts: Vec<_> =
-            self.near_segment(a, b).into_iter().filter_map(|c| self.clip(c, a, b)).collect();
-        parts.sort_by(|x, y| x.0.total_cmp(&y.0));
+        let (mut near, mut stretches) = (Vec::new(), Vec::new());
+        self.stretches_into(a, b, &mut near, &mut stretches);
+        stretches
+    }
+
+    /// As [`Self::stretches`], into a list that is there; `near` is overwritten.
+    pub(super) fn stretches_into(
+        &self,
+        a: Point,
+        b: Point,
+        near: &mut Vec<u32>,
+        stretches: &mut Vec<(f64, f64)>,
+    ) {
+        self.near_segment(a, b, near);
+        stretches.clear();
+        stretches.extend(near.iter().filter_map(|&c| self.clip(c, a, b)));
+        stretches.sort_by(|x, y| x.0.total_cmp(&y.0));
         let close = 1e-4 / (b - a).norm().max(1e-4);
-        let mut joined: Vec<(f64, f64)> = Vec::new();
-        for (from, to) in parts {
-            match joined.last_mut() {
-                Some(last) if from <= last.1 + close => last.1 = last.1.max(to),
-                _ => joined.push((from, to)),
+        stretches.dedup_by(|next, last| {
+            let joins = next.0 <= last.1 + close;
+            if joins {
+                last.1 = last.1.max(next.1);
             }
-        }
-        joined
+            joins
+        });
     }
 
     /// Whether all of segment `a`-`b` lies on the floor.

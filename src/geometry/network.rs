@@ -110,11 +110,10 @@ impl Network {
         self.branches.between(start, goal)
     }
 
-    fn portals_of(&self, cell: CellKey) -> &[Portal] {
+    fn portals_of(&self, cell: CellKey) -> impl Iterator<Item = &Portal> {
         let list = &self.portals[cell.0 as usize];
         let from = list.partition_point(|p| p.from < cell);
-        let to = list.partition_point(|p| p.from <= cell);
-        &list[from..to]
+        list[from..].iter().take_while(move |p| p.from == cell)
     }
 }
 
@@ -204,15 +203,46 @@ pub(super) struct Walkable<'a> {
     /// The cells of branches that lead to the goal or to a Fragment that may be passed, sorted: a way never enters
     /// the other branches, since it would have to come back over the same border.
     branches: Vec<CellKey>,
+    /// Of the branches, and of the cells with a doorway that may be passed.
+    may_branch: Sieve,
+    may_leave: Sieve,
+}
+
+/// Which of 256 remainders some cells leave: most others are told apart by it without a search.
+#[derive(Debug, Default)]
+struct Sieve([u64; 4]);
+
+impl Sieve {
+    fn place((number, cell): CellKey) -> (usize, u64) {
+        let mixed = number.wrapping_mul(0x9e37_79b1) ^ cell.wrapping_mul(0x85eb_ca6b);
+        let remainder = mixed >> 24;
+        ((remainder >> 6) as usize, 1 << (remainder & 63))
+    }
+
+    fn of(cells: impl Iterator<Item = CellKey>) -> Self {
+        let mut sieve = Self::default();
+        for cell in cells {
+            let (word, bit) = Self::place(cell);
+            sieve.0[word] |= bit;
+        }
+        sieve
+    }
+
+    fn may_hold(&self, cell: CellKey) -> bool {
+        let (word, bit) = Self::place(cell);
+        self.0[word] & bit != 0
+    }
 }
 
 impl<'a> Walkable<'a> {
     pub(super) fn toward(plan: &'a FloorPlan, within: &'a [u32], goal: CellKey) -> Self {
         let admitted = |p: &&Portal| within.binary_search(&p.to.0).is_ok();
-        let exits =
-            within.iter().flat_map(|&n| plan.network.portals[n as usize].iter().filter(admitted));
+        let exits = || {
+            let portals = within.iter().flat_map(|&n| &plan.network.portals[n as usize]);
+            portals.filter(admitted).map(|p| p.from)
+        };
         let mut branches: Vec<CellKey> = Vec::new();
-        for (number, cell) in exits.map(|p| p.from).chain([goal]) {
+        for (number, cell) in exits().chain([goal]) {
             let trunk = &plan.floor(number).cells.trunk;
             let mut at = cell;
             while trunk[at as usize] != NONE && branches.last() != Some(&(number, at)) {
@@ -222,34 +252,41 @@ impl<'a> Walkable<'a> {
         }
         branches.sort_unstable();
         branches.dedup();
-        Self { plan, within, branches }
+        let may_branch = Sieve::of(branches.iter().copied());
+        Self { plan, within, branches, may_branch, may_leave: Sieve::of(exits()) }
     }
 }
 
 impl Cells for Walkable<'_> {
-    fn edges(&self, cell: CellKey, visit: &mut dyn FnMut(Edge)) {
+    fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
         let mesh = &self.plan.floor(cell.0).cells;
-        let ring = mesh.ring(cell.1);
-        for (i, &across) in mesh.across(cell.1).iter().enumerate() {
-            if across == NONE
-                || (mesh.trunk[across as usize] == cell.1
-                    && self.branches.binary_search(&(cell.0, across)).is_err())
-            {
+        let (ring, across) = (mesh.ring(cell.1), mesh.across(cell.1));
+        let back = from.filter(|f| f.0 == cell.0).map_or(NONE, |f| f.1);
+        for (i, &next) in across.iter().enumerate() {
+            let is_aside = |next: u32| {
+                let key = (cell.0, next);
+                mesh.trunk[next as usize] == cell.1
+                    && !(self.may_branch.may_hold(key) && self.branches.binary_search(&key).is_ok())
+            };
+            if next == NONE || next == back || is_aside(next) {
                 continue;
             }
-            let (u, v) = (ring[i] as usize, ring[(i + 1) % ring.len()] as usize);
-            visit(Edge {
+            let (u, v) = (ring[i] as usize, *ring.get(i + 1).unwrap_or(&ring[0]) as usize);
+            found.push(Edge {
                 right: mesh.vertices[u],
                 left: mesh.vertices[v],
                 right_bends: mesh.is_corner[u],
                 left_bends: mesh.is_corner[v],
-                to: (cell.0, across),
+                to: (cell.0, next),
             });
         }
+        if !self.may_leave.may_hold(cell) {
+            return;
+        }
         for portal in self.plan.network.portals_of(cell) {
-            if self.within.binary_search(&portal.to.0).is_ok() {
-                let Portal { right, left, to, .. } = *portal;
-                visit(Edge { right, left, right_bends: true, left_bends: true, to });
+            let Portal { right, left, to, .. } = *portal;
+            if from != Some(to) && self.within.binary_search(&to.0).is_ok() {
+                found.push(Edge { right, left, right_bends: true, left_bends: true, to });
             }
         }
     }

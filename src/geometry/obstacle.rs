@@ -102,6 +102,9 @@ pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds])
 
 /// The open leaves of a replica's own doors.
 fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obstacle> {
+    if !replica.has_doors {
+        return Vec::new();
+    }
     let Some(model) = site.world.replicas.get(&replica.id) else { return Vec::new() };
     let object = &site.world.objects[&model.object];
     let mut found = Vec::new();

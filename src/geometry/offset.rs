@@ -14,8 +14,16 @@
 //! The curve's winding number at a point is then the floor's own, less one for every edge and corner that the
 //! disc would touch there. So "winds around at least once" is exactly "the disc fits", whatever the shape.
 //!
+//! Where both edges of a room's corner are long enough, the curve takes the short cut from edge to edge, the point
+//! where the moved edges meet. The loop b', b, b'' that it leaves out lies within both edges' reaches, so that the
+//! curve wound around its points minus once at most, and now not at all: they stay out, and nothing else changes.
+//!
+//! Tangents' corners stick out of the circle and would close a gap that the disc just fits through. So where
+//! something else stands opposite to a corner in just that distance, one tangent faces it squarely: gaps are exactly
+//! as wide as they are.
+//!
 //! **Invariant**: tangents stand outside the circle, so that a centre never comes nearer to a wall than the
-//! radius; they exceed it by 0.9 % at most.
+//! radius; they exceed it by 0.9 % at most, and not at all where a gap is narrowest.
 
 use std::f64::consts::PI;
 
@@ -23,7 +31,7 @@ use crate::units::{Point, Vector};
 
 use super::buckets::Buckets;
 use super::grid::{Contour, Grid, Region};
-use super::{Bounds, Polygon};
+use super::{Bounds, Polygon, nearest_on_segment};
 
 /// The widest turn that one tangent takes, in radians: 15°.
 const ARC_STEP: f64 = PI / 12.0;
@@ -31,8 +39,66 @@ const ARC_STEP: f64 = PI / 12.0;
 /// Contours that wind once around the places of a disc's centre from which the disc lies within `floor`, and
 /// around all others less often.
 pub(super) fn shrink(grid: &Grid, floor: &[Region], radius: f64) -> Vec<Contour> {
-    let curve = |contour: &Polygon| offset_curve(grid, contour, radius, shrink_joint);
+    let opposite = Opposite::of(floor, radius);
+    let joint = |corner: &Corner, out: &mut Vec<Vector>| shrink_joint(corner, &opposite, out);
+    let curve = |contour: &Polygon| offset_curve(grid, contour, radius, joint);
     floor.iter().flat_map(Region::contours).map(curve).collect()
+}
+
+/// The edges of a floor, for what stands opposite to its corners.
+struct Opposite {
+    edges: Vec<(Point, Point)>,
+    buckets: Buckets,
+    radius: f64,
+}
+
+impl Opposite {
+    /// How far apart two things can be between which tangents would close a gap, in radii.
+    fn furthest() -> f64 {
+        2.0 / (ARC_STEP / 2.0).cos()
+    }
+
+    fn of(floor: &[Region], radius: f64) -> Self {
+        let edges: Vec<(Point, Point)> =
+            floor.iter().flat_map(Region::contours).flat_map(Polygon::edges).collect();
+        let boxes: Vec<Bounds> = edges.iter().map(|&(a, b)| Bounds::of([a, b])).collect();
+        Self { edges, buckets: Buckets::of(&boxes), radius }
+    }
+
+    /// Turns from the corner's first moved edge, in radians, at which something stands so near beyond a gap that
+    /// tangents could close it; sorted, and less than `turn`.
+    fn turns(&self, corner: &Corner, turn: f64) -> Vec<f64> {
+        const APART: f64 = 1e-3;
+        let Corner { at, start, end, .. } = *corner;
+        let (least, most) = (2.0 * self.radius - 0.01, Self::furthest() * self.radius + 0.01);
+        let scale = most / self.radius;
+        let reach = if corner.cosine > -0.5 {
+            let ends = [Vector::zeros(), start, end, corner.meeting()];
+            Bounds::of(ends.map(|v| at + v * scale))
+        } else {
+            Bounds::of([at]).grown(most)
+        };
+        let mut turns = Vec::new();
+        self.buckets.visit_meeting(&reach, |number| {
+            let (a, b) = self.edges[number as usize];
+            // With an end nearer than any gap, so is the edge.
+            if (a - at).norm_squared() < least * least {
+                return;
+            }
+            let across = nearest_on_segment(at, a, b) - at;
+            let square = across.norm_squared();
+            if square < least * least || square > most * most {
+                return;
+            }
+            let angle = -start.perp(&across).atan2(start.dot(&across));
+            if angle > APART && angle < turn - APART {
+                turns.push(angle);
+            }
+        });
+        turns.sort_by(f64::total_cmp);
+        turns.dedup_by(|next, last| *next - *last < APART);
+        turns
+    }
 }
 
 /// Everything that the disc covers from `centres`, which are `floor` shrunk by `radius`; to be cut to that floor.
@@ -44,29 +110,34 @@ pub(super) fn shrink(grid: &Grid, floor: &[Region], radius: f64) -> Vec<Contour>
 pub(super) fn grow(grid: &Grid, centres: &[Region], radius: f64, floor: &[Region]) -> Vec<Contour> {
     let corners = CornerSet::of(floor, radius * (ARC_STEP / 2.0).tan() + TOUCH);
     let curve = |contour: &Polygon| {
-        offset_curve(grid, contour, -radius, |at, start, end, turn| {
+        offset_curve(grid, contour, -radius, |corner, out| {
+            let Corner { at, start, end, turns_left, .. } = *corner;
             // The moved edge's end, or the corner that the edge is a tangent at.
             let touched = |end: Vector| {
                 let on_edge = |c: Point| (c - at - end).dot(&end).abs() <= TOUCH * radius;
                 corners.find(at + end, on_edge).map_or(end, |c| c - at)
             };
-            if turn > 0.0 && turn < 2.1 {
-                let apex = at + rotated(start, turn / 2.0) / (turn / 2.0).cos();
+            if turns_left && corner.cosine > -0.5 {
+                let apex = at + corner.meeting();
                 if let Some(c) = corners.find(apex, |c| (c - apex).norm() <= TOUCH) {
-                    return vec![c - at];
+                    out.push(c - at);
+                    return;
                 }
             }
             let (from, to) = (touched(start), touched(end));
-            match (turn > 0.0, from == to) {
-                (_, true) => vec![from],
-                (true, false) => {
-                    let steps = (turn / MOUTH_STEP).ceil().max(1.0);
-                    let between = |k: usize| rotated(start, turn * k as f64 / steps);
-                    let arc = (1..steps as usize).map(between);
-                    std::iter::once(from).chain(arc).chain([to]).collect()
-                }
-                (false, false) => vec![from, Vector::zeros(), to],
+            out.push(from);
+            if from == to {
+                return;
             }
+            if turns_left {
+                let turn = corner.turn();
+                let steps = (turn / MOUTH_STEP).ceil().max(1.0);
+                let between = |k: usize| rotated(start, turn * k as f64 / steps);
+                out.extend((1..steps as usize).map(between));
+            } else {
+                out.push(Vector::zeros());
+            }
+            out.push(to);
         })
     };
     centres.iter().flat_map(Region::contours).map(curve).collect()
@@ -79,41 +150,112 @@ const MOUTH_STEP: f64 = PI / 3.0 + 1e-6;
 const TOUCH: f64 = 0.05;
 
 /// Joins the ends of two edges that moved inwards.
-fn shrink_joint(_at: Point, start: Vector, end: Vector, turn: f64) -> Vec<Vector> {
-    if turn > 0.0 {
-        return vec![start, Vector::zeros(), end];
+fn shrink_joint(corner: &Corner, opposite: &Opposite, out: &mut Vec<Vector>) {
+    let Corner { start, end, turns_left, .. } = *corner;
+    if turns_left {
+        if corner.is_roomy {
+            out.push(corner.meeting());
+        } else {
+            out.extend([start, Vector::zeros(), end]);
+        }
+        return;
     }
-    // Rounding must not cost a right angle one tangent more.
-    let steps = (turn.abs() / ARC_STEP - 1e-4).ceil().max(1.0);
-    let half = turn / steps / 2.0;
-    let tangent = |k: usize| rotated(start, half * (2 * k + 1) as f64) / half.cos();
-    // The first and the last tangent are the moved edges' own lines, so their ends need not be named.
-    (0..steps as usize).map(tangent).collect()
+    let turn = corner.turn().abs();
+    let mut from = 0.0;
+    for to in opposite.turns(corner, turn).into_iter().chain([turn]) {
+        // Rounding must not cost a right angle one tangent more.
+        let steps = ((to - from) / ARC_STEP - 1e-4).ceil().max(1.0);
+        let half = (to - from) / steps / 2.0;
+        // Tangents at `from` and `to` are what comes before and after, so their ends need not be named.
+        let mut tangent = rotated(start, -from - half) / half.cos();
+        let (sin, cos) = (-2.0 * half).sin_cos();
+        for _ in 0..steps as usize {
+            out.push(tangent);
+            tangent = turned(tangent, sin, cos);
+        }
+        from = to;
+    }
 }
 
-/// Moves a contour to its left by `distance` (to its right if negative). `joint` joins the moved edges at a
-/// corner: it is given the corner, both ends relative to it, and the contour's turn to the left.
+/// A corner of a contour that is moved.
+struct Corner {
+    at: Point,
+    /// The ends of the moved edges there, relative to it.
+    start: Vector,
+    end: Vector,
+    /// Of the turn to the left.
+    sine: f64,
+    cosine: f64,
+    /// Of two opposite turns back the sign of zero chooses.
+    turns_left: bool,
+    /// The moved edges reach their meeting point, and what neighbouring corners cut off of them does not overlap.
+    is_roomy: bool,
+}
+
+impl Corner {
+    /// The turn to the left, in radians.
+    fn turn(&self) -> f64 {
+        self.sine.atan2(self.cosine)
+    }
+
+    /// Where the moved edges' lines meet, relative to the corner.
+    fn meeting(&self) -> Vector {
+        (self.start + self.end) / (1.0 + self.cosine)
+    }
+}
+
+/// Moves a contour to its left by `distance` (to its right if negative). `joint` joins the moved edges at a corner.
 fn offset_curve(
     grid: &Grid,
     contour: &Polygon,
     distance: f64,
-    joint: impl Fn(Point, Vector, Vector, f64) -> Vec<Vector>,
+    joint: impl Fn(&Corner, &mut Vec<Vector>),
 ) -> Contour {
     let corners = distinct(&contour.corners);
     let n = corners.len();
-    let mut curve = Contour::with_capacity(4 * n);
-    for i in 0..n {
-        let (before, at, after) = (corners[(i + n - 1) % n], corners[i], corners[(i + 1) % n]);
-        let (Some(arriving), Some(leaving)) = (direction(before, at), direction(at, after)) else {
-            continue;
-        };
-        let turn = arriving.perp(&leaving).atan2(arriving.dot(&leaving));
-        let start = left_of(arriving) * distance;
-        let end = left_of(leaving) * distance;
-        if turn.abs() < 1e-9 {
-            curve.push(grid.node(at + start));
+    // For each edge its length and direction; corners are distinct, so that no length is zero.
+    let edge = |i: usize| {
+        let along: Vector = corners[(i + 1) % n] - corners[i];
+        let length = along.norm();
+        (length, along / length)
+    };
+    let edges: Vec<(f64, Vector)> = if n > 1 { (0..n).map(edge).collect() } else { Vec::new() };
+    let turn = |i: usize| {
+        let (arriving, leaving) = (edges[(i + n - 1) % n].1, edges[i].1);
+        (arriving.perp(&leaving), arriving.dot(&leaving))
+    };
+    // How much of its edges a turn to the left can cut off.
+    let cut = |(sine, cosine): (f64, f64)| {
+        if sine <= 0.0 {
+            0.0
+        } else if cosine >= 0.0 {
+            distance.abs() * sine
         } else {
-            curve.extend(joint(at, start, end, turn).into_iter().map(|v| grid.node(at + v)));
+            distance.abs() * sine / (1.0 + cosine)
+        }
+    };
+    let turns: Vec<(f64, f64)> = (0..edges.len()).map(turn).collect();
+    let mut curve = Contour::with_capacity(4 * n);
+    let mut joined = Vec::new();
+    for (i, &(sine, cosine)) in turns.iter().enumerate() {
+        let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+        let start = left_of(edges[before].1) * distance;
+        let end = left_of(edges[i].1) * distance;
+        if sine.abs() < 1e-9 && cosine > 0.0 {
+            curve.push(grid.node(corners[i] + start));
+            continue;
+        }
+        let own = cut(turns[i]);
+        let is_roomy =
+            own + cut(turns[before]) <= edges[before].0 && own + cut(turns[after]) <= edges[i].0;
+        let turns_left = sine.is_sign_positive();
+        let corner = Corner { at: corners[i], start, end, sine, cosine, turns_left, is_roomy };
+        joint(&corner, &mut joined);
+        for v in joined.drain(..) {
+            let node = grid.node(corners[i] + v);
+            if curve.last() != Some(&node) {
+                curve.push(node);
+            }
         }
     }
     curve
@@ -157,16 +299,16 @@ fn distinct(corners: &[Point]) -> Vec<Point> {
     kept
 }
 
-fn direction(from: Point, to: Point) -> Option<Vector> {
-    (to - from).try_normalize(0.0)
-}
-
 fn left_of(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
 fn rotated(v: Vector, angle: f64) -> Vector {
     let (sin, cos) = angle.sin_cos();
+    turned(v, sin, cos)
+}
+
+fn turned(v: Vector, sin: f64, cos: f64) -> Vector {
     Vector::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos)
 }
 
@@ -220,6 +362,23 @@ mod tests {
         assert!(blocked > exact && blocked < exact + 20.0, "{blocked} {exact}");
         for &p in &hole.corners {
             assert!(pillar.border_distance(p) > 30.0 - 1e-5);
+        }
+    }
+
+    /// Corners of two pillars, on a slant for which no tangent of the plain arc stands square: the disc passes
+    /// if and only if they are further apart than it is wide.
+    #[test]
+    fn a_gap_between_two_corners_is_as_wide_as_it_is() {
+        let walls = rectangle(0.0, 0.0, 400.0, 300.0);
+        let (sin, cos) = 0.46_f64.sin_cos();
+        for (width, rooms) in [(59.99, 2), (60.01, 1)] {
+            let low = rectangle(0.0, 0.0, 180.0, 120.0);
+            let (x, y) = (180.0 + width * cos, 120.0 + width * sin);
+            let high = rectangle(x, y, 400.0 - x, 300.0 - y);
+            let grid = grid();
+            let [walls, low, high] = [&walls, &low, &high].map(|p| grid.contour(p));
+            let floor = grid.regions(&crate::geometry::grid::difference(&[walls], &[low, high]));
+            assert_eq!(shrunk(&floor, 30.0).len(), rooms, "{width}");
         }
     }
 

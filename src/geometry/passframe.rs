@@ -6,7 +6,7 @@
 use std::collections::HashSet;
 use std::fmt;
 
-use crate::map::Permeability;
+use crate::map::{BaseVector, Permeability};
 use crate::units::{AreaId, DoorId, Point};
 
 use super::buckets::Buckets;
@@ -119,6 +119,7 @@ struct Face {
 /// Everything that can stand along a border, by place.
 struct Faces {
     all: Vec<Face>,
+    boxes: Vec<Bounds>,
     buckets: Buckets,
     zones: Buckets,
 }
@@ -130,34 +131,46 @@ impl Faces {
             all.iter().map(|f| Bounds::of([f.start, f.end]).grown(TOUCH)).collect();
         let zones: Vec<Bounds> =
             floor.dead_zones.iter().map(|z| z.region.outer.bounds().grown(TOUCH)).collect();
-        Self { all, buckets: Buckets::of(&boxes), zones: Buckets::of(&zones) }
+        Self { all, buckets: Buckets::of(&boxes), zones: Buckets::of(&zones), boxes }
     }
 
-    /// Those whose boxes meet that of an edge, in their order.
-    fn near(&self, start: Point, end: Point) -> Vec<&Face> {
-        let (mut found, reach) = (Vec::new(), Bounds::of([start, end]));
-        self.buckets.meeting(&reach, &mut found);
-        let near = found.into_iter().map(|i| &self.all[i as usize]);
-        near.filter(|f| Bounds::of([f.start, f.end]).grown(TOUCH).meets(&reach)).collect()
+    /// The numbers of those whose boxes meet that of an edge, in their order, written into `found`.
+    fn near(&self, start: Point, end: Point, found: &mut Vec<u32>) {
+        let reach = Bounds::of([start, end]);
+        self.buckets.meeting(&reach, found);
+        found.retain(|&i| self.boxes[i as usize].meets(&reach));
     }
+}
+
+/// Lists that serve one edge after another.
+#[derive(Default)]
+struct Scratch {
+    near: Vec<u32>,
+    cuts: Vec<(f64, Point)>,
+    cells: Vec<u32>,
+    stretches: Vec<(f64, f64)>,
 }
 
 /// The Passframes of a floor, in the order of its cells.
 pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Passframe> {
     let ids = ids(floor);
     let faces = Faces::of(site, floor, sides);
+    let mut scratch = Scratch::default();
     let mut frames: Vec<Passframe> = floor
         .frames
         .cells()
         .map(|cell| {
-            let borders: Vec<Border> = (0..floor.frames.ring(cell).len())
-                .flat_map(|edge| borders(floor, &ids, &faces, cell, edge))
-                .collect();
+            let edges = floor.frames.ring(cell).len();
+            let mut own = Vec::with_capacity(edges);
+            for edge in 0..edges {
+                borders(floor, &ids, &faces, (cell, edge), &mut scratch, &mut own);
+            }
+            own.shrink_to_fit();
             Passframe {
                 id: ids[cell as usize],
-                polygon: Polygon::new(borders.iter().map(|b| b.start).collect()),
+                polygon: Polygon::new(own.iter().map(|b| b.start).collect()),
                 kind: PassframeKind::Passage,
-                borders,
+                borders: own,
             }
         })
         .collect();
@@ -183,108 +196,118 @@ fn share_crossings(frames: &mut [Passframe]) {
     }
 }
 
-/// The borders along one edge of a cell: one to another Passframe, or one for each face that stands there.
+/// Adds the borders along one edge of a cell: one to another Passframe, or one for each face that stands there.
 fn borders(
     floor: &FragmentFloor,
     ids: &[PassframeId],
     faces: &Faces,
-    cell: u32,
-    edge: usize,
-) -> Vec<Border> {
+    (cell, edge): (u32, usize),
+    scratch: &mut Scratch,
+    borders: &mut Vec<Border>,
+) {
     let (start, end) = floor.frames.edge(cell, edge);
     let across = floor.frames.across(cell)[edge];
     if across != NONE {
-        return vec![Border {
+        borders.push(Border {
             start,
             end,
             permeability: Permeability::Permeable,
             beyond: Beyond::Passframe(ids[across as usize]),
             names: Vec::new(),
             // Found once for both Passframes, see below.
-            crossing: if cell < across { crossing(floor, start, end) } else { None },
+            crossing: if cell < across { crossing(floor, scratch, start, end) } else { None },
             across,
-        }];
+        });
+        return;
     }
-    let mut borders: Vec<Border> = Vec::new();
-    let near = faces.near(start, end);
-    for (start, end) in pieces(&near, start, end) {
-        let (beyond, permeability, names) = what_stands_along(floor, faces, &near, start, end);
-        match borders.last_mut() {
-            Some(last) if last.beyond == beyond => last.end = end,
+    let first = borders.len();
+    faces.near(start, end, &mut scratch.near);
+    cut(faces, scratch, start, end);
+    let mut from = start;
+    for to in scratch.cuts.iter().map(|c| c.1).chain([end]) {
+        let (beyond, face) = what_stands_along(floor, faces, &scratch.near, from, to);
+        match borders[first..].last_mut() {
+            Some(last) if last.beyond == beyond => last.end = to,
             _ => borders.push(Border {
-                start,
-                end,
-                permeability,
+                start: from,
+                end: to,
+                permeability: face.map_or(Permeability::Impermeable, |f| f.permeability),
                 beyond,
-                names,
+                names: face.map_or_else(Vec::new, |f| f.names.clone()),
                 crossing: None,
                 across,
             }),
         }
+        from = to;
     }
-    for border in &mut borders {
+    for border in &mut borders[first..] {
         if matches!(border.beyond, Beyond::Doorway { .. }) {
-            border.crossing = crossing(floor, border.start, border.end);
+            border.crossing = crossing(floor, scratch, border.start, border.end);
         }
     }
-    borders
 }
 
-/// An edge cut where faces along it end.
-fn pieces(faces: &[&Face], start: Point, end: Point) -> Vec<(Point, Point)> {
+/// The places on an edge where faces along it end, into the scratch lists.
+fn cut(faces: &Faces, scratch: &mut Scratch, start: Point, end: Point) {
+    let cuts = &mut scratch.cuts;
+    cuts.clear();
     let length = (end - start).norm();
-    let Some(along) = (end - start).try_normalize(0.0) else { return vec![(start, end)] };
-    let mut cuts: Vec<(f64, Point)> = faces
-        .iter()
-        .flat_map(|f| [f.start, f.end])
-        .map(|p| ((p - start).dot(&along), p))
-        .filter(|&(t, p)| t > TOUCH && t < length - TOUCH && along.perp(&(p - start)).abs() < TOUCH)
-        .map(|(t, _)| (t, start + along * t))
-        .collect();
+    let Some(along) = (end - start).try_normalize(0.0) else { return };
+    let ends = scratch.near.iter().map(|&i| &faces.all[i as usize]).flat_map(|f| [f.start, f.end]);
+    for p in ends {
+        let t = (p - start).dot(&along);
+        if t > TOUCH && t < length - TOUCH && along.perp(&(p - start)).abs() < TOUCH {
+            cuts.push((t, start + along * t));
+        }
+    }
     cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
     cuts.dedup_by(|a, b| a.0 - b.0 < TOUCH);
-    let corners: Vec<Point> =
-        std::iter::once(start).chain(cuts.into_iter().map(|c| c.1)).chain([end]).collect();
-    corners.windows(2).map(|w| (w[0], w[1])).collect()
 }
 
 /// Faces within this distance of a border stand along it, in cm.
 const TOUCH: f64 = 0.05;
 
 /// The widest stretch of a border on which the robot's centre may be.
-fn crossing(floor: &FragmentFloor, a: Point, b: Point) -> Option<(Point, Point)> {
-    floor
-        .cells
-        .stretches(a, b)
-        .into_iter()
-        .max_by(|x, y| (x.1 - x.0).total_cmp(&(y.1 - y.0)))
-        .map(|(from, to)| (a + (b - a) * from, a + (b - a) * to))
-}
-
-fn what_stands_along(
+fn crossing(
     floor: &FragmentFloor,
-    faces: &Faces,
-    near: &[&Face],
+    scratch: &mut Scratch,
     a: Point,
     b: Point,
-) -> (Beyond, Permeability, Vec<String>) {
+) -> Option<(Point, Point)> {
+    let Scratch { cells, stretches, .. } = scratch;
+    floor.cells.stretches_into(a, b, cells, stretches);
+    stretches
+        .iter()
+        .max_by(|x, y| (x.1 - x.0).total_cmp(&(y.1 - y.0)))
+        .map(|&(from, to)| (a + (b - a) * from, a + (b - a) * to))
+}
+
+/// What is beyond a piece of border, and the face that it is, if it is one.
+fn what_stands_along<'a>(
+    floor: &FragmentFloor,
+    faces: &'a Faces,
+    near: &[u32],
+    a: Point,
+    b: Point,
+) -> (Beyond, Option<&'a Face>) {
+    let middle = nalgebra::center(&a, &b);
     // Borders may be cut short of a face's ends, so it is the line that counts.
     let off = |f: &Face| {
-        [a, b, nalgebra::center(&a, &b)]
+        [a, b, middle]
             .into_iter()
             .map(|p| (p - nearest_on_segment(p, f.start, f.end)).norm())
             .fold(0.0, f64::max)
     };
     let best = near
         .iter()
-        .map(|&f| (off(f), f))
+        .map(|&i| &faces.all[i as usize])
+        .map(|f| (off(f), f))
         .filter(|(off, _)| *off < TOUCH)
         // Doors stand first among faces, so that a door in a wall is named before the wall.
         .min_by(|(x, _), (y, _)| (*x > 0.02).cmp(&(*y > 0.02)));
     if let Some((_, face)) = best {
-        return (face.beyond, face.permeability, face.names.clone());
+        return (face.beyond, Some(face));
     }
-    let middle = nalgebra::center(&a, &b);
     let mut zones = Vec::new();
     faces.zones.meeting(&Bounds::of([middle]), &mut zones);
     let off_zone = |k: usize| floor.dead_zones[k].region.outer.border_distance(middle);
@@ -295,15 +318,14 @@ fn what_stands_along(
         .filter(|(off, _)| *off < TOUCH)
         .or_else(|| nearest(&mut (0..floor.dead_zones.len())));
     match zone.map(|z| z.1) {
-        Some(zone) => (Beyond::DeadZone(zone), Permeability::Impermeable, Vec::new()),
+        Some(zone) => (Beyond::DeadZone(zone), None),
         // A sliver of rounding: whatever is nearest.
         None => faces.all.iter().min_by(|x, y| off(x).total_cmp(&off(y))).map_or(
             (
                 Beyond::Face { blocker: Blocker::Floor { area: floor.area, item: 0 }, side: None },
-                Permeability::Impermeable,
-                Vec::new(),
+                None,
             ),
-            |f| (f.beyond, f.permeability, f.names.clone()),
+            |f| (f.beyond, Some(f)),
         ),
     }
 }
@@ -342,8 +364,13 @@ fn faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
         }
     }
     for obstacle in &floor.obstacles {
+        let base = base_of(site, obstacle.blocker);
         for (side, (start, end)) in obstacle.polygon.edges().enumerate() {
-            let (permeability, names) = obstacle_face(site, obstacle.blocker, side);
+            let (permeability, names) = base
+                .and_then(|base| base.get(side))
+                .map_or((Permeability::Impermeable, Vec::new()), |v| {
+                    (v.permeability, v.names.clone())
+                });
             let beyond = Beyond::Face { blocker: obstacle.blocker, side: Some(side) };
             faces.push(Face { start, end, beyond, permeability, names });
         }
@@ -375,17 +402,11 @@ fn faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
     faces
 }
 
-fn obstacle_face(site: &Site<'_>, blocker: Blocker, side: usize) -> (Permeability, Vec<String>) {
-    let Blocker::Replica { replica, item } = blocker else {
-        return (Permeability::Impermeable, Vec::new());
-    };
-    site.world
-        .replicas
-        .get(&replica)
-        .and_then(|r| site.world.objects.get(&r.object))
-        .and_then(|o| o.items.get(item))
-        .and_then(|i| site.world.orthoframe_of(i).base.get(side))
-        .map_or((Permeability::Impermeable, Vec::new()), |v| (v.permeability, v.names.clone()))
+/// The base vectors of the Orthoframe that a thing's part is.
+fn base_of<'a>(site: &Site<'a>, blocker: Blocker) -> Option<&'a [BaseVector]> {
+    let Blocker::Replica { replica, item } = blocker else { return None };
+    let object = site.world.objects.get(&site.world.replicas.get(&replica)?.object)?;
+    Some(&site.world.orthoframe_of(object.items.get(item)?).base)
 }
 
 /// Ids from the corners' places in the Area, to the tenth of a millimetre: what lasts keeps its id.
@@ -397,7 +418,8 @@ fn ids(floor: &FragmentFloor) -> Vec<PassframeId> {
         .cells()
         .map(|cell| {
             let mut hash = 0x811c_9dc5_u32; // FNV-1a
-            for p in &floor.frames.polygon(cell).corners {
+            for &vertex in floor.frames.ring(cell) {
+                let p = floor.frames.vertices[vertex as usize];
                 for x in [p.x, p.y] {
                     for byte in ((x * 100.0).round() as i64).to_le_bytes() {
                         hash = (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);

@@ -154,7 +154,7 @@ impl Polygon {
     }
 
     /// Even-odd rule: a ray to +x crosses the border an odd number of times.
-    fn winds_around(&self, p: Point) -> bool {
+    pub(super) fn winds_around(&self, p: Point) -> bool {
         let crossings = self
             .edges()
             .filter(|(a, b)| {

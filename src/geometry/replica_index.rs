@@ -2,6 +2,8 @@
 
 use std::collections::HashMap;
 
+use foldhash::fast::RandomState;
+
 use crate::units::{Point, ReplicaId};
 
 use super::Bounds;
@@ -13,10 +15,10 @@ const MARGIN: f64 = 0.1;
 /// Replicas by place.
 #[derive(Debug, Clone, Default)]
 pub(super) struct ReplicaIndex {
-    cells: HashMap<(i32, i32), Vec<ReplicaId>>,
+    cells: HashMap<(i32, i32), Vec<ReplicaId>, RandomState>,
     /// Those that are spread over too many cells to list in each.
     wide: Vec<ReplicaId>,
-    bounds: HashMap<ReplicaId, Bounds>,
+    bounds: HashMap<ReplicaId, Bounds, RandomState>,
 }
 
 impl ReplicaIndex {

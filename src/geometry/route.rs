@@ -565,33 +565,40 @@ impl FloorPlan {
             .collect();
         near.sort_unstable();
         near.dedup();
+        // The Passframe in which the last leg ended: convex, so that a leg with both ends in it lies in it.
+        let mut last: Option<(&FragmentFloor, u32)> = None;
+        let (mut cells, mut passed, mut crossed) = (Vec::new(), Vec::new(), Vec::new());
         for leg in points.windows(2) {
+            if last.is_some_and(|(f, cell)| leg.iter().all(|&p| f.frames.holds(cell, p, 0.0))) {
+                continue;
+            }
             let length = (leg[1] - leg[0]).norm();
             let reach = super::Bounds::of([leg[0], leg[1]]).grown(1.0);
-            let mut passed = Vec::new();
+            passed.clear();
             for fragment in fragments.iter().filter(|f| f.bounds.grown(100.0).meets(&reach)) {
-                for cell in fragment.frames.near_segment(leg[0], leg[1]) {
+                fragment.frames.near_segment(leg[0], leg[1], &mut cells);
+                for &cell in &cells {
                     let Some((from, to)) = fragment.frames.clip(cell, leg[0], leg[1]) else {
                         continue;
                     };
                     if (to - from) * length > 1e-3 || length < 1e-3 {
-                        let frame = (fragment.area, fragment.passframes[cell as usize].id);
-                        passed.push((from, to, frame));
+                        passed.push((from + to, *fragment, cell));
                     }
                 }
             }
-            passed.sort_by(|a, b| (a.0 + a.1).total_cmp(&(b.0 + b.1)));
-            for (_, _, frame) in passed {
+            passed.sort_by(|a, b| a.0.total_cmp(&b.0));
+            for &(_, fragment, cell) in &passed {
+                last = Some((fragment, cell));
+                let frame = (fragment.area, fragment.passframes[cell as usize].id);
                 if chain.last() != Some(&frame) {
                     chain.push(frame);
                 }
             }
-            let mut crossed: Vec<(f64, usize)> = near
-                .iter()
-                .filter_map(|&i| Some((crossing(leg[0], leg[1], &self.doorways()[i])?, i)))
-                .collect();
+            crossed.clear();
+            let crossing = |i: usize| crossing(leg[0], leg[1], &self.doorways()[i]);
+            crossed.extend(near.iter().filter_map(|&i| Some((crossing(i)?, i))));
             crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for (_, doorway) in crossed {
+            for &(_, doorway) in &crossed {
                 if doorways.last() != Some(&doorway) {
                     doorways.push(doorway);
                 }

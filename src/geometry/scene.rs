@@ -14,11 +14,9 @@ pub enum Owner {
     Replica(ReplicaId),
 }
 
-/// A side of a placed prism; it stands on the polygon's edge of the same index.
+/// A side of a placed prism; it stands on the polygon's edge, and is its Orthoframe's base vector, of the same index.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PrismSide {
-    /// Id of the base vector within its Orthoframe.
-    pub id: String,
     pub permeability: Permeability,
 }
 
@@ -65,6 +63,8 @@ pub struct PlacedReplica {
     pub bounds: Bounds,
     /// All that it may ever take: open leaves stick out, a Uniframe may be wider than its base.
     pub(super) reach: Bounds,
+    /// Whether doors of its own are mounted on it.
+    pub(super) has_doors: bool,
     pub bottom: f64,
     pub top: f64,
 }
@@ -133,8 +133,9 @@ impl PlacedReplica {
     #[must_use]
     pub fn new(world: &World, id: ReplicaId, frame: Frame) -> Self {
         let replica = &world.replicas[&id];
-        let prisms =
-            prisms(world, Owner::Replica(id), &world.objects[&replica.object].items, &frame);
+        let object = &world.objects[&replica.object];
+        let has_doors = !object.doors.is_empty();
+        let prisms = prisms(world, Owner::Replica(id), &object.items, &frame);
         let bounds = prisms.iter().fold(Bounds::EMPTY, |b, f| b.union(&f.bounds));
         let bottom = prisms.iter().map(|f| f.bottom).fold(f64::INFINITY, f64::min);
         let top = prisms.iter().map(|f| f.top).fold(f64::NEG_INFINITY, f64::max);
@@ -144,7 +145,7 @@ impl PlacedReplica {
         };
         let more = if prisms.iter().all(is_plain) { 0.0 } else { STICKS_OUT };
         let reach = bounds.grown(more);
-        Self { id, area: replica.area, frame, prisms, bounds, reach, bottom, top }
+        Self { id, area: replica.area, frame, prisms, bounds, reach, has_doors, bottom, top }
     }
 }
 
@@ -166,7 +167,7 @@ fn prisms(world: &World, owner: Owner, items: &[Item], frame: &Frame) -> Vec<Pri
             sides: orthoframe
                 .base
                 .iter()
-                .map(|v| PrismSide { id: v.id.clone(), permeability: v.permeability })
+                .map(|v| PrismSide { permeability: v.permeability })
                 .collect(),
             base_permeability: orthoframe.base_permeability,
             roof_permeability: orthoframe.roof_permeability,

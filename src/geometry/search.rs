@@ -7,7 +7,8 @@
 //!
 //! **Invariant**: every way found lies in the cells; none is shorter.
 
-use std::cmp::Ordering;
+use std::cell::RefCell;
+use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 use std::hash::{BuildHasherDefault, Hasher};
 
@@ -20,8 +21,8 @@ pub(super) type CellKey = (u32, u32);
 
 /// What the search walks over.
 pub(super) trait Cells {
-    /// The edges of a cell, counter-clockwise, each with the cells behind it.
-    fn edges(&self, cell: CellKey, visit: &mut dyn FnMut(Edge));
+    /// Adds the edges of a cell that do not lead back to `from`, counter-clockwise, each with the cell behind it.
+    fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>);
 }
 
 /// A stretch of a cell's border that leads into another cell.
@@ -43,8 +44,6 @@ const SNAP: f64 = 1e-5;
 
 #[derive(Debug, Clone, Copy)]
 struct SearchNode {
-    /// Least length of a way through this node.
-    bound: f64,
     /// Length of the way up to the root.
     spent: f64,
     root: u32,
@@ -61,33 +60,18 @@ struct SearchNode {
 #[derive(Debug, Clone, Copy)]
 struct Root {
     at: Point,
+    /// Its place's number in [`Search::best`].
+    place: u32,
     parent: u32,
 }
 
-impl PartialEq for SearchNode {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for SearchNode {}
-
-impl PartialOrd for SearchNode {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl Ord for SearchNode {
-    /// The least bound is the greatest, for the heap; a final node goes before others.
-    fn cmp(&self, other: &Self) -> Ordering {
-        other
-            .bound
-            .total_cmp(&self.bound)
-            .then(self.is_final.cmp(&other.is_final))
-            .then_with(|| other.cell.cmp(&self.cell))
-            .then_with(|| other.from.cmp(&self.from))
-    }
+/// A node that waits for its turn: the least bound goes first, then a final node, then the older one.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Waiting {
+    /// The bits of the least length of a way through the node; they are in order, since no length is negative.
+    bound: u64,
+    is_not_final: bool,
+    node: u32,
 }
 
 /// A way and what it took to find.
@@ -108,38 +92,32 @@ pub(super) fn shortest(
     if from == to {
         return Some(Way { points: vec![start, goal], length: (goal - start).norm() });
     }
-    let mut search = Search {
-        goal,
-        roots: vec![Root { at: start, parent: u32::MAX }],
-        best: HashMap::default(),
-        edges: Vec::new(),
-        open: BinaryHeap::new(),
-    };
-    cells.edges(from, &mut |edge| search.push(0.0, 0, edge, edge.right, edge.left, from));
-    while let Some(node) = search.open.pop() {
-        if node.is_final {
-            return Some(search.way(&node));
-        }
-        if search.is_outdone(&node) {
-            continue;
-        }
-        if node.cell == to {
-            search.finish(&node);
-        } else {
-            search.expand(cells, &node);
-        }
-    }
-    None
+    let mut search = KEPT.take();
+    search.begin(start, goal);
+    let way = search.run(cells, from, to);
+    KEPT.set(search);
+    way
 }
 
+thread_local! {
+    /// What one search allocates serves the next.
+    static KEPT: RefCell<Search> = RefCell::default();
+}
+
+#[derive(Default)]
 struct Search {
     goal: Point,
     roots: Vec<Root>,
-    /// Least length found up to each root.
-    best: HashMap<(u64, u64), f64, BuildHasherDefault<PlaceHasher>>,
+    /// The numbers of the places where ways bend, but for the start's, which is 0.
+    places: HashMap<(u64, u64), u32, BuildHasherDefault<PlaceHasher>>,
+    /// Least length found up to each place.
+    best: Vec<f64>,
     /// The edges of the cell that is looked at.
     edges: Vec<Edge>,
-    open: BinaryHeap<SearchNode>,
+    nodes: Vec<SearchNode>,
+    /// The foremost of the nodes that came last; often it goes before all others, and never sees the heap.
+    next: Option<Waiting>,
+    open: BinaryHeap<Reverse<Waiting>>,
 }
 
 fn side(a: Point, b: Point, c: Point) -> f64 {
@@ -152,27 +130,92 @@ fn meet(a: Point, b: Point, p: Point, q: Point) -> Point {
     let t = if (dp - dq).abs() > 0.0 { (dp / (dp - dq)).clamp(0.0, 1.0) } else { 0.0 };
     let at = p + (q - p) * t;
     // A ray along a wall meets the wall's end: rounding must not lose the bend there.
-    [p, q].into_iter().find(|&end| (end - at).norm() < SNAP).unwrap_or(at)
+    [p, q].into_iter().find(|&end| (end - at).norm_squared() < SNAP * SNAP).unwrap_or(at)
 }
 
 impl Search {
+    fn begin(&mut self, start: Point, goal: Point) {
+        self.goal = goal;
+        self.roots.clear();
+        self.roots.push(Root { at: start, place: 0, parent: u32::MAX });
+        self.places.clear();
+        self.best.clear();
+        self.best.push(0.0);
+        self.nodes.clear();
+        self.next = None;
+        self.open.clear();
+    }
+
+    fn run(&mut self, cells: &impl Cells, from: CellKey, to: CellKey) -> Option<Way> {
+        let mut first = Vec::new();
+        cells.edges(from, None, &mut first);
+        first.into_iter().for_each(|edge| self.push(0.0, 0, edge, edge.right, edge.left, from));
+        while let Some(next) = self.take() {
+            let node = self.nodes[next.node as usize];
+            if node.is_final {
+                return Some(self.way(&node));
+            }
+            if self.is_outdone(&node) {
+                continue;
+            }
+            if node.cell == to {
+                self.finish(&node);
+            } else {
+                self.expand(cells, &node);
+            }
+        }
+        None
+    }
+
     fn root(&self, node: &SearchNode) -> Point {
         self.roots[node.root as usize].at
     }
 
     fn is_outdone(&self, node: &SearchNode) -> bool {
-        let at = self.root(node);
-        self.best.get(&key(at)).is_some_and(|&b| b + EPSILON < node.spent)
+        let place = self.roots[node.root as usize].place;
+        self.best[place as usize] + EPSILON < node.spent
     }
 
-    /// Notes a way to a root; false when a shorter one is known.
-    fn reach(&mut self, at: Point, spent: f64) -> bool {
-        let best = self.best.entry(key(at)).or_insert(f64::INFINITY);
+    /// A way to a bend as a new root; none when a shorter one is known.
+    fn reach(&mut self, at: Point, spent: f64, parent: u32) -> Option<u32> {
+        let count = self.best.len() as u32;
+        let place = *self.places.entry(key(at)).or_insert(count);
+        if place == count {
+            self.best.push(spent);
+        }
+        let best = &mut self.best[place as usize];
         if spent > *best + EPSILON {
-            return false;
+            return None;
         }
         *best = best.min(spent);
-        true
+        self.roots.push(Root { at, place, parent });
+        Some(self.roots.len() as u32 - 1)
+    }
+
+    fn wait(&mut self, bound: f64, node: SearchNode) {
+        let number = self.nodes.len() as u32;
+        let new = Waiting { bound: bound.to_bits(), is_not_final: !node.is_final, node: number };
+        self.nodes.push(node);
+        match self.next {
+            Some(next) if next < new => self.open.push(Reverse(new)),
+            _ => {
+                if let Some(later) = self.next.replace(new) {
+                    self.open.push(Reverse(later));
+                }
+            }
+        }
+    }
+
+    /// Takes the node whose turn it is.
+    fn take(&mut self) -> Option<Waiting> {
+        match (self.next.take(), self.open.peek()) {
+            (Some(next), Some(Reverse(first))) if *first < next => {
+                let mut first = self.open.peek_mut()?;
+                Some(std::mem::replace(&mut *first, Reverse(next)).0)
+            }
+            (Some(next), _) => Some(next),
+            (None, _) => self.open.pop().map(|first| first.0),
+        }
     }
 
     fn push(
@@ -186,8 +229,7 @@ impl Search {
     ) {
         let at = self.roots[root as usize].at;
         let bound = spent + through(at, right, left, self.goal);
-        self.open.push(SearchNode {
-            bound,
+        let node = SearchNode {
             spent,
             root,
             right,
@@ -197,7 +239,8 @@ impl Search {
             cell: edge.to,
             from,
             is_final: false,
-        });
+        };
+        self.wait(bound, node);
     }
 
     /// Ends a way whose last stretch lies in the goal's cell.
@@ -214,12 +257,13 @@ impl Search {
         };
         if let Some(bend) = bend {
             last.spent += (bend - at).norm();
-            self.roots.push(Root { at: bend, parent: node.root });
+            let place = self.roots[node.root as usize].place;
+            self.roots.push(Root { at: bend, place, parent: node.root });
             last.root = self.roots.len() as u32 - 1;
         }
-        last.bound = last.spent + (self.goal - self.root(&last)).norm();
+        let bound = last.spent + (self.goal - self.root(&last)).norm();
         last.is_final = true;
-        self.open.push(last);
+        self.wait(bound, last);
     }
 
     fn expand(&mut self, cells: &impl Cells, node: &SearchNode) {
@@ -230,11 +274,7 @@ impl Search {
         let is_flat = area <= EPSILON * (left - right).norm().max(EPSILON);
         let mut edges = std::mem::take(&mut self.edges);
         edges.clear();
-        cells.edges(node.cell, &mut |edge| {
-            if edge.to != node.from {
-                edges.push(edge);
-            }
-        });
+        cells.edges(node.cell, Some(node.from), &mut edges);
         if is_flat {
             self.expand_flat(node, at, &edges);
         } else {
@@ -289,19 +329,16 @@ impl Search {
         }
         let at = self.root(node);
         let spent = node.spent + (bend - at).norm();
-        if !self.reach(bend, spent) {
-            return;
+        if let Some(root) = self.reach(bend, spent, node.root) {
+            self.push(spent, root, edge, right, left, node.cell);
         }
-        self.roots.push(Root { at: bend, parent: node.root });
-        let root = self.roots.len() as u32 - 1;
-        self.push(spent, root, edge, right, left, node.cell);
     }
 
     fn way(&self, last: &SearchNode) -> Way {
         let mut points = vec![self.goal];
         let mut root = last.root;
         while root != u32::MAX {
-            let Root { at, parent } = self.roots[root as usize];
+            let Root { at, parent, .. } = self.roots[root as usize];
             if points.last().is_none_or(|&p| (p - at).norm() > EPSILON) {
                 points.push(at);
             }
@@ -339,28 +376,27 @@ fn key(p: Point) -> (u64, u64) {
 
 /// Length of the shortest way from `root` over the stretch to `goal`, whatever lies between.
 fn through(root: Point, right: Point, left: Point, goal: Point) -> f64 {
+    let over = |turn: Point| (turn - root).norm() + (goal - turn).norm();
     let along = left - right;
-    let length = along.norm();
-    if length <= EPSILON {
-        return (right - root).norm() + (goal - right).norm();
+    let (root_side, goal_side) = (along.perp(&(root - right)), along.perp(&(goal - right)));
+    if root_side.abs() <= EPSILON {
+        return over(nearest_on_segment(root, right, left));
     }
-    let unit = along / length;
     // A goal on the root's side is mirrored: the way must touch the stretch.
-    let (root_side, goal_side) = (unit.perp(&(root - right)), unit.perp(&(goal - right)));
     let mirrored = if root_side * goal_side > 0.0 {
-        let normal = nalgebra::Vector2::new(-unit.y, unit.x);
-        goal - normal * (2.0 * goal_side)
+        let normal = nalgebra::Vector2::new(-along.y, along.x);
+        goal - normal * (2.0 * goal_side / along.norm_squared())
     } else {
         goal
     };
-    let goal_depth = unit.perp(&(mirrored - right));
-    let (root_place, goal_place) = (unit.dot(&(root - right)), unit.dot(&(goal - right)));
-    let depth = (root_side - goal_depth).abs();
-    let place = if depth > 0.0 {
-        root_place + (goal_place - root_place) * (root_side / (root_side - goal_depth))
+    // Past which end the straight line goes; seen from behind, the ends change sides.
+    let straight = mirrored - root;
+    let past = |end: Point| straight.perp(&(end - root)) * root_side;
+    if past(right) > 0.0 {
+        over(right)
+    } else if past(left) < 0.0 {
+        over(left)
     } else {
-        goal_place
-    };
-    let turn = right + unit * place.clamp(0.0, length);
-    (turn - root).norm() + (goal - turn).norm()
+        straight.norm()
+    }
 }

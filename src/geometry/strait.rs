@@ -300,8 +300,10 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
         for (from, to) in room.stretches(a, b) {
             let (from, to) = (from * length, to * length);
             let mut stands: Vec<(f64, f64, CellKey, Piece)> = Vec::new();
+            let mut near = Vec::new();
             for &(number, fragment) in &site.fragments {
-                for cell in fragment.cells.near_segment(a, b) {
+                fragment.cells.near_segment(a, b, &mut near);
+                for &cell in &near {
                     let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
                     let (s, e) = ((s * length).max(from), (e * length).min(to));
                     if e - s > 2.0 * FOOTHOLD {

@@ -122,10 +122,9 @@ fn is_solid(world: &World, replica: crate::units::ReplicaId, prism: &Prism, side
             let Some(model) = world.replicas.get(&replica) else { return true };
             let object = &world.objects[&model.object];
             let item = object.items.get(prism.item).map(|i| i.id.as_str());
-            let mount = object
-                .doors
-                .iter()
-                .find(|m| Some(m.item.as_str()) == item && m.side == prism.sides[side].id);
+            let id = &world.orthoframes[&prism.orthoframe].base[side].id;
+            let mount =
+                object.doors.iter().find(|m| Some(m.item.as_str()) == item && m.side == *id);
             let Some(mount) = mount else { return true };
             let state = model.door_states.get(&mount.door).copied();
             let state = state.or_else(|| world.doors.get(&mount.door).map(|d| d.state));
