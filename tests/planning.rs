@@ -69,6 +69,18 @@ fn scenarios_of_the_rules_folder() {
     expect_test::expect_file![project("tests/golden/scenarios.txt")].assert_eq(&shown);
 }
 
+#[test]
+fn every_action_of_the_rules_is_carried_out_in_some_scenario() {
+    let plans = std::fs::read_to_string(project("tests/golden/scenarios.txt")).unwrap();
+    let rules = Scenario::read(&project("rules/service-robot.strips")).unwrap();
+    let schemas = rules.domain.schemas().iter();
+    let unused: Vec<&str> = schemas
+        .map(|schema| schema.name.as_str())
+        .filter(|name| !plans.contains(&format!("({name} ")))
+        .collect();
+    assert_eq!(unused, [""; 0], "an action without a scenario");
+}
+
 fn outcome(case: &Path) -> String {
     let scenario = if case.join("domain.pddl").exists() {
         Scenario::read_pddl(&case.join("domain.pddl"), &case.join("problem.pddl"))

@@ -77,7 +77,8 @@ fn check(
     Ok(if replayed.broken.is_none() { Answer::Yes } else { Answer::No })
 }
 
-fn warn(warnings: &[RuleFault]) {
+/// Harmless faults of rule files go to standard error.
+pub(super) fn warn(warnings: &[RuleFault]) {
     for warning in warnings {
         note(drawn(warning).trim_end());
     }

@@ -2,7 +2,7 @@
 
 use crate::graphplan::{Limits, Outcome};
 use crate::robot::{Solved, Wanted, facts_of_map, solve, state};
-use crate::strips::{PlanText, Replayed, RuleFault, Scenario};
+use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
 
 use super::{Engine, Error};
 
@@ -88,8 +88,10 @@ pub fn plan_alone(
     limits: &Limits,
     wanted: Wanted,
 ) -> Result<PlanAnswer, Error> {
-    let solved = solve(&scenario.domain, &scenario.problem, limits, wanted)?;
-    Ok(PlanAnswer { solved, warnings: scenario.warnings })
+    let Scenario { domain, problem, mut warnings, .. } = scenario;
+    let solved = solve(&domain, &problem, limits, wanted)?;
+    warnings.extend(without_price(&domain, &problem, &solved.task)?);
+    Ok(PlanAnswer { solved, warnings })
 }
 
 /// Carries a plan out on a scenario that needs no map.

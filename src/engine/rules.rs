@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::semantics::RelationRules;
-use crate::strips::{Domain, RuleFaults, Scenario};
+use crate::strips::{Domain, RuleFault, RuleFaults, Scenario};
 use crate::units::Source;
 
 use super::{Error, RequestError};
@@ -16,6 +16,8 @@ const ROBOT: &str = "service-robot.strips";
 pub struct Rules {
     pub relations: RelationRules,
     pub robot: Domain,
+    /// Harmless faults of the robot's rules.
+    pub warnings: Vec<RuleFault>,
 }
 
 impl Rules {
@@ -32,11 +34,11 @@ impl Rules {
         let file = |name: &str| dir.map(|d| d.join(name)).filter(|p| p.exists());
         let more = dir.map(more_relations).transpose()?.unwrap_or_default();
         let relations = RelationRules::load(file(RELATIONS).as_deref(), &more)?;
-        let robot = match file(ROBOT) {
+        let (robot, warnings) = match file(ROBOT) {
             Some(path) => Domain::read(&path)?,
             None => built_in_robot()?,
         };
-        Ok(Self { relations, robot })
+        Ok(Self { relations, robot, warnings })
     }
 
     /// `rules` in the working directory, when there is such a directory.
@@ -64,7 +66,8 @@ fn more_relations(dir: &Path) -> Result<Vec<PathBuf>, RequestError> {
     Ok(files)
 }
 
-fn built_in_robot() -> Result<Domain, RuleFaults> {
+fn built_in_robot() -> Result<(Domain, Vec<RuleFault>), RuleFaults> {
     let text = include_str!("../../rules/service-robot.strips");
-    Scenario::parse(&Source::new(ROBOT, text)).map(|scenario| scenario.domain)
+    let scenario = Scenario::parse(&Source::new(ROBOT, text))?;
+    Ok((scenario.domain, scenario.warnings))
 }

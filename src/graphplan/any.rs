@@ -3,22 +3,18 @@
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
 //! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
-//! strategy"); where it gets stuck, best-first search takes over, and it misses nothing. The sequence found is rid of
-//! operators that turned out needless and laid out in parallel steps.
+//! strategy"); where it gets stuck, best-first search takes over, which counts landmarks besides, and it misses
+//! nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
-use std::collections::{BTreeSet, BinaryHeap, HashMap, HashSet, VecDeque};
+use std::collections::binary_heap::PeekMut;
+use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
+use super::landmarks::{Attained, Landmarks};
 use super::plan::Plan;
+use super::relaxed::{Estimate, Relaxed, State, holds};
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
-
-/// What holds, as bits.
-type State = Box<[u64]>;
-
-fn holds(state: &State, fact: FactId) -> bool {
-    state[fact.index() / 64] >> (fact.index() % 64) & 1 == 1
-}
 
 /// What forward search came to.
 pub(super) enum Found {
@@ -60,15 +56,6 @@ struct Forward<'a> {
     relaxed: Relaxed<'a>,
     evaluated: u64,
     effort: Effort,
-}
-
-/// How far a state seems from the goal, and what to try.
-struct Estimate {
-    distance: u32,
-    /// Applicable operators that bring a first fact of the relaxed plan, those of the relaxed plan first.
-    helpful: Vec<OperatorId>,
-    /// The relaxed plan, in the order of its layers.
-    relaxed_plan: Vec<OperatorId>,
 }
 
 impl Forward<'_> {
@@ -166,7 +153,7 @@ impl Forward<'_> {
     /// helpful operators.
     fn climb(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
         /// A plateau wider than this is better left to best-first search.
-        const WIDEST: usize = 5_000;
+        const WIDEST: usize = 1_000;
         let mut state = self.initial();
         let mut plan = Vec::new();
         let Some(mut here) = self.estimate(&state, 0)? else { return Ok(None) };
@@ -209,61 +196,138 @@ impl Forward<'_> {
         Ok(Some(plan))
     }
 
-    /// Nearest state first; helpful operators are tried at once, the others when nothing nearer is left, and the end
-    /// of the relaxed plan before all. A successor is made when its turn comes: most never come to it.
+    /// What the state looked at last allows.
+    fn successors(&self, helpful: &[OperatorId]) -> Successors {
+        let known: HashSet<OperatorId> = helpful.iter().copied().collect();
+        let others = self.relaxed.applicable.iter().filter(|id| !known.contains(id));
+        let count = helpful.len();
+        Successors { operators: helpful.iter().chain(others).copied().collect(), helpful: count }
+    }
+
+    /// Two measures take turns: the length of a relaxed plan, and the landmarks ahead; with each, helpful operators
+    /// have a queue of their own that goes first while progress is made (S. Richter, M. Westphal, 2010). The end of
+    /// the relaxed plan counts as helpful. A successor is made when its turn comes: most never come to it.
     fn best_first(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
+        let landmarks = Landmarks::of(self.task);
         let mut seen = Seen::default();
-        let mut queue: BinaryHeap<Reverse<Candidate>> = BinaryHeap::new();
-        let mut next = Some((self.initial(), None, Box::default()));
-        let mut order = 0;
+        let mut queues = Queues::new(if landmarks.is_some() { 2 } else { 1 });
+        let initial = self.initial();
+        let attained = landmarks.as_ref().map(|all| all.initially(&initial)).unwrap_or_default();
+        let mut next = Some((initial, attained, None, Box::default()));
         loop {
-            if let Some((state, from, by)) = next.take()
-                && let Some(number) = seen.add(&state, from, by)
+            if let Some((state, attained, from, by)) = next.take()
+                && let Some(number) = seen.add(&state, attained, from, by)
             {
-                let bytes = seen.bytes + queue.len() * std::mem::size_of::<Candidate>();
+                let bytes = seen.bytes + queues.bytes;
                 if let Some(estimate) = self.estimate(&state, bytes)? {
                     if estimate.distance == 0 {
                         return Ok(Some(seen.path(number)));
                     }
-                    let mut push = |value, by| {
-                        order += 1;
-                        queue.push(Reverse(Candidate { value, order, from: number, by }));
-                    };
-                    // A successor is valued as its parent, a step nearer when the operator helps.
-                    for &id in &self.relaxed.applicable {
-                        let helps = u32::from(!estimate.helpful.contains(&id));
-                        push(2 * estimate.distance + helps, Some(id));
-                    }
-                    push(2 * estimate.distance - 1, None);
+                    let ahead = landmarks
+                        .as_ref()
+                        .map(|all| all.ahead(&seen.attained[number as usize], &state));
+                    let values = [estimate.distance, ahead.unwrap_or_default()];
+                    queues.push(values, number, self.successors(&estimate.helpful));
                     seen.relaxed_plans.insert(number, estimate.relaxed_plan);
                 }
             }
-            let Some(Reverse(Candidate { from, by, .. })) = queue.pop() else { return Ok(None) };
+            let Some((from, by)) = queues.pop() else { return Ok(None) };
             if self.is_over() {
                 return Ok(None);
             }
-            let state = &seen.states[from as usize];
-            let (state, by) = match by {
-                Some(id) => (self.after(state, id), Box::from([id])),
+            let path: Box<[OperatorId]> = match by {
+                Some(id) => [id].into(),
                 None => {
-                    let plan = seen.relaxed_plans.remove(&from).unwrap_or_default();
-                    let (state, path) = self.ahead(state, &plan);
-                    (state, path.into_boxed_slice())
+                    let Some(plan) = seen.relaxed_plans.remove(&from) else { continue };
+                    self.ahead(&seen.states[from as usize], &plan).1.into_boxed_slice()
                 }
             };
-            next = Some((state, Some(from), by));
+            let mut state = seen.states[from as usize].clone();
+            let mut attained = seen.attained[from as usize].clone();
+            for &id in &path {
+                self.carry_out(&mut state, id);
+                if let Some(landmarks) = &landmarks {
+                    attained = landmarks.advance(&attained, &state);
+                }
+            }
+            next = Some((state, attained, Some(from), path));
         }
     }
 }
 
-/// A successor that waits for its turn; those of least value come first, of these the oldest.
-#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Candidate {
-    value: u32,
-    order: u32,
-    from: u32,
-    /// None for the end of the relaxed plan.
-    by: Option<OperatorId>,
+/// Operators that a state allows, the helpful ones first.
+#[derive(Default)]
+struct Successors {
+    operators: Box<[OperatorId]>,
+    helpful: usize,
+}
+
+/// A queue of one measure.
+#[derive(Default)]
+struct Queue {
+    /// Least value first, of these the oldest state; and which of its successors is next.
+    heap: BinaryHeap<Reverse<(u32, u32, u32)>>,
+    /// The queue with the least has its turn.
+    turn: i64,
+    /// Which measure it goes by.
+    measure: usize,
+    /// Whether only helpful operators get in.
+    helpful: bool,
+}
+
+struct Queues {
+    queues: Vec<Queue>,
+    least: [u32; 2],
+    /// By the number of the state.
+    successors: Vec<Successors>,
+    bytes: usize,
+}
+
+/// How many turns helpful operators gain by progress.
+const BOOST: i64 = 1000;
+
+impl Queues {
+    fn new(measures: usize) -> Self {
+        let both =
+            |measure| [true, false].map(|helpful| Queue { measure, helpful, ..Queue::default() });
+        let queues = (0..measures).flat_map(both).collect();
+        Self { queues, least: [u32::MAX; 2], successors: Vec::new(), bytes: 0 }
+    }
+
+    /// A state's successors wait for their turn. Progress in some measure lets helpful ones go first for a while.
+    fn push(&mut self, values: [u32; 2], number: u32, successors: Successors) {
+        for (least, value) in self.least.iter_mut().zip(values) {
+            if value < *least {
+                *least = value;
+                let helpful = self.queues.iter_mut().filter(|queue| queue.helpful);
+                helpful.for_each(|queue| queue.turn -= BOOST);
+            }
+        }
+        // A heap doubles when it grows.
+        self.bytes += successors.operators.len() * 4 + 48 + self.queues.len() * 24;
+        self.successors.resize_with(number as usize, Successors::default);
+        self.successors.push(successors);
+        for queue in &mut self.queues {
+            queue.heap.push(Reverse((values[queue.measure], number, 0)));
+        }
+    }
+
+    /// The state whose turn it is, and the operator; none for the end of the state's relaxed plan.
+    fn pop(&mut self) -> Option<(u32, Option<OperatorId>)> {
+        let open = self.queues.iter_mut().filter(|queue| !queue.heap.is_empty());
+        let queue = open.min_by_key(|queue| queue.turn)?;
+        queue.turn += 1;
+        let mut first = queue.heap.peek_mut()?;
+        let Reverse((_, number, at)) = *first;
+        let Successors { operators, helpful } = &self.successors[number as usize];
+        let end = if queue.helpful { *helpful } else { operators.len() };
+        if (at as usize) < end {
+            first.0.2 = at + 1;
+        } else {
+            PeekMut::pop(first);
+        }
+        Some((number, at.checked_sub(1).map(|at| operators[at as usize])))
+    }
 }
 
 /// States met, each with the state that it was come to from, and by which operators.
@@ -271,6 +335,8 @@ struct Candidate {
 struct Seen {
     numbers: HashMap<State, u32>,
     states: Vec<State>,
+    /// Which landmarks were attained on the way.
+    attained: Vec<Attained>,
     from: Vec<(Option<u32>, Box<[OperatorId]>)>,
     /// Of states whose relaxed plan was not yet followed.
     relaxed_plans: HashMap<u32, Vec<OperatorId>>,
@@ -279,14 +345,21 @@ struct Seen {
 
 impl Seen {
     /// The number of a state not met before.
-    fn add(&mut self, state: &State, from: Option<u32>, by: Box<[OperatorId]>) -> Option<u32> {
+    fn add(
+        &mut self,
+        state: &State,
+        attained: Attained,
+        from: Option<u32>,
+        by: Box<[OperatorId]>,
+    ) -> Option<u32> {
         let number = self.states.len() as u32;
         if self.numbers.contains_key(state) {
             return None;
         }
-        self.bytes += 2 * state.len() * 8 + by.len() * 4 + 128;
+        self.bytes += 2 * state.len() * 8 + attained.len() * 8 + by.len() * 4 + 160;
         self.numbers.insert(state.clone(), number);
         self.states.push(state.clone());
+        self.attained.push(attained);
         self.from.push((from, by));
         Some(number)
     }
@@ -303,217 +376,63 @@ impl Seen {
     }
 }
 
-/// The problem without delete effects.
-struct Relaxed<'a> {
-    task: &'a Task,
-    /// Operators by a fact that they need, those of fact `f` from `starts[f]` to `starts[f + 1]`.
-    needed_by: Vec<u32>,
-    starts: Vec<u32>,
-    added_by: Vec<Vec<u32>>,
-    /// What operator `o` adds, from `adds_from[o]` to `adds_from[o + 1]`.
-    adds: Vec<FactId>,
-    adds_from: Vec<u32>,
-    without_needs: Vec<u32>,
-    /// How many facts an operator needs, and how many of them are yet missing.
-    needs: Vec<u32>,
-    missing: Vec<u32>,
-    is_goal: Vec<bool>,
-    /// The layer at which a fact appears, and the operator that brings it.
-    layer: Vec<u32>,
-    bringer: Vec<u32>,
-    /// Operators that can be carried out in the state looked at last, ascending.
-    applicable: Vec<OperatorId>,
-}
-
-const NOT_YET: u32 = u32::MAX;
-
-impl<'a> Relaxed<'a> {
-    fn new(task: &'a Task) -> Self {
-        let mut by_need = vec![Vec::new(); task.facts.len()];
-        let mut added_by = vec![Vec::new(); task.facts.len()];
-        for (number, operator) in task.operators.iter().enumerate() {
-            let needs = operator.preconditions.iter();
-            needs.for_each(|fact| by_need[fact.index()].push(number as u32));
-            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(number as u32));
-        }
-        let mut starts = vec![0];
-        let mut needed_by = Vec::new();
-        for operators in by_need {
-            needed_by.extend(operators);
-            starts.push(needed_by.len() as u32);
-        }
-        let mut adds_from = vec![0];
-        let mut adds = Vec::new();
-        for operator in &task.operators {
-            adds.extend(&operator.add_effects);
-            adds_from.push(adds.len() as u32);
-        }
-        let needs: Vec<u32> =
-            task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
-        let mut is_goal = vec![false; task.facts.len()];
-        task.goal.iter().for_each(|goal| is_goal[goal.index()] = true);
-        Self {
-            task,
-            needed_by,
-            starts,
-            added_by,
-            adds,
-            adds_from,
-            without_needs: (0..needs.len() as u32).filter(|&n| needs[n as usize] == 0).collect(),
-            missing: needs.clone(),
-            needs,
-            is_goal,
-            layer: vec![NOT_YET; task.facts.len()],
-            bringer: vec![NOT_YET; task.facts.len()],
-            applicable: Vec::new(),
-        }
-    }
-
-    /// None when the goal is out of reach even without delete effects.
-    fn estimate(&mut self, state: &State) -> Option<Estimate> {
-        self.spread(state).then(|| self.relaxed_plan(state))
-    }
-
-    /// Layers of facts up to the goal.
-    fn spread(&mut self, state: &State) -> bool {
-        self.layer.fill(NOT_YET);
-        self.missing.copy_from_slice(&self.needs);
-        let mut open = self.task.goal.iter().filter(|goal| !holds(state, **goal)).count();
-        let mut queue: Vec<u32> = Vec::new();
-        for (word, &bits) in state.iter().enumerate() {
-            let mut bits = bits;
-            while bits != 0 {
-                let fact = (word * 64) as u32 + bits.trailing_zeros();
-                bits &= bits - 1;
-                self.layer[fact as usize] = 0;
-                queue.push(fact);
-            }
-        }
-        self.applicable.clear();
-        for at in 0..self.without_needs.len() {
-            self.applicable.push(OperatorId(self.without_needs[at]));
-            self.apply(self.without_needs[at], 1, &mut open, &mut queue);
-        }
-        let mut next = 0;
-        while let Some(&fact) = queue.get(next) {
-            next += 1;
-            let layer = self.layer[fact as usize];
-            // What the state itself allows is wanted whole, even if the goal holds.
-            if open == 0 && layer > 0 {
-                break;
-            }
-            for at in self.starts[fact as usize]..self.starts[fact as usize + 1] {
-                let number = self.needed_by[at as usize];
-                self.missing[number as usize] -= 1;
-                if self.missing[number as usize] == 0 {
-                    if layer == 0 {
-                        self.applicable.push(OperatorId(number));
-                    }
-                    self.apply(number, layer + 1, &mut open, &mut queue);
-                }
-            }
-        }
-        self.applicable.sort_unstable();
-        open == 0
-    }
-
-    fn apply(&mut self, number: u32, layer: u32, open: &mut usize, queue: &mut Vec<u32>) {
-        let own =
-            self.adds_from[number as usize] as usize..self.adds_from[number as usize + 1] as usize;
-        for added in &self.adds[own] {
-            if self.layer[added.index()] == NOT_YET {
-                self.layer[added.index()] = layer;
-                self.bringer[added.index()] = number;
-                queue.push(added.0);
-                *open -= usize::from(self.is_goal[added.index()]);
-            }
-        }
-    }
-
-    fn relaxed_plan(&self, state: &State) -> Estimate {
-        let mut wanted: Vec<FactId> =
-            self.task.goal.iter().copied().filter(|&goal| !holds(state, goal)).collect();
-        let mut asked: HashSet<FactId> = wanted.iter().copied().collect();
-        // Operators by the layer at which they become possible.
-        let mut chosen: BTreeSet<(u32, u32)> = BTreeSet::new();
-        let mut first: BTreeSet<FactId> = BTreeSet::new();
-        while let Some(fact) = wanted.pop() {
-            if self.layer[fact.index()] == 1 {
-                first.insert(fact);
-            }
-            let number = self.bringer[fact.index()];
-            if chosen.insert((self.layer[fact.index()], number)) {
-                for &need in &self.task.operators[number as usize].preconditions {
-                    if self.layer[need.index()] > 0 && asked.insert(need) {
-                        wanted.push(need);
-                    }
-                }
-            }
-        }
-        let applicable = |number: &u32| {
-            self.task.operators[*number as usize]
-                .preconditions
-                .iter()
-                .all(|&fact| holds(state, fact))
-        };
-        // Whatever brings a fact of the first layer helps, not only what the relaxed plan chose for it.
-        let mut operators: Vec<u32> = first
-            .iter()
-            .flat_map(|fact| self.added_by[fact.index()].iter().copied())
-            .filter(applicable)
-            .collect();
-        operators.sort_unstable_by_key(|number| (!chosen.contains(&(1, *number)), *number));
-        operators.dedup();
-        Estimate {
-            distance: chosen.len() as u32,
-            helpful: operators.into_iter().map(OperatorId).collect(),
-            relaxed_plan: chosen.into_iter().map(|(_, number)| OperatorId(number)).collect(),
-        }
-    }
-}
-
 /// Takes out operators that the goal does without, together with those that only served them.
-pub(super) fn drop_needless(task: &Task, steps: &mut Vec<Vec<OperatorId>>) {
-    let mut step = 0;
-    while step < steps.len() {
+pub(super) fn drop_needless(task: &Task, steps: &mut [Vec<OperatorId>]) {
+    let mut before = vec![false; task.facts.len()];
+    task.init.iter().for_each(|fact| before[fact.index()] = true);
+    let mut dropped = Vec::new();
+    for step in 0..steps.len() {
         let mut at = 0;
         while at < steps[step].len() {
-            match without(task, steps, step, at) {
-                Some(shorter) => *steps = shorter,
-                None => at += 1,
+            if does_without(task, steps, (step, at), before.clone(), &mut dropped) {
+                for &(step, at) in dropped.iter().rev() {
+                    steps[step].remove(at);
+                }
+            } else {
+                at += 1;
             }
         }
-        step += 1;
+        carry_out(task, &steps[step], |_| true, &mut before);
     }
 }
 
-/// The steps without one operator and without all that it enabled, if the goal is reached all the same.
-fn without(
+/// Whether the goal is reached without one operator and without all that it enabled; these are told.
+fn does_without(
     task: &Task,
     steps: &[Vec<OperatorId>],
-    step: usize,
-    at: usize,
-) -> Option<Vec<Vec<OperatorId>>> {
-    let mut state = vec![false; task.facts.len()];
-    task.init.iter().for_each(|fact| state[fact.index()] = true);
-    let mut kept = Vec::with_capacity(steps.len());
-    for (number, operators) in steps.iter().enumerate() {
-        let possible = |(place, id): (usize, &OperatorId)| {
-            let own = number == step && place == at;
-            let ready = task.operator(*id).preconditions.iter().all(|fact| state[fact.index()]);
-            (!own && ready).then_some(*id)
-        };
-        let operators: Vec<OperatorId> =
-            operators.iter().enumerate().filter_map(possible).collect();
-        for &id in &operators {
-            task.operator(id).del_effects.iter().for_each(|fact| state[fact.index()] = false);
+    one: (usize, usize),
+    mut state: Vec<bool>,
+    dropped: &mut Vec<(usize, usize)>,
+) -> bool {
+    dropped.clear();
+    for (step, operators) in steps.iter().enumerate().skip(one.0) {
+        let known = dropped.len();
+        for (at, &id) in operators.iter().enumerate() {
+            let needs = &task.operator(id).preconditions;
+            if (step, at) == one || !needs.iter().all(|fact| state[fact.index()]) {
+                dropped.push((step, at));
+            }
         }
-        for &id in &operators {
-            task.operator(id).add_effects.iter().for_each(|fact| state[fact.index()] = true);
-        }
-        kept.push(operators);
+        let stays = |at: usize| !dropped[known..].contains(&(step, at));
+        carry_out(task, operators, stays, &mut state);
     }
-    task.goal.iter().all(|fact| state[fact.index()]).then_some(kept)
+    task.goal.iter().all(|fact| state[fact.index()])
+}
+
+/// The state after those operators of a step that are wanted.
+fn carry_out(
+    task: &Task,
+    operators: &[OperatorId],
+    wanted: impl Fn(usize) -> bool,
+    state: &mut [bool],
+) {
+    let chosen = || operators.iter().enumerate().filter(|(at, _)| wanted(*at)).map(|(_, id)| *id);
+    for id in chosen() {
+        task.operator(id).del_effects.iter().for_each(|fact| state[fact.index()] = false);
+    }
+    for id in chosen() {
+        task.operator(id).add_effects.iter().for_each(|fact| state[fact.index()] = true);
+    }
 }
 
 /// Each operator in the first step after all that it depends on or interferes with.

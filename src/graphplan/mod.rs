@@ -20,11 +20,15 @@
 //! ```
 
 mod any;
+mod counting;
+mod cuts;
 mod extract;
 mod fewest;
 mod graph;
+mod landmarks;
 mod no_good;
 mod plan;
+mod relaxed;
 mod replan;
 mod sat;
 mod shorten;
@@ -147,6 +151,9 @@ pub fn solve_learning(
 pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
     /// Turns of the graph's extraction at one level, when forward search is stuck.
     const FEW_TURNS: u32 = 3;
+    /// A graph that takes more than this part of the memory, or more steps, is left alone.
+    const FEW_OF_MEMORY: usize = 16;
+    const FEW_STEPS: usize = 50;
     let found = |found| match found {
         any::Found::Plan(plan) => Some(Outcome::Plan(shorten::shorten(task, plan, limits))),
         // The planning graph tells why.
@@ -157,10 +164,17 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
             return Ok(outcome);
         }
-        // Where forward search loses its way, the graph may see at once that there is none.
+        // Where forward search loses its way, the graph may see at once that there is none; if it is small.
         let turn = Turn { turns: Some(FEW_TURNS), ..Turn::default() };
-        if let (Some(brief), _) = with_stack(|| search(task, limits, turn, None))? {
-            return Ok(brief);
+        let brief = Limits {
+            memory_bytes: limits.memory_bytes / FEW_OF_MEMORY,
+            parallel_steps: limits.parallel_steps.min(FEW_STEPS),
+            ..*limits
+        };
+        match with_stack(|| search(task, &brief, turn, None)) {
+            Ok((Some(outcome), _)) => return Ok(outcome),
+            Err(Limit::Time) => return Err(Limit::Time),
+            Ok((None, _)) | Err(Limit::Memory | Limit::Steps) => {}
         }
         Ok(found(any::search(task, limits, any::Effort::All)?)
             .expect("all effort leaves nothing open"))

@@ -6,6 +6,7 @@
 //! Interference is encoded in linear space: whoever needs a fact without deleting it makes it hold after the
 //! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
 
+use super::counting::Counter;
 use super::graph::{ActionId, PlanningGraph};
 use super::plan::Plan;
 use super::solver::{Answer, Literal, Solver};
@@ -25,7 +26,14 @@ pub(super) struct Encoding<'a> {
     relevant_from: Vec<u32>,
     /// What is said of the length looked at; withdrawn with the next.
     horizon: Option<(usize, Literal)>,
+    /// What is still to be done at each level, once that is worth counting.
+    counter: Option<Counter>,
+    /// Whether it was asked if counting is worth it.
+    asked_to_count: bool,
 }
+
+/// Conflicts after which counting is thought of: most lengths are decided sooner.
+const BEFORE_COUNTING: u64 = 1 << 11;
 
 #[derive(Default, Clone)]
 struct Users {
@@ -67,6 +75,8 @@ impl<'a> Encoding<'a> {
             users,
             relevant_from: relevance(task),
             horizon: None,
+            counter: None,
+            asked_to_count: false,
         }
     }
 
@@ -86,8 +96,25 @@ impl<'a> Encoding<'a> {
                 }
             }
         }
+        if let Some(counter) = &self.counter {
+            counter.bound(&mut self.solver, literal, level);
+        }
         self.horizon = Some((level, literal));
         literal
+    }
+
+    /// Where lengths are hard to decide, what is still to be done is counted.
+    fn count(&mut self, graph: &PlanningGraph) {
+        let hard = self.solver.conflicts() >= BEFORE_COUNTING && graph.leveled_off_at().is_some();
+        if hard && !std::mem::replace(&mut self.asked_to_count, true) {
+            self.counter = Counter::new(self.task, graph);
+            if let (Some(_), Some((_, old))) = (&self.counter, self.horizon.take()) {
+                self.solver.add_clause(&[!old]);
+            }
+        }
+        if let Some(counter) = &mut self.counter {
+            counter.reach(&mut self.solver, &self.operators);
+        }
     }
 
     /// Looks for a plan as long as the graph, with so many conflicts at most.
@@ -109,6 +136,7 @@ impl<'a> Encoding<'a> {
         limits: &Limits,
     ) -> Result<Verdict, Limit> {
         self.reach(graph, limits)?;
+        self.count(graph);
         let level = graph.top();
         let mut assumed = vec![self.horizon(level)];
         let facts = &self.facts[level];

@@ -102,7 +102,11 @@ impl<'a> Index<'a> {
             }
         }
         for (number, operator) in task.operators.iter().enumerate() {
-            for arg in &operator.args {
+            // A rule may name an object that is none of its parameters.
+            let lists = [&operator.preconditions, &operator.add_effects, &operator.del_effects];
+            let facts = lists.into_iter().flatten();
+            let named = facts.flat_map(|&fact| &task.fact(fact).args);
+            for arg in operator.args.iter().chain(named) {
                 let operators = operators_of.entry(arg).or_default();
                 if operators.last() != Some(&number) {
                     operators.push(number);
@@ -229,6 +233,15 @@ mod tests {
         let mut task = task();
         task.init = [0, 3, 4].map(FactId).into();
         assert_eq!(images(&task), [0, 1, 2, 3, 0, 1]);
+    }
+
+    #[test]
+    fn an_operator_that_names_an_object_without_a_parameter_tells_it_apart() {
+        let mut task = task();
+        let named =
+            Operator { name: "first".into(), args: Vec::new(), ..task.operators[0].clone() };
+        task.operators.push(named);
+        assert_eq!(images(&task), [0, 1, 2, 3, 2, 3]);
     }
 
     #[test]

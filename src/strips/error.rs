@@ -425,17 +425,27 @@ pub enum RuleError {
     #[diagnostic(code(strips::plan_misses_goal))]
     PlanMissesGoal { fact: String },
 
-    /// Grounding found more than the limit allows.
-    #[error(
-        "из правил получается больше {limit} действий над объектами; последнее из правила «{action}»"
-    )]
+    /// Grounding takes more memory than it may.
+    #[error("действия правил над этими объектами не помещаются в {megabytes} МиБ памяти")]
     #[diagnostic(
         code(strips::too_many_operators),
         help(
-            "добавьте правилу предусловий, связывающих его параметры, или уменьшите число объектов"
+            "добавьте правилам предусловий, связывающих их параметры, или уменьшите число объектов"
         )
     )]
-    TooManyOperators { limit: usize, action: String },
+    TooManyOperators { megabytes: usize },
+
+    /// A cost is a function's value, and the problem does not give it.
+    #[error(
+        "задача не говорит, сколько стоит {action}{}: это считается бесплатным",
+        if *more == 0 { String::new() } else { format!(" (и ещё действий: {more})") }
+    )]
+    #[diagnostic(
+        severity(Warning),
+        code(strips::no_price),
+        help("задайте значение в «:init»: (= (функция объект …) число)")
+    )]
+    NoPrice { action: String, more: usize },
 }
 
 /// A [`RuleError`] together with the text that it was found in.

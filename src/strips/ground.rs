@@ -13,25 +13,33 @@ use super::domain::{Domain, KindSet, PredicateId, Schema, SchemaAtom, SchemaCost
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::problem::{GroundAtom, Problem, Resolved, Standing, ThingId};
 use super::simplify::{Draft, DraftOperator, simplify};
-use super::task::Task;
+use super::task::{Operator, Task};
 use crate::units::name_key;
 
-/// More ground actions than a planner could use.
-const MAX_OPERATORS: usize = 1_000_000;
+/// What grounding may hold where nobody else sets a limit: some two million ground actions.
+const MOST_BYTES: usize = 1 << 30;
 
 /// Grounds a problem.
 ///
 /// # Errors
 /// All names of the problem that mean nothing to the rules, at once; or [`RuleError::TooManyOperators`].
 pub fn ground(domain: &Domain, problem: &Problem) -> Result<Task, RuleFaults> {
-    Ok(ground_while(domain, problem, &|_| true)?.expect("nothing stops it"))
+    ground_while(domain, problem, &is_bounded)?.ok_or_else(too_many)
+}
+
+fn is_bounded(bytes: usize) -> bool {
+    bytes <= MOST_BYTES
+}
+
+fn too_many() -> RuleFaults {
+    RuleFault::placeless(RuleError::TooManyOperators { megabytes: MOST_BYTES >> 20 }).into()
 }
 
 /// Grounds a problem while `may_go_on` says so, asked time and again with the bytes held, near enough; none when it
 /// was stopped.
 ///
 /// # Errors
-/// As [`ground`].
+/// All names of the problem that mean nothing to the rules, at once.
 pub fn ground_while(
     domain: &Domain,
     problem: &Problem,
@@ -41,7 +49,7 @@ pub fn ground_while(
         return Err(RuleFault::placeless(RuleError::NoGoal).into());
     }
     let resolved = problem.resolve(domain)?;
-    let reached = Reachability::new(domain, &resolved, may_go_on).saturated()?;
+    let reached = Reachability::new(domain, &resolved, may_go_on).saturated();
     Ok(reached.map(|reached| simplify(draft(domain, &resolved, &reached))))
 }
 
@@ -87,22 +95,16 @@ pub(super) struct Reachability<'a> {
     pub(super) atoms: Vec<GroundAtom>,
     pub(super) numbers: HashMap<GroundAtom, usize>,
     may_go_on: &'a dyn Fn(usize) -> bool,
-    stop: Option<Stop>,
-}
-
-/// Why saturation ended before its end.
-#[derive(Debug, Clone, Copy)]
-enum Stop {
-    /// Of actions there are too many; the schema of the last.
-    TooMany(usize),
-    Asked,
+    /// Joins tried so far.
+    joins: usize,
+    /// Whether saturation was told to end before its end.
+    stopped: bool,
 }
 
 impl<'a> Reachability<'a> {
     /// All that is reachable.
     pub(super) fn run(domain: &'a Domain, resolved: &'a Resolved) -> Result<Self, RuleFaults> {
-        let reached = Self::new(domain, resolved, &|_| true).saturated()?;
-        Ok(reached.expect("nothing stops it"))
+        Self::new(domain, resolved, &is_bounded).saturated().ok_or_else(too_many)
     }
 
     fn new(
@@ -149,22 +151,15 @@ impl<'a> Reachability<'a> {
             atoms: Vec::new(),
             numbers: HashMap::new(),
             may_go_on,
-            stop: None,
+            joins: 0,
+            stopped: false,
         }
     }
 
     /// None when it was told to stop.
-    fn saturated(mut self) -> Result<Option<Self>, RuleFaults> {
+    fn saturated(mut self) -> Option<Self> {
         self.saturate();
-        match self.stop {
-            None => Ok((self.may_go_on)(self.bytes()).then_some(self)),
-            Some(Stop::Asked) => Ok(None),
-            Some(Stop::TooMany(schema)) => Err(RuleFault::placeless(RuleError::TooManyOperators {
-                limit: MAX_OPERATORS,
-                action: self.domain.schemas[schema].name.clone(),
-            })
-            .into()),
-        }
+        (!self.stopped && (self.may_go_on)(self.bytes())).then_some(self)
     }
 
     /// Memory that the task will take, near enough: an operator and its draft, an atom and its indexes.
@@ -192,7 +187,7 @@ impl<'a> Reachability<'a> {
             }
         }
         let mut next = 0;
-        while next < self.atoms.len() && self.stop.is_none() {
+        while next < self.atoms.len() && !self.stopped {
             self.ask(next);
             let atom = self.atoms[next].clone();
             next += 1;
@@ -206,7 +201,7 @@ impl<'a> Reachability<'a> {
     /// Now and then, whether to go on.
     fn ask(&mut self, count: usize) {
         if count.is_multiple_of(256) && !(self.may_go_on)(self.bytes()) {
-            self.stop = Some(Stop::Asked);
+            self.stopped = true;
         }
     }
 
@@ -307,7 +302,9 @@ impl<'a> Reachability<'a> {
     ) {
         let domain = self.domain;
         let rule: &Schema = &domain.schemas[schema];
-        if self.stop.is_some() || !self.comparisons_hold(rule, &binding) {
+        self.joins += 1;
+        self.ask(self.joins);
+        if self.stopped || !self.comparisons_hold(rule, &binding) {
             return;
         }
         let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
@@ -382,7 +379,7 @@ impl<'a> Reachability<'a> {
         for choice in 0..self.candidates[schema][free].len() {
             let mut binding = binding.clone();
             binding[free] = Some(self.candidates[schema][free][choice]);
-            if self.stop.is_none() && self.comparisons_hold(&domain.schemas[schema], &binding) {
+            if !self.stopped && self.comparisons_hold(&domain.schemas[schema], &binding) {
                 self.choose_rest(schema, binding);
             }
         }
@@ -408,10 +405,6 @@ impl<'a> Reachability<'a> {
                 && self.numbers.contains_key(&self.instantiate(atom, &args))
         });
         if denied {
-            return;
-        }
-        if self.instances.len() >= MAX_OPERATORS {
-            self.stop = Some(Stop::TooMany(schema));
             return;
         }
         self.ask(self.instances.len());
@@ -491,22 +484,56 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
     }
 }
 
-/// What an action over these objects costs.
+/// What an action over these objects costs. A value that the problem does not give is nothing, as planners read it;
+/// [`without_price`] tells of it.
 pub(super) fn cost(schema: &Schema, resolved: &Resolved, objects: &[ThingId]) -> u32 {
     if schema.cost.is_empty() {
         return 1;
     }
-    let part = |cost: &SchemaCost| match cost {
-        SchemaCost::Number(number) => *number,
+    let part = |cost| price(cost, resolved, objects).unwrap_or(0);
+    schema.cost.iter().map(part).fold(0, u32::saturating_add)
+}
+
+fn price(cost: &SchemaCost, resolved: &Resolved, objects: &[ThingId]) -> Option<u32> {
+    match cost {
+        SchemaCost::Number(number) => Some(*number),
         SchemaCost::Function { name, args } => {
             let value = |term: &SchemaTerm| match term {
                 SchemaTerm::Constant(name) => resolved.index[&name_key(name)],
                 SchemaTerm::Parameter(parameter) => objects[*parameter as usize],
             };
             let args: Vec<ThingId> = args.iter().map(value).collect();
-            // A value that the problem does not give is nothing, as planners read it.
-            resolved.values.get(&(name.clone(), args)).copied().unwrap_or(0)
+            resolved.values.get(&(name.clone(), args)).copied()
         }
+    }
+}
+
+/// That the problem does not say what operators of its task cost, if so: these count as free.
+///
+/// # Errors
+/// As [`ground`].
+pub fn without_price(
+    domain: &Domain,
+    problem: &Problem,
+    task: &Task,
+) -> Result<Option<RuleFault>, RuleFaults> {
+    let by_function = |cost: &SchemaCost| matches!(cost, SchemaCost::Function { .. });
+    if !domain.schemas.iter().any(|schema| schema.cost.iter().any(by_function)) {
+        return Ok(None);
+    }
+    let resolved = problem.resolve(domain)?;
+    let schemas: HashMap<&str, &Schema> =
+        domain.schemas.iter().map(|schema| (schema.name.as_str(), schema)).collect();
+    let lacks = |operator: &&Operator| {
+        let thing = |name: &std::sync::Arc<str>| resolved.index.get(&name_key(name)).copied();
+        let things: Option<Vec<ThingId>> = operator.args.iter().map(thing).collect();
+        let (Some(things), Some(schema)) = (things, schemas.get(&*operator.name)) else {
+            return false;
+        };
+        schema.cost.iter().any(|cost| price(cost, &resolved, &things).is_none())
     };
-    schema.cost.iter().map(part).fold(0, u32::saturating_add)
+    let mut lacking = task.operators.iter().filter(lacks);
+    let Some(first) = lacking.next() else { return Ok(None) };
+    let error = RuleError::NoPrice { action: first.to_string(), more: lacking.count() };
+    Ok(Some(RuleFault::placeless(error)))
 }

@@ -121,16 +121,16 @@ impl Scenario {
 }
 
 impl Domain {
-    /// Reads a file of rules; what else it states is left aside.
+    /// Reads a file of rules, with its harmless faults; what else it states is left aside.
     ///
     /// # Errors
     /// All faults of the file and of those that it includes, at once.
-    pub fn read(path: &Path) -> Result<Self, RuleFaults> {
+    pub fn read(path: &Path) -> Result<(Self, Vec<RuleFault>), RuleFaults> {
         let scenario = Scenario::read(path)?;
         if scenario.domain.schemas().is_empty() {
             return Err(RuleFault::placeless(RuleError::NoActions).into());
         }
-        Ok(scenario.domain)
+        Ok((scenario.domain, scenario.warnings))
     }
 }
 

@@ -46,7 +46,7 @@ pub use domain::{
 };
 pub use error::{Place, RuleError, RuleFault, RuleFaults};
 pub use explain::{Missing, Obstacle, explain_unreachable};
-pub use ground::{ground, ground_while};
+pub use ground::{ground, ground_while, without_price};
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use plan_text::{Directive, PlanText};
 pub use problem::{Problem, Standing};
