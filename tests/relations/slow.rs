@@ -26,6 +26,8 @@ struct Shape {
     prisms: Vec<Prism>,
     /// The way it faces.
     front: Option<P>,
+    /// Mean of width and depth.
+    size: f64,
 }
 
 /// Name, prisms, front.
@@ -89,11 +91,10 @@ fn shape(of: &Placed) -> Shape {
     if name == "cone" {
         // A frustum of 24 sides, 60 cm wide and high, a fifth as wide at the top.
         // The first corner stands at the origin, the second on +x.
-        let turn = |n: f64| n * std::f64::consts::TAU / 24.0;
-        let start = turn(-6.5);
+        let start = turn_of(-6.5);
         let ring = |radius: f64| -> Vec<P> {
             let corner = |n: i32| {
-                let at = start + turn(f64::from(n));
+                let at = start + turn_of(f64::from(n));
                 let (x, y) = (
                     radius * at.cos() - 30.0 * start.cos(),
                     radius * at.sin() - 30.0 * start.sin(),
@@ -106,7 +107,23 @@ fn shape(of: &Placed) -> Shape {
         prisms.push(Prism { corners: ring(30.0), roof: ring(6.0), bottom, top: bottom + 60.0 });
     }
     let front = front.map(|f| [f[0] * cos - f[1] * sin, f[0] * sin + f[1] * cos]);
-    Shape { prisms, front }
+    let extent = |axis: usize| {
+        let ends = |b: &[f64; 6]| (b[axis], b[axis] + b[axis + 2]);
+        let all = || boxes.iter().map(ends);
+        all().map(|e| e.1).fold(0.0, f64::max) - all().map(|e| e.0).fold(0.0, f64::min)
+    };
+    // Across the flats from side to side, as 24 sides stand.
+    let size = if boxes.is_empty() {
+        60.0 * turn_of(0.5).cos()
+    } else {
+        f64::midpoint(extent(0), extent(1))
+    };
+    Shape { prisms, front, size }
+}
+
+/// Corners of a polygon of 24, as an angle.
+fn turn_of(corners: f64) -> f64 {
+    corners * std::f64::consts::TAU / 24.0
 }
 
 fn cross(o: P, a: P, b: P) -> f64 {
@@ -297,6 +314,7 @@ fn judge(shapes: &[Shape]) -> Judged {
                 judged.say("CLOSE_TO", a, b, distance <= 130.0);
             }
             sector(shape, anchor, (a, b), distance, &mut judged);
+            next(shapes, (a, b), distance, &mut judged);
         }
     }
     judged
@@ -353,6 +371,31 @@ fn sector(
     sectors.into_iter().for_each(|(name, within)| judged.say(name, a, b, sees && within));
 }
 
+/// A common height, and surfaces no farther apart than a sixth of the sizes, 10 to 60 cm; of pairs that nothing can be between.
+fn next(shapes: &[Shape], (a, b): (usize, usize), distance: f64, judged: &mut Judged) {
+    let (x, y) = (&shapes[a], &shapes[b]);
+    let bounds = |of: &[&Shape]| {
+        let corners = of.iter().flat_map(|shape| &shape.prisms).flat_map(|prism| &prism.corners);
+        corners
+            .fold([f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY], |b, c| {
+                [b[0].min(c[0]), b[1].min(c[1]), b[2].max(c[0]), b[3].max(c[1])]
+            })
+    };
+    let both = bounds(&[x, y]);
+    let in_room = both[0] > 0.1 && both[1] > 0.1 && both[2] < 799.9 && both[3] < 599.9;
+    let is_clear =
+        shapes.iter().enumerate().filter(|(n, _)| *n != a && *n != b).all(|(_, third)| {
+            let third = bounds(&[third]);
+            third[0] > both[2] || third[2] < both[0] || third[1] > both[3] || third[3] < both[1]
+        });
+    let common = x.top().min(y.top()) - x.bottom().max(y.bottom());
+    let level = common / (x.top() - x.bottom()).min(y.top() - y.bottom());
+    let limit = ((x.size + y.size) / 6.0).clamp(10.0, 60.0);
+    if in_room && is_clear && (level - 0.333).abs() > 0.002 && !is_near(distance, limit) {
+        judged.say("NEXT_TO", a, b, level > 0.333 && distance < limit);
+    }
+}
+
 fn furnished(things: &[Placed]) -> World {
     let line = |(n, thing): (usize, &Placed)| {
         let object = SHAPES[thing.0].0;
@@ -367,9 +410,9 @@ fn furnished(things: &[Placed]) -> World {
     world
 }
 
-/// Pairs that stand in one of the relations of piles, which those by sides give way to.
+/// Pairs that stand in one of the relations that those by sides give way to.
 fn is_piled(relations: &Relations, a: &str, b: &str) -> bool {
-    ["INSIDE", "ON_TOP_OF", "ABOVE", "UNDER"]
+    ["INSIDE", "ON_TOP_OF", "ABOVE", "UNDER", "LEANING_AGAINST"]
         .iter()
         .any(|name| relations.holds(name, &[a, b]) || relations.holds(name, &[b, a]))
 }
