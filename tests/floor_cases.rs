@@ -1,6 +1,5 @@
 //! Named hard cases of the free floor: each is a room that broke, or might break, somebody's geometry.
 
-use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use orthoframe::geometry::*;
@@ -11,7 +10,7 @@ use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 use crate::routes::{check_invariants, check_route};
 
 /// A room of 400 × 300 with boxes `[x, y, w, d, turn]`, 100 high.
-fn room(boxes: &[[f64; 5]]) -> (Builder, AreaId) {
+pub(crate) fn room(boxes: &[[f64; 5]]) -> (Builder, AreaId) {
     let mut b = Builder::new();
     let hall = b.area("Зал", &rectangle(400.0, 300.0), Frame::IDENTITY, &[]);
     for &[x, y, w, d, turn] in boxes {
@@ -20,7 +19,7 @@ fn room(boxes: &[[f64; 5]]) -> (Builder, AreaId) {
     (b, hall)
 }
 
-fn build(b: &Builder) -> FloorPlan {
+pub(crate) fn build(b: &Builder) -> FloorPlan {
     let plan = FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
     check_invariants(&plan);
     plan
@@ -35,7 +34,7 @@ fn raw_area(plan: &FloorPlan) -> f64 {
 }
 
 /// The length of the shortest way, checked; none if there is none.
-fn way(b: &Builder, from: (f64, f64), to: (f64, f64)) -> Option<f64> {
+pub(crate) fn way(b: &Builder, from: (f64, f64), to: (f64, f64)) -> Option<f64> {
     let plan = build(b);
     for method in [Method::Paper, Method::Shortest] {
         if let Ok(route) =
@@ -513,82 +512,6 @@ fn a_wall_between_items_of_one_area_is_a_wall() {
 }
 
 #[test]
-fn leaves_of_a_double_door_leave_the_sum_of_their_ways() {
-    let leaf = |hinge| DoorLeaf { hinge, share: 0.5, thickness: Cm::of(4.0), max_open: 90.0 };
-    let (mut b, _, _, door) = two_rooms(0.0, DoorKind::Hinged, DoorState::OPEN);
-    b.world.doors.get_mut(&door).unwrap().leaves =
-        vec![leaf(HingeSide::Right), leaf(HingeSide::Left)];
-    let plan = build(&b);
-    let doorway = plan.doorways_of(door).next().unwrap();
-    let width = |opening: f64| {
-        doorway
-            .clear_width(b.world.doors.get(&door), DoorState { status: DoorStatus::Open, opening })
-    };
-    assert!((width(100.0) - 82.0).abs() < 1e-9, "{}", width(100.0));
-    assert!(width(50.0) < 82.0 && width(50.0) > 20.0, "{}", width(50.0));
-    assert!(width(0.0) < 1e-9);
-}
-
-#[test]
-fn a_sliding_leaf_leaves_what_it_withdraws_from() {
-    let (b, _, _, door) = two_rooms(10.0, DoorKind::Sliding, DoorState::OPEN);
-    let plan = build(&b);
-    let doorway = plan.doorways_of(door).next().unwrap();
-    for opening in [0.0, 30.0, 60.0, 100.0] {
-        let width = doorway
-            .clear_width(b.world.doors.get(&door), DoorState { status: DoorStatus::Open, opening });
-        assert!((width - 0.9 * opening).abs() < 1e-9, "{opening}: {width}");
-    }
-}
-
-#[test]
-fn a_hinged_leaf_keeps_its_size_and_stays_within_its_sweep() {
-    let (b, _, _, door) = two_rooms(10.0, DoorKind::Hinged, DoorState::OPEN);
-    let plan = build(&b);
-    let (doorway, model) = (plan.doorways_of(door).next().unwrap(), &b.world.doors[&door]);
-    for opening in [10.0, 45.0, 80.0, 100.0] {
-        for (leaf, sweep) in doorway
-            .leaves(model, DoorState { status: DoorStatus::Open, opening })
-            .iter()
-            .zip(doorway.swept(model))
-        {
-            assert!((leaf.signed_area() - 90.0 * 4.0).abs() < 1e-6);
-            let tip = leaf.corners.iter().filter(|&&c| sweep.contains(c, 1e-6)).count();
-            assert!(tip >= 2, "{opening}: {leaf:?}");
-        }
-    }
-}
-
-#[test]
-fn a_door_half_open_is_judged_by_its_leaf() {
-    for (opening, passes) in [(100.0, true), (20.0, false)] {
-        let (b, ..) =
-            two_rooms(10.0, DoorKind::Hinged, DoorState { status: DoorStatus::Open, opening });
-        assert_eq!(way(&b, (60., 250.), (750., 50.)).is_some(), passes, "{opening}");
-    }
-}
-
-#[test]
-fn the_wardrobes_open_door_stands_in_the_way() {
-    let (mut b, hall) = room(&[]);
-    let wardrobe = b.put(hall, 150., 240., 100., 60., 0.0, 200.0);
-    let door = b.door(DoorKind::Hinged, 100.0, DoorState::CLOSED);
-    let object = b.world.replicas[&wardrobe].object;
-    b.world.objects.get_mut(&object).unwrap().doors.push(DoorMount {
-        item: "I0".into(),
-        side: "S0".into(),
-        door,
-        opens: OpensTo::Outside,
-    });
-    assert!(build(&b).fragment(hall).unwrap().obstacle_at(p(152., 200.)).is_none());
-    b.world.replicas.get_mut(&wardrobe).unwrap().door_states =
-        BTreeMap::from([(door, DoorState::OPEN)]);
-    let plan = build(&b);
-    let leaf = plan.fragment(hall).unwrap().obstacle_at(p(152., 200.)).map(|o| o.blocker);
-    assert_eq!(leaf, Some(Blocker::ReplicaLeaf { replica: wardrobe, door, leaf: 0 }));
-}
-
-#[test]
 fn a_gap_is_opened_by_the_smallest_push() {
     let (mut b, _) = room(&[[180., 0., 40., 126., 0.], [180., 174., 40., 100., 0.]]);
     let ids: Vec<ReplicaId> = b.world.replicas.keys().copied().collect();
@@ -625,50 +548,4 @@ fn passframes_elsewhere_keep_their_ids() {
         plan.passframes(hall).iter().map(|f| f.id).collect::<std::collections::BTreeSet<_>>()
     };
     assert!(ids(&before).intersection(&ids(&after)).count() >= 2);
-}
-
-#[test]
-fn a_box_hides_what_stands_behind_it() {
-    let (b, _) = room(&[[150., 120., 40., 60., 0.], [250., 140., 20., 20., 0.]]);
-    let plan = build(&b);
-    let (front, back) = {
-        let mut ids = b.world.replicas.keys().copied();
-        (ids.next().unwrap(), ids.next().unwrap())
-    };
-    let sight = plan.sight(&b.world, 50.0);
-    let pose = Pose { at: p(50., 150.), heading: Deg::ZERO };
-    let seen = sight.visible(pose, 120.0, 1000.0);
-    let sees = |id: ReplicaId| {
-        seen.iter()
-            .any(|v| matches!(v.face.blocker, Blocker::Replica { replica, .. } if replica == id))
-    };
-    assert!(sees(front) && !sees(back));
-    let scan = sight.scan(pose, 0.0, 1, 1000.0);
-    assert!((scan[0].distance - 100.0).abs() < 1e-6);
-    // Above both, only the walls are left.
-    assert!(
-        (plan.sight(&b.world, 150.0).scan(pose, 0.0, 1, 1000.0)[0].distance - 350.0).abs() < 1e-6
-    );
-    assert!(sight.scan(pose, 0.0, 1, 70.0)[0].face.is_none());
-}
-
-#[test]
-fn visible_stretches_are_seen_by_a_dense_scan_too() {
-    let (b, _) =
-        room(&[[150., 120., 40., 60., 20.], [250., 40., 60., 60., 50.], [60., 200., 50., 20., 0.]]);
-    let plan = build(&b);
-    let sight = plan.sight(&b.world, 50.0);
-    let pose = Pose { at: p(100., 100.), heading: Deg::of(30.0) };
-    let seen = sight.visible(pose, 360.0, 1000.0);
-    for beam in sight.scan(pose, 359.0, 721, 1000.0) {
-        let at = pose.at + nalgebra_vector(beam.direction) * beam.distance;
-        let on = seen.iter().any(|v| {
-            Some(v.face) == beam.face && (at - nearest_on_segment(at, v.right, v.left)).norm() < 0.1
-        });
-        assert!(on, "{beam:?}");
-    }
-}
-
-fn nalgebra_vector(direction: f64) -> Vector {
-    Vector::new(direction.cos(), direction.sin())
 }

@@ -22,7 +22,7 @@ fn star(random: &mut Random, centre: Point, corners: usize, near: f64, far: f64)
 }
 
 /// A crooked room with an alcove on one of its sides, full of ugly things.
-fn ugly(seed: u64) -> (Builder, AreaId) {
+pub(crate) fn ugly(seed: u64) -> (Builder, AreaId) {
     let mut random = Random(seed.wrapping_mul(977) + 13);
     let mut b = Builder::new();
     let corners = 5 + (random.unit() * 8.0) as usize;

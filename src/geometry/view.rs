@@ -15,6 +15,7 @@ use parry2d_f64::shape::{CompositeShapeRef, Polyline};
 use crate::map::{DoorStatus, Permeability, World};
 use crate::units::{Point, Pose, Vector};
 
+use super::doors::Doorway;
 use super::floor::FragmentFloor;
 use super::nearest_on_segment;
 use super::obstacle::Blocker;
@@ -66,7 +67,9 @@ impl FloorPlan {
         }
         for doorway in self.doorways() {
             let Some(door) = doorway.door.and_then(|d| world.doors.get(&d)) else { continue };
-            if door.height.get() > 0.0 && door.height.get() <= height {
+            // Over a door there is wall again.
+            if door.height.get() > 0.0 && door.height.get() <= height - self.level_of(doorway) {
+                found.extend((0..2).filter_map(|side| self.lintel(world, doorway, side)));
                 continue;
             }
             for (leaf, polygon) in
@@ -87,6 +90,29 @@ impl FloorPlan {
             }
         }
         Sight::of(found)
+    }
+
+    /// Height of the floor before a doorway, in the Map's frame, in cm.
+    fn level_of(&self, doorway: &Doorway) -> f64 {
+        let room = self.scene().areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
+        room.map_or(0.0, |prism| prism.bottom)
+    }
+
+    /// The wall over a doorway, on its side towards one of its Areas.
+    fn lintel(
+        &self,
+        world: &World,
+        doorway: &Doorway,
+        side: usize,
+    ) -> Option<(SeenFace, (Point, Point))> {
+        let (area, of) = (doorway.areas[side], &doorway.sides[side]);
+        let items = &world.areas.get(&area)?.items;
+        let item = items.iter().position(|i| i.id == of.item)?;
+        let (number, _) = world.orthoframe_of(&items[item]).side(&of.side)?;
+        let (depth, (right, left)) = ([0.0, doorway.gap][side], doorway.span());
+        let face =
+            SeenFace { blocker: Blocker::Wall { area, item, side: number }, side: Some(number) };
+        Some((face, (doorway.at(right, depth), doorway.at(left, depth))))
     }
 
     /// The side of the Area on which a piece of wall lies.

@@ -1,0 +1,144 @@
+//! Doors (M7): what leaves occupy, what they pass over, how wide they leave the way, at any opening.
+
+use std::collections::BTreeMap;
+
+use orthoframe::geometry::*;
+use orthoframe::map::*;
+use orthoframe::units::*;
+
+use crate::floor_cases::{build, room, way};
+use crate::floors::{p, two_rooms};
+
+/// Whether its hinge is on the right, its share of the width, how far it opens.
+type Leaf = (bool, f64, f64);
+type Leaves = (DoorKind, &'static [Leaf]);
+
+const DOORS: [Leaves; 10] = [
+    (DoorKind::Hinged, &[(true, 1.0, 90.0)]),
+    (DoorKind::Hinged, &[(false, 1.0, 90.0)]),
+    (DoorKind::Hinged, &[(true, 1.0, 135.0)]),
+    (DoorKind::Hinged, &[(false, 1.0, 60.0)]),
+    (DoorKind::Hinged, &[(true, 0.5, 90.0), (false, 0.5, 90.0)]),
+    (DoorKind::Hinged, &[(true, 0.3, 90.0), (false, 0.7, 100.0)]),
+    (DoorKind::Sliding, &[(true, 1.0, 100.0)]),
+    (DoorKind::Sliding, &[(false, 1.0, 80.0)]),
+    (DoorKind::Sliding, &[(true, 0.5, 100.0), (false, 0.5, 100.0)]),
+    (DoorKind::Sliding, &[(true, 0.7, 90.0), (false, 0.3, 100.0)]),
+];
+
+fn of_kind((kind, leaves): Leaves, gap: f64, opening: f64) -> (crate::floors::Builder, DoorId) {
+    let state = DoorState { status: DoorStatus::Open, opening };
+    let (mut b, _, _, door) = two_rooms(gap, kind, state);
+    let leaf = |&(right, share, max_open): &Leaf| DoorLeaf {
+        hinge: if right { HingeSide::Right } else { HingeSide::Left },
+        share,
+        thickness: Cm::of(4.0),
+        max_open,
+    };
+    b.world.doors.get_mut(&door).expect("just made").leaves = leaves.iter().map(leaf).collect();
+    (b, door)
+}
+
+/// The clear width is the diameter of the widest disc that passes: a little wider it does not.
+#[test]
+fn a_disc_as_wide_as_the_clear_width_passes_and_a_wider_one_does_not() {
+    let mut tried = 0;
+    for leaves in DOORS {
+        for (gap, opening) in
+            [(0.0, 100.0), (0.0, 35.0), (12.0, 100.0), (12.0, 60.0), (25.0, 20.0), (25.0, 85.0)]
+        {
+            let (mut b, door) = of_kind(leaves, gap, opening);
+            let doorway = build(&b).doorways_of(door).next().expect("it joins the rooms").clone();
+            let model = &b.world.doors[&door];
+            let width = doorway.clear_width(Some(model), model.state);
+            if width < 10.0 {
+                continue;
+            }
+            tried += 1;
+            // Round corners are cut by chords from outside, which takes up to 0.9 % of the radius.
+            b.world.robot.radius = Cm::of(width / 2.0 / 1.0087 - 0.02);
+            let passes = way(&b, (60., 150.), (760. + gap, 150.));
+            assert!(passes.is_some(), "{leaves:?} {gap} {opening}: {width}");
+            b.world.robot.radius = Cm::of(width / 2.0 + 0.02);
+            let passes = way(&b, (60., 150.), (760. + gap, 150.));
+            assert!(passes.is_none(), "{leaves:?} {gap} {opening}: {width}");
+        }
+    }
+    assert!(tried > 45, "{tried}");
+}
+
+#[test]
+fn leaves_of_a_double_door_leave_the_sum_of_their_ways() {
+    let leaf = |hinge| DoorLeaf { hinge, share: 0.5, thickness: Cm::of(4.0), max_open: 90.0 };
+    let (mut b, _, _, door) = two_rooms(0.0, DoorKind::Hinged, DoorState::OPEN);
+    b.world.doors.get_mut(&door).unwrap().leaves =
+        vec![leaf(HingeSide::Right), leaf(HingeSide::Left)];
+    let plan = build(&b);
+    let doorway = plan.doorways_of(door).next().unwrap();
+    let width = |opening: f64| {
+        doorway
+            .clear_width(b.world.doors.get(&door), DoorState { status: DoorStatus::Open, opening })
+    };
+    assert!((width(100.0) - 82.0).abs() < 1e-9, "{}", width(100.0));
+    assert!(width(50.0) < 82.0 && width(50.0) > 20.0, "{}", width(50.0));
+    assert!(width(0.0) < 1e-9);
+}
+
+#[test]
+fn a_sliding_leaf_leaves_what_it_withdraws_from() {
+    let (b, _, _, door) = two_rooms(10.0, DoorKind::Sliding, DoorState::OPEN);
+    let plan = build(&b);
+    let doorway = plan.doorways_of(door).next().unwrap();
+    for opening in [0.0, 30.0, 60.0, 100.0] {
+        let width = doorway
+            .clear_width(b.world.doors.get(&door), DoorState { status: DoorStatus::Open, opening });
+        assert!((width - 0.9 * opening).abs() < 1e-9, "{opening}: {width}");
+    }
+}
+
+#[test]
+fn a_hinged_leaf_keeps_its_size_and_stays_within_its_sweep() {
+    let (b, _, _, door) = two_rooms(10.0, DoorKind::Hinged, DoorState::OPEN);
+    let plan = build(&b);
+    let (doorway, model) = (plan.doorways_of(door).next().unwrap(), &b.world.doors[&door]);
+    for opening in [10.0, 45.0, 80.0, 100.0] {
+        for (leaf, sweep) in doorway
+            .leaves(model, DoorState { status: DoorStatus::Open, opening })
+            .iter()
+            .zip(doorway.swept(model))
+        {
+            assert!((leaf.signed_area() - 90.0 * 4.0).abs() < 1e-6);
+            let tip = leaf.corners.iter().filter(|&&c| sweep.contains(c, 1e-6)).count();
+            assert!(tip >= 2, "{opening}: {leaf:?}");
+        }
+    }
+}
+
+#[test]
+fn a_door_half_open_is_judged_by_its_leaf() {
+    for (opening, passes) in [(100.0, true), (20.0, false)] {
+        let (b, ..) =
+            two_rooms(10.0, DoorKind::Hinged, DoorState { status: DoorStatus::Open, opening });
+        assert_eq!(way(&b, (60., 250.), (750., 50.)).is_some(), passes, "{opening}");
+    }
+}
+
+#[test]
+fn the_wardrobes_open_door_stands_in_the_way() {
+    let (mut b, hall) = room(&[]);
+    let wardrobe = b.put(hall, 150., 240., 100., 60., 0.0, 200.0);
+    let door = b.door(DoorKind::Hinged, 100.0, DoorState::CLOSED);
+    let object = b.world.replicas[&wardrobe].object;
+    b.world.objects.get_mut(&object).unwrap().doors.push(DoorMount {
+        item: "I0".into(),
+        side: "S0".into(),
+        door,
+        opens: OpensTo::Outside,
+    });
+    assert!(build(&b).fragment(hall).unwrap().obstacle_at(p(152., 200.)).is_none());
+    b.world.replicas.get_mut(&wardrobe).unwrap().door_states =
+        BTreeMap::from([(door, DoorState::OPEN)]);
+    let plan = build(&b);
+    let leaf = plan.fragment(hall).unwrap().obstacle_at(p(152., 200.)).map(|o| o.blocker);
+    assert_eq!(leaf, Some(Blocker::ReplicaLeaf { replica: wardrobe, door, leaf: 0 }));
+}
