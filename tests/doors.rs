@@ -67,6 +67,58 @@ fn a_disc_as_wide_as_the_clear_width_passes_and_a_wider_one_does_not() {
     assert!(tried > 45, "{tried}");
 }
 
+/// At every opening a leaf lies within what it sweeps, and every point that it sweeps is met at some opening.
+#[test]
+fn what_a_leaf_sweeps_is_where_it_is_at_some_opening() {
+    for leaves in DOORS {
+        for gap in [0.0, 14.0] {
+            let (b, door) = of_kind(leaves, gap, 100.0);
+            let plan = build(&b);
+            let doorway = plan.doorways_of(door).next().expect("it joins the rooms");
+            let model = &b.world.doors[&door];
+            let at = |opening: f64| {
+                doorway.leaf_obstacles(model, DoorState { status: DoorStatus::Open, opening })
+            };
+            for (from, to) in [(0.0, 100.0), (30.0, 70.0), (55.0, 10.0)] {
+                let swept = doorway.swept_between(model, (from, to));
+                let steps: Vec<Vec<Polygon>> =
+                    (0..=240).map(|k| at(from + (to - from) * f64::from(k) / 240.0)).collect();
+                let is_swept = |q: Point| swept.iter().any(|s| s.contains(q, 0.05));
+                // A shut leaf lies in the wall, and one that turns has its back about its hinge, within its thickness.
+                let (t0, t1) = doorway.span();
+                let hinges = [(t0, 0.0), (t0, doorway.gap), (t1, 0.0), (t1, doorway.gap)]
+                    .map(|(t, s)| doorway.at(t, s));
+                let at_hinge = |q: Point| hinges.iter().any(|h| (h - q).norm() < 4.0 + 1e-6);
+                let in_wall = |q: Point| {
+                    let s = (q - doorway.at(0.0, 0.0)).dot(&doorway.out());
+                    model.kind == DoorKind::Hinged && s > -1e-6 && s < doorway.gap + 4.0 + 1e-6
+                };
+                for leaf in steps.iter().flatten() {
+                    for &corner in &leaf.corners {
+                        let seen = is_swept(corner) || in_wall(corner) || at_hinge(corner);
+                        assert!(seen, "{leaves:?} {from}..{to}: {corner:?}");
+                    }
+                }
+                for one in &swept {
+                    let box_of = one.bounds();
+                    for (i, j) in (0..12).flat_map(|i| (0..12).map(move |j| (i, j))) {
+                        let share = Vector::new(f64::from(i) / 11.0, f64::from(j) / 11.0);
+                        let q = box_of.min + (box_of.max - box_of.min).component_mul(&share);
+                        if !one.contains(q, 0.0) {
+                            continue;
+                        }
+                        let far = steps.iter().flatten().map(|leaf| {
+                            if leaf.contains(q, 0.0) { 0.0 } else { leaf.border_distance(q) }
+                        });
+                        let far = far.fold(f64::INFINITY, f64::min);
+                        assert!(far < 1.5, "{leaves:?} {from}..{to}: {q:?} {far}");
+                    }
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn leaves_of_a_double_door_leave_the_sum_of_their_ways() {
     let leaf = |hinge| DoorLeaf { hinge, share: 0.5, thickness: Cm::of(4.0), max_open: 90.0 };
