@@ -61,10 +61,12 @@ impl Landmarks {
         }
         let mut first = vec![false; task.facts.len()];
         task.init.iter().for_each(|fact| first[fact.index()] = true);
+        let ways: Vec<Ways> =
+            facts.iter().map(|&f| sets.first_ways(task, f, first[f.index()])).collect();
         let mut needs: Vec<Vec<u32>> = vec![Vec::new(); facts.len()];
         let mut needed_by: Vec<Vec<u32>> = vec![Vec::new(); facts.len()];
-        for (n, &fact) in facts.iter().enumerate().filter(|(_, fact)| !first[fact.index()]) {
-            for need in sets.first_needs(task, fact) {
+        for n in (0..facts.len()).filter(|&n| !first[facts[n].index()]) {
+            for need in &ways[n].needs {
                 if let Some(need) = number[need.index()] {
                     needs[n].push(need);
                     needed_by[need as usize].push(n as u32);
@@ -76,23 +78,22 @@ impl Landmarks {
         goals.iter().for_each(|&goal| is_goal[goal as usize] = true);
         let mut landmarks = Self { facts, is_goal, before: needs, needed_by };
         let direct = landmarks.before.clone();
-        for (later, earlier) in landmarks.undoing(task, &goals, &direct) {
+        for (later, earlier) in landmarks.undoing(&ways, &goals, &direct) {
             landmarks.before[later as usize].push(earlier);
         }
         Some(landmarks)
     }
 
     /// Pairs of goals of which the first would be undone for the second; no cycles.
-    fn undoing(&self, task: &Task, goals: &[u32], needs: &[Vec<u32>]) -> Vec<(u32, u32)> {
+    fn undoing(&self, ways: &[Ways], goals: &[u32], needs: &[Vec<u32>]) -> Vec<(u32, u32)> {
         if goals.len() > MOST_GOALS {
             return Vec::new();
         }
-        let ways: Vec<Ways> = self.facts.iter().map(|&fact| Ways::of(task, fact)).collect();
         let mut after: Vec<Vec<usize>> = vec![Vec::new(); goals.len()];
         let mut pairs = Vec::new();
         for later in 0..goals.len() {
             for earlier in (0..goals.len()).filter(|&earlier| earlier != later) {
-                let undoes = self.undoes(&ways, needs, goals[later], goals[earlier]);
+                let undoes = self.undoes(ways, needs, goals[later], goals[earlier]);
                 if undoes && !leads_to(&after, later, earlier) {
                     after[earlier].push(later);
                     pairs.push((goals[later], goals[earlier]));
@@ -176,21 +177,10 @@ fn leads_to(after: &[Vec<usize>], from: usize, to: usize) -> bool {
     false
 }
 
-/// What all operators have in common that add a fact.
+/// What all operators have in common that may add a fact for the first time.
 struct Ways {
     needs: Vec<FactId>,
     deletes: Vec<FactId>,
-}
-
-impl Ways {
-    fn of(task: &Task, fact: FactId) -> Self {
-        let adding =
-            || task.operators.iter().filter(|o| o.add_effects.binary_search(&fact).is_ok());
-        Self {
-            needs: common(adding().map(|operator| operator.preconditions.as_slice())),
-            deletes: common(adding().map(|operator| operator.del_effects.as_slice())),
-        }
-    }
 }
 
 fn common<'a>(mut lists: impl Iterator<Item = &'a [FactId]>) -> Vec<FactId> {
@@ -274,16 +264,24 @@ impl Sets {
         narrower
     }
 
-    /// What all operators need that may add a fact for the first time.
-    fn first_needs(&self, task: &Task, fact: FactId) -> Vec<FactId> {
-        let first = self.added_by[fact.index()].iter().filter_map(|&number| {
-            let needs = task.operators[number as usize].preconditions.as_slice();
-            let before = needs.iter().all(|need| {
-                self.of_fact[need.index()].as_ref().is_some_and(|set| !has(set, fact.index()))
-            });
-            before.then_some(needs)
-        });
-        common(first)
+    /// A way that needs the fact itself is no first way to it, unless it held: a block is not taken off itself.
+    fn first_ways(&self, task: &Task, fact: FactId, held: bool) -> Ways {
+        let first = || {
+            self.added_by[fact.index()].iter().filter_map(|&number| {
+                let operator = &task.operators[number as usize];
+                let before = held
+                    || operator.preconditions.iter().all(|need| {
+                        self.of_fact[need.index()]
+                            .as_ref()
+                            .is_some_and(|set| !has(set, fact.index()))
+                    });
+                before.then_some(operator)
+            })
+        };
+        Ways {
+            needs: common(first().map(|operator| operator.preconditions.as_slice())),
+            deletes: common(first().map(|operator| operator.del_effects.as_slice())),
+        }
     }
 }
 
@@ -298,11 +296,11 @@ mod tests {
         let text = "
         Действие: Взять (Параметры: кубик ?x) (Предусловие: СВОБОДЕН_(?x) СТОЛ_(?x) РУКА_())
         (Эффект+: ДЕРЖИТ_(?x)) (Эффект-: СВОБОДЕН_(?x) СТОЛ_(?x) РУКА_())
-        Действие: Снять (Параметры: кубик ?x, кубик ?y) (Предусловие: СВОБОДЕН_(?x) НА_(?x, ?y) РУКА_() кубик ?x ≠ кубик ?y)
+        Действие: Снять (Параметры: кубик ?x, кубик ?y) (Предусловие: СВОБОДЕН_(?x) НА_(?x, ?y) РУКА_())
         (Эффект+: ДЕРЖИТ_(?x) СВОБОДЕН_(?y)) (Эффект-: СВОБОДЕН_(?x) НА_(?x, ?y) РУКА_())
         Действие: Положить (Параметры: кубик ?x) (Предусловие: ДЕРЖИТ_(?x))
         (Эффект+: СВОБОДЕН_(?x) СТОЛ_(?x) РУКА_()) (Эффект-: ДЕРЖИТ_(?x))
-        Действие: Поставить (Параметры: кубик ?x, кубик ?y) (Предусловие: ДЕРЖИТ_(?x) СВОБОДЕН_(?y) кубик ?x ≠ кубик ?y)
+        Действие: Поставить (Параметры: кубик ?x, кубик ?y) (Предусловие: ДЕРЖИТ_(?x) СВОБОДЕН_(?y))
         (Эффект+: СВОБОДЕН_(?x) НА_(?x, ?y) РУКА_()) (Эффект-: ДЕРЖИТ_(?x) СВОБОДЕН_(?y))
         Факты: НА_(А, Б) СТОЛ_(Б) СТОЛ_(В) СВОБОДЕН_(А) СВОБОДЕН_(В) РУКА_()
         Цель: НА_(А, Б) НА_(Б, В)";
