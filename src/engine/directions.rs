@@ -19,6 +19,7 @@ use crate::semantics::Relations;
 use crate::units::{AreaId, Deg, Point, Vector};
 
 use super::route::{End, RouteAnswer};
+use super::surroundings::Surroundings;
 use super::{Engine, Error};
 
 /// A bend that stays this near to the straight way is none, cm.
@@ -33,11 +34,25 @@ const WORTH_TELLING: f64 = 60.0;
 const LANDMARKS: usize = 2;
 
 impl Engine {
-    /// A way in the terms of people. `heading` is how one stands at its beginning, where that is known.
+    /// A way over the map in the terms of people. `heading` is how one stands at its beginning, where that is known.
     ///
     /// # Errors
     /// There is no map. No way has no directions.
     pub fn directions(
+        &self,
+        answer: &RouteAnswer,
+        heading: Option<Deg>,
+    ) -> Result<Option<Directions>, Error> {
+        self.surveyed().directions(answer, heading)
+    }
+}
+
+impl Surroundings<'_> {
+    /// A way in the terms of people. `heading` is how one stands at its beginning, where that is known.
+    ///
+    /// # Errors
+    /// There is no map. No way has no directions.
+    pub(super) fn directions(
         &self,
         answer: &RouteAnswer,
         heading: Option<Deg>,

@@ -8,6 +8,7 @@ use crate::units::{Deg, MapId, Point};
 
 use super::advice::Advice;
 use super::route::{End, Located, RouteAnswer, stages};
+use super::surroundings::Surroundings;
 use super::{Engine, Error};
 
 /// A way from one place to another, over as many maps as it takes.
@@ -28,14 +29,31 @@ impl Engine {
     /// A name that means nothing. No way at all is an answer, not an error.
     pub fn journey(&self, from: &str, to: &str, method: Method) -> Result<Journey, Error> {
         let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
-        self.journey_between((from, start), (to, goal), method)
+        self.surveyed().journey_between((from, start), (to, goal), method)
     }
 
+    /// A journey over the map as sentences: those of its legs, and of the rides between them. `heading` is how one
+    /// stands at its beginning, where that is known.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn journey_in_words(
+        &self,
+        journey: &Journey,
+        heading: Option<Deg>,
+        language: Language,
+        detail: Detail,
+    ) -> Result<Vec<String>, Error> {
+        self.surveyed().journey_in_words(journey, heading, language, detail)
+    }
+}
+
+impl Surroundings<'_> {
     /// A way between two places that were found, with what they are called.
     ///
     /// # Errors
     /// There is no map. No way at all is an answer, not an error.
-    pub fn journey_between(
+    pub(super) fn journey_between(
         &self,
         (from, start): (&str, Located),
         (to, goal): (&str, Located),
@@ -92,7 +110,7 @@ impl Engine {
     ///
     /// # Errors
     /// There is no map.
-    pub fn journey_in_words(
+    pub(super) fn journey_in_words(
         &self,
         journey: &Journey,
         heading: Option<Deg>,

@@ -5,10 +5,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::{DoorStates, FloorPlan};
+use crate::geometry::FloorPlan;
 use crate::map::{Replica, World, is_on, switch};
 use crate::robot::{Belief, Mission, starting_pose};
-use crate::semantics::{Profile, Relations, derive};
+use crate::semantics::Relations;
 use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
@@ -97,21 +97,9 @@ impl Engine {
 
     /// The free floor of the world as it is now: that of the map, with what differs rebuilt.
     pub(super) fn floor_now(&self, now: &Now) -> Result<FloorPlan, Error> {
-        let before = self.world()?;
         let mut floor = self.floor(now.map)?.clone();
-        let differs =
-            |(id, replica): &(&ReplicaId, &Replica)| now.world.replicas.get(id) != Some(replica);
-        let changed: Vec<ReplicaId> =
-            before.replicas.iter().filter(differs).map(|r| *r.0).collect();
-        floor.rebuild(&now.world, &changed);
-        let doors: DoorStates = now
-            .world
-            .doors
-            .iter()
-            .filter(|(id, door)| before.doors.get(id).is_none_or(|d| d.state != door.state))
-            .map(|(id, door)| (*id, door.state))
-            .collect();
-        Ok(if doors.is_empty() { floor } else { floor.with_doors(before, &doors) })
+        floor.follow(self.world()?, &now.world);
+        Ok(floor)
     }
 
     /// The relations of the world as it is now; those of the map where nothing differs.
@@ -119,7 +107,7 @@ impl Engine {
         if *self.world()? == now.world {
             return Ok(None);
         }
-        Ok(Some(derive(&now.world, &self.rules.relations, Profile::Surveyed)?))
+        self.relations_of(&now.world).map(Some)
     }
 
     /// Notes in the store how a task left the robot and its world. The map stays as it was.

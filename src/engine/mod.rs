@@ -39,6 +39,7 @@ mod reading;
 mod route;
 mod rules;
 mod surprises;
+mod surroundings;
 mod talk;
 mod task;
 mod tidy;

@@ -8,10 +8,11 @@
 use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
+use crate::geometry::FloorPlan;
 use crate::language::question::Mind;
 use crate::map::World;
 use crate::semantics::{Profile, Relations, derive};
-use crate::units::ReplicaId;
+use crate::units::{MapId, ReplicaId};
 
 use super::{Engine, Error};
 
@@ -25,9 +26,27 @@ pub(super) struct Present {
     /// Who has what was taken off the map; an empty name for the robot itself.
     pub(super) holders: BTreeMap<ReplicaId, String>,
     mind: OnceCell<Mind>,
+    floors: OnceCell<BTreeMap<MapId, FloorPlan>>,
 }
 
 impl Present {
+    /// The free floor now: that of the map, with what differs rebuilt.
+    pub(super) fn floors(&self, engine: &Engine) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+        if let Some(floors) = self.floors.get() {
+            return Ok(floors);
+        }
+        let surveyed = engine.world()?;
+        let mut world = self.world.clone();
+        for gone in self.holders.keys() {
+            world.replicas.remove(gone);
+        }
+        let mut floors = engine.floors()?.clone();
+        for floor in floors.values_mut() {
+            floor.follow(surveyed, &world);
+        }
+        Ok(self.floors.get_or_init(|| floors))
+    }
+
     pub(super) fn mind(&self) -> &Mind {
         self.mind.get_or_init(|| Mind::of(&self.world))
     }
@@ -64,8 +83,24 @@ impl Engine {
         if gone.is_empty() && world == *surveyed {
             return Ok(None);
         }
-        let relations = derive(&world, &self.rules.relations, Profile::Surveyed)?;
+        let relations = self.relations_of(&world)?;
         world.replicas.extend(gone.into_iter().map(|replica| (replica.id, replica)));
-        Ok(Some(Present { world, relations, holders: memory.carried, mind: OnceCell::new() }))
+        Ok(Some(Present {
+            world,
+            relations,
+            holders: memory.carried,
+            mind: OnceCell::new(),
+            floors: OnceCell::new(),
+        }))
+    }
+
+    /// The relations of a world that differs from the map in what a robot can do or see: those of the map, followed
+    /// where they can be, else derived anew.
+    pub(super) fn relations_of(&self, world: &World) -> Result<Relations, Error> {
+        let mut relations = self.relations()?.clone();
+        if relations.follow_world(self.world()?, world)? {
+            return Ok(relations);
+        }
+        Ok(derive(world, &self.rules.relations, Profile::Surveyed)?)
     }
 }

@@ -1,10 +1,9 @@
 //! Ways over the floor, and where things are to be stood at.
 
 use crate::geometry::{FloorPlan, Method, NoRoute, Route, Target};
-use crate::map::{Entity, World};
+use crate::map::Entity;
 use crate::units::{AreaId, Deg, MapId, Point, Pose};
 
-use super::position::nowhere_on;
 use super::{Engine, Error, RequestError};
 
 /// A way from one place to another, or why there is none.
@@ -83,11 +82,7 @@ impl Engine {
     /// # Errors
     /// It lies in no Area.
     pub fn locate_point(&self, map: MapId, at: Point) -> Result<Located, Error> {
-        let floor = self.floor(map)?;
-        if floor.locate(at).is_none() {
-            return Err(nowhere_on(self.world()?, floor, at).into());
-        }
-        Ok(Located { map, at, target: Target::Point(at), end: End::Point })
+        self.surveyed().locate_point(map, at)
     }
 
     /// Where an entity is, as an end of a way.
@@ -95,45 +90,7 @@ impl Engine {
     /// # Errors
     /// It is something where one cannot stand.
     pub fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
-        let world = self.world()?;
-        let nowhere =
-            || Error::from(RequestError::NotAPlace { name: world.name(entity).to_owned() });
-        let located = |map, at, target| Ok(Located { map, at, target, end: End::Entity(entity) });
-        match entity {
-            Entity::Map(_) => Err(nowhere()),
-            Entity::Place(id) => {
-                let place = &world.places[&id];
-                let (map, frame) = world.placement(place.area).ok_or_else(nowhere)?;
-                located(map, frame.apply(place.at), Target::Place(id))
-            }
-            Entity::Area(id) => {
-                let (map, at) = self.middle_of(world, id).ok_or_else(nowhere)?;
-                located(map, at, Target::Area(id))
-            }
-            Entity::Replica(id) => {
-                let (map, _) = world.placement(world.replicas[&id].area).ok_or_else(nowhere)?;
-                let floor = self.floor(map)?;
-                let bounds = floor.scene().replicas.get(&id).ok_or_else(nowhere)?.bounds;
-                let middle = nalgebra::center(&bounds.min, &bounds.max);
-                let target = Target::Replica(id);
-                // In front of the thing, where there is a way to that; else beside it.
-                let standing = floor.route(world, middle, target, Method::Shortest).ok();
-                let at = standing.and_then(|r| r.points.last().copied()).unwrap_or(middle);
-                located(map, at, target)
-            }
-            Entity::Door(door) => {
-                let area = *world.door_areas(door).first().ok_or_else(nowhere)?;
-                let (map, _) = world.placement(area).ok_or_else(nowhere)?;
-                let at = self.floor(map)?.stand_before(world, door, area).ok_or_else(nowhere)?.at;
-                located(map, at, Target::Door { door, area })
-            }
-        }
-    }
-
-    fn middle_of(&self, world: &World, area: AreaId) -> Option<(MapId, Point)> {
-        let (map, _) = world.placement(area)?;
-        let placed = self.floor(map).ok()?.scene().areas.get(&area)?;
-        Some((map, placed.prisms.first()?.polygon.centroid()))
+        self.surveyed().locate_entity(entity)
     }
 }
 

@@ -126,32 +126,67 @@ impl RobotSenses<'_> {
         }
     }
 
-    /// Where a thing is, as an end of a way; the robot without one.
+    /// Where a thing is now, as an end of a way; the robot without one.
     fn located(&self, thing: Option<Thing>) -> Result<Option<Located>, Error> {
-        let engine = self.engine;
+        let (engine, around) = (self.engine, self.engine.around()?);
         Ok(Some(match thing {
-            Some(Thing::Entity(entity)) => engine.locate_entity(entity)?,
+            Some(Thing::Entity(Entity::Door(door))) => {
+                // Where the robot cannot stand before a door, the door's room is as far as it goes.
+                let room = around.world()?.door_areas(door).first().copied();
+                match (around.locate_entity(Entity::Door(door)), room) {
+                    (Err(_), Some(room)) => around.locate_entity(Entity::Area(room))?,
+                    (located, _) => located?,
+                }
+            }
+            Some(Thing::Entity(entity)) => around.locate_entity(entity)?,
             Some(Thing::Robot) | None => match engine.robot_pose() {
-                Some((map, pose)) => engine.locate_point(map, pose.at)?,
+                Some((map, pose)) => around.locate_point(map, pose.at)?,
                 None => return Ok(None),
             },
             Some(Thing::Opening(n)) => {
-                let opening = &engine.relations()?.openings()[n as usize];
-                let Some((map, _)) = engine.world()?.placement(opening.area) else {
+                let opening = &around.relations()?.openings()[n as usize];
+                let Some((map, _)) = around.world()?.placement(opening.area) else {
                     return Ok(None);
                 };
-                engine.locate_point(map, nalgebra::center(&opening.ends.0, &opening.ends.1))?
+                around.locate_point(map, nalgebra::center(&opening.ends.0, &opening.ends.1))?
             }
             Some(Thing::Window(_)) => return Ok(None),
         }))
     }
 
     fn journey(&self, from: Option<Thing>, to: Thing) -> Result<Option<Journey>, Error> {
+        if let Thing::Entity(Entity::Map(map)) = to {
+            return self.to_storey(from, map);
+        }
         let (Some(start), Some(goal)) = (self.located(from)?, self.located(Some(to))?) else {
             return Ok(None);
         };
         let goal = (self.called(to), goal);
-        self.engine.journey_between(("", start), (&goal.0, goal.1), Method::Shortest).map(Some)
+        let around = self.engine.around()?;
+        around.journey_between(("", start), (&goal.0, goal.1), Method::Shortest).map(Some)
+    }
+
+    /// The shortest way to where a lift or stairs arrive on a storey.
+    fn to_storey(&self, from: Option<Thing>, map: MapId) -> Result<Option<Journey>, Error> {
+        let around = self.engine.around()?;
+        let (world, Some(start)) = (around.world()?, self.located(from)?) else {
+            return Ok(None);
+        };
+        let stops = world.domain.lifts.iter().flat_map(|(_, stops)| stops);
+        let here = stops.filter(|s| world.placement(s.area).is_some_and(|(m, _)| m == map));
+        let mut best: Option<(f64, Journey)> = None;
+        for stop in here {
+            let goal = around.locate_entity(Entity::Area(stop.area))?;
+            let name = world.name(Entity::Area(stop.area));
+            let way = around.journey_between(("", start), (name, goal), Method::Shortest)?;
+            let lengths: Option<f64> =
+                way.legs.iter().map(|leg| leg.route.as_ref().ok().map(|r| r.length)).sum();
+            let length = lengths.unwrap_or(f64::INFINITY);
+            if best.as_ref().is_none_or(|(shortest, _)| length < *shortest) {
+                best = Some((length, way));
+            }
+        }
+        Ok(best.map(|(_, journey)| journey))
     }
 
     fn called(&self, thing: Thing) -> String {
@@ -169,7 +204,8 @@ impl Senses for RobotSenses<'_> {
 
     fn position(&self, language: Language, detail: Detail) -> Option<String> {
         let (map, pose) = self.engine.robot_pose()?;
-        let floor = (detail == Detail::Heading).then(|| self.engine.floor(map)).transpose().ok()?;
+        let around = self.engine.around().ok()?;
+        let floor = (detail == Detail::Heading).then(|| around.floor(map)).transpose().ok()?;
         let scene = floor.map(|f| f.scene());
         let found = describe(self.world()?, self.relations()?, map, pose, scene)?;
         Some(found.position.say_in(language, detail))
@@ -182,17 +218,34 @@ impl Senses for RobotSenses<'_> {
         language: Language,
         detail: Detail,
     ) -> Result<Way, String> {
-        let journey = self.journey(from, to).map_err(|e| e.to_string())?;
-        let journey = journey.ok_or_else(|| match language {
-            Language::Russian => "место неизвестно".to_owned(),
-            Language::English => "the place is unknown".to_owned(),
+        let pick = |russian: &str, english: &str| match language {
+            Language::Russian => russian.to_owned(),
+            Language::English => english.to_owned(),
+        };
+        if let Thing::Entity(Entity::Map(map)) = to
+            && self.engine.robot_pose().is_some_and(|(here, _)| here == map)
+            && from.is_none()
+        {
+            return Err(pick("я уже на этом этаже", "I am on that floor already"));
+        }
+        if to.replica().is_some_and(|id| self.holder(id).is_some_and(|h| h.is_empty())) {
+            return Err(pick("это у меня в руках", "it is in my hands"));
+        }
+        let journey = self.journey(from, to).map_err(|error| match (language, error) {
+            (Language::English, Error::Request(_)) => {
+                "the robot cannot stand at that place".to_owned()
+            }
+            (_, error) => error.to_string(),
         })?;
+        let unknown = || pick("место неизвестно", "the place is unknown");
+        let journey = journey.ok_or_else(unknown)?;
+        let around = self.engine.around().map_err(|e| e.to_string())?;
         let mut length = 0.0;
         for leg in &journey.legs {
             match &leg.route {
                 Ok(route) => length += route.length,
                 Err(no) => {
-                    let world = self.engine.world().map_err(|e| e.to_string())?;
+                    let world = around.world().map_err(|e| e.to_string())?;
                     return Err(no_way_in_words(world, no, language));
                 }
             }
@@ -200,7 +253,7 @@ impl Senses for RobotSenses<'_> {
         // Only of itself does the robot know how it stands.
         let own = matches!(from, None | Some(Thing::Robot));
         let heading = self.engine.robot_pose().filter(|_| own).map(|(_, pose)| pose.heading);
-        let sentences = self.engine.journey_in_words(&journey, heading, language, detail);
+        let sentences = around.journey_in_words(&journey, heading, language, detail);
         Ok(Way { length, sentences: sentences.map_err(|e| e.to_string())? })
     }
 

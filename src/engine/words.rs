@@ -6,16 +6,30 @@ use crate::language::report::Detail;
 use crate::units::{AreaId, Deg};
 
 use super::route::RouteAnswer;
+use super::surroundings::Surroundings;
 use super::{Engine, Error};
 
 impl Engine {
-    /// A way as sentences. Where it runs through corridors from one entrance to another, the sentences are those of the
-    /// corridor's road graph, which need no coordinates. `heading` is how one stands at the beginning, where that is
-    /// known.
+    /// A way over the map as sentences. Where it runs through corridors from one entrance to another, the sentences are
+    /// those of the corridor's road graph, which need no coordinates. `heading` is how one stands at the beginning,
+    /// where that is known.
     ///
     /// # Errors
     /// There is no map.
     pub fn route_in_words(
+        &self,
+        answer: &RouteAnswer,
+        heading: Option<Deg>,
+        language: Language,
+        detail: Detail,
+    ) -> Result<Vec<String>, Error> {
+        self.surveyed().route_in_words(answer, heading, language, detail)
+    }
+}
+
+impl Surroundings<'_> {
+    /// As [`Engine::route_in_words`].
+    pub(super) fn route_in_words(
         &self,
         answer: &RouteAnswer,
         heading: Option<Deg>,

@@ -235,6 +235,25 @@ impl FloorPlan {
         plan
     }
 
+    /// Follows a world from one state to another that differs in its replicas and the states of its doors alone.
+    pub fn follow(&mut self, before: &World, after: &World) {
+        let differs = |id: &&ReplicaId| before.replicas.get(*id) != after.replicas.get(*id);
+        let all = before.replicas.keys().chain(after.replicas.keys());
+        let mut changed: Vec<ReplicaId> = all.filter(differs).copied().collect();
+        changed.sort_unstable();
+        changed.dedup();
+        self.rebuild(after, &changed);
+        let doors: DoorStates = after
+            .doors
+            .iter()
+            .filter(|(id, door)| before.doors.get(id).is_none_or(|d| d.state != door.state))
+            .map(|(id, door)| (*id, door.state))
+            .collect();
+        if !doors.is_empty() {
+            *self = self.with_doors(before, &doors);
+        }
+    }
+
     /// The Areas behind other doorways close to this one.
     fn next_to(&self, doorway: &Doorway) -> Vec<AreaId> {
         let zone = Bounds::of([doorway.middle()]).grown(

@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::facts::Value;
 use crate::geometry::contact::extent;
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Permeability, World};
-use crate::units::{Cm, ReplicaId, Vector};
+use crate::units::{Cm, DoorId, ReplicaId, Vector};
 
 use super::body::{Block, Kind};
 use super::measure::{Between, Directed, Into, Located, Measurements, Pair, Single};
@@ -201,7 +201,7 @@ impl Feed<'_> {
         self.properties(sink);
     }
 
-    fn openings(&self, openings: &[Opening], sink: &mut impl Sink) {
+    pub(super) fn openings(&self, openings: &[Opening], sink: &mut impl Sink) {
         let tenths = |cm: f64| Cm::of(cm).to_tenths_mm();
         for o in openings {
             let name = &o.name;
@@ -262,33 +262,46 @@ impl Feed<'_> {
         let world = self.world;
         let objects = world.objects.values().map(|o| (self.symbols.object(o.id), &o.properties));
         let areas = world.areas.values().map(|a| (self.symbols.area(a.id), &a.properties));
-        let replicas = world.replicas.values().map(|r| (self.symbols.replica(r.id), &r.properties));
-        let doors = world.doors.values().map(|d| (self.symbols.door(d.id), &d.properties));
         let frames = world.orthoframes.values().map(|o| (self.symbols.part(o.id), &o.properties));
-        for (symbol, properties) in objects.chain(areas).chain(replicas).chain(doors).chain(frames)
-        {
+        for (symbol, properties) in objects.chain(areas).chain(frames) {
             for (name, value) in properties {
                 row!(sink, "property", symbol, name, value);
             }
         }
-        for door in world.doors.values().filter(|d| !d.leaves.is_empty()) {
-            if Mark::State.of(&door.properties).is_none() {
-                let state = state_word(door.state);
-                row!(sink, "property", self.symbols.door(door.id), "СОСТОЯНИЕ", state);
-            }
+        for &door in world.doors.keys() {
+            self.door_properties(door, sink);
         }
-        for replica in world.replicas.values() {
-            let mounts = &world.objects[&replica.object].doors;
-            let states = mounts.iter().filter_map(|m| {
-                let own = replica.door_states.get(&m.door).copied();
-                own.or_else(|| world.doors.get(&m.door).map(|d| d.state))
-            });
-            // A wardrobe with one door open stands open.
-            let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
-            if let Some(state) = widest.filter(|_| Mark::State.of(&replica.properties).is_none()) {
-                let x = self.symbols.replica(replica.id);
-                row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
-            }
+        for &replica in world.replicas.keys() {
+            self.replica_properties(replica, sink);
+        }
+    }
+
+    pub(super) fn door_properties(&self, id: DoorId, sink: &mut impl Sink) {
+        let Some(door) = self.world.doors.get(&id) else { return };
+        let x = self.symbols.door(id);
+        for (name, value) in &door.properties {
+            row!(sink, "property", x, name, value);
+        }
+        if !door.leaves.is_empty() && Mark::State.of(&door.properties).is_none() {
+            row!(sink, "property", x, "СОСТОЯНИЕ", state_word(door.state));
+        }
+    }
+
+    pub(super) fn replica_properties(&self, id: ReplicaId, sink: &mut impl Sink) {
+        let Some(replica) = self.world.replicas.get(&id) else { return };
+        let x = self.symbols.replica(id);
+        for (name, value) in &replica.properties {
+            row!(sink, "property", x, name, value);
+        }
+        let mounts = &self.world.objects[&replica.object].doors;
+        let states = mounts.iter().filter_map(|m| {
+            let own = replica.door_states.get(&m.door).copied();
+            own.or_else(|| self.world.doors.get(&m.door).map(|d| d.state))
+        });
+        // A wardrobe with one door open stands open.
+        let widest = states.max_by(|a, b| a.opening.total_cmp(&b.opening));
+        if let Some(state) = widest.filter(|_| Mark::State.of(&replica.properties).is_none()) {
+            row!(sink, "property", x, "СОСТОЯНИЕ", state_word(state));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! Relations of SPEC R on small worlds made by hand, each world straight and turned, and on random ones.
 
 mod doors;
+mod follow;
 mod holders;
 mod parts;
 mod random;

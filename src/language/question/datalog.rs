@@ -19,6 +19,8 @@ struct Rule<'k, 'a> {
     of_gates: bool,
     /// Something of the question is measured, which the rule does not say.
     measured: bool,
+    /// The text of a rule that was made already.
+    whole: Option<String>,
 }
 
 const NAMES: [&str; 8] = ["X", "Y", "Z", "U", "V", "W", "S", "T"];
@@ -33,6 +35,7 @@ impl Knowledge<'_> {
             helpers: Vec::new(),
             of_gates: false,
             measured: false,
+            whole: None,
         };
         let head = match self.language {
             Language::Russian => "ответ",
@@ -46,6 +49,10 @@ impl Knowledge<'_> {
             _ => remark,
         };
         let remark = if remark.is_empty() { String::new() } else { format!("   // {remark}") };
+        if let Some(whole) = rule.whole {
+            rule.helpers.push(whole);
+            return rule.helpers.join("\n");
+        }
         let text = match rule.atoms.is_empty() {
             true if arguments.is_empty() => format!("// {}", query.kind()),
             true => format!("{head}({arguments}).{remark}"),
@@ -123,7 +130,7 @@ impl Rule<'_, '_> {
                 self.related(*rel, &thing, &other, false);
                 (other, String::new())
             }
-            Query::Property { property, of } => {
+            Query::Property { property, of } | Query::SameAll { property, of } => {
                 let thing = self.noun(of);
                 let value = self.variable();
                 let is_door = self.is_door(of);
@@ -195,7 +202,15 @@ impl Rule<'_, '_> {
             Query::LastSeen(noun) | Query::Before(noun) => {
                 (self.noun(noun), pick("по истории хранилища", "from the store's history"))
             }
+            Query::Several(queries) => {
+                let rules: Vec<String> = queries.iter().map(|q| self.knowledge.rule(q)).collect();
+                let (last, others) = rules.split_last().map_or(("", &[][..]), |(l, o)| (l, o));
+                self.helpers.extend(others.iter().cloned());
+                self.whole = Some(last.to_owned());
+                (String::new(), String::new())
+            }
             Query::Why { .. }
+            | Query::WhereAmI
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee
@@ -317,12 +332,15 @@ impl Rule<'_, '_> {
                 Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
                 // Of these the facts know nothing.
                 Extension::Windows
+                | Extension::Exits
                 | Extension::Places
                 | Extension::Storeys
                 | Extension::Building
                 | Extension::Floor
                 | Extension::Walls
                 | Extension::Robot => unknown = true,
+                // A part is no thing of the facts; the kinds beside it say what is meant.
+                Extension::Part(_) => unknown |= noun.head.kinds.len() == 1,
             }
         }
         self.measured |= unknown;
@@ -335,6 +353,13 @@ impl Rule<'_, '_> {
 
     fn filter(&mut self, term: &str, filter: &Filter) {
         let values = &self.knowledge.lexicon().values;
+        // Whether anything is in or on a thing is looked at, unless the map says so of it.
+        if values.entry(filter.value).is_emptiness()
+            && self.knowledge.spellings(filter.value).is_empty()
+        {
+            self.measured = true;
+            return;
+        }
         let not = if filter.negated { "!" } else { "" };
         let state = [
             (DoorStatus::Open, "open"),
@@ -371,6 +396,8 @@ impl Rule<'_, '_> {
             return;
         }
         self.measured |= restriction.anchors.iter().any(|a| self.is_measured(restriction.rel, a));
+        // How many there are is counted after the rule.
+        self.measured |= restriction.anchors.iter().any(|a| a.count.is_some());
         if restriction.rel == Rel::Between {
             let ends: Vec<String> = restriction.anchors.iter().map(|a| self.noun(a)).collect();
             let joins = self.relation("JOINS");

@@ -20,8 +20,8 @@ use nom::multi::{many0, many1};
 use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
-use super::lexicon::{KindId, Lexicon, Meaning};
-use super::query::{Best, Extreme, Filter, Head, Noun, Rel, Restriction};
+use super::lexicon::{Extension, KindId, Lexicon, Meaning};
+use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction};
 use super::values::{Property, ValueId};
 use super::vocabulary::{self, Mark, Pronoun};
 use crate::language::words::{Case, Language, Number, Readings, word_ranges};
@@ -53,6 +53,10 @@ struct Found {
     kinds: Vec<KindId>,
     readings: Vec<Readings>,
     is_area: bool,
+    /// A storey, which people number: «второй этаж», "floor 2".
+    is_storey: bool,
+    /// A kind whose name may stand before a thing's own: «помещение Туалет», «этаж L2».
+    is_general: bool,
 }
 
 /// A sentence cut into tokens.
@@ -187,6 +191,16 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// Whether a comma stands between two words.
+    pub(super) fn comma_between(&self, end: usize, start: usize) -> bool {
+        match (end.checked_sub(1).and_then(|n| self.words.get(n)), self.words.get(start)) {
+            (Some(before), Some(after)) if before.end <= after.start => {
+                self.text[before.end..after.start].contains(',')
+            }
+            _ => false,
+        }
+    }
+
     /// Reads the token at a word and gives the word after it.
     fn token(&mut self, at: usize, lexicon: &Lexicon) -> usize {
         if let Some(value) = self.switched(at, lexicon) {
@@ -194,19 +208,29 @@ impl<'t> Sentence<'t> {
             self.tokens.push(Token { from, to, kind: Tok::Value(value) });
             return at + 1;
         }
+        if let Some(taken) = self.quantity(at) {
+            return at + taken;
+        }
         let keys = &self.keys[at..];
         let mark = vocabulary::longest(keys);
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
-        let property = lexicon.values.property(&keys[0]).cloned();
+        let property = lexicon.values.property(keys).map(|(n, p)| (n, p.clone()));
+        let propertied = property.as_ref().map_or(0, |(n, _)| *n);
         let marked = mark.map_or(0, |(n, _)| n);
         let valued = value.map_or(0, |(n, _)| n);
-        let longest = marked.max(valued).max(named).max(usize::from(property.is_some()));
+        let longest = marked.max(valued).max(named).max(propertied);
         let push = |sentence: &mut Self, taken: usize, kind: Tok| {
             let (from, to) = (at as u32, (at + taken) as u32);
             sentence.tokens.push(Token { from, to, kind });
             at + taken
         };
+        if longest == 0
+            && let Some(value) = self.joined_negation(at, lexicon)
+        {
+            push(self, 1, Tok::Mark(Mark::Not));
+            return push(self, 1, Tok::Value(value));
+        }
         if longest == 0 {
             let number = number_of(&keys[0]);
             return push(self, 1, number.map_or(Tok::Unknown, Tok::Number));
@@ -236,19 +260,51 @@ impl<'t> Sentence<'t> {
             return push(self, named, Tok::Noun(number));
         }
         match (mark, value, property) {
+            (Some((n, Mark::Without)), _, _) if n == longest => {
+                push(self, n, Tok::Mark(Mark::Not));
+                push(self, n, Tok::Mark(Mark::Link(Rel::Has)))
+            }
+            (Some((n, Mark::OnlyOne)), _, _) if n == longest => {
+                push(self, n, Tok::Mark(Mark::Number(Quantity::Exactly)));
+                push(self, n, Tok::Number(1))
+            }
             (Some((n, mark)), _, _)
                 if n == longest && !(mark == Mark::Filler && valued == longest) =>
             {
                 push(self, n, Tok::Mark(mark))
             }
             (_, Some((n, value)), _) if n == longest => push(self, n, Tok::Value(value)),
-            (_, _, Some(property)) => {
+            (_, _, Some((n, property))) => {
                 self.properties.push(property);
                 let number = self.properties.len() as u32 - 1;
-                push(self, 1, Tok::Property(number))
+                push(self, n, Tok::Property(number))
             }
             _ => push(self, 1, Tok::Unknown),
         }
+    }
+
+    /// «нечёрные»: the value that is denied.
+    fn joined_negation(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
+        let rest =
+            self.keys[at].strip_prefix("не").or_else(|| self.keys[at].strip_prefix("non"))?;
+        lexicon.values.meaning(rest)
+    }
+
+    /// "at least four": how a number is meant, and the number. Gives the words that they take.
+    fn quantity(&mut self, at: usize) -> Option<usize> {
+        let (taken, quantity) = vocabulary::quantity(&self.keys[at..])?;
+        let number = match self.keys.get(at + taken)?.as_str() {
+            "один" | "одна" | "одно" | "одного" | "одной" | "одну" | "one" => {
+                1
+            }
+            key => number_of(key)?,
+        };
+        // «больше 3» of «Комната больше 3»: what is counted follows.
+        self.keys.get(at + taken + 1)?;
+        let (from, cut, to) = (at as u32, (at + taken) as u32, (at + taken + 1) as u32);
+        self.tokens.push(Token { from, to: cut, kind: Tok::Mark(Mark::Number(quantity)) });
+        self.tokens.push(Token { from: cut, to, kind: Tok::Number(number) });
+        Some(taken + 1)
     }
 
     /// "Is the lamp on?", "on or off": a state, where nothing follows to be on.
@@ -261,9 +317,13 @@ impl<'t> Sentence<'t> {
         let next = self.keys.get(at + 1).map(String::as_str);
         let ends = matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
-        let nouns = self.tokens.iter().filter(|t| matches!(t.kind, Tok::Noun(_))).count();
+        let is_noun = |t: &&Token| matches!(t.kind, Tok::Noun(_) | Tok::Mark(Mark::Pronoun(_)));
+        let nouns = self.tokens.iter().filter(is_noun).count();
         // "Which lamps are on?", but "What is the lamp on?" and "Which table is the lamp on?"
-        let link = self.keys[at] == "on" && (said("what") || (said("which") && nouns != 1));
+        // "Which floor am I on?"
+        let person = ["i", "you", "we"].iter().any(|word| said(word));
+        let link =
+            self.keys[at] == "on" && (said("what") || (said("which") && (nouns != 1 || person)));
         // "Is the light on in the kitchen?": a second preposition after it.
         let placed = matches!(next, Some("in" | "at" | "inside"))
             && nouns == 1
@@ -306,7 +366,19 @@ impl<'t> Sentence<'t> {
         let mut found = Found::default();
         let is_kind = hits.iter().any(|h| matches!(h.id, Meaning::Kind(_)));
         // «стол» may be a part of many names; then the kind is meant.
+        let numbered = self.is_numbered(at, taken);
         for hit in &hits {
+            if let Meaning::Kind(kind) = hit.id {
+                // "on the floor" is not "on the second floor".
+                let skipped = match lexicon.kind(*kind).extension {
+                    Extension::Storeys => !numbered && self.keys[at] == "floor",
+                    Extension::Floor => numbered && self.keys[at].starts_with("floor"),
+                    _ => false,
+                };
+                if skipped {
+                    continue;
+                }
+            }
             match hit.id {
                 Meaning::Entity(entity) => {
                     found.is_area |= matches!(entity, Entity::Area(_) | Entity::Map(_));
@@ -317,6 +389,16 @@ impl<'t> Sentence<'t> {
                 Meaning::Kind(kind) => {
                     for kind in lexicon.with_narrower(*kind, self.language) {
                         found.is_area |= lexicon.is_area(kind);
+                        let extension = lexicon.kind(kind).extension;
+                        found.is_storey |= extension == Extension::Storeys;
+                        found.is_general |= matches!(
+                            extension,
+                            Extension::Storeys
+                                | Extension::Rooms
+                                | Extension::Places
+                                | Extension::Doors
+                                | Extension::Things
+                        );
                         if !found.kinds.contains(&kind) {
                             found.kinds.push(kind);
                         }
@@ -329,6 +411,27 @@ impl<'t> Sentence<'t> {
             found.named.clear();
         }
         found
+    }
+
+    /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
+    fn is_numbered(&self, at: usize, taken: usize) -> bool {
+        let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));
+        let told = matches!(
+            before.map(|t| t.kind),
+            Some(
+                Tok::Number(_)
+                    | Tok::Mark(
+                        Mark::Rank(_)
+                            | Mark::Which
+                            | Mark::What
+                            | Mark::HowMany
+                            | Mark::All
+                            | Mark::Best(_)
+                    )
+            )
+        );
+        let next = self.keys.get(at + taken).and_then(|key| number_of(key)).is_some();
+        told || next || self.keys[at] == "floors"
     }
 
     /// All items of the sentence.
@@ -459,8 +562,23 @@ impl<'t> Sentence<'t> {
             }
             None => noun.head.anything = true,
         }
+        // «этаж 2», "floor 2", «2 этаж»
+        let (mut rest, mut storey) = (rest, None);
+        if head.is_some_and(|found| found.is_storey) && !noun.plural {
+            if let Some((Token { kind: Tok::Number(n), .. }, after)) = rest.split_first() {
+                (rest, storey) = (after, Some(*n));
+            }
+            storey = storey.or_else(|| {
+                parts.iter().find_map(|part| match part {
+                    Modifier::Number(n) => Some(*n),
+                    _ => None,
+                })
+            });
+        }
         for part in parts {
             match part {
+                Modifier::Number(_) if storey.is_some() => {}
+                Modifier::Quantity(quantity) => noun.quantity = quantity,
                 Modifier::The => {}
                 Modifier::A => noun.indefinite = true,
                 Modifier::All => noun.all = true,
@@ -471,6 +589,7 @@ impl<'t> Sentence<'t> {
                 Modifier::Rank(rank) => noun.rank = Some(rank),
             }
         }
+        noun.rank = storey.or(noun.rank);
         if let Some((rel, owner)) = owner {
             noun.restrictions.push(Restriction { rel, anchors: vec![owner], negated: false });
         }
@@ -487,6 +606,7 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
+            Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
             Tok::Number(count) => Modifier::Number(count),
             Tok::Value(value) => Modifier::Value(value, false),
             Tok::Mark(Mark::Not) => {
@@ -521,6 +641,20 @@ impl<'t> Sentence<'t> {
             return Ok((rest, Some(found), None));
         };
         let next = &self.nouns[*n as usize];
+        // «помещение Туалет», «этаж L2»: the name tells which.
+        let asked = self.tokens.iter().rev().find(|t| t.to <= input.0[0].from);
+        let asked = matches!(
+            asked.map(|t| t.kind),
+            Some(Tok::Mark(Mark::Which | Mark::What | Mark::HowMany))
+        );
+        let names = found.is_general
+            && found.named.is_empty()
+            && !asked
+            && next.named.iter().any(|entity| match entity {
+                Entity::Map(_) => found.is_storey,
+                Entity::Area(_) => found.is_area && !found.is_storey,
+                _ => !found.is_area,
+            });
         let (end, start) = (input.0[0].to as usize, *from as usize);
         let gap = &self.text[self.words[end - 1].end..self.words[start].start];
         if gap.contains([',', ':', ';', '.', '–', '—', '?']) {
@@ -535,6 +669,9 @@ impl<'t> Sentence<'t> {
             text: self.said(&words).to_owned(),
             ..Noun::default()
         };
+        if names && self.language == Language::Russian {
+            return Ok((after, Some(next), None));
+        }
         match self.language {
             // «в Комнате-В книг»: a room is not owned by things.
             Language::Russian
@@ -586,6 +723,7 @@ enum Modifier {
     Value(ValueId, bool),
     Best(Extreme),
     Rank(u64),
+    Quantity(Quantity),
 }
 
 fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {
@@ -593,7 +731,7 @@ fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {
 }
 
 /// Digits and the small number words of both languages.
-fn number_of(key: &str) -> Option<u64> {
+pub(super) fn number_of(key: &str) -> Option<u64> {
     const WORDS: [(&str, u64); 22] = [
         ("два", 2),
         ("две", 2),

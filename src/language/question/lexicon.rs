@@ -37,6 +37,10 @@ pub enum Extension {
     Building,
     Floor,
     Walls,
+    /// Doors and passages that lead out of the map.
+    Exits,
+    /// Parts of objects of this type, which are no things by themselves: legs, armrests.
+    Part(TypeId),
     Robot,
     /// What gives light, and the switches for it.
     Lighting,
@@ -75,8 +79,13 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Passages, "проход|проём", "passage|opening|doorway"),
     (Extension::Windows, "окно", "window"),
     (Extension::Places, "точка|место", "place|point|spot"),
-    (Extension::Storeys, "этаж|карта", "storey|level|map"),
-    (Extension::Building, "дом|здание|квартира", "house|building|flat|apartment|home"),
+    (Extension::Storeys, "этаж|ярус", "storey|level|floor"),
+    (
+        Extension::Building,
+        "дом|здание|квартира|карта|жильё",
+        "house|building|flat|apartment|home|map",
+    ),
+    (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),
     (Extension::Floor, "пол", "floor|ground"),
     (Extension::Walls, "стена", "wall"),
     (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
@@ -152,7 +161,29 @@ impl Lexicon {
             }
         }
         lexicon.add_concepts();
+        lexicon.add_parts(world);
         lexicon
+    }
+
+    /// Types of the Orthoframes that objects consist of.
+    fn add_parts(&mut self, world: &World) {
+        let items = world.objects.values().flat_map(|o| &o.items);
+        let types: BTreeSet<TypeId> =
+            items.filter_map(|item| world.orthoframes.get(&item.orthoframe)?.frame_type).collect();
+        for id in types {
+            let Some(entry) = world.types.orthoframe.get(Some(id)) else { continue };
+            // «предмет» is any thing, not a part.
+            let general = self.nouns.find(&entry.name).iter().any(|hit| match hit.id {
+                Meaning::Kind(kind) => {
+                    !matches!(self.kind(*kind).extension, Extension::ObjectType(_))
+                }
+                Meaning::Entity(_) => false,
+            });
+            if general {
+                continue;
+            }
+            self.add_type(Extension::Part(id), entry);
+        }
     }
 
     fn add_type(&mut self, extension: Extension, entry: &TypeEntry) {

@@ -10,10 +10,13 @@
 mod answer;
 mod assemble;
 mod datalog;
+mod doubts;
+mod everyday;
 mod grammar;
 mod knowledge;
 mod lexicon;
 mod query;
+mod several;
 mod speech;
 mod values;
 mod vocabulary;
@@ -22,13 +25,13 @@ mod why;
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
 pub use query::{
-    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
-    Use,
+    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Quantity, Query, Rel,
+    Restriction, Thing, Use,
 };
 pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::report::Detail;
-use crate::language::words::{Gender, Language, Number, alternatives, enumerate};
+use crate::language::words::Language;
 use crate::map::World;
 use crate::semantics::Relations;
 use crate::units::{AreaId, MapId, Pose, ReplicaId};
@@ -205,6 +208,37 @@ pub struct Answer {
     topic: Vec<Thing>,
 }
 
+impl Answer {
+    /// One answer of several: their sentences in order, all that they found and rest on.
+    fn joined(answers: Vec<Self>, language: Language) -> Self {
+        let said = answers.first().map_or(Said::Unknown, |first| first.said);
+        let same = answers.iter().all(|a| a.said == said);
+        let mut whole = Self {
+            query: Query::Several(Vec::new()),
+            language,
+            said: if same { said } else { Said::Found },
+            text: String::new(),
+            things: Vec::new(),
+            symbols: Vec::new(),
+            facts: Vec::new(),
+            number: None,
+            topic: Vec::new(),
+        };
+        let mut queries = Vec::new();
+        let texts: Vec<String> = answers.iter().map(|a| a.text.clone()).collect();
+        for answer in answers {
+            queries.push(answer.query);
+            whole.things.extend(answer.things);
+            whole.symbols.extend(answer.symbols);
+            whole.facts.extend(answer.facts);
+            whole.topic.extend(answer.topic);
+        }
+        whole.text = texts.join(" ");
+        whole.query = Query::Several(queries);
+        whole
+    }
+}
+
 /// Why a question has no answer.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Doubt {
@@ -288,6 +322,9 @@ impl Asker<'_> {
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
         let language = Language::of(text);
+        if let Some(answer) = self.each_part(text, language, memory) {
+            return Ok(answer);
+        }
         let outcome = self.answer(text, language, memory);
         match outcome {
             Ok(answer) => {
@@ -310,6 +347,24 @@ impl Asker<'_> {
         }
     }
 
+    /// «Где ваза и какого она цвета?»: two questions in one sentence, the second knowing the first. None where the
+    /// sentence is one question, or one of its parts has no answer.
+    fn each_part(&self, text: &str, language: Language, memory: &mut Memory) -> Option<Answer> {
+        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+            return None;
+        }
+        let parts = several::parts(text)?;
+        let mut after = memory.clone();
+        let mut answers = Vec::new();
+        for part in parts {
+            let answer = self.answer(part, language, &after).ok()?;
+            after.learn(&answer);
+            answers.push(answer);
+        }
+        *memory = after;
+        Some(Answer::joined(answers, language))
+    }
+
     /// The query that a text asks, without answering it.
     ///
     /// # Errors
@@ -319,6 +374,8 @@ impl Asker<'_> {
         if length > Self::LONGEST {
             return Err(Doubt::TooLong { length });
         }
+        let text = several::without_tag(text);
+        let text = &everyday::plain(text, &self.mind.lexicon);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
@@ -344,11 +401,12 @@ impl Asker<'_> {
         if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
             return text.to_owned();
         }
+        let text = &everyday::plain(text, &self.mind.lexicon);
         // "Open the lab door" orders; it does not speak of the open one.
         let described = crate::language::command::without_verbs(text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let mut settled = text.to_owned();
+        let mut settled = text.clone().into_owned();
         // From the end, so that the places before stay where they are.
         for (words, name) in knowledge.settled(&sentence.items()).into_iter().rev() {
             let (Some(first), Some(last)) =
@@ -410,12 +468,30 @@ impl Asker<'_> {
         if !begins.iter().any(|b| key.starts_with(b)) {
             return None;
         }
+        let text = &everyday::plain(text, &self.mind.lexicon);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
-        if noun.head == Head::default() {
-            return None;
-        }
         let mut query = last.clone();
+        if noun.head == Head::default() {
+            // «А на полу?»: the same question about another place.
+            let asked = match &mut query {
+                Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
+                Query::Exists { what, .. } => what.first_mut()?,
+                Query::Place { within, .. } if !noun.restrictions.is_empty() => {
+                    *within = noun.restrictions;
+                    return Some(query);
+                }
+                _ => return None,
+            };
+            if !noun.restrictions.is_empty() {
+                asked.restrictions = noun.restrictions;
+            } else if !noun.filters.is_empty() {
+                asked.filters = noun.filters;
+            } else {
+                return None;
+            }
+            return Some(query);
+        }
         let mut first = true;
         query.each_noun(&mut |old| {
             if std::mem::take(&mut first) {
@@ -452,228 +528,6 @@ impl Asker<'_> {
         });
         Some(query)
     }
-}
-
-impl Knowledge<'_> {
-    /// Places of descriptions in a command, with the names that they come to.
-    fn settled(&self, items: &[grammar::Item]) -> Vec<(std::ops::Range<usize>, String)> {
-        use crate::language::words::Case;
-        use grammar::Item;
-        let mut names = Vec::new();
-        for (at, item) in items.iter().enumerate() {
-            let (phrases, rel) = match item {
-                Item::Noun(phrase) => (std::slice::from_ref(phrase), None),
-                Item::Place { rel, nouns, .. } => (&nouns[..], Some(*rel)),
-                _ => continue,
-            };
-            for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
-                let described =
-                    !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
-                let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
-                let after = items[at + 1..].iter().map_while(|next| match next {
-                    Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
-                    _ => None,
-                });
-                let mut narrowed = described;
-                for (rel, nouns) in after {
-                    if found.len() < 2 {
-                        break;
-                    }
-                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok())
-                    else {
-                        continue;
-                    };
-                    let fits = |t: &Thing| {
-                        anchors.iter().any(|a| match rel {
-                            Rel::From => self.holds(Rel::On, *t, *a) || self.holds(Rel::In, *t, *a),
-                            rel => self.holds(rel, *t, *a),
-                        })
-                    };
-                    let fewer: Vec<Thing> = found.iter().copied().filter(fits).collect();
-                    if !fewer.is_empty() {
-                        narrowed = true;
-                        found = fewer;
-                    }
-                }
-                let ([only], true) = (&found[..], narrowed) else { continue };
-                let case = match rel {
-                    None => Case::Accusative,
-                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => {
-                        Case::Genitive
-                    }
-                    Some(Rel::To) => Case::Dative,
-                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => {
-                        Case::Instrumental
-                    }
-                    Some(_) => Case::Accusative,
-                };
-                names.push((phrase.words.clone(), self.form(*only, case)));
-            }
-        }
-        names
-    }
-
-    /// What a pronoun means: the last thing spoken of that agrees with it.
-    fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
-        let last = &self.memory.last;
-        match pronoun {
-            Pronoun::They if !last.is_empty() => last.clone(),
-            Pronoun::They | Pronoun::Any => {
-                self.memory.spoken.first().copied().into_iter().collect()
-            }
-            Pronoun::He | Pronoun::She | Pronoun::It => {
-                let wanted = match pronoun {
-                    Pronoun::He => Gender::Masculine,
-                    Pronoun::She => Gender::Feminine,
-                    _ => Gender::Neuter,
-                };
-                let agrees = |t: &&Thing| {
-                    let (gender, number) = self.gender(**t);
-                    gender == wanted && number == Number::Singular
-                };
-                self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
-            }
-        }
-    }
-
-    fn unanswered(&self, doubt: Doubt) -> Unanswered {
-        let (text, names) = self.doubt_words(&doubt);
-        Unanswered { doubt, language: self.language, text: speech::sentence(&text), names }
-    }
-
-    fn doubt_words(&self, doubt: &Doubt) -> (String, Vec<String>) {
-        let russian = self.is_russian();
-        let text = match doubt {
-            Doubt::Empty => self
-                .pick(
-                    "вопрос пуст. Спросите, например: «Где лекарство?»",
-                    "the question is empty. Ask, for example: \"Where is the medicine?\"",
-                )
-                .to_owned(),
-            Doubt::TooLong { length } => match russian {
-                true => format!("вопрос слишком длинный: {length} знаков. Спросите короче"),
-                false => {
-                    format!("the question is too long: {length} characters. Ask a shorter one")
-                }
-            },
-            Doubt::NotUnderstood { words } => match russian {
-                true => format!("я не понимаю: «{}»", tidy(words)),
-                false => format!("I do not understand \"{}\"", tidy(words)),
-            },
-            Doubt::Incomplete { about } => match russian {
-                true => format!("что вы хотите узнать про «{}»?", tidy(about)),
-                false => format!("what would you like to know about \"{}\"?", tidy(about)),
-            },
-            Doubt::NoReferent { word } => match russian {
-                true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
-                false => format!("I do not know what \"{}\" means here", tidy(word)),
-            },
-            Doubt::Unknown { reference, near } => {
-                let offered: Vec<String> = near
-                    .iter()
-                    .map(|n| if russian { format!("«{n}»") } else { format!("\"{n}\"") })
-                    .collect();
-                let reference = tidy(reference);
-                let offer = match (offered.is_empty(), russian) {
-                    (true, _) => String::new(),
-                    (false, true) => {
-                        format!(" Может быть, {}?", alternatives(&offered, self.language))
-                    }
-                    (false, false) => {
-                        format!(" Do you mean {}?", alternatives(&offered, self.language))
-                    }
-                };
-                let text = match russian {
-                    true => format!("на карте нет ничего, что называлось бы «{reference}».{offer}"),
-                    false => format!("the map has nothing called \"{reference}\".{offer}"),
-                };
-                return (text, near.clone());
-            }
-            Doubt::NoneSuch { noun } => {
-                let place = self.restrictions(noun);
-                let none = self.none_of(noun);
-                let general = noun.head.anything;
-                match (russian, place.is_empty(), general) {
-                    (true, true, _) => format!("на карте нет {none}"),
-                    (true, false, true) => format!("{place} ничего нет"),
-                    (true, false, false) => format!("{place} нет {none}"),
-                    (false, true, _) => format!("there is no such thing on the map: {none}"),
-                    (false, false, _) => format!("there are no {none} {place}"),
-                }
-            }
-            Doubt::Ambiguous { reference, candidates } => {
-                return self.which_one(reference, candidates);
-            }
-        };
-        (text, Vec::new())
-    }
-
-    /// The candidates, each with what tells it from the others.
-    fn which_one(&self, reference: &str, candidates: &[Thing]) -> (String, Vec<String>) {
-        const SHOWN: usize = 8;
-        let names: Vec<String> = candidates.iter().map(|t| self.name(*t)).collect();
-        let shown: Vec<String> = candidates
-            .iter()
-            .take(SHOWN)
-            .map(|t| match self.telling(*t, candidates) {
-                Some(mark) => format!("{} ({mark})", self.name(*t)),
-                None => self.name(*t),
-            })
-            .collect();
-        let more = candidates.len().saturating_sub(SHOWN);
-        let list = match (more, self.is_russian()) {
-            (0, _) => alternatives(&shown, self.language),
-            (_, true) => format!("{} или ещё что-то из {more}", shown.join(", ")),
-            (_, false) => format!("{} or one of {more} more", shown.join(", ")),
-        };
-        let reference = tidy(reference);
-        let text = match self.is_russian() {
-            true => format!("«{reference}» – это {list}?"),
-            false => format!("by \"{reference}\", do you mean {list}?"),
-        };
-        (text, names)
-    }
-
-    /// A property, or a place, by which a thing differs from the other candidates.
-    fn telling(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
-        let property = |t: Thing, wanted: &Property| {
-            let all = self.values(t);
-            all.into_iter().find(|(p, _, _)| p == wanted).and_then(|(_, v, _)| v)
-        };
-        for wanted in [Property::Colour, Property::Material, Property::State] {
-            let own = property(thing, &wanted);
-            let alike = candidates.iter().filter(|t| property(**t, &wanted) == own).count();
-            if let (Some(value), 1) = (own, alike) {
-                return Some(self.value_of(&wanted, value, thing));
-            }
-        }
-        let mut marks: Vec<String> = Vec::new();
-        if let Some(value) = property(thing, &Property::Colour)
-            && candidates.iter().any(|t| property(*t, &Property::Colour) != Some(value))
-        {
-            marks.push(self.value_of(&Property::Colour, value, thing));
-        }
-        let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
-        if let Some(own) = support(thing)
-            && candidates.iter().any(|t| support(*t) != Some(own))
-        {
-            let own = Thing::Entity(crate::map::Entity::Replica(own));
-            let inside = self.tuple(Rel::In, thing, own).is_some();
-            marks.push(self.place(if inside { Rel::In } else { Rel::On }, &[own]));
-        } else if let Some(own) = self.area_of(thing)
-            && candidates.iter().any(|t| self.area_of(*t) != Some(own))
-            && thing.area().is_none()
-        {
-            marks.extend(self.in_room(thing));
-        }
-        (!marks.is_empty())
-            .then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
-    }
-}
-
-/// What a person typed, fit to be repeated: no control characters, not too long.
-fn tidy(text: &str) -> String {
-    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(80).collect()
 }
 
 /// Whether a word may name a thing, as far as the dictionary knows it.

@@ -116,6 +116,31 @@ pub struct Head {
     pub anything: bool,
 }
 
+/// How a number is meant: «не меньше трёх», "more than three".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord, Hash)]
+pub enum Quantity {
+    #[default]
+    Exactly,
+    AtLeast,
+    AtMost,
+    MoreThan,
+    FewerThan,
+}
+
+impl Quantity {
+    /// Whether so many are as many as `asked` means.
+    #[must_use]
+    pub fn admits(self, number: u64, asked: u64) -> bool {
+        match self {
+            Self::Exactly => number == asked,
+            Self::AtLeast => number >= asked,
+            Self::AtMost => number <= asked,
+            Self::MoreThan => number > asked,
+            Self::FewerThan => number < asked,
+        }
+    }
+}
+
 /// A value that the thing must, or must not, have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Filter {
@@ -146,6 +171,8 @@ pub struct Noun {
     /// «другие», "other": not those spoken of.
     pub other: bool,
     pub count: Option<u64>,
+    /// How a number of the description is to be taken; without one it is exact.
+    pub quantity: Quantity,
     /// «вторая по величине»: the place in the order of the superlative; none is the first.
     pub rank: Option<u64>,
     pub filters: Vec<Filter>,
@@ -247,6 +274,8 @@ pub enum Query {
         than: Noun,
         extreme: Extreme,
         to: Option<Noun>,
+        /// By how much is asked, not whether.
+        by: bool,
     },
     /// Of which there are more; `asks` which, else whether it is the first.
     MoreOf {
@@ -259,6 +288,11 @@ pub enum Query {
         property: Property,
         of: [Noun; 2],
     },
+    /// Have all the same value.
+    SameAll {
+        property: Property,
+        of: Noun,
+    },
     /// How much of it is free.
     Free(Noun),
     /// Where one can sit, lie, put something.
@@ -270,6 +304,10 @@ pub enum Query {
     LastSeen(Noun),
     Before(Noun),
     WhereAreYou(Detail),
+    /// «Где я?»: the robot knows its own place only.
+    WhereAmI,
+    /// Several questions in one sentence, each answered by itself.
+    Several(Vec<Self>),
     /// What the robot is and can be asked.
     Help,
     WhatDoYouSee,
@@ -336,7 +374,9 @@ impl Query {
                 of.each(act);
                 what.iter_mut().for_each(|n| n.each(act));
             }
-            Self::Property { of, .. } | Self::Size { of, .. } => of.each(act),
+            Self::Property { of, .. } | Self::Size { of, .. } | Self::SameAll { of, .. } => {
+                of.each(act)
+            }
             Self::Way { from, to, .. }
             | Self::CanReach { from, to }
             | Self::Distance { from, to } => {
@@ -366,7 +406,12 @@ impl Query {
                     query.each_noun(act);
                 }
             }
-            Self::WhereAreYou(_) | Self::Help | Self::WhatDoYouSee | Self::WhatDoYouHold => {}
+            Self::Several(queries) => queries.iter_mut().for_each(|q| q.each_noun(act)),
+            Self::WhereAreYou(_)
+            | Self::WhereAmI
+            | Self::Help
+            | Self::WhatDoYouSee
+            | Self::WhatDoYouHold => {}
         }
     }
 
@@ -393,12 +438,14 @@ impl Query {
             Self::WhichMore { .. } => "which_more",
             Self::Larger { .. } => "larger",
             Self::MoreOf { .. } => "more_of",
-            Self::Same { .. } => "same",
+            Self::Same { .. } | Self::SameAll { .. } => "same",
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
             Self::WhereAreYou(_) => "where_are_you",
+            Self::WhereAmI => "where_am_i",
+            Self::Several(_) => "several",
             Self::Help => "help",
             Self::WhatDoYouSee => "what_do_you_see",
             Self::WhatDoYouHold => "what_do_you_hold",

@@ -107,9 +107,21 @@ impl Knowledge<'_> {
     pub(super) fn place(&self, rel: Rel, anchors: &[Thing]) -> String {
         let Some(&anchor) = anchors.first() else { return String::new() };
         let is_area = matches!(anchor, Thing::Entity(Entity::Area(_) | Entity::Map(_)));
+        if let Some(storey) = self.bare_storey(anchor, anchors.len()) {
+            return match (rel, self.is_russian()) {
+                (Rel::In | Rel::On | Rel::Of | Rel::At, true) => format!("на этаже {storey}"),
+                (Rel::From, true) => format!("с этажа {storey}"),
+                (Rel::To, true) => format!("на этаж {storey}"),
+                (Rel::In | Rel::On | Rel::Of | Rel::At, false) => format!("on floor {storey}"),
+                (Rel::From, false) => format!("from floor {storey}"),
+                (_, true) => format!("этаж {storey}"),
+                (_, false) => format!("to floor {storey}"),
+            };
+        }
         if !self.is_russian() {
             let name = self.names(anchors, Case::Nominative);
             let before = match rel {
+                Rel::In | Rel::Of | Rel::On if self.is_floor_name(anchor) => "on",
                 Rel::In | Rel::Of if is_area => "in",
                 Rel::In => "in",
                 Rel::On if is_area => "in",
@@ -168,6 +180,24 @@ impl Knowledge<'_> {
             Rel::At => with(Preposition::U, Case::Genitive),
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
         }
+    }
+
+    /// A storey that is called one: "Floor 1".
+    fn is_floor_name(&self, thing: Thing) -> bool {
+        let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
+        let name = || self.name(thing).to_lowercase();
+        is_map && ["floor", "level", "storey"].iter().any(|word| name().contains(word))
+    }
+
+    /// The name of one storey of several where that is no more than a code: «L2».
+    fn bare_storey(&self, thing: Thing, number: usize) -> Option<String> {
+        let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
+        if !is_map || number != 1 || self.world.maps.len() < 2 {
+            return None;
+        }
+        let name = self.name(thing);
+        let is_code = name.chars().count() <= 4 && name.chars().any(|c| c.is_ascii_digit());
+        is_code.then_some(name)
     }
 
     /// «в Комнате-В», "in Room V"
@@ -280,6 +310,24 @@ impl Knowledge<'_> {
             if text.is_empty() {
                 text = self.place(restriction.rel, &anchors);
             }
+            let having = matches!(restriction.rel, Rel::Has | Rel::Bears);
+            if having
+                && let [anchor] = &restriction.anchors[..]
+                && let Some(count) = anchor.count
+            {
+                text = self.with_so_many(anchor, count);
+            }
+            if having && restriction.negated {
+                let lacked: Vec<String> =
+                    restriction.anchors.iter().map(|a| self.none_of(a)).collect();
+                let lacked = enumerate(&lacked, self.language);
+                parts.push(format!("{} {lacked}", self.pick("без", "without")));
+                continue;
+            }
+            // «со столами и со стульями»
+            if having && !parts.is_empty() {
+                text = format!("{} {text}", self.pick("и", "and"));
+            }
             if restriction.negated {
                 text = format!("{} {text}", self.pick("не", "not"));
             }
@@ -288,11 +336,47 @@ impl Knowledge<'_> {
         parts.join(" ")
     }
 
+    /// «более чем с 5 стульями», "with more than 5 chairs"
+    fn with_so_many(&self, anchor: &Noun, count: u64) -> String {
+        let quantity = self.quantity_words(anchor.quantity);
+        let noun = Noun { count: None, ..anchor.clone() };
+        let (phrase, english_name) = self.kind_phrase(&noun);
+        match self.language {
+            Language::Russian => {
+                let number = if count % 10 == 1 && count % 100 != 11 {
+                    Number::Singular
+                } else {
+                    Number::Plural
+                };
+                let form = lower_first(&phrase.form(Case::Instrumental, number));
+                format!("{quantity}с {count} {form}")
+            }
+            Language::English => {
+                format!("with {quantity}{}", english::count(count, &english_name))
+            }
+        }
+    }
+
+    /// «не менее чем », "at least "; nothing for an exact number.
+    pub(super) fn quantity_words(&self, quantity: super::query::Quantity) -> &'static str {
+        use super::query::Quantity;
+        match quantity {
+            Quantity::Exactly => "",
+            Quantity::AtLeast => self.pick("не менее чем ", "at least "),
+            Quantity::AtMost => self.pick("не более чем ", "at most "),
+            Quantity::MoreThan => self.pick("более чем ", "more than "),
+            Quantity::FewerThan => self.pick("менее чем ", "fewer than "),
+        }
+    }
+
     /// A place told by its kind: «на столах», "on the tables".
     fn general_place(&self, rel: Rel, anchor: &Noun) -> String {
         let (phrase, english_name) = self.kind_phrase(anchor);
         let plural = |case: Case| lower_first(&phrase.form(case, Number::Plural));
         if !self.is_russian() {
+            if matches!(rel, Rel::Has | Rel::Bears) {
+                return format!("with {}", english::plural(&english_name));
+            }
             let name = format!("the {}", english::plural(&english_name));
             let named = self.place(rel, &[Thing::Robot]);
             return named.replace("me", &name);

@@ -15,6 +15,12 @@ pub enum Property {
     Surface,
     Shape,
     Orientation,
+    Weight,
+    Price,
+    Age,
+    Temperature,
+    Owner,
+    Brand,
     /// Any other, under the key of its name on the map.
     Other(String),
 }
@@ -48,6 +54,21 @@ const NAMES: &[(Property, &str)] = &[
     (Property::Surface, "поверхность|surface|texture|фактура"),
     (Property::Shape, "форма|shape|формы|форме"),
     (Property::Orientation, "ориентация|orientation|ориентации"),
+    (
+        Property::Weight,
+        "вес|weight|масса|mass|веса|сколько весит|сколько весят|насколько тяжёлый|насколько тяжёлая|насколько тяжёлое|how heavy|weigh|weighs",
+    ),
+    (
+        Property::Price,
+        "цена|price|стоимость|cost|costs|цену|цены|стоимости|сколько стоит|по чём|почём|price tag",
+    ),
+    (Property::Age, "возраст|age|возраста|сколько лет|how old"),
+    (
+        Property::Temperature,
+        "температура|temperature|температуры|how hot|how cold|how warm|насколько горячий|насколько тёплый",
+    ),
+    (Property::Owner, "владелец|owner|хозяин|владельца"),
+    (Property::Brand, "марка|brand|фирма|марки|бренд"),
 ];
 
 /// Values with the property they belong to: the Russian adjective (masculine), other Russian forms, English words.
@@ -136,8 +157,8 @@ const VALUES: &[(Property, &str, &str, &str)] = &[
     (Property::State, "чистый", "чист|чиста|чисто|чисты", "clean"),
     (Property::State, "сломанный", "сломан|сломана|сломано|сломаны", "broken"),
     (Property::State, "полный", "полон|полна|полно|полны", "full"),
-    (Property::State, "пустой", "пуст|пуста|пусто|пусты", "empty"),
-    (Property::State, "занятый", "занят|занята|занято|заняты", "occupied|taken|busy"),
+    (Property::State, "пустой", "пуст|пуста|пусто|пусты", "empty|unoccupied|vacant|not occupied"),
+    (Property::State, "занятый", "занят|занята|занято|заняты", "occupied|busy|in use"),
     (Property::Surface, "мягкий", "мягок|мягка|мягко|мягки", "soft"),
     (Property::Surface, "твёрдый", "твёрд|тверда|твёрдо", "hard|rigid"),
     (Property::Surface, "хрупкий", "хрупок|хрупка|хрупко", "fragile|breakable"),
@@ -162,6 +183,14 @@ pub struct ValueEntry {
     pub english: String,
 }
 
+impl ValueEntry {
+    /// Empty, full, occupied: what can be seen from what is in or on a thing.
+    #[must_use]
+    pub fn is_emptiness(&self) -> bool {
+        matches!(self.russian.as_str(), "пустой" | "полный" | "занятый")
+    }
+}
+
 /// A value by its place in [`Values`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct ValueId(pub u16);
@@ -174,6 +203,8 @@ pub struct Values {
     /// Property names of the map and of the language, by key.
     properties: HashMap<String, Property>,
     longest: usize,
+    /// Words of the longest way to ask for a property: «сколько весит».
+    longest_property: usize,
 }
 
 impl Values {
@@ -183,7 +214,9 @@ impl Values {
         let mut values = Self::default();
         for (property, names) in NAMES {
             for name in names.split('|') {
-                values.properties.insert(name_key(name), property.clone());
+                let key = name_key(name);
+                values.longest_property = values.longest_property.max(key.split(' ').count());
+                values.properties.insert(key, property.clone());
             }
         }
         for (property, adjective, others, english) in VALUES {
@@ -280,9 +313,10 @@ impl Values {
         (1..=most).rev().find_map(|n| self.words.get(&words[..n].join(" ")).map(|id| (n, *id)))
     }
 
-    /// The property of this name.
-    pub(super) fn property(&self, word: &str) -> Option<&Property> {
-        self.properties.get(word)
+    /// The property whose name is the longest at the beginning of these words, with the number of words it takes.
+    pub(super) fn property(&self, words: &[String]) -> Option<(usize, &Property)> {
+        let most = self.longest_property.max(1).min(words.len());
+        (1..=most).rev().find_map(|n| Some((n, self.properties.get(&words[..n].join(" "))?)))
     }
 
     /// # Panics

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
-use super::query::{Closeness, Dimension, Extreme, Rel};
+use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
 use crate::language::report::Detail;
 use crate::units::name_key;
 
@@ -76,6 +76,20 @@ pub(super) enum Mark {
     You,
     Me,
     Not,
+    /// «без», "without": not having.
+    Without,
+    /// «сразу», "directly": from room to room.
+    Directly,
+    /// «чем занят»: what is on it or in it
+    OccupiedBy,
+    /// «взял», "took"
+    Took,
+    /// «переставили», "was moved"
+    Moved,
+    /// «не меньше», "at least": before a number
+    Number(Quantity),
+    /// «только один», "only one"
+    OnlyOne,
     And,
     Or,
     Than,
@@ -141,17 +155,17 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::How, "как|how|каким образом"),
     (
         Mark::Move,
-        "попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
+        "идти|ехать|пройти мне|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
     ),
     (Mark::As, "as|что и|как и|с чем"),
     (
         Mark::Which,
-        "какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
+        "который из|которая из|которое из|которые из|котором из|которой из|каком из|каких из|каким из|какой именно|what kinds of|what types of|which kinds of|which types of|what sorts of|какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
         которую|которых|каков|какова|каково|каковы|какие из|какой из|какая из|какое из|какую из|каких из|which|what kind of|what type of|what sort of|which of|which of the",
     ),
     (
         Mark::HowMany,
-        "сколько|скольких|скольким|сколько всего|сколько штук|какое количество|каково количество|количество|число|каково число|как много|how many|how much|number of|the number of|\
+        "на сколько|насколько|на сколько сантиметров|на сколько метров|на сколько см|на сколько квадратных метров|by how much|сколько|скольких|скольким|сколько всего|сколько штук|какое количество|каково количество|количество|число|каково число|как много|how many|how much|number of|the number of|\
         what is the number of|what number of|amount of|the amount of|total number of|the total number of|quantity of|скажи сколько|сколько же",
     ),
     (Mark::Count, "посчитай|сосчитай|подсчитай|count|count up|count all|count the number of"),
@@ -162,7 +176,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowGet,
-        "как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
+        "how do i leave|how can i leave|how to leave|how do i exit|how do i get out|how can i get out|как покинуть|как подняться|как спуститься|как мне подняться|как мне спуститься|как дойти|как проще попасть|как быстрее попасть|как быстрее добраться|как лучше пройти|how would one get|how might i get|как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
         как мне дойти|как пройти мне|как можно пройти|как можно попасть|как можно добраться|как ты проедешь|как ты доедешь|как ты попадёшь|как выйти|как выехать|как мне выйти|как вернуться|как перейти|как подъехать|как подойти|как зайти|как прийти|как тебе проехать|\
         какой дорогой|каким путём|каким маршрутом|путь|дорога|дорогу|маршрут|проложи маршрут|построй маршрут|покажи дорогу|покажи путь|опиши путь|опиши дорогу|опиши маршрут|кратчайший путь|какой путь|какой маршрут|\
         how do i get|how can i get|how to get|how do you get|how can you get|how would i get|how would you get|how do i go|how can i go|how to go|how do i reach|how can i reach|how to reach|how do you reach|how do i find my way|\
@@ -191,7 +205,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowBig(Dimension::Height),
-        "какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
+        "высота потолка|какая высота потолка|какова высота потолка|высота потолков|какой высоты потолок|какой высоты потолки|how high is the ceiling|how high are the ceilings|ceiling height|what is the ceiling height|the ceiling height|какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
     ),
     (
         Mark::HowBig(Dimension::Width),
@@ -203,7 +217,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowBig(Dimension::Area),
-        "какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area",
+        "какой общей площади|общая площадь|какова общая площадь|какая общая площадь|what is the total floor area|total floor area|the total floor area|what is the total area|total area|the total area|какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area",
     ),
     (
         Mark::Exists,
@@ -213,7 +227,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Be,
-        "ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        "является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висит|висят|висел|висела|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
         stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
@@ -239,7 +253,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
+        "what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
     ),
     (
         Mark::List,
@@ -260,15 +274,15 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Free,
-        "свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|room on|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there space for|is there room for|is there enough room for|is there enough space for|space for|место для|поместится|поместятся|уместится|влезет|помещается|fit|fits|is there free space|is there any free space",
+        "how much room is left|how much room is there|how much room|how much space is left|how much space is there|how much space|how much free space is there|how much free space|how much empty space|сколько места осталось|сколько осталось места|сколько ещё места|сколько места|сколько свободного места|свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there space for|is there room for|is there enough room for|is there enough space for|space for|место для|поместится|поместятся|уместится|влезет|помещается|fit|fits|is there free space|is there any free space",
     ),
     (
         Mark::Sit,
-        "сесть|посидеть|присесть|сидеть|sit|sit down|take a seat|have a seat|relax|be seated|take a rest",
+        "сидят|посижу|присяду|усесться|сесть|посидеть|присесть|сидеть|sit|sit down|take a seat|have a seat|relax|be seated|take a rest",
     ),
     (
         Mark::LieDown,
-        "лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep",
+        "спят|лежат люди|лягу|прилягу|вздремнуть|лечь|полежать|прилечь|поспать|спать|отдохнуть|lie down|sleep|nap|take a nap|get some sleep",
     ),
     (Mark::PutDown, "положить|поставить|разместить|put|place|set down|put down|lay down|leave"),
     (
@@ -286,7 +300,28 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Me, "я|мне|меня|мной|i|me|myself|us|we|нам|нас|мы"),
     (
         Mark::Not,
-        "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|without|без|isnt|arent|doesnt|dont",
+        "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|isnt|arent|doesnt|dont",
+    ),
+    (Mark::Without, "без|without|with no|without any|without a|безо"),
+    (
+        Mark::Directly,
+        "сразу|напрямую|непосредственно|directly|straight|без захода|not through another room",
+    ),
+    (
+        Mark::OccupiedBy,
+        "чем занят|чем занята|чем занято|чем заняты|чем заставлен|чем заставлена|чем заполнен|чем заполнена|чем загромождён",
+    ),
+    (
+        Mark::Took,
+        "взял|взяла|взяли|забрал|забрала|забрали|унёс|унесла|унесли|брал|брала|брали|took|taken|has taken|did you take|have you taken",
+    ),
+    (
+        Mark::Moved,
+        "переставили|переставил|переставила|передвинули|передвинул|передвинула|перенесли|перенёс|переставляли|передвигали|двигали|перемещали|переместили|moved|been moved|relocated|rearranged|last moved",
+    ),
+    (
+        Mark::OnlyOne,
+        "только один|только одна|только одно|лишь один|лишь одна|лишь одно|всего один|всего одна|всего одно|ровно один|ровно одна|ровно одно|only one|just one|exactly one|only a single|just a single",
     ),
     (Mark::And, "и|а также|и еще|and|as well as|and also|together with|plus"),
     (Mark::Or, "или|либо|or|or else"),
@@ -306,11 +341,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::In),
-        "в|во|внутри|внутрь|in|inside|inside of|within|into|in the middle of|in side",
+        "left in|в|во|внутри|внутрь|in|inside|inside of|within|into|in the middle of|in side",
     ),
     (
         Mark::Link(Rel::On),
-        "на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of",
+        "left on|на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of",
     ),
     (
         Mark::Link(Rel::Under),
@@ -424,18 +459,25 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::More(Extreme::Most), "more"),
     (Mark::More(Extreme::Fewest), "fewer|less"),
     (
-        Mark::Rank(2),
-        "второй|вторая|второе|вторые|второго|вторую|вторых|вторым|втором|second|2nd|2 nd",
+        Mark::Rank(1),
+        "первый|первая|первое|первые|первого|первую|первых|первым|первом|первой|first|1st|1 st",
     ),
-    (Mark::Rank(3), "третий|третья|третье|третьи|третьего|третьей|третью|третьих|third|3rd|3 rd"),
+    (
+        Mark::Rank(2),
+        "второй|вторая|второе|вторые|второго|второму|вторую|вторых|вторым|втором|second|2nd|2 nd",
+    ),
+    (
+        Mark::Rank(3),
+        "третьем|третьему|третьим|третий|третья|третье|третьи|третьего|третьей|третью|третьих|third|3rd|3 rd",
+    ),
     (
         Mark::Rank(4),
-        "четвёртый|четвёртая|четвёртое|четвёртые|четвёртого|четвёртой|четвёртую|fourth|4th|4 th",
+        "четвёртом|четвёртому|четвёртым|четвёртый|четвёртая|четвёртое|четвёртые|четвёртого|четвёртой|четвёртую|fourth|4th|4 th",
     ),
-    (Mark::Rank(5), "пятый|пятая|пятое|пятые|пятого|пятой|пятую|fifth|5th|5 th"),
+    (Mark::Rank(5), "пятом|пятому|пятым|пятый|пятая|пятое|пятые|пятого|пятой|пятую|fifth|5th|5 th"),
     (
         Mark::Help,
-        "кто ты|кто ты такой|как тебя зовут|что ты умеешь|что ты можешь|что ты умеешь делать|помоги|помощь|справка|о чём тебя можно спросить|что можно спросить|что у тебя можно спросить|\
+        "что умеешь|что можешь|чем можешь помочь|на что ты способен|what are you able to do|what do you know how to do|кто ты|кто ты такой|как тебя зовут|что ты умеешь|что ты можешь|что ты умеешь делать|помоги|помощь|справка|о чём тебя можно спросить|что можно спросить|что у тебя можно спросить|\
         help|who are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help",
     ),
     (
@@ -478,15 +520,42 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|anybody|anyone|somebody|someone|кто нибудь|кто то|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
         please|tell me|tell us|show me|show us|say|could you|could you please|would you|would you please|will you|can you tell me|could you tell me|would you tell me|can you say|do you know|do you know if|do you know whether|do you happen to know|happen to know|would you happen to know|i want to know|i would like to know|i d like to know|i wonder|i am wondering|wondering|i need to know|let me know|\
         hey|hello|hi|ok|okay|well|so|now|right now|at the moment|currently located|actually|exactly|precisely|really|just|also|too|if|whether|that is|which is|which are|that are|do|does|did|do i|do you|d|am|will|would|shall|should|must|thanks|thank you|kindly|here|in total|altogether|total|in all|all together|overall|it is true that|is it true that|is it true|true|is it the case that|\
-        currently|ever|it is|most|кажется|кстати|уже|тогда|give me|want|find out|check|check if|check whether|проверь|узнай|i m looking for|i am looking for|looking for|im looking for|scene|in this scene|in the scene|in this picture|relative to|with respect to|related to|present|available|directly|directly to|right|immediately|object that is|things that are",
+        currently|ever|it is|most|кажется|кстати|уже|тогда|give me|want|find out|check|check if|check whether|проверь|узнай|i m looking for|i am looking for|looking for|im looking for|scene|in this scene|in the scene|in this picture|relative to|with respect to|related to|present|available|right|immediately|object that is|things that are",
     ),
 ];
+
+/// What says how a number is meant; only where a number follows.
+const QUANTITIES: &[(Quantity, &str)] = &[
+    (
+        Quantity::AtLeast,
+        "не меньше|не менее|не меньше чем|хотя бы|минимум|как минимум|по крайней мере|at least|no fewer than|not fewer than|no less than|not less than",
+    ),
+    (
+        Quantity::AtMost,
+        "не больше|не более|не больше чем|максимум|самое большее|at most|no more than|not more than|up to",
+    ),
+    (Quantity::MoreThan, "больше|больше чем|более|более чем|свыше|more than|over|above"),
+    (Quantity::FewerThan, "меньше|меньше чем|менее|менее чем|fewer than|less than|under|below"),
+    (
+        Quantity::Exactly,
+        "ровно|в точности|точно|только|лишь|всего|всего лишь|exactly|precisely|only|just",
+    ),
+];
+
+/// How the number after these words is meant, with the number of words that say so.
+pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
+    (1..=words.len().min(3)).rev().find_map(|n| {
+        let said = words[..n].join(" ");
+        let listed = |list: &str| list.split('|').any(|phrase| name_key(phrase) == said);
+        QUANTITIES.iter().find(|(_, list)| listed(list)).map(|(quantity, _)| (n, *quantity))
+    })
+}
 
 /// Whether these words begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {
@@ -494,7 +563,9 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
             Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
-            Mark::Can | Mark::Link(_) | Mark::Not => return false,
+            // «Можно ли сесть на кровать?» asks; «Можешь открыть дверь?» is a polite command.
+            Mark::Can => return asks_leave(&words[at..at + taken]),
+            Mark::Link(_) | Mark::Not => return false,
             Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => {
                 return false;
             }
@@ -502,6 +573,23 @@ pub(super) fn begins_question(words: &[String]) -> bool {
         }
     }
     false
+}
+
+/// Whether these words of [`Mark::Can`] ask what may or can be done, and not the robot to do it.
+fn asks_leave(words: &[String]) -> bool {
+    const ROBOT: [&str; 10] = [
+        "можешь",
+        "можешь ли",
+        "сможешь",
+        "могли бы",
+        "мог бы",
+        "can",
+        "can you",
+        "could",
+        "able",
+        "possible",
+    ];
+    !ROBOT.contains(&words.join(" ").as_str())
 }
 
 type Phrases = Vec<(Vec<String>, Mark)>;

@@ -18,6 +18,7 @@
 mod adjective;
 mod dictionary;
 pub mod english;
+pub(crate) mod everyday;
 mod grammar;
 mod index;
 mod letters;

@@ -79,6 +79,11 @@ impl Knowledge<'_> {
             let holds = anchors.iter().copied().find(joins);
             return Ok((holds.is_some(), Vec::new(), holds.map_or(anchors, |a| vec![a])));
         }
+        if restriction.negated {
+            let hit = anchors.iter().find(|a| self.holds(restriction.rel, thing, **a));
+            let none = hit.is_none();
+            return Ok((none, Vec::new(), hit.map_or(anchors.clone(), |a| vec![*a])));
+        }
         if let Some(&hit) = anchors.iter().find(|a| self.holds(restriction.rel, thing, **a)) {
             let fact = self.fact(restriction.rel, thing, hit);
             return Ok((true, fact.into_iter().collect(), vec![hit]));
@@ -144,7 +149,7 @@ impl Knowledge<'_> {
                 claims.iter().map(|c| self.claim_words(thing, c)).collect::<Result<_, _>>()?;
             format!("{} {}", self.name(thing), enumerate(&parts, self.language))
         };
-        let said = if all { Said::Yes } else { Said::No };
+        let said = if yes { Said::Yes } else { Said::No };
         topic.truncate(4);
         facts.sort_by_key(|f| f.holds == all);
         facts.reverse();
@@ -268,6 +273,14 @@ impl Knowledge<'_> {
     fn claim_words(&self, thing: Thing, claim: &Claim) -> Result<String, Doubt> {
         let (holds, _, anchors) = self.judge(thing, claim)?;
         Ok(match claim {
+            Claim::Related(restriction)
+                if matches!(restriction.rel, Rel::NextTo | Rel::Near)
+                    && thing.area().is_some()
+                    && anchors.len() == 1
+                    && anchors[0].area().is_some() =>
+            {
+                self.joined_words(thing, anchors[0], holds)
+            }
             Claim::Related(restriction) => {
                 let place = match anchors.len() {
                     0 | 1 => self.place(restriction.rel, &anchors),
@@ -335,6 +348,38 @@ impl Knowledge<'_> {
                 }
             }
         })
+    }
+
+    /// «соединена с Комнатой-Z (Дверь-ZY)», "is not connected to the hall"
+    fn joined_words(&self, room: Thing, other: Thing, holds: bool) -> String {
+        let (a, b) = (room.area(), other.area());
+        let joins = self.gates().iter().filter(|g| {
+            a.is_some_and(|a| g.areas.contains(&a)) && b.is_some_and(|b| g.areas.contains(&b))
+        });
+        let gates: Vec<Thing> = joins.map(|g| g.thing).collect();
+        let by = if gates.is_empty() { String::new() } else { format!(" ({})", self.list(&gates)) };
+        if !self.is_russian() {
+            let not = if holds { "" } else { " not directly" };
+            return format!("is{not} connected to {}{by}", self.name(other));
+        }
+        let ending = match self.gender(room) {
+            (_, Number::Plural) => "ы",
+            (crate::language::Gender::Feminine, _) => "а",
+            (crate::language::Gender::Neuter, _) => "о",
+            _ => "",
+        };
+        let not = if holds { "" } else { "не " };
+        let form = self.form(other, Case::Instrumental);
+        let with = crate::language::words::russian::preposition(
+            crate::language::words::russian::Preposition::S,
+            &form,
+        );
+        let directly = if holds { "" } else { " напрямую" };
+        let stem = match ending {
+            "" => "соединён",
+            _ => "соединен",
+        };
+        format!("{not}{stem}{ending}{directly} {with} {form}{by}")
     }
 
     /// The value that a thing has of the property asked about.

@@ -229,6 +229,7 @@ impl Knowledge<'_> {
         than: &Noun,
         extreme: Extreme,
         to: Option<&Noun>,
+        by: bool,
     ) -> Result<Draft, Doubt> {
         let (a, b) = (self.one(what)?, self.one(than)?);
         let to = to.map(|noun| self.one(noun)).transpose()?;
@@ -240,10 +241,33 @@ impl Knowledge<'_> {
         let yes = (x - y).abs() > 1e-9 && (x < y) == less;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let words = |t, v| self.compared_words(t, extreme, v);
-        let text =
-            format!("{head}{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
+        let both =
+            format!("{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
+        // «На сколько выше?»: the difference, and what it is the difference of.
+        if by && yes && !self.is_volume(a, extreme) {
+            let apart = match (extreme, a.area()) {
+                (Extreme::Biggest | Extreme::Smallest, Some(_)) => {
+                    area((x - y).abs(), self.language)
+                }
+                _ => length((x - y).abs(), self.language),
+            };
+            let text = match self.is_russian() {
+                true => format!("на {apart}: {both}"),
+                false => format!("by {apart}: {both}"),
+            };
+            return Ok(Draft::new(Said::Found, text)
+                .with(vec![a])
+                .about(&[b])
+                .number((x - y).abs()));
+        }
+        let text = format!("{head}{both}");
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![a]).about(&[b]))
+    }
+
+    /// Whether a comparison is of bodies, which no one length tells apart.
+    fn is_volume(&self, thing: Thing, extreme: Extreme) -> bool {
+        matches!(extreme, Extreme::Biggest | Extreme::Smallest) && thing.area().is_none()
     }
 
     /// «стульев в Кухне (4) больше, чем в Спальне (2)»
@@ -321,6 +345,39 @@ impl Knowledge<'_> {
             (false, false) => found[best].clone(),
         };
         Ok(Draft::new(said, format!("{head}{text}")).with(things).number(a as f64))
+    }
+
+    /// «Одного ли цвета стулья?»
+    pub(super) fn same_all(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+        let found = self.definite(of)?;
+        let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
+        let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();
+        for &thing in &found {
+            let Some((_, value, text)) = own(thing) else {
+                let text = self.no_property(property, thing);
+                return Ok(Draft::new(Said::Unknown, text).with(found));
+            };
+            let key = value
+                .map_or(text.to_lowercase(), |v| self.lexicon().values.entry(v).russian.clone());
+            match groups.iter_mut().find(|(other, _)| *other == key) {
+                Some((_, things)) => things.push(thing),
+                None => groups.push((key, vec![thing])),
+            }
+        }
+        let yes = groups.len() == 1;
+        let each = |(_, things): &(String, Vec<Thing>)| {
+            let first = things[0];
+            let words = match own(first) {
+                Some((_, Some(value), _)) => self.value_of(property, value, first),
+                Some((_, None, text)) => text.to_lowercase(),
+                None => String::new(),
+            };
+            format!("{} – {words}", self.list(things))
+        };
+        let parts: Vec<String> = groups.iter().map(each).collect();
+        let head = if yes { self.pick("да", "yes") } else { self.pick("нет", "no") };
+        let said = if yes { Said::Yes } else { Said::No };
+        Ok(Draft::new(said, format!("{head}: {}", parts.join("; "))).with(found))
     }
 
     pub(super) fn same(&self, property: &Property, of: &[Noun; 2]) -> Result<Draft, Doubt> {

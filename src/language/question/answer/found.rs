@@ -13,7 +13,11 @@ use crate::map::Entity;
 
 impl Knowledge<'_> {
     pub(super) fn say_found(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let found = self.find(noun, false)?;
+        let mut found = self.find(noun, false)?;
+        // "Name three things": as many as are asked for.
+        if let (Some(count), None) = (noun.count, &noun.best) {
+            found.truncate(usize::try_from(count).unwrap_or(usize::MAX));
+        }
         let facts = self.facts_of(noun, &found);
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
@@ -62,7 +66,7 @@ impl Knowledge<'_> {
                     }
                 }
                 (false, false) if self.is_having(noun) => {
-                    format!("{}: {list}", self.counted(noun, found.len()))
+                    format!("{}: {list}", self.capital_count(noun, found.len()))
                 }
                 (false, false) => format!("{list} {} {place}{frame}", self.is(&found)),
             }
@@ -76,6 +80,25 @@ impl Knowledge<'_> {
     fn neighbours(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
         let near = noun.restrictions.iter().find(|r| r.rel == Rel::Near)?;
         let from = self.find(near.anchors.first()?, true).ok()?;
+        if near.negated && from.iter().all(|t| t.area().is_some()) {
+            return Some(match (found.is_empty(), self.is_russian()) {
+                (false, true) => format!(
+                    "прямо {} нельзя попасть {}",
+                    self.place(Rel::From, &from),
+                    enumerate(
+                        &found.iter().map(|t| self.place(Rel::To, &[*t])).collect::<Vec<_>>(),
+                        self.language
+                    )
+                ),
+                (false, false) => {
+                    format!("not connected to {}: {}", self.list(&from), self.list(found))
+                }
+                (true, true) => {
+                    format!("прямо {} можно попасть во все помещения", self.place(Rel::From, &from))
+                }
+                (true, false) => format!("all rooms are connected to {}", self.list(&from)),
+            });
+        }
         let rooms = !found.is_empty() && found.iter().chain(&from).all(|t| t.area().is_some());
         let list: Vec<String> = found.iter().map(|t| self.place(Rel::To, &[*t])).collect();
         let list = enumerate(&list, self.language);
@@ -219,6 +242,12 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn count(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        if let Some(parts) = self.count_parts(noun)? {
+            return Ok(parts);
+        }
+        if let Some((each, rooms)) = self.in_each(noun)? {
+            return Ok(self.count_in_each(&each, &rooms));
+        }
         let found = self.find(noun, false)?;
         let facts = self.facts_of(noun, &found);
         let place = self.restrictions(noun);
@@ -268,6 +297,17 @@ impl Knowledge<'_> {
         either: bool,
         negated: bool,
     ) -> Result<Draft, Doubt> {
+        if let [noun] = what {
+            if let Some(parts) = self.has_parts(noun)? {
+                return Ok(parts);
+            }
+            if let Some((each, rooms)) = self.in_each(noun)? {
+                return Ok(self.exists_in_each(&each, &rooms));
+            }
+            if let Some(asked) = noun.count {
+                return self.exist_so_many(noun, asked);
+            }
+        }
         let mut found: Vec<Vec<Thing>> = Vec::new();
         for noun in what {
             found.push(self.find(noun, true)?);
@@ -311,6 +351,10 @@ impl Knowledge<'_> {
         }
         let list = self.list(things);
         let general = noun.head.anything || noun.head.kinds.is_empty();
+        // «есть 6 стульев без вещей»
+        if self.is_russian() && self.is_having(noun) && !general {
+            return format!("есть {} {place}: {list}", self.counted(noun, things.len()));
+        }
         let unplaced = place.is_empty() && things.len() == 1;
         let room = things.first().filter(|_| unplaced).and_then(|t| self.in_room(*t));
         let room = room

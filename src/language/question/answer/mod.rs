@@ -2,7 +2,9 @@
 
 mod claim;
 mod compare;
+mod each;
 mod found;
+mod part;
 mod place;
 mod property;
 mod senses;
@@ -82,11 +84,12 @@ impl Knowledge<'_> {
                 self.closer(what, near, than, *closeness)?
             }
             Query::WhichMore { of, extreme, to } => self.which_more(of, *extreme, to.as_ref())?,
-            Query::Larger { what, than, extreme, to } => {
-                self.larger(what, than, *extreme, to.as_ref())?
+            Query::Larger { what, than, extreme, to, by } => {
+                self.larger(what, than, *extreme, to.as_ref(), *by)?
             }
             Query::MoreOf { of, extreme, asks } => self.more_of(of, *extreme, *asks)?,
             Query::Same { property, of } => self.same(property, of)?,
+            Query::SameAll { property, of } => self.same_all(property, of)?,
             Query::Free(noun) => self.free(noun)?,
             Query::Place { use_for, what, within } => {
                 self.usable(*use_for, what.as_ref(), within)?
@@ -94,6 +97,8 @@ impl Knowledge<'_> {
             Query::LastSeen(noun) => self.last_seen(noun)?,
             Query::Before(noun) => self.before(noun)?,
             Query::WhereAreYou(detail) => self.where_are_you(*detail),
+            Query::WhereAmI => self.where_am_i(),
+            Query::Several(queries) => return self.several(queries),
             Query::Help => self.help(),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::WhatDoYouHold => self.what_do_you_hold(),
@@ -113,6 +118,12 @@ impl Knowledge<'_> {
             number: draft.number,
             topic,
         })
+    }
+
+    /// The answers of several questions, one after the other.
+    fn several(&self, queries: &[Query]) -> Result<Answer, Doubt> {
+        let answers = queries.iter().map(|q| self.answer(q)).collect::<Result<Vec<_>, _>>()?;
+        Ok(Answer::joined(answers, self.language))
     }
 
     fn fact(&self, rel: Rel, x: Thing, y: Thing) -> Option<Fact> {

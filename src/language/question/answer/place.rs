@@ -344,14 +344,45 @@ impl Knowledge<'_> {
 
     /// What a thing stands on, lies in, is beside: the other end of a relation.
     pub(super) fn anchor(&self, rel: Rel, of: &Noun, what: Option<&Noun>) -> Result<Draft, Doubt> {
-        let thing = self.one(of)?;
+        let all = self.definite(of)?;
+        let mut drafts: Vec<Draft> = Vec::new();
+        for &thing in &all {
+            drafts.push(self.anchor_of(rel, thing, what)?);
+        }
+        if all.len() > 1 {
+            drafts.retain(|draft| draft.said == Some(Said::Found));
+            if drafts.is_empty() {
+                let plain = self.say_where(of)?;
+                return Ok(Draft { said: Some(Said::Nothing), ..plain });
+            }
+        }
+        let mut drafts = drafts.into_iter();
+        let Some(mut whole) = drafts.next() else { return Err(self.none_such(of)) };
+        for draft in drafts {
+            whole.text = format!("{}; {}", whole.text, draft.text);
+            whole.facts.extend(draft.facts);
+            whole.topic.extend(draft.topic);
+            whole.things.extend(draft.things);
+        }
+        whole.things.sort_unstable();
+        whole.things.dedup();
+        Ok(whole)
+    }
+
+    fn anchor_of(&self, rel: Rel, thing: Thing, what: Option<&Noun>) -> Result<Draft, Doubt> {
         let mut found = match rel {
             Rel::On => {
                 let id = thing.replica();
                 let support = id.and_then(|id| self.relations.support_of(id));
                 support.map(|s| Thing::Entity(Entity::Replica(s))).into_iter().collect()
             }
+            Rel::In if what.is_some_and(|w| self.is_of_storeys(w)) => {
+                let area = self.area_of(thing);
+                let map = area.and_then(|a| self.world.placement(a)).map(|(m, _)| m);
+                map.map(|m| Thing::Entity(Entity::Map(m))).into_iter().collect()
+            }
             Rel::In => self.holder(thing),
+            Rel::Between => self.ends_around(thing),
             Rel::From | Rel::Of | Rel::To => self.related(Rel::Near, thing),
             rel => self.related_of(rel, thing),
         };
@@ -362,6 +393,14 @@ impl Knowledge<'_> {
             found.retain(|t| kinds.contains(t));
         }
         let facts: Vec<Fact> = found.iter().filter_map(|y| self.fact(rel, thing, *y)).collect();
+        if let (Thing::Robot, [only]) = (thing, &found[..]) {
+            let place = self.place(Rel::In, &[*only]);
+            let text = match self.is_russian() {
+                true => format!("я нахожусь {place}"),
+                false => format!("I am {place}"),
+            };
+            return Ok(Draft::new(Said::Found, text).with(found));
+        }
         let name = self.name(thing);
         let verb = self.is(&[thing]);
         if found.is_empty() {
@@ -375,10 +414,14 @@ impl Knowledge<'_> {
                     format!("{name} {verb} on the floor{room}")
                 }
                 (false, true) => {
-                    format!("такого на карте нет: {}", self.where_one(thing, &mut Vec::new()))
+                    format!("{}: {}", self.nothing_so(rel), self.where_one(thing, &mut Vec::new()))
                 }
                 (false, false) => {
-                    format!("there is no such thing: {}", self.where_one(thing, &mut Vec::new()))
+                    format!(
+                        "there is nothing that it is {}: {}",
+                        self.place(rel, &[Thing::Robot]).replace(" me", ""),
+                        self.where_one(thing, &mut Vec::new())
+                    )
                 }
             };
             let said = if floor { Said::Found } else { Said::Nothing };
@@ -392,6 +435,51 @@ impl Knowledge<'_> {
         let frame = self.frame_words(rel, found[0]);
         let text = format!("{name} {verb} {}{frame}", self.place(shown, &found));
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) }.about(&[thing]))
+    }
+
+    /// «ни за чем»: of a thing that stands so to nothing.
+    fn nothing_so(&self, rel: Rel) -> &'static str {
+        match rel {
+            Rel::In => "ни в чём",
+            Rel::On => "ни на чём",
+            Rel::Under => "ни под чем",
+            Rel::Above => "ни над чем",
+            Rel::Behind => "ни за чем",
+            Rel::InFrontOf => "ни перед чем",
+            Rel::Between => "ни между чем",
+            Rel::NextTo | Rel::Near | Rel::At => "рядом ничего нет",
+            Rel::LeftOf => "ни слева от чего",
+            Rel::RightOf => "ни справа от чего",
+            Rel::Leaning => "ни к чему не прислонено",
+            _ => "такого на карте нет",
+        }
+    }
+
+    fn is_of_storeys(&self, noun: &Noun) -> bool {
+        let storeys = crate::language::question::lexicon::Extension::Storeys;
+        noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == storeys)
+    }
+
+    /// The two nearest things between which a thing stands.
+    fn ends_around(&self, thing: Thing) -> Vec<Thing> {
+        let Some(id) = thing.replica() else { return Vec::new() };
+        let mut near: Vec<(f64, Thing)> = self
+            .related(Rel::Near, thing)
+            .into_iter()
+            .filter(|t| t.replica().is_some_and(|r| !self.has_trait(r, "portable")))
+            .filter_map(|t| Some((self.distance(thing, t)?, t)))
+            .collect();
+        near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        near.truncate(12);
+        for (n, (_, b)) in near.iter().enumerate() {
+            for (_, a) in &near[..n] {
+                let (Some(x), Some(y)) = (a.replica(), b.replica()) else { continue };
+                if self.relations.standing_between(x, y).contains(&id) {
+                    return vec![*a, *b];
+                }
+            }
+        }
+        Vec::new()
     }
 
     /// The nearest thing that holds another, else its room.

@@ -100,7 +100,12 @@ impl Knowledge<'_> {
                 self.form(thing, Case::Genitive),
                 match property {
                     Property::State => "указано",
-                    Property::Surface | Property::Shape | Property::Orientation => "указана",
+                    Property::Surface
+                    | Property::Shape
+                    | Property::Orientation
+                    | Property::Price
+                    | Property::Temperature
+                    | Property::Brand => "указана",
                     _ => "указан",
                 }
             ),

@@ -4,6 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::lower_first;
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::report::Detail;
@@ -89,6 +90,16 @@ impl Knowledge<'_> {
         let said = if text.is_some() { Said::Found } else { Said::Unknown };
         let room = self.area_of(Thing::Robot).map(|a| Thing::Entity(Entity::Area(a)));
         Draft::new(said, text.unwrap_or_else(unknown)).with(room.into_iter().collect())
+    }
+
+    /// Of the place of the person who asks the robot knows nothing.
+    pub(super) fn where_am_i(&self) -> Draft {
+        let own = self.where_are_you(Detail::default());
+        let text = match self.is_russian() {
+            true => format!("где вы, я не знаю; сам я вот где: {}", lower_first(&own.text)),
+            false => format!("where you are I do not know; as for me: {}", own.text),
+        };
+        Draft { text, said: Some(Said::Unknown), ..own }
     }
 
     /// What the robot is, and what it can be asked and told, by examples of the map.

@@ -77,6 +77,35 @@ impl Knowledge<'_> {
                     }
                 }
             }
+            (None, None) if dimension == Dimension::Height && !self.heights(thing).is_empty() => {
+                let heights = self.heights(thing);
+                let (low, high) = (heights[0], heights[heights.len() - 1]);
+                let said = match high - low < 1.0 {
+                    true => length(high, lang),
+                    false => match self.is_russian() {
+                        true => format!("от {} до {}", length(low, lang), length(high, lang)),
+                        false => format!("{} to {}", length(low, lang), length(high, lang)),
+                    },
+                };
+                let text = match self.is_russian() {
+                    true => {
+                        format!("высота помещений {} – {said}", self.form(thing, Case::Genitive))
+                    }
+                    false => format!("the rooms of {name} are {said} high"),
+                };
+                (text, high)
+            }
+            (None, None) if self.whole_area(thing).is_some() && dimension_is_flat(dimension) => {
+                let whole = self.whole_area(thing).unwrap_or_default();
+                let said = area(whole, lang);
+                let text = match self.is_russian() {
+                    true => {
+                        format!("площадь помещений {} – {said}", self.form(thing, Case::Genitive))
+                    }
+                    false => format!("the rooms of {name} have {said} of floor"),
+                };
+                (text, whole)
+            }
             (None, None) => {
                 let text = match self.is_russian() {
                     true => {
@@ -88,6 +117,24 @@ impl Knowledge<'_> {
             }
         };
         Ok(Draft::new(Said::Found, text).with(vec![thing]).number(number))
+    }
+
+    /// Heights of the rooms of a storey, the lowest first, cm.
+    fn heights(&self, thing: Thing) -> Vec<f64> {
+        let Thing::Entity(Entity::Map(id)) = thing else { return Vec::new() };
+        let items = self.world.maps.get(&id).into_iter().flat_map(|m| &m.items);
+        let rooms = items.filter_map(|item| self.relations.area_extent(item.area));
+        let mut heights: Vec<f64> = rooms.map(|e| e.height).collect();
+        heights.sort_by(f64::total_cmp);
+        heights
+    }
+
+    /// The floor of all rooms of a storey together, cm².
+    fn whole_area(&self, thing: Thing) -> Option<f64> {
+        let Thing::Entity(Entity::Map(id)) = thing else { return None };
+        let items = &self.world.maps.get(&id)?.items;
+        let rooms = items.iter().filter_map(|item| self.relations.area_extent(item.area));
+        Some(rooms.map(|e| e.base).sum())
     }
 
     /// «высота Стола – 75 см», "the table is 75 cm high", with the number.
@@ -194,6 +241,10 @@ impl Knowledge<'_> {
         };
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(vec![thing]) }.number(number))
     }
+}
+
+fn dimension_is_flat(dimension: Dimension) -> bool {
+    matches!(dimension, Dimension::All | Dimension::Area)
 }
 
 /// «двух полок», as after «состоит из».

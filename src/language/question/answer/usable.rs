@@ -50,9 +50,25 @@ impl Knowledge<'_> {
         what: Option<&Noun>,
         within: &[Restriction],
     ) -> Result<Draft, Doubt> {
+        if let Some(own) = self.seat_itself(use_for, within)? {
+            return Ok(own);
+        }
         let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
         noun.head.anything = true;
-        noun.restrictions = within.to_vec();
+        // «положить на стол»: among the tables, not what lies on them.
+        let (on, within): (Vec<&Restriction>, Vec<&Restriction>) = within.iter().partition(|r| {
+            use_for == Use::Put
+                && r.rel == Rel::On
+                && r.anchors.iter().all(|a| {
+                    self.find(a, true).is_ok_and(|f| f.iter().all(|t| t.replica().is_some()))
+                })
+        });
+        if let [Restriction { anchors, .. }] = &on[..]
+            && let [anchor] = &anchors[..]
+        {
+            noun = Noun { plural: true, indefinite: true, ..anchor.clone() };
+        }
+        noun.restrictions.extend(within.into_iter().cloned());
         let all = self.find(&noun, false)?;
         let thing = match what {
             Some(what) if use_for == Use::Put => {
@@ -89,8 +105,14 @@ impl Knowledge<'_> {
                 found.into_iter().filter(empty).collect()
             }
         };
-        let place = self.restrictions(&noun);
+        let place = self.restrictions(&noun).trim().to_owned();
         let text = match (use_for, found.is_empty(), self.is_russian()) {
+            (Use::Put, true, true) if !on.is_empty() => {
+                format!("нет, {} для этого не хватает места", self.general_on(&noun))
+            }
+            (Use::Put, true, false) if !on.is_empty() => {
+                format!("no, there is not enough room {}", self.general_on(&noun))
+            }
             (_, true, true) => format!("{place} такого места на карте нет"),
             (_, true, false) => format!("the map has no such place {place}"),
             (Use::Sit, _, true) => format!("сесть можно {}", self.seats(&found)),
@@ -111,6 +133,67 @@ impl Knowledge<'_> {
         let facts = facts.collect();
         let said = if found.is_empty() { Said::Nothing } else { Said::Found };
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
+    }
+
+    /// «на Столе-1», "on the tables"
+    fn general_on(&self, noun: &Noun) -> String {
+        let anchors = vec![noun.clone()];
+        let place = Restriction { rel: Rel::On, anchors, negated: false };
+        self.restrictions(&Noun { restrictions: vec![place], ..Noun::default() })
+    }
+
+    /// «Можно ли сесть на кровать?» asks of the bed itself.
+    fn seat_itself(&self, use_for: Use, within: &[Restriction]) -> Result<Option<Draft>, Doubt> {
+        let (wanted, russian, english) = match use_for {
+            Use::Sit => ("seat", "сесть", "sit on"),
+            Use::Lie => ("bed", "лечь", "lie down on"),
+            Use::Put => return Ok(None),
+        };
+        let [Restriction { rel: Rel::On | Rel::In, anchors, negated: false }] = within else {
+            return Ok(None);
+        };
+        let [anchor] = &anchors[..] else { return Ok(None) };
+        let found = self.find(anchor, true)?;
+        if found.is_empty() || found.iter().any(|t| t.replica().is_none()) {
+            return Ok(None);
+        }
+        let found = match found.len() {
+            1 => found,
+            _ => self.definite(anchor)?,
+        };
+        let fits = |t: &Thing| t.replica().is_some_and(|id| self.has_trait(id, wanted));
+        let bears = |t: &Thing| t.replica().is_some_and(|id| self.relations.bears_something(id));
+        let (good, bad): (Vec<Thing>, Vec<Thing>) =
+            found.iter().copied().partition(|t| fits(t) && !bears(t));
+        let text = match (good.is_empty(), self.is_russian()) {
+            (false, true) => format!("да, {russian} можно {}", self.seats(&good)),
+            (false, false) => format!("yes, one can {english} {}", self.list(&good)),
+            (true, is_russian) if bad.iter().all(fits) => {
+                let on_it = self.related(Rel::On, bad[0]);
+                match is_russian {
+                    true => format!(
+                        "нет, {} {} {}",
+                        self.place(Rel::On, &bad[..1]),
+                        self.is(&on_it),
+                        self.list(&on_it)
+                    ),
+                    false => format!(
+                        "no, {} {} {}",
+                        self.list(&on_it),
+                        self.is(&on_it),
+                        self.place(Rel::On, &bad[..1])
+                    ),
+                }
+            }
+            (true, true) => format!("нет, {} – не место для этого", self.list(&bad)),
+            (true, false) => format!("no, {} is not made for that", self.list(&bad)),
+        };
+        let facts = good
+            .iter()
+            .map(|t| Fact::holding("HAS_TRAIT", vec![self.symbol(*t), wanted.to_owned()]));
+        let facts = facts.collect();
+        let said = if good.is_empty() { Said::No } else { Said::Yes };
+        Ok(Some(Draft { facts, ..Draft::new(said, text).with(found) }))
     }
 
     /// «на Диван-1, на Кресло-1 или на Стул-2»

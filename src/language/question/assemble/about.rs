@@ -4,7 +4,7 @@
 
 use super::Frame;
 use super::Spot;
-use crate::language::question::query::{Noun, Query, Rel, Restriction, Thing, Use};
+use crate::language::question::query::{Filter, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::Property;
 use crate::language::question::vocabulary::Mark;
 use crate::language::report::Detail;
@@ -19,6 +19,19 @@ impl Frame<'_, '_> {
         }
         if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::WhereAreYou(Detail::Heading));
+        }
+        // «Где я?», "Which floor am I on?"
+        let me = self.me && !self.you && self.spots.is_empty() && !self.has(Mark::Can);
+        let nowhere =
+            self.nouns.iter().all(|s| self.is_area(&s.noun) && s.noun.head.named.is_empty());
+        let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
+        if me && asks && nowhere && !self.has(Mark::HowGet) && !self.has(Mark::Move) {
+            return Some(Query::WhereAmI);
+        }
+        let storey = self.nouns.iter().any(|s| self.is_storeys(&s.noun));
+        if self.you && self.asks() && storey && self.nouns.len() == 1 {
+            let of = super::things(vec![Thing::Robot], "you");
+            return Some(Query::Anchor { rel: Rel::In, of, what: self.first() });
         }
         let rooms_only = self.nouns.iter().all(|s| self.is_rooms(&s.noun));
         let others = !rooms_only || !self.spots.is_empty();
@@ -66,6 +79,9 @@ impl Frame<'_, '_> {
         if !self.has(Mark::Free) {
             return None;
         }
+        if let Some(query) = self.which_free() {
+            return Some(query);
+        }
         let place = self.spots.first().map(|s| s.nouns[0].clone()).or_else(|| self.first())?;
         if self.is_area(&place) && self.spots.len() < 2 {
             // "free chairs in the kitchen", «свободно ли в комнате» are no questions about a top.
@@ -82,8 +98,48 @@ impl Frame<'_, '_> {
         Some(Query::Free(place))
     }
 
+    /// «Какой стул свободен?», "Is any chair free?": which have nothing on them.
+    fn which_free(&self) -> Option<Query> {
+        let value = self.lexicon.values.meaning("пустой")?;
+        let [only] = &self.nouns[..] else { return None };
+        let noun = &only.noun;
+        let kind = noun.head.named.is_empty() && !noun.head.kinds.is_empty();
+        let which = self.has(Mark::Which) && self.follows_which(only.at);
+        let asked = which || noun.plural || noun.indefinite || self.has(Mark::HowMany);
+        let in_rooms = self.spots.iter().all(|s| self.is_area(&s.nouns[0]));
+        let more = self.marks.iter().any(|(m, _)| matches!(m, Mark::More(_) | Mark::Best(_)));
+        if more || !kind || !asked || !in_rooms || self.is_area(noun) {
+            return None;
+        }
+        let mut noun = self.with_rest(noun.clone(), &[]);
+        noun.filters.push(Filter { value, negated: self.negated });
+        noun.plural = true;
+        noun.indefinite = true;
+        Some(match () {
+            () if self.has(Mark::HowMany) => Query::Count(noun),
+            () if which => Query::Find(noun),
+            () if self.asks() || self.has(Mark::List) => Query::Find(noun),
+            () if self.has(Mark::Where) => Query::Where(noun),
+            () => Query::Exists { what: vec![noun], either: false, negated: false },
+        })
+    }
+
     pub(super) fn history(&self) -> Option<Query> {
         let noun = || self.first().map(|n| self.with_rest(n, &[]));
+        // «Когда переставили диван?», "Did anybody move the medicine?"
+        let asked_move = self.has(Mark::Move)
+            && self.spots.is_empty()
+            && !self.has(Mark::How)
+            && !self.has(Mark::Can)
+            && !self.has(Mark::HowMany)
+            && !self.nouns.is_empty()
+            && self.nouns.iter().all(|s| !self.is_area(&s.noun) && !self.is_doors(&s.noun))
+            && !self.asks()
+            && !self.has(Mark::Where)
+            && !self.has(Mark::Whither);
+        if self.has(Mark::Moved) || asked_move {
+            return noun().map(Query::Before);
+        }
         if self.has(Mark::When) || self.has(Mark::LastSeen) {
             return noun().map(Query::LastSeen);
         }
@@ -119,6 +175,10 @@ impl Frame<'_, '_> {
 
     pub(super) fn property(&self) -> Option<Query> {
         let (property, at) = self.property.clone()?;
+        // «Одного ли цвета стулья?» is for another rule.
+        if self.has(Mark::Same) {
+            return None;
+        }
         if !self.values.is_empty() && !self.has(Mark::Or) {
             return None;
         }

@@ -109,6 +109,7 @@ impl Frame<'_, '_> {
             }
         }
         chained.extend(holder.restrictions);
+        let denied = |r: &Restriction| r.negated && matches!(r.rel, Rel::Has | Rel::Bears);
         let lead = self.has(Mark::Lead) || self.is_doors(&subject);
         for mut restriction in chained {
             if self.is_building(&restriction.anchors[0]) {
@@ -120,7 +121,7 @@ impl Frame<'_, '_> {
             {
                 restriction.rel = Rel::To;
             }
-            restriction.negated = false;
+            restriction.negated = denied(&restriction);
             claims.push(Claim::Related(restriction));
         }
         for (value, _, _) in &self.values {
@@ -138,6 +139,12 @@ impl Frame<'_, '_> {
         }
         if claims.is_empty() {
             return None;
+        }
+        // "Rooms without a bed?" is a description.
+        let having = |claim: &Claim| matches!(claim, Claim::Related(r) if matches!(r.rel, Rel::Has | Rel::Bears));
+        let asks_for = subject.plural && subject.head.named.is_empty() && !self.has(Mark::Be);
+        if asks_for && claims.iter().all(having) {
+            return Some(Query::Find(Noun { indefinite: true, ..self.with_rest(subject, &[]) }));
         }
         // "Is any door open?" asks whether there is an open one.
         if subject.indefinite && subject.head.named.is_empty() && subject.head.things.is_none() {

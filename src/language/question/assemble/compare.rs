@@ -7,7 +7,7 @@ use super::Spot;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{
-    Best, Closeness, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
+    Best, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
 };
 use crate::language::question::vocabulary::Mark;
 
@@ -153,6 +153,18 @@ impl Frame<'_, '_> {
                     than,
                     extreme,
                     to: Some(placed(near)),
+                    by: self.asks_by_how_much(),
+                });
+            }
+            // "Is the sofa nearer to the TV or to the desk?"
+            if let ([what], [ends]) = (&self.nouns[..], &anchors[..])
+                && ends.either
+                && let [a, b] = &ends.nouns[..]
+            {
+                return Some(Query::WhichMore {
+                    of: [placed(a.clone()), placed(b.clone())],
+                    extreme,
+                    to: Some(placed(what.noun.clone())),
                 });
             }
             let [.., first, second] = &self.nouns[..] else { return None };
@@ -167,6 +179,12 @@ impl Frame<'_, '_> {
             && let Some((property, _)) = &self.property
         {
             let mut of: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();
+            if let [all] = &of[..]
+                && all.plural
+            {
+                let of = self.with_rest(all.clone(), &[]);
+                return Some(Query::SameAll { property: property.clone(), of });
+            }
             of.extend(self.spots.iter().flat_map(|s| s.nouns.clone()));
             let [first, second] = <[Noun; 2]>::try_from(of).ok()?;
             return Some(Query::Same { property: property.clone(), of: [first, second] });
@@ -177,7 +195,13 @@ impl Frame<'_, '_> {
         if self.asks() || (self.has(Mark::Or) && than.is_none()) {
             return Some(Query::WhichMore { of: [what, other], extreme, to: None });
         }
-        Some(Query::Larger { what, than: other, extreme, to: None })
+        let by = self.asks_by_how_much();
+        Some(Query::Larger { what, than: other, extreme, to: None, by })
+    }
+
+    /// «На сколько сантиметров шкаф выше комода?», "How much taller …"
+    fn asks_by_how_much(&self) -> bool {
+        self.has(Mark::HowMany) || self.has(Mark::HowFar)
     }
 
     pub(super) fn size(&self) -> Option<Query> {
@@ -185,7 +209,15 @@ impl Frame<'_, '_> {
             Mark::HowBig(dimension) => Some(*dimension),
             _ => None,
         })?;
-        let of = self.first().or_else(|| self.spot_noun(&[Rel::NextTo, Rel::Of, Rel::In]))?;
+        let building = || {
+            // "What is the total floor area?"
+            let kinds = self.lexicon.kind_of(&Extension::Building).into_iter().collect();
+            let head = Head { kinds, ..Head::default() };
+            matches!(dimension, Dimension::Area | Dimension::Height)
+                .then(|| Noun { head, ..Noun::default() })
+        };
+        let of = self.first().or_else(|| self.spot_noun(&[Rel::NextTo, Rel::Of, Rel::In]));
+        let of = of.or_else(building)?;
         let without: Vec<usize> = match self.nouns.is_empty() {
             true => self.spots.iter().take(1).map(|s| s.at).collect(),
             false => Vec::new(),

@@ -33,6 +33,7 @@ impl<'s, 't> Frame<'s, 't> {
             values: Vec::new(),
             property: None,
             you: false,
+            me: false,
             there: None,
             negated: false,
             except: Vec::new(),
@@ -43,8 +44,13 @@ impl<'s, 't> Frame<'s, 't> {
             match item {
                 Item::Mark(Mark::Not) => {
                     not = true;
-                    frame.negated = true;
-                    frame.marks.push((Mark::Not, at));
+                    // «комната без окон» denies nothing of the question.
+                    let without =
+                        matches!(items.get(at + 1), Some(Item::Place { rel: Rel::Has, .. }));
+                    if !without {
+                        frame.negated = true;
+                        frame.marks.push((Mark::Not, at));
+                    }
                 }
                 Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
@@ -56,6 +62,11 @@ impl<'s, 't> Frame<'s, 't> {
                     }
                     let first = frame.nouns.is_empty();
                     let negated = not && !first && std::mem::take(&mut not);
+                    // "Is there no chair in the kitchen?", «Нет стула в кухне?» deny the chair, not its place.
+                    let denied = at > 0 && items[at - 1] == Item::Mark(Mark::Not);
+                    if first && denied && (frame.has(Mark::Exists) || !phrase.nominative) {
+                        not = false;
+                    }
                     let nominative = phrase.nominative;
                     frame.nouns.push(Subject { noun, at, negated, nominative });
                 }
@@ -73,6 +84,11 @@ impl<'s, 't> Frame<'s, 't> {
                         // «у меня есть …», "for me" say nothing of a place.
                         if me && matches!(rel, Rel::NextTo | Rel::To | Rel::Of) {
                             continue;
+                        }
+                        // The robot does not know where the person stands.
+                        if me {
+                            let word = sentence.said(&words).to_owned();
+                            return Err(Doubt::NoReferent { word });
                         }
                         return Err(Doubt::not_understood(sentence.said(&words)));
                     }
@@ -159,7 +175,10 @@ impl<'s, 't> Frame<'s, 't> {
                 self.there = noun;
                 Ok(None)
             }
-            (_, Some(_)) => Ok(None),
+            (_, Some(_)) => {
+                self.me = true;
+                Ok(None)
+            }
             _ => Ok(Some(phrase.noun.clone())),
         }
     }

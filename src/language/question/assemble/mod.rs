@@ -31,10 +31,88 @@ pub(super) fn query(
         return Err(Doubt::Empty);
     }
     let frame = Frame::of(sentence, lexicon, &items, referent)?;
+    if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
+        return Ok(Query::Several(queries));
+    }
     if let Some(query) = frame.read() {
         return Ok(query);
     }
     Err(frame.not_understood(&items))
+}
+
+/// "What colour are the sofa and the armchair?" asks of each by itself.
+fn each_of(
+    sentence: &Sentence<'_>,
+    lexicon: &Lexicon,
+    items: &[Item],
+    frame: &Frame<'_, '_>,
+    referent: &Referent<'_>,
+) -> Option<Vec<Query>> {
+    // What compares or joins two things needs both.
+    let together = |mark: &Mark| {
+        matches!(
+            mark,
+            Mark::Lead
+                | Mark::Nearer(_)
+                | Mark::More(_)
+                | Mark::Same
+                | Mark::HowFar
+                | Mark::HowGet
+                | Mark::Exists
+                | Mark::Have
+                | Mark::Best(_)
+                | Mark::BestTo(_)
+                | Mark::Why
+                | Mark::WhyNot
+        )
+    };
+    if frame.marks.iter().any(|(mark, _)| together(mark)) {
+        return None;
+    }
+    let at = items.windows(3).position(|window| {
+        matches!(window, [Item::Noun(a), Item::Mark(Mark::And), Item::Noun(b)]
+            if a.person.is_none() && b.person.is_none())
+    })?;
+    // Lists: «стол, стул и диван».
+    let mut nouns = vec![at, at + 2];
+    while nouns[0] > 0
+        && matches!((&items[nouns[0] - 1], &items[nouns[0]]), (Item::Noun(a), Item::Noun(b))
+            if sentence.comma_between(a.words.end, b.words.start))
+    {
+        nouns.insert(0, nouns[0] - 1);
+    }
+    let plural = |n: &usize| matches!(&items[*n], Item::Noun(p) if p.noun.plural);
+    if nouns.iter().all(plural) {
+        return None;
+    }
+    let mut queries = Vec::new();
+    for own in &nouns {
+        let kept =
+            items.iter().enumerate().filter(|(n, _)| n == own || !(*n >= nouns[0] && *n <= at + 2));
+        let kept: Vec<Item> = kept.map(|(_, item)| item.clone()).collect();
+        let query = Frame::of(sentence, lexicon, &kept, referent).ok()?.read()?;
+        let single = matches!(
+            query,
+            Query::Where(_)
+                | Query::RoomOf(_)
+                | Query::Property { .. }
+                | Query::Size { .. }
+                | Query::Count(_)
+                | Query::Describe(_)
+                | Query::LastSeen(_)
+                | Query::Before(_)
+                | Query::Parts(_)
+                | Query::Holds { .. }
+                | Query::Choice { .. }
+                | Query::Anchor { .. }
+                | Query::Free(_)
+        );
+        if !single {
+            return None;
+        }
+        queries.push(query);
+    }
+    Some(queries)
 }
 
 /// A sentence that is a description and nothing more: «красная», «та, что на столе».
@@ -104,6 +182,8 @@ struct Frame<'s, 't> {
     property: Option<(Property, usize)>,
     /// The robot is spoken to.
     you: bool,
+    /// The person who asks is spoken of.
+    me: bool,
     /// «там», "there"
     there: Option<Noun>,
     negated: bool,
@@ -134,7 +214,9 @@ impl Frame<'_, '_> {
             .or_else(|| self.made_of())
             .or_else(|| self.property())
             .or_else(|| self.leads())
+            .or_else(|| self.joined())
             .or_else(|| self.where_is())
+            .or_else(|| self.occupied())
             .or_else(|| self.which())
             .or_else(|| self.listed())
             .or_else(|| self.exists())

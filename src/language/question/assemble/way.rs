@@ -5,7 +5,9 @@
 use super::Frame;
 use super::Spot;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing};
+use crate::language::question::query::{
+    Best, Claim, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
+};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -14,9 +16,30 @@ impl Frame<'_, '_> {
         if self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet) {
             return None;
         }
-        let how = self.has(Mark::HowGet)
-            || (self.has(Mark::How) && (self.has(Mark::Move) || self.has(Mark::Lead)));
-        let can = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
+        if far && self.marks.iter().any(|(m, _)| matches!(m, Mark::More(_))) {
+            return None;
+        }
+        let goes = self.has(Mark::Move) || self.has(Mark::Lead);
+        // «Через какие комнаты идти из спальни в ванную?», «Сколько дверей пройти до спальни?»
+        let through = self.links.iter().any(|(rel, _)| *rel == Rel::Through)
+            && self.nouns.iter().all(|s| self.is_rooms(&s.noun));
+        let passed = self.has(Mark::HowMany)
+            && self.has(Mark::Move)
+            && self.nouns.iter().all(|s| self.is_doors(&s.noun));
+        let by_rooms = self.asks() && through && goes;
+        if by_rooms || passed {
+            let to = self.spot_noun(&[Rel::To, Rel::In, Rel::On])?;
+            let from = self.spot_noun(&[Rel::From]);
+            return Some(Query::Way { from, to, detail: self.detail() });
+        }
+        let how = self.has(Mark::HowGet) || (self.has(Mark::How) && goes);
+        if how && let Some(out) = self.way_out() {
+            return Some(out);
+        }
+        let can = self.has(Mark::Can) && goes;
+        if can && self.has(Mark::Directly) {
+            return self.joined();
+        }
         if !(far || how || can) {
             return None;
         }
@@ -72,11 +95,53 @@ impl Frame<'_, '_> {
             _ => return None,
         };
         let from = from.filter(|noun| !robot(noun));
+        // Of several ways out the nearest is meant.
+        let mut to = to;
+        if self.is_exits(&to) && to.best.is_none() {
+            to.best = Some(Best { extreme: Extreme::Nearest, anchor: None });
+        }
         Some(match () {
             () if far => Query::Distance { from, to },
             () if can && !how => Query::CanReach { from, to },
             () => Query::Way { from, to, detail: self.detail() },
         })
+    }
+
+    fn is_exits(&self, noun: &Noun) -> bool {
+        let exits = |k: &_| self.lexicon.kind(*k).extension == Extension::Exits;
+        noun.head.named.is_empty() && noun.head.kinds.iter().any(exits)
+    }
+
+    /// «Как выйти из квартиры?»: to the nearest way out.
+    fn way_out(&self) -> Option<Query> {
+        let nouns = self.nouns.iter().map(|s| &s.noun);
+        let spots = self.spots.iter().flat_map(|s| &s.nouns);
+        let all: Vec<&Noun> = nouns.chain(spots).collect();
+        let out = !all.is_empty() && all.iter().all(|noun| self.is_building(noun));
+        if !out || self.spots.iter().any(|s| s.rel != Rel::From) {
+            return None;
+        }
+        let kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
+        let best = Some(Best { extreme: Extreme::Nearest, anchor: None });
+        let to = Noun { head: Head { kinds, ..Head::default() }, best, ..Noun::default() };
+        Some(Query::Way { from: None, to, detail: self.detail() })
+    }
+
+    /// «Соединена ли спальня с кухней?», "Are the hall and the kitchen connected?", «Можно ли сразу попасть …»
+    pub(super) fn joined(&self) -> Option<Query> {
+        let directly = self.has(Mark::Directly) && self.has(Mark::Can);
+        let doors = self.nouns.iter().any(|s| self.is_doors(&s.noun));
+        if !(directly || self.has(Mark::Lead)) || self.asks() || self.has(Mark::Where) || doors {
+            return None;
+        }
+        let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun)).map(|s| s.noun.clone());
+        let mut rooms: Vec<Noun> = rooms.collect();
+        let places = self.spots.iter().flat_map(|s| &s.nouns).filter(|n| self.is_area(n));
+        rooms.extend(places.cloned());
+        let [subject, other] = <[Noun; 2]>::try_from(rooms).ok()?;
+        let place = Restriction { rel: Rel::NextTo, anchors: vec![other], negated: false };
+        let claims = vec![Claim::Related(place)];
+        Some(Query::Holds { subject, claims, negated: self.negated })
     }
 
     pub(super) fn leads(&self) -> Option<Query> {
@@ -141,7 +206,14 @@ impl Frame<'_, '_> {
             let anchor = room.map(|s| s.noun.clone()).or_else(|| {
                 self.spots.iter().find(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone())
             })?;
-            return Some(Query::Find(self.rooms_near(anchor)));
+            let mut rooms = self.rooms_near(anchor);
+            if self.negated {
+                // «Какие комнаты не соединены с коридором?»: a room is not joined to itself.
+                let [place] = &mut rooms.restrictions[..] else { return None };
+                place.negated = true;
+                rooms.except.extend(place.anchors.iter().cloned());
+            }
+            return Some(Query::Find(rooms));
         }
         None
     }

@@ -4,7 +4,8 @@
 
 use super::Frame;
 use super::Subject;
-use crate::language::question::query::{Filter, Noun, Query, Rel, Restriction};
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -13,6 +14,10 @@ impl Frame<'_, '_> {
         let at = at?;
         if self.has(Mark::Parts) {
             return self.made_of();
+        }
+        // "How much does the sofa cost?"
+        if self.property.is_some() && self.nouns.len() == 1 {
+            return None;
         }
         // The noun right after «сколько» is counted, wherever it stands; else the first.
         let counted = self.nouns.iter().find(|s| s.at > at).or_else(|| self.nouns.first());
@@ -70,8 +75,17 @@ impl Frame<'_, '_> {
             let room = self.spots.iter().find(|s| self.is_area(&s.nouns[0]))?;
             return Some(Query::Find(self.rooms_near(room.nouns[0].clone())));
         }
-        if !self.has(Mark::Where) && !self.has(Mark::Whither) {
+        let taken = self.has(Mark::Took) || (self.has(Mark::Who) && self.has(Mark::Have));
+        if !self.has(Mark::Where) && !self.has(Mark::Whither) && !taken {
             return None;
+        }
+        if let (true, Some(lacked)) = (self.negated && !taken, self.nouns.first())
+            && !self.is_area(&lacked.noun)
+        {
+            // «Где нет стульев?»
+            let kinds = self.lexicon.kind_of(&Extension::Rooms).into_iter().collect();
+            let head = Head { kinds, ..Head::default() };
+            return Some(self.rooms_with(&Noun { head, ..Noun::default() }));
         }
         let mut nouns = self.nouns.iter();
         let Some(first) = nouns.next() else {
@@ -109,6 +123,19 @@ impl Frame<'_, '_> {
         })
     }
 
+    /// «Чем занят стол?»
+    pub(super) fn occupied(&self) -> Option<Query> {
+        if !self.has(Mark::OccupiedBy) {
+            return None;
+        }
+        let place = self.with_rest(self.first()?, &[]);
+        let mut noun = Noun { plural: true, ..Noun::default() };
+        noun.head.anything = true;
+        let anchors = vec![place];
+        noun.restrictions.push(Restriction { rel: Rel::On, anchors, negated: false });
+        Some(Query::Find(noun))
+    }
+
     pub(super) fn which(&self) -> Option<Query> {
         if !self.asks() {
             return None;
@@ -128,6 +155,7 @@ impl Frame<'_, '_> {
                 let rooms = self.is_rooms(&asked.noun);
                 if rooms && matches!(rel, Rel::In | Rel::On) {
                     let general = asked.noun.plural
+                        || self.negated
                         || self.has(Mark::Exists)
                         || self.has(Mark::Have)
                         || of.noun.plural
@@ -159,6 +187,10 @@ impl Frame<'_, '_> {
             let best = asked.noun.best.is_some()
                 || self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::BestTo(_)));
             let mut noun = asked.noun.clone();
+            // "Which cup is the red one?"
+            for other in others.iter().filter(|s| s.noun.head.anything) {
+                noun.filters.extend(other.noun.filters.iter().cloned());
+            }
             if self.has(Mark::Have) || (self.has(Mark::Exists) && others.len() == 1) {
                 for other in &others {
                     self.relate(&mut noun, other);

@@ -9,7 +9,7 @@ use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
 use crate::units::{ObjectId, ReplicaId, Vector};
-use std::collections::{BTreeSet, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 impl Knowledge<'_> {
     /// Everything of a kind.
@@ -73,7 +73,10 @@ impl Knowledge<'_> {
                 self.world.maps.keys().map(|m| Thing::Entity(Entity::Map(*m))).collect()
             }
             Extension::Robot => vec![Thing::Robot],
-            Extension::Floor | Extension::Walls => Vec::new(),
+            Extension::Exits => {
+                self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
+            }
+            Extension::Floor | Extension::Walls | Extension::Part(_) => Vec::new(),
         }
     }
 
@@ -141,10 +144,32 @@ impl Knowledge<'_> {
                 let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
                 self.best(best, found, places, loose)
             }
+            (None, Some(rank)) if !found.is_empty() && found.iter().all(|t| is_map(*t)) => {
+                Ok(self.storey(found, rank))
+            }
             // «второй стул»: nothing says in which order.
             (None, Some(_)) => Err(Doubt::NotUnderstood { words: noun.text.clone() }),
             (None, None) => Ok(found),
         }
+    }
+
+    /// The storey of this number, counted from the lowest that is not under the ground.
+    fn storey(&self, mut found: Vec<Thing>, rank: u64) -> Vec<Thing> {
+        let height = |t: &Thing| match t {
+            Thing::Entity(Entity::Map(id)) => {
+                let placed = self.world.domain.maps.iter().find(|m| m.map == *id);
+                placed.map_or(0.0, |m| m.frame.z.get())
+            }
+            _ => 0.0,
+        };
+        // A cellar has no number of its own, unless there is nothing else.
+        const GROUND: f64 = -50.0;
+        if found.iter().any(|t| height(t) >= GROUND) {
+            found.retain(|t| height(t) >= GROUND);
+        }
+        found.sort_by(|a, b| height(a).total_cmp(&height(b)).then(a.cmp(b)));
+        let at = usize::try_from(rank.max(1) - 1).unwrap_or(usize::MAX);
+        found.get(at).copied().into_iter().collect()
     }
 
     /// The one thing, or the several where several are spoken of.
@@ -198,6 +223,19 @@ impl Knowledge<'_> {
             return Ok(found);
         }
         let mut found = HashSet::new();
+        if let (Rel::Has | Rel::Bears, [noun]) = (restriction.rel, &restriction.anchors[..])
+            && let Some(asked) = noun.count
+        {
+            // "rooms with more than five chairs"
+            let mut bearers: HashMap<Thing, u64> = HashMap::new();
+            for anchor in self.anchors(restriction, &Noun { count: None, ..noun.clone() }, loose)? {
+                for bearer in self.related(restriction.rel, anchor) {
+                    *bearers.entry(bearer).or_default() += 1;
+                }
+            }
+            let fits = |n: &u64| noun.quantity.admits(*n, asked);
+            return Ok(bearers.into_iter().filter(|(_, n)| fits(n)).map(|(t, _)| t).collect());
+        }
         for noun in &restriction.anchors {
             for anchor in self.anchors(restriction, noun, loose)? {
                 found.extend(self.related(restriction.rel, anchor));
@@ -366,4 +404,8 @@ impl Knowledge<'_> {
         let sign = if extreme == Extreme::LeftMost { -1.0 } else { 1.0 };
         placed.iter().map(|(v, t)| (sign * middle.perp(v).atan2(middle.dot(v)), *t)).collect()
     }
+}
+
+fn is_map(thing: Thing) -> bool {
+    matches!(thing, Thing::Entity(Entity::Map(_)))
 }

@@ -3,7 +3,7 @@
 //! Invariant: what a thing itself says goes before what its object says.
 
 use super::Knowledge;
-use crate::language::question::query::Thing;
+use crate::language::question::query::{Rel, Thing};
 use crate::language::question::values::{Property, ValueId};
 use crate::map::{DoorKind, DoorStatus, Entity};
 use crate::units::DoorId;
@@ -77,6 +77,21 @@ impl Knowledge<'_> {
 
     pub(in crate::language::question) fn has_value(&self, thing: Thing, wanted: ValueId) -> bool {
         let values = &self.lexicon().values;
-        self.values(thing).iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted)))
+        let own = self.values(thing);
+        if own.iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted))) {
+            return true;
+        }
+        let told = own.iter().any(|(_, v, _)| v.is_some_and(|v| values.entry(v).is_emptiness()));
+        match values.entry(wanted).russian.as_str() {
+            _ if told || thing.replica().is_none() => false,
+            "пустой" => !self.bears_anything(thing),
+            "занятый" => self.bears_anything(thing),
+            _ => false,
+        }
+    }
+
+    /// Whether something is on or in a thing.
+    fn bears_anything(&self, thing: Thing) -> bool {
+        [Rel::On, Rel::In].iter().any(|rel| !self.related(*rel, thing).is_empty())
     }
 }

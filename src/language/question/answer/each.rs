@@ -1,0 +1,115 @@
+//! Room by room, and whether there are so many.
+//!
+//! Invariant: what is asked of each room is answered of each, not of all together.
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Doubt, Said};
+use crate::language::words::enumerate;
+
+impl Knowledge<'_> {
+    /// The description without its «в каждой комнате», and the rooms or storeys that this means.
+    pub(super) fn in_each(&self, noun: &Noun) -> Result<Option<(Noun, Vec<Thing>)>, Doubt> {
+        let each = noun.restrictions.iter().position(|r| {
+            matches!(r.rel, Rel::In | Rel::On)
+                && !r.negated
+                && matches!(&r.anchors[..], [only] if only.all && only.head.named.is_empty())
+        });
+        let Some(at) = each else { return Ok(None) };
+        let rooms = self.find(&noun.restrictions[at].anchors[0], true)?;
+        let places = |t: &Thing| {
+            t.area().is_some() || matches!(t, Thing::Entity(crate::map::Entity::Map(_)))
+        };
+        if rooms.len() < 2 || !rooms.iter().all(places) {
+            return Ok(None);
+        }
+        let mut noun = noun.clone();
+        noun.restrictions.remove(at);
+        Ok(Some((noun, rooms)))
+    }
+
+    /// What fits a description, by room.
+    fn by_room(&self, noun: &Noun, rooms: &[Thing]) -> Vec<(Thing, Vec<Thing>)> {
+        let found = self.find(noun, true).unwrap_or_default();
+        let here = |room: &Thing| {
+            let inside = self.related(Rel::In, *room);
+            found.iter().copied().filter(|t| inside.contains(t)).collect()
+        };
+        rooms.iter().map(|room| (*room, here(room))).collect()
+    }
+
+    pub(super) fn count_in_each(&self, noun: &Noun, rooms: &[Thing]) -> Draft {
+        const SHOWN: usize = 20;
+        let by_room = self.by_room(noun, rooms);
+        let counted = by_room.iter().filter(|(_, found)| !found.is_empty());
+        let parts: Vec<String> = counted
+            .take(SHOWN)
+            .map(|(room, found)| {
+                let place = self.place(Rel::In, &[*room]);
+                let counted = self.counted(noun, found.len());
+                match self.is_russian() {
+                    true => format!("{place} {counted}"),
+                    false => format!("{counted} {place}"),
+                }
+            })
+            .collect();
+        let without: Vec<Thing> =
+            by_room.iter().filter(|(_, found)| found.is_empty()).map(|(room, _)| *room).collect();
+        let mut text = enumerate(&parts, self.language);
+        let more = by_room.len() - without.len() - parts.len();
+        if more > 0 {
+            text = match self.is_russian() {
+                true => format!("{text} и ещё в {more} помещениях"),
+                false => format!("{text} and in {more} rooms more"),
+            };
+        }
+        if !without.is_empty() {
+            let place = self.place(Rel::In, &without);
+            let none = self.none_of(noun);
+            let lacking = match self.is_russian() {
+                true => format!("{place} {none} нет"),
+                false => format!("there are no {none} {place}"),
+            };
+            text = if text.is_empty() { lacking } else { format!("{text}; {lacking}") };
+        }
+        let found: Vec<Thing> = by_room.into_iter().flat_map(|(_, found)| found).collect();
+        let number = found.len() as f64;
+        Draft::new(Said::Found, text).with(found).number(number)
+    }
+
+    pub(super) fn exists_in_each(&self, noun: &Noun, rooms: &[Thing]) -> Draft {
+        let by_room = self.by_room(noun, rooms);
+        let (with, without): (Vec<_>, Vec<_>) =
+            by_room.into_iter().partition(|(_, found)| !found.is_empty());
+        let rooms = |all: &[(Thing, Vec<Thing>)]| all.iter().map(|(r, _)| *r).collect::<Vec<_>>();
+        let none = self.none_of(noun);
+        let lacking = self.place(Rel::In, &rooms(&without));
+        let text = match (with.is_empty(), without.is_empty(), self.is_russian()) {
+            (_, true, true) => format!("да, {}", self.place(Rel::In, &rooms(&with))),
+            (_, true, false) => format!("yes, {}", self.place(Rel::In, &rooms(&with))),
+            (_, false, true) => format!("нет, не везде: {lacking} {none} нет"),
+            (_, false, false) => format!("no, not everywhere: there are no {none} {lacking}"),
+        };
+        let said = if without.is_empty() { Said::Yes } else { Said::No };
+        let things = with.into_iter().flat_map(|(_, found)| found).collect();
+        Draft::new(said, text).with(things)
+    }
+
+    /// "Are there at least four chairs in the kitchen?"
+    pub(super) fn exist_so_many(&self, noun: &Noun, asked: u64) -> Result<Draft, Doubt> {
+        let plain = Noun { count: None, plural: true, ..noun.clone() };
+        let found = self.find(&plain, true)?;
+        let facts = self.facts_of(&plain, &found);
+        let yes = noun.quantity.admits(found.len() as u64, asked);
+        let counted = self.count(&plain)?;
+        let text = format!(
+            "{}{}",
+            if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") },
+            counted.text
+        );
+        let said = if yes { Said::Yes } else { Said::No };
+        let number = found.len() as f64;
+        Ok(Draft { facts, ..Draft::new(said, text).with(found) }.number(number))
+    }
+}

@@ -1,0 +1,236 @@
+//! What is said where there is no answer, and what the words of a sentence mean by themselves.
+//!
+//! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
+
+use super::knowledge::Knowledge;
+use super::query::{Rel, Thing};
+use super::speech;
+use super::values::Property;
+use super::vocabulary::Pronoun;
+use super::{Doubt, Unanswered};
+use crate::language::words::{Gender, Number, alternatives, enumerate};
+
+impl Knowledge<'_> {
+    /// Places of descriptions in a command, with the names that they come to.
+    pub(super) fn settled(
+        &self,
+        items: &[super::grammar::Item],
+    ) -> Vec<(std::ops::Range<usize>, String)> {
+        use super::grammar::Item;
+        use crate::language::words::Case;
+        let mut names = Vec::new();
+        for (at, item) in items.iter().enumerate() {
+            let (phrases, rel) = match item {
+                Item::Noun(phrase) => (std::slice::from_ref(phrase), None),
+                Item::Place { rel, nouns, .. } => (&nouns[..], Some(*rel)),
+                _ => continue,
+            };
+            for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
+                let described =
+                    !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
+                let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
+                let after = items[at + 1..].iter().map_while(|next| match next {
+                    Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
+                    _ => None,
+                });
+                let mut narrowed = described;
+                for (rel, nouns) in after {
+                    if found.len() < 2 {
+                        break;
+                    }
+                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok())
+                    else {
+                        continue;
+                    };
+                    let fits = |t: &Thing| {
+                        anchors.iter().any(|a| match rel {
+                            Rel::From => self.holds(Rel::On, *t, *a) || self.holds(Rel::In, *t, *a),
+                            rel => self.holds(rel, *t, *a),
+                        })
+                    };
+                    let fewer: Vec<Thing> = found.iter().copied().filter(fits).collect();
+                    if !fewer.is_empty() {
+                        narrowed = true;
+                        found = fewer;
+                    }
+                }
+                let ([only], true) = (&found[..], narrowed) else { continue };
+                let case = match rel {
+                    None => Case::Accusative,
+                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => {
+                        Case::Genitive
+                    }
+                    Some(Rel::To) => Case::Dative,
+                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => {
+                        Case::Instrumental
+                    }
+                    Some(_) => Case::Accusative,
+                };
+                names.push((phrase.words.clone(), self.form(*only, case)));
+            }
+        }
+        names
+    }
+
+    /// What a pronoun means: the last thing spoken of that agrees with it.
+    pub(super) fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
+        let last = &self.memory.last;
+        match pronoun {
+            Pronoun::They if !last.is_empty() => last.clone(),
+            Pronoun::They | Pronoun::Any => {
+                self.memory.spoken.first().copied().into_iter().collect()
+            }
+            Pronoun::He | Pronoun::She | Pronoun::It => {
+                let wanted = match pronoun {
+                    Pronoun::He => Gender::Masculine,
+                    Pronoun::She => Gender::Feminine,
+                    _ => Gender::Neuter,
+                };
+                let agrees = |t: &&Thing| {
+                    let (gender, number) = self.gender(**t);
+                    gender == wanted && number == Number::Singular
+                };
+                self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
+            }
+        }
+    }
+
+    pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {
+        let (text, names) = self.doubt_words(&doubt);
+        Unanswered { doubt, language: self.language, text: speech::sentence(&text), names }
+    }
+
+    fn doubt_words(&self, doubt: &Doubt) -> (String, Vec<String>) {
+        let russian = self.is_russian();
+        let text = match doubt {
+            Doubt::Empty => self
+                .pick(
+                    "вопрос пуст. Спросите, например: «Где лекарство?»",
+                    "the question is empty. Ask, for example: \"Where is the medicine?\"",
+                )
+                .to_owned(),
+            Doubt::TooLong { length } => match russian {
+                true => format!("вопрос слишком длинный: {length} знаков. Спросите короче"),
+                false => {
+                    format!("the question is too long: {length} characters. Ask a shorter one")
+                }
+            },
+            Doubt::NotUnderstood { words } => match russian {
+                true => format!("я не понимаю: «{}»", tidy(words)),
+                false => format!("I do not understand \"{}\"", tidy(words)),
+            },
+            Doubt::Incomplete { about } => match russian {
+                true => format!("что вы хотите узнать про «{}»?", tidy(about)),
+                false => format!("what would you like to know about \"{}\"?", tidy(about)),
+            },
+            Doubt::NoReferent { word } => match russian {
+                true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
+                false => format!("I do not know what \"{}\" means here", tidy(word)),
+            },
+            Doubt::Unknown { reference, near } => {
+                let offered: Vec<String> = near
+                    .iter()
+                    .map(|n| if russian { format!("«{n}»") } else { format!("\"{n}\"") })
+                    .collect();
+                let reference = tidy(reference);
+                let offer = match (offered.is_empty(), russian) {
+                    (true, _) => String::new(),
+                    (false, true) => {
+                        format!(" Может быть, {}?", alternatives(&offered, self.language))
+                    }
+                    (false, false) => {
+                        format!(" Do you mean {}?", alternatives(&offered, self.language))
+                    }
+                };
+                let text = match russian {
+                    true => format!("на карте нет ничего, что называлось бы «{reference}».{offer}"),
+                    false => format!("the map has nothing called \"{reference}\".{offer}"),
+                };
+                return (text, near.clone());
+            }
+            Doubt::NoneSuch { noun } => {
+                let place = self.restrictions(noun);
+                let none = self.none_of(noun);
+                let general = noun.head.anything;
+                match (russian, place.is_empty(), general) {
+                    (true, true, _) => format!("на карте нет {none}"),
+                    (true, false, true) => format!("{place} ничего нет"),
+                    (true, false, false) => format!("{place} нет {none}"),
+                    (false, true, _) => format!("there is no such thing on the map: {none}"),
+                    (false, false, _) => format!("there are no {none} {place}"),
+                }
+            }
+            Doubt::Ambiguous { reference, candidates } => {
+                return self.which_one(reference, candidates);
+            }
+        };
+        (text, Vec::new())
+    }
+
+    /// The candidates, each with what tells it from the others.
+    fn which_one(&self, reference: &str, candidates: &[Thing]) -> (String, Vec<String>) {
+        const SHOWN: usize = 8;
+        let names: Vec<String> = candidates.iter().map(|t| self.name(*t)).collect();
+        let shown: Vec<String> = candidates
+            .iter()
+            .take(SHOWN)
+            .map(|t| match self.telling(*t, candidates) {
+                Some(mark) => format!("{} ({mark})", self.name(*t)),
+                None => self.name(*t),
+            })
+            .collect();
+        let more = candidates.len().saturating_sub(SHOWN);
+        let list = match (more, self.is_russian()) {
+            (0, _) => alternatives(&shown, self.language),
+            (_, true) => format!("{} или ещё что-то из {more}", shown.join(", ")),
+            (_, false) => format!("{} or one of {more} more", shown.join(", ")),
+        };
+        let reference = tidy(reference);
+        let text = match self.is_russian() {
+            true => format!("«{reference}» – это {list}?"),
+            false => format!("by \"{reference}\", do you mean {list}?"),
+        };
+        (text, names)
+    }
+
+    /// A property, or a place, by which a thing differs from the other candidates.
+    fn telling(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
+        let property = |t: Thing, wanted: &Property| {
+            let all = self.values(t);
+            all.into_iter().find(|(p, _, _)| p == wanted).and_then(|(_, v, _)| v)
+        };
+        for wanted in [Property::Colour, Property::Material, Property::State] {
+            let own = property(thing, &wanted);
+            let alike = candidates.iter().filter(|t| property(**t, &wanted) == own).count();
+            if let (Some(value), 1) = (own, alike) {
+                return Some(self.value_of(&wanted, value, thing));
+            }
+        }
+        let mut marks: Vec<String> = Vec::new();
+        if let Some(value) = property(thing, &Property::Colour)
+            && candidates.iter().any(|t| property(*t, &Property::Colour) != Some(value))
+        {
+            marks.push(self.value_of(&Property::Colour, value, thing));
+        }
+        let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
+        if let Some(own) = support(thing)
+            && candidates.iter().any(|t| support(*t) != Some(own))
+        {
+            let own = Thing::Entity(crate::map::Entity::Replica(own));
+            let inside = self.tuple(Rel::In, thing, own).is_some();
+            marks.push(self.place(if inside { Rel::In } else { Rel::On }, &[own]));
+        } else if let Some(own) = self.area_of(thing)
+            && candidates.iter().any(|t| self.area_of(*t) != Some(own))
+            && thing.area().is_none()
+        {
+            marks.extend(self.in_room(thing));
+        }
+        (!marks.is_empty())
+            .then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
+    }
+}
+
+/// What a person typed, fit to be repeated: no control characters, not too long.
+fn tidy(text: &str) -> String {
+    text.chars().map(|c| if c.is_control() { ' ' } else { c }).take(80).collect()
+}

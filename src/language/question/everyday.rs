@@ -1,0 +1,154 @@
+//! A sentence with everyday words replaced by those that the map knows: «столик» – «стол», "couch" – "sofa".
+//!
+//! Invariant: a word that the map or the grammar knows is never replaced.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::lexicon::Lexicon;
+use super::vocabulary;
+use crate::language::words::{Language, everyday, word_ranges};
+use crate::units::name_key;
+
+/// Words that ask and are often mistyped; a letter off is still that word.
+const ASKING: [&str; 14] = [
+    "where",
+    "what",
+    "which",
+    "there",
+    "many",
+    "the",
+    "is",
+    "where s",
+    "сколько",
+    "какой",
+    "какая",
+    "какие",
+    "находится",
+    "покажи",
+];
+
+/// The text in words that the map knows, where it knows any of the same meaning.
+pub(super) fn plain<'t>(text: &'t str, lexicon: &Lexicon) -> Cow<'t, str> {
+    let words = word_ranges(text);
+    let mut replaced: Vec<(Range<usize>, String)> = Vec::new();
+    let mut at = 0;
+    while at < words.len() {
+        let taken = known(text, &words, at, lexicon);
+        // "desk lamps": two words that mean another thing together.
+        if let Some((n, word)) = several_words(text, &words, at, taken, lexicon) {
+            replaced.push((words[at].start..words[at + n - 1].end, word));
+            at += n;
+            continue;
+        }
+        if let Some((pair, turned)) = turned(text, &words, at, taken, lexicon) {
+            replaced.push((pair, turned));
+            at += 2;
+            continue;
+        }
+        if taken > 0 {
+            at += taken;
+            continue;
+        }
+        match other_words(text, &words, at, lexicon) {
+            Some((n, word)) => {
+                replaced.push((words[at].start..words[at + n - 1].end, word));
+                at += n;
+            }
+            None => at += 1,
+        }
+    }
+    if replaced.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let mut plain = text.to_owned();
+    for (range, word) in replaced.into_iter().rev() {
+        plain.replace_range(range, &word);
+    }
+    Cow::Owned(plain)
+}
+
+/// How many words at a place something knows.
+fn known(text: &str, words: &[Range<usize>], at: usize, lexicon: &Lexicon) -> usize {
+    let end = (at + 6).min(words.len());
+    let keys: Vec<String> = words[at..end].iter().map(|r| name_key(&text[r.clone()])).collect();
+    let named = lexicon.nouns.length_at(text, words, at);
+    let marked = vocabulary::longest(&keys).map_or(0, |(n, _)| n);
+    let valued = lexicon.values.longest(&keys).map_or(0, |(n, _)| n);
+    let property = lexicon.values.property(&keys).map_or(0, |(n, _)| n);
+    named.max(marked).max(valued).max(property)
+}
+
+/// The same thing under a name of the map, of the same language where there is one.
+fn same_thing(said: &str, lexicon: &Lexicon) -> Option<String> {
+    let mut alike = everyday::same_things(&name_key(said));
+    let language = Language::of(said);
+    alike.sort_by_key(|word| Language::of(word) != language);
+    alike.into_iter().find(|word| is_name(word, lexicon))
+}
+
+/// Several words at a place, more than anything knows, that are another name of a thing.
+fn several_words(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    known: usize,
+    lexicon: &Lexicon,
+) -> Option<(usize, String)> {
+    let longest = everyday::LONGEST.min(words.len() - at);
+    (known.max(1) + 1..=longest).rev().find_map(|n| {
+        let said = &text[words[at].start..words[at + n - 1].end];
+        same_thing(said, lexicon).map(|word| (n, word))
+    })
+}
+
+/// «стол письменный»: a name whose adjective stands behind it.
+fn turned(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    taken: usize,
+    lexicon: &Lexicon,
+) -> Option<(Range<usize>, String)> {
+    let next = words.get(at + 1)?;
+    let gap = &text[words[at].end..next.start];
+    if taken != 1 || gap != " " || known(text, words, at + 1, lexicon) > 0 {
+        return None;
+    }
+    let turned = format!("{} {}", &text[next.clone()], &text[words[at].clone()]);
+    is_name(&turned, lexicon).then(|| (words[at].start..next.end, turned))
+}
+
+/// Whether all of a text is the name of something or of a kind.
+fn is_name(text: &str, lexicon: &Lexicon) -> bool {
+    let words = word_ranges(text);
+    lexicon.nouns.length_at(text, &words, 0) == words.len()
+}
+
+/// The same thing in words of the map, with the number of words that it stands for.
+fn other_words(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    lexicon: &Lexicon,
+) -> Option<(usize, String)> {
+    let key = name_key(&text[words[at].clone()]);
+    if let Some(word) = same_thing(&key, lexicon) {
+        return Some((1, word));
+    }
+    // «журнальный столик» is one name; «столик» by itself any table.
+    let small = everyday::undiminished(&key);
+    if let Some(word) = small.iter().find(|word| is_name(word, lexicon)) {
+        return Some((1, word.clone()));
+    }
+    let mistyped =
+        |word: &&&str| word.chars().count() > 2 && strsim::damerau_levenshtein(word, &key) == 1;
+    if super::grammar::number_of(&key).is_some() {
+        return None;
+    }
+    let like_a_name = !lexicon.nouns.near(&key, 1).is_empty();
+    if like_a_name {
+        return None;
+    }
+    ASKING.iter().find(mistyped).map(|word| (1, (*word).to_owned()))
+}

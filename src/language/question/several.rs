@@ -1,0 +1,118 @@
+//! Several questions in one sentence, and what people hang on a question's end.
+
+use super::vocabulary::{self, Mark};
+use crate::language::words::word_ranges;
+use crate::units::name_key;
+
+/// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
+pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
+    let words = word_ranges(text);
+    let keys: Vec<String> = words.iter().map(|range| name_key(&text[range.clone()])).collect();
+    let cuts: Vec<usize> = (1..keys.len())
+        .filter(|&n| is_joint(&keys[n]) && asks(&keys[..n]) && begins(&keys[n + 1..]))
+        .collect();
+    if cuts.is_empty() {
+        return None;
+    }
+    let mut parts = Vec::new();
+    let mut from = 0;
+    for cut in cuts {
+        parts.push(text[from..words[cut].start].trim_matches([' ', ',']));
+        from = words[cut].end;
+    }
+    parts.push(text[from..].trim());
+    parts.iter().all(|part| !part.is_empty()).then_some(parts)
+}
+
+fn is_joint(key: &str) -> bool {
+    matches!(key, "и" | "а" | "and" | "but")
+}
+
+fn is_asking(mark: Mark) -> bool {
+    matches!(
+        mark,
+        Mark::Where
+            | Mark::What
+            | Mark::Which
+            | Mark::HowMany
+            | Mark::HowFar
+            | Mark::HowGet
+            | Mark::HowBig(_)
+            | Mark::When
+            | Mark::Exists
+            | Mark::Who
+            | Mark::Whither
+    )
+}
+
+fn asks(words: &[String]) -> bool {
+    (0..words.len()).any(|n| vocabulary::longest(&words[n..]).is_some_and(|(_, m)| is_asking(m)))
+}
+
+/// Whether a part begins with what asks, after a preposition or a small word: «и в какой она комнате».
+fn begins(words: &[String]) -> bool {
+    let Some((taken, mark)) = vocabulary::longest(words) else { return false };
+    match mark {
+        Mark::Link(_) => {
+            let next = vocabulary::longest(&words[taken..]);
+            next.is_some_and(|(_, m)| matches!(m, Mark::Which | Mark::What))
+        }
+        // "there is a lamp and there is …" asks nothing new of one thing.
+        Mark::Exists => words.len() > 2,
+        mark => is_asking(mark) && words.len() > 1,
+    }
+}
+
+/// A question without the "isn't it?" at its end.
+pub(super) fn without_tag(text: &str) -> &str {
+    const TAGS: [&str; 22] = [
+        "is it",
+        "isn t it",
+        "isnt it",
+        "are they",
+        "aren t they",
+        "does it",
+        "doesn t it",
+        "is he",
+        "is she",
+        "was it",
+        "wasn t it",
+        "right",
+        "correct",
+        "is there",
+        "isn t there",
+        "не так ли",
+        "верно",
+        "правда",
+        "так",
+        "да",
+        "нет",
+        "правильно",
+    ];
+    let Some((before, tag)) = text.rsplit_once(',') else { return text };
+    let tag: Vec<String> = word_ranges(tag).into_iter().map(|r| name_key(&tag[r])).collect();
+    let is_tag = TAGS.contains(&tag.join(" ").as_str());
+    if is_tag && word_ranges(before).len() > 1 { before } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn questions_are_parted_where_the_second_asks_anew() {
+        let check = |text: &str, expected: Option<&[&str]>| {
+            assert_eq!(parts(text).as_deref(), expected, "{text}");
+        };
+        check("Где ваза и какого она цвета?", Some(&["Где ваза", "какого она цвета?"]));
+        check("Где лекарство, а где зонт?", Some(&["Где лекарство", "где зонт?"]));
+        check(
+            "Where is the kettle and how many cups are there?",
+            Some(&["Where is the kettle", "how many cups are there?"]),
+        );
+        check("Где стол и стул?", None);
+        check("Что между столом и шкафом?", None);
+        assert_eq!(without_tag("The sofa isn't brown, is it?"), "The sofa isn't brown");
+        assert_eq!(without_tag("Где стул, стол"), "Где стул, стол");
+    }
+}

@@ -1,0 +1,251 @@
+//! Everyday words for what a map names otherwise: diminutives («столик»), talk («телик»), other names of one thing
+//! ("couch", "trash can").
+//!
+//! Invariant: a word is only ever replaced by one that means the same thing; whether the map knows that one is asked
+//! by the caller.
+
+use std::collections::HashMap;
+use std::sync::OnceLock;
+
+use super::english;
+use super::grammar::{Case, Number, WordHints};
+use super::list::Language;
+use super::phrase::NounPhrase;
+use crate::units::name_key;
+
+/// Names of one sort of thing, both languages; any of them may stand for any other.
+const SAME: &[&str] = &[
+    "телевизор|телик|телек|тв|tv|television|telly|tv set",
+    "компьютер|комп|computer|pc",
+    "ноутбук|ноут|лэптоп|laptop|notebook computer",
+    "холодильник|холодос|fridge|refrigerator",
+    "микроволновая печь|микроволновка|свч|microwave|microwave oven",
+    "стиральная машина|стиралка|стиральная машинка|washing machine|washer",
+    "посудомоечная машина|посудомойка|dishwasher",
+    "мусорное ведро|мусорка|мусорная корзина|урна|помойка|мусорный бак|корзина для мусора|bin|trash can|trash bin|garbage can|garbage bin|rubbish bin|waste basket|wastebasket|dustbin|trash|garbage|waste bin|trashcan",
+    "туалет|санузел|уборная|wc|toilet|lavatory|restroom|washroom|loo|bathroom",
+    "унитаз|toilet|loo|wc|туалет",
+    "ванная|ванная комната|санузел|bathroom|washroom",
+    "раковина|умывальник|мойка|sink|washbasin|basin",
+    "лифт|lift|elevator",
+    "лестница|stairs|staircase|stairway|stairwell|steps",
+    "лаборатория|лаба|lab|laboratory",
+    "диван|софа|тахта|couch|sofa|settee",
+    "тумбочка|прикроватная тумбочка|nightstand|bedside table|night table|night stand|bedside cabinet",
+    "шкаф|гардероб|платяной шкаф|wardrobe|closet",
+    "шкафчик|тумба|cupboard|cabinet",
+    "чашка|кружка|mug|cup",
+    "журнальный стол|журнальный столик|кофейный столик|coffee table",
+    "письменный стол|рабочий стол|desk|writing desk",
+    "входная дверь|парадная дверь|парадная|entrance door|front door|main door|entry door",
+    "телефон|мобильник|мобильный|смартфон|сотовый|phone|cellphone|cell phone|mobile phone|smartphone|telephone|mobile",
+    "картина|картинка|painting|picture",
+    "растение|цветок|комнатное растение|plant|houseplant|house plant|flower",
+    "кран|tap|faucet",
+    "плита|печка|stove|cooker|stove top",
+    "солонка|соль|salt shaker|salt",
+    "перечница|перец|pepper shaker|pepper",
+    "коридор|прихожая|corridor|hallway|passageway",
+    "пульт|пульт от телевизора|remote|remote control",
+    "лекарство|таблетки|medicine|pills|meds|drugs",
+    "кресло|armchair|easy chair",
+    "торшер|floor lamp|standing lamp",
+    "настольная лампа|desk lamp|table lamp",
+    "зеркало|mirror|looking glass",
+    "кровать|постель|койка|bed",
+    "ковёр|коврик|палас|rug|carpet|mat",
+    "комод|dresser|chest of drawers",
+    "стеллаж|книжный шкаф|bookshelf|bookcase|shelving unit",
+    "штора|занавеска|шторы|curtain|curtains|drapes",
+    "столешница|counter|countertop|worktop",
+    "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
+];
+
+/// Forms of the words of [`SAME`] with the sort they name and their number and case.
+type Forms = HashMap<String, Vec<(usize, Number, Case)>>;
+
+fn forms() -> &'static Forms {
+    static FORMS: OnceLock<Forms> = OnceLock::new();
+    FORMS.get_or_init(|| {
+        let mut forms = Forms::new();
+        let mut add = |form: &str, group: usize, number: Number, case: Case| {
+            let known = forms.entry(name_key(form)).or_default();
+            if known.iter().all(|(other, _, _)| *other != group) {
+                known.push((group, number, case));
+            }
+        };
+        for (group, words) in SAME.iter().enumerate() {
+            for word in words.split('|') {
+                if Language::of(word) == Language::English {
+                    add(word, group, Number::Singular, Case::Nominative);
+                    add(&english::plural(word), group, Number::Plural, Case::Nominative);
+                    continue;
+                }
+                for (number, case, form) in phrase(word).all_forms() {
+                    add(&form, group, number, case);
+                }
+            }
+        }
+        forms
+    })
+}
+
+fn phrase(word: &str) -> NounPhrase {
+    NounPhrase::parse(word, &WordHints::default())
+}
+
+fn in_form(word: &str, number: Number, case: Case) -> String {
+    match Language::of(word) {
+        Language::Russian => phrase(word).form(case, number),
+        Language::English if number == Number::Plural => english::plural(word),
+        Language::English => word.to_owned(),
+    }
+}
+
+/// Other words for the same thing, of either language and in the same case; the text in [`name_key`] form.
+pub(crate) fn same_things(key: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for &(group, number, case) in forms().get(key).into_iter().flatten() {
+        for word in SAME[group].split('|') {
+            let form = in_form(word, number, case);
+            if name_key(&form) != key && !found.contains(&form) {
+                found.push(form);
+            }
+        }
+    }
+    found
+}
+
+/// So many words make the longest of them.
+pub(crate) const LONGEST: usize = 4;
+
+/// Endings of diminutives with those of the words that they come from: «стол-ик», «книж-ечк-а» → «книжк-а».
+const SMALL: &[(&str, &[&str])] = &[
+    ("ичек", &["ик"]),
+    ("очек", &["ок", "ка"]),
+    ("ечек", &["ок", "ек", "ка"]),
+    ("чик", &["", "ец"]),
+    ("ик", &[""]),
+    ("ок", &[""]),
+    ("ек", &[""]),
+    ("ечка", &["ка", "а", "я", "ь"]),
+    ("очка", &["ка", "а", "ь"]),
+    ("ичка", &["ица", "а"]),
+    ("енька", &["а", "я"]),
+    ("онька", &["а", "я"]),
+    ("ушка", &["а", ""]),
+    ("ка", &["а", "ь", "я"]),
+    ("ечко", &["о", "е", "ко"]),
+    ("ышко", &["о"]),
+    ("ошко", &["но"]),
+    ("ице", &["о", "е"]),
+    ("ико", &["о"]),
+    ("ко", &["о"]),
+];
+
+/// Endings that a nominative may have where an oblique case has these, longest first.
+const CASES: &[(&str, &[&str])] = &[
+    ("", &[""]),
+    ("а", &["", "о"]),
+    ("у", &["", "а", "о"]),
+    ("е", &["", "а", "о", "е"]),
+    ("и", &["", "а", "о", "е"]),
+    ("ы", &["", "а"]),
+    ("ом", &["", "о"]),
+    ("ой", &["а"]),
+    ("ах", &["", "а", "о"]),
+    ("ам", &["", "а", "о"]),
+    ("ами", &["", "а", "о"]),
+    ("ов", &[""]),
+    ("ек", &["ка", "ко"]),
+    ("ок", &["ка", "ко"]),
+];
+
+/// The words of which a Russian word may be a diminutive, in its own number and case: «столике» – «столе».
+pub(crate) fn undiminished(key: &str) -> Vec<String> {
+    let mut found: Vec<String> = Vec::new();
+    for (ending, nominatives) in CASES {
+        let Some(stem) = key.strip_suffix(ending) else { continue };
+        for base in nominatives.iter().map(|n| format!("{stem}{n}")) {
+            let wholes = wholes(&base);
+            if wholes.is_empty() {
+                continue;
+            }
+            let forms = phrase(&base).all_forms().into_iter();
+            let Some((number, case, _)) = forms.into_iter().find(|(_, _, f)| name_key(f) == key)
+            else {
+                continue;
+            };
+            for whole in wholes {
+                let form = in_form(&whole, number, case);
+                if form != key && !found.contains(&form) {
+                    found.push(form);
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The nominatives of which a nominative may be the diminutive.
+fn wholes(base: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for (ending, wholes) in SMALL {
+        let Some(stem) = base.strip_suffix(ending).filter(|s| s.chars().count() >= 3) else {
+            continue;
+        };
+        for stem in softened(stem) {
+            found.extend(wholes.iter().map(|whole| format!("{stem}{whole}")));
+        }
+    }
+    found
+}
+
+/// A stem and those that alternate with it: «книж» – «книг», «полоч» – «полк».
+fn softened(stem: &str) -> Vec<String> {
+    let mut stems = vec![stem.to_owned()];
+    for (soft, hard) in [("ж", "г"), ("ж", "з"), ("ч", "к"), ("ч", "ц"), ("ш", "х"), ("ь", "")]
+    {
+        stems.extend(stem.strip_suffix(soft).map(|s| format!("{s}{hard}")));
+    }
+    stems
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn diminutives_come_from_their_words() {
+        let check = |small: &str, word: &str| {
+            assert!(
+                undiminished(small).iter().any(|w| w == word),
+                "{small}: {:?}",
+                undiminished(small)
+            );
+        };
+        check("столик", "стол");
+        check("столике", "столе");
+        check("холодильничек", "холодильник");
+        check("книжечка", "книжка");
+        check("чашечку", "чашку");
+        check("вазочка", "ваза");
+        check("полочке", "полке");
+        check("шкафчик", "шкаф");
+        check("стульчик", "стул");
+        check("диванчике", "диване");
+        check("креслице", "кресло");
+        check("кроватка", "кровать");
+        check("комнатке", "комнате");
+        check("окошко", "окно");
+        check("коробочка", "коробка");
+        assert!(undiminished("стол").is_empty());
+    }
+
+    #[test]
+    fn other_words_are_of_the_same_thing() {
+        assert!(same_things("couch").iter().any(|w| w == "диван"));
+        assert!(same_things("телика").iter().any(|w| w == "телевизора"));
+        assert!(same_things("велосипед").is_empty());
+    }
+}

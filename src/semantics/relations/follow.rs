@@ -1,0 +1,167 @@
+//! From the relations of a surveyed world to those of the world as a robot has left it: things moved or taken away, doors
+//! opened, lamps switched.
+//!
+//! **Invariant**: afterwards the derived relations are those that [`derive()`](super::derive) gives of the other world.
+
+use std::collections::BTreeSet;
+
+use crate::facts::{FactError, Value};
+use crate::map::{Entity, Replica, World};
+use crate::semantics::feed::{Cell, Feed};
+use crate::semantics::names::Subject;
+use crate::semantics::openings::openings;
+use crate::units::{DoorId, ReplicaId};
+
+use super::rows::{note, tuple};
+use super::{RelationError, Relations};
+
+/// Beyond so many changed things, deriving all relations anew costs less than following each.
+const MOST_FOLLOWED: usize = 200;
+
+/// Input rows on their way out and in. A row that stays is in both.
+#[derive(Default)]
+struct Difference {
+    out: BTreeSet<(&'static str, Vec<Value>)>,
+    into: BTreeSet<(&'static str, Vec<Value>)>,
+}
+
+impl Relations {
+    /// Follows from the world of these relations to one that differs in places, properties and door states of its
+    /// replicas, in replicas that were taken away, and in the states of its doors. `false` where more differs, or so
+    /// much that deriving anew is cheaper; then nothing is changed.
+    ///
+    /// # Errors
+    /// As [`derive()`](super::derive).
+    pub fn follow_world(&mut self, before: &World, after: &World) -> Result<bool, RelationError> {
+        let Some((replicas, doors)) = followed(before, after) else { return Ok(false) };
+        let mut rows = Difference::default();
+        self.openings_and_properties(before, &replicas, &doors, |rel, row| {
+            rows.out.insert((rel, row));
+        });
+        for &id in &replicas {
+            let change = self.measured.update(after, id);
+            let mut put = |rel: &'static str, cells: &[Cell<'_>]| {
+                rows.out.insert((rel, tuple(cells)));
+            };
+            // What is gone is in the old world only.
+            let old = Feed { world: before, symbols: &self.symbols, measured: &self.measured };
+            change.single_before.iter().for_each(|s| old.single(id, s, &mut put));
+            change.removed.iter().for_each(|(&key, pair)| old.pair(key, pair, &mut put));
+            let mut back: Vec<(&'static str, Vec<Value>)> = Vec::new();
+            let mut put = |rel: &'static str, cells: &[Cell<'_>]| back.push((rel, tuple(cells)));
+            let new = Feed { world: after, symbols: &self.symbols, measured: &self.measured };
+            change.single_after.iter().for_each(|s| new.single(id, s, &mut put));
+            for key in &change.added {
+                if let Some(pair) = self.measured.pairs().get(key) {
+                    new.pair(*key, pair, &mut put);
+                }
+            }
+            rows.into.extend(back);
+            if !after.replicas.contains_key(&id) {
+                for &map in before.maps.keys() {
+                    let map = self.symbols.symbol(Subject::Entity(Entity::Map(map)));
+                    let cells = [Cell::Name(self.symbols.replica(id)), Cell::Name(map)];
+                    rows.out.insert(("asked", tuple(&cells)));
+                }
+            }
+            self.settle(&mut rows)?;
+        }
+        if !doors.is_empty() {
+            self.openings = openings(after, &self.measured, self.rules.step_cm(), &self.symbols);
+        }
+        self.openings_and_properties(after, &replicas, &doors, |rel, row| {
+            rows.into.insert((rel, row));
+        });
+        self.settle(&mut rows)?;
+        self.live.update()?;
+        self.follow();
+        Ok(true)
+    }
+
+    /// Rows of doorways, where a door's state differs, and of the properties of what differs.
+    fn openings_and_properties(
+        &self,
+        world: &World,
+        replicas: &[ReplicaId],
+        doors: &[DoorId],
+        mut put: impl FnMut(&'static str, Vec<Value>),
+    ) {
+        let mut sink = |rel: &'static str, cells: &[Cell<'_>]| put(rel, tuple(cells));
+        let feed = Feed { world, symbols: &self.symbols, measured: &self.measured };
+        if !doors.is_empty() {
+            feed.openings(&self.openings, &mut sink);
+        }
+        doors.iter().for_each(|&door| feed.door_properties(door, &mut sink));
+        // A door of furniture tells the state of what it belongs to.
+        let bears =
+            |r: &&Replica| world.objects[&r.object].doors.iter().any(|m| doors.contains(&m.door));
+        let mut changed: BTreeSet<ReplicaId> = replicas.iter().copied().collect();
+        if !doors.is_empty() {
+            changed.extend(world.replicas.values().filter(bears).map(|r| r.id));
+        }
+        changed.into_iter().for_each(|id| feed.replica_properties(id, &mut sink));
+    }
+
+    /// Takes rows out and puts others in; those in both stay as they are.
+    fn settle(&mut self, rows: &mut Difference) -> Result<(), RelationError> {
+        let mut fault: Option<FactError> = None;
+        let Difference { out, into } = std::mem::take(rows);
+        for (relation, row) in out.difference(&into) {
+            if let Err(e) = self.live.remove(*relation, row) {
+                note(&mut fault, e);
+            }
+        }
+        for (relation, row) in &into {
+            if let Err(e) = self.live.insert(*relation, row) {
+                note(&mut fault, e);
+            }
+        }
+        fault.map_or(Ok(()), |fault| Err(RelationError::Schema { fault }))
+    }
+}
+
+/// The replicas and doors that differ; none where something else does, or too much.
+fn followed(before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
+    let alike = before.domain == after.domain
+        && before.maps == after.maps
+        && before.areas == after.areas
+        && before.objects == after.objects
+        && before.orthoframes == after.orthoframes
+        && before.types == after.types
+        && before.places == after.places
+        && before.robot == after.robot
+        && before.doors.len() == after.doors.len();
+    if !alike {
+        return None;
+    }
+    // What is gone goes first: nothing that is measured afterwards may lie beside it.
+    let gone = before.replicas.keys().filter(|id| !after.replicas.contains_key(id));
+    let mut replicas: Vec<ReplicaId> = gone.copied().collect();
+    for (id, is) in &after.replicas {
+        let was = before.replicas.get(id)?;
+        if was == is {
+            continue;
+        }
+        // Another name or Object is another thing.
+        if was.name != is.name || was.object != is.object || was.move_prob != is.move_prob {
+            return None;
+        }
+        replicas.push(*id);
+    }
+    let mut doors = Vec::new();
+    for (id, is) in &after.doors {
+        let was = before.doors.get(id)?;
+        let same = map_door_but_state(was, is);
+        if !same {
+            return None;
+        }
+        if was.state != is.state {
+            doors.push(*id);
+        }
+    }
+    (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
+}
+
+fn map_door_but_state(was: &crate::map::Door, is: &crate::map::Door) -> bool {
+    crate::map::Door { state: is.state, ..was.clone() } == *is
+}
