@@ -191,7 +191,7 @@ pub(crate) fn undiminished(key: &str) -> Vec<String> {
 fn wholes(base: &str) -> Vec<String> {
     let mut found = Vec::new();
     for (ending, wholes) in SMALL {
-        let Some(stem) = base.strip_suffix(ending).filter(|s| s.chars().count() >= 3) else {
+        let Some(stem) = base.strip_suffix(ending).filter(|s| s.chars().count() >= 2) else {
             continue;
         };
         for stem in softened(stem) {
