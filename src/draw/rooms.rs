@@ -63,7 +63,7 @@ fn steps(room: &Polygon, tread: f64) -> Vec<(Point, Point)> {
     (1..count).flat_map(line).collect()
 }
 
-/// The pieces of a segment that lie within a room.
+/// The pieces of a segment that lie within a room; what runs along its border is the wall's.
 fn inside(room: &Polygon, a: Point, b: Point) -> Vec<(Point, Point)> {
     let way = b - a;
     let mut cuts: Vec<f64> = room
@@ -80,8 +80,9 @@ fn inside(room: &Polygon, a: Point, b: Point) -> Vec<(Point, Point)> {
         .collect();
     cuts.sort_by(f64::total_cmp);
     let pieces = cuts.windows(2).filter(|w| w[1] - w[0] > 1e-6);
+    let within = |p: Point| room.contains(p, 0.0) && room.border_distance(p) > 1e-6;
     pieces
-        .filter(|w| room.contains(a + way * f64::midpoint(w[0], w[1]), 0.0))
+        .filter(|w| within(a + way * f64::midpoint(w[0], w[1])))
         .map(|w| (a + way * w[0], a + way * w[1]))
         .collect()
 }
