@@ -9,6 +9,8 @@
 //! ```
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
+mod tokens;
+
 use std::iter::{Copied, Enumerate};
 use std::ops::Range;
 use std::slice::Iter;
@@ -27,6 +29,8 @@ use super::vocabulary::{self, Mark, Pronoun};
 use crate::language::words::{Case, Language, Number, Readings, word_ranges};
 use crate::map::Entity;
 use crate::units::name_key;
+
+pub(super) use tokens::number_of;
 
 /// A word or phrase with what it is. `words` counts words of the sentence.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -160,26 +164,6 @@ type HeadParsed<'a, 's> =
 type Parsed<'a, O> = IResult<Tokens<'a>, O>;
 
 impl<'t> Sentence<'t> {
-    pub(super) fn new(text: &'t str, lexicon: &Lexicon) -> Self {
-        let words = word_ranges(text);
-        let keys: Vec<String> = words.iter().map(|range| name_key(&text[range.clone()])).collect();
-        let mut sentence = Self {
-            text,
-            language: Language::of(text),
-            words,
-            keys,
-            tokens: Vec::new(),
-            nouns: Vec::new(),
-            properties: Vec::new(),
-        };
-        let mut at = 0;
-        while at < sentence.keys.len() {
-            at = sentence.token(at, lexicon);
-        }
-        sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
-        sentence
-    }
-
     /// The text from one word to another.
     pub(super) fn said(&self, words: &Range<usize>) -> &'t str {
         match (
@@ -199,239 +183,6 @@ impl<'t> Sentence<'t> {
             }
             _ => false,
         }
-    }
-
-    /// Reads the token at a word and gives the word after it.
-    fn token(&mut self, at: usize, lexicon: &Lexicon) -> usize {
-        if let Some(value) = self.switched(at, lexicon) {
-            let (from, to) = (at as u32, at as u32 + 1);
-            self.tokens.push(Token { from, to, kind: Tok::Value(value) });
-            return at + 1;
-        }
-        if let Some(taken) = self.quantity(at) {
-            return at + taken;
-        }
-        let keys = &self.keys[at..];
-        let mark = vocabulary::longest(keys);
-        let value = lexicon.values.longest(keys);
-        let named = self.name_length(at, lexicon);
-        let property = lexicon.values.property(keys).map(|(n, p)| (n, p.clone()));
-        let propertied = property.as_ref().map_or(0, |(n, _)| *n);
-        let marked = mark.map_or(0, |(n, _)| n);
-        let valued = value.map_or(0, |(n, _)| n);
-        let longest = marked.max(valued).max(named).max(propertied);
-        let push = |sentence: &mut Self, taken: usize, kind: Tok| {
-            let (from, to) = (at as u32, (at + taken) as u32);
-            sentence.tokens.push(Token { from, to, kind });
-            at + taken
-        };
-        if longest == 0
-            && let Some(value) = self.joined_negation(at, lexicon)
-        {
-            push(self, 1, Tok::Mark(Mark::Not));
-            return push(self, 1, Tok::Value(value));
-        }
-        if longest == 0 {
-            let number = number_of(&keys[0]);
-            return push(self, 1, number.map_or(Tok::Unknown, Tok::Number));
-        }
-        let before = self.tokens.last().map(|t| t.kind);
-        // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
-        let article = matches!(
-            before,
-            Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany))
-        );
-        let noun_wins = named == longest
-            && match mark {
-                Some((n, Mark::PutDown | Mark::Free | Mark::See | Mark::Describe | Mark::List))
-                    if n == longest =>
-                {
-                    article
-                }
-                Some((n, Mark::Filler)) if n == longest => true,
-                Some((n, _)) => n < longest,
-                None => true,
-            }
-            && (valued < longest || !self.begins_noun(at + longest, lexicon));
-        if noun_wins && !(property.is_some() && named == 1 && self.asks_property()) {
-            let found = self.noun(at, named, lexicon);
-            self.nouns.push(found);
-            let number = self.nouns.len() as u32 - 1;
-            return push(self, named, Tok::Noun(number));
-        }
-        match (mark, value, property) {
-            (Some((n, Mark::Without)), _, _) if n == longest => {
-                push(self, n, Tok::Mark(Mark::Not));
-                push(self, n, Tok::Mark(Mark::Link(Rel::Has)))
-            }
-            (Some((n, Mark::OnlyOne)), _, _) if n == longest => {
-                push(self, n, Tok::Mark(Mark::Number(Quantity::Exactly)));
-                push(self, n, Tok::Number(1))
-            }
-            (Some((n, mark)), _, _)
-                if n == longest && !(mark == Mark::Filler && valued == longest) =>
-            {
-                push(self, n, Tok::Mark(mark))
-            }
-            (_, Some((n, value)), _) if n == longest => push(self, n, Tok::Value(value)),
-            (_, _, Some((n, property))) => {
-                self.properties.push(property);
-                let number = self.properties.len() as u32 - 1;
-                push(self, n, Tok::Property(number))
-            }
-            _ => push(self, 1, Tok::Unknown),
-        }
-    }
-
-    /// «нечёрные»: the value that is denied.
-    fn joined_negation(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
-        let rest =
-            self.keys[at].strip_prefix("не").or_else(|| self.keys[at].strip_prefix("non"))?;
-        lexicon.values.meaning(rest)
-    }
-
-    /// "at least four": how a number is meant, and the number. Gives the words that they take.
-    fn quantity(&mut self, at: usize) -> Option<usize> {
-        let (taken, quantity) = vocabulary::quantity(&self.keys[at..])?;
-        let number = match self.keys.get(at + taken)?.as_str() {
-            "один" | "одна" | "одно" | "одного" | "одной" | "одну" | "one" => {
-                1
-            }
-            key => number_of(key)?,
-        };
-        // «больше 3» of «Комната больше 3»: what is counted follows.
-        self.keys.get(at + taken + 1)?;
-        let (from, cut, to) = (at as u32, (at + taken) as u32, (at + taken + 1) as u32);
-        self.tokens.push(Token { from, to: cut, kind: Tok::Mark(Mark::Number(quantity)) });
-        self.tokens.push(Token { from: cut, to, kind: Tok::Number(number) });
-        Some(taken + 1)
-    }
-
-    /// "Is the lamp on?", "on or off": a state, where nothing follows to be on.
-    fn switched(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
-        let word = match self.keys[at].as_str() {
-            "on" => "switched on",
-            "off" => "switched off",
-            _ => return None,
-        };
-        let next = self.keys.get(at + 1).map(String::as_str);
-        let ends = matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
-        let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
-        let is_noun = |t: &&Token| matches!(t.kind, Tok::Noun(_) | Tok::Mark(Mark::Pronoun(_)));
-        let nouns = self.tokens.iter().filter(is_noun).count();
-        // "Which lamps are on?", but "What is the lamp on?" and "Which table is the lamp on?"
-        // "Which floor am I on?"
-        let person = ["i", "you", "we"].iter().any(|word| said(word));
-        let link =
-            self.keys[at] == "on" && (said("what") || (said("which") && (nouns != 1 || person)));
-        // "Is the light on in the kitchen?": a second preposition after it.
-        let placed = matches!(next, Some("in" | "at" | "inside"))
-            && nouns == 1
-            && !said("what")
-            && self.keys[..at].iter().any(|k| ["is", "are", "was", "were"].contains(&k.as_str()));
-        ((ends && !link) || placed).then(|| lexicon.values.meaning(word)).flatten()
-    }
-
-    /// How many words the longest name takes. No name goes over a comma, and «комнат в которых» is not Комната-В.
-    fn name_length(&self, at: usize, lexicon: &Lexicon) -> usize {
-        let gap = |n: usize| &self.text[self.words[n - 1].end..self.words[n].start];
-        let cut = |n: &usize| gap(*n).contains([',', ';', ':', '?', '!']);
-        let mut end = (at + 1..self.words.len()).find(cut).unwrap_or(self.words.len());
-        loop {
-            let taken = lexicon.nouns.length_at(self.text, &self.words[..end], at);
-            let last = (at + taken).saturating_sub(1);
-            let small = taken > 1
-                && ["в", "к", "с", "о", "у", "a", "и"]
-                    .contains(&&self.text[self.words[last].clone()])
-                && gap(last) == " "
-                && last + 1 < self.words.len();
-            if !small {
-                return taken;
-            }
-            end = last;
-        }
-    }
-
-    fn begins_noun(&self, at: usize, lexicon: &Lexicon) -> bool {
-        at < self.keys.len() && self.name_length(at, lexicon) > 0
-    }
-
-    fn asks_property(&self) -> bool {
-        let asks = |t: &Token| matches!(t.kind, Tok::Mark(Mark::What | Mark::Which));
-        self.tokens.last().is_some_and(asks)
-    }
-
-    fn noun(&self, at: usize, taken: usize, lexicon: &Lexicon) -> Found {
-        let hits = lexicon.nouns.find(self.said(&(at..at + taken)));
-        let mut found = Found::default();
-        let is_kind = hits.iter().any(|h| matches!(h.id, Meaning::Kind(_)));
-        // «стол» may be a part of many names; then the kind is meant.
-        let numbered = self.is_numbered(at, taken);
-        for hit in &hits {
-            if let Meaning::Kind(kind) = hit.id {
-                // "on the floor" is not "on the second floor".
-                let skipped = match lexicon.kind(*kind).extension {
-                    Extension::Storeys => !numbered && self.keys[at] == "floor",
-                    Extension::Floor => numbered && self.keys[at].starts_with("floor"),
-                    _ => false,
-                };
-                if skipped {
-                    continue;
-                }
-            }
-            match hit.id {
-                Meaning::Entity(entity) => {
-                    found.is_area |= matches!(entity, Entity::Area(_) | Entity::Map(_));
-                    if !found.named.contains(entity) {
-                        found.named.push(*entity);
-                    }
-                }
-                Meaning::Kind(kind) => {
-                    for kind in lexicon.with_narrower(*kind, self.language) {
-                        found.is_area |= lexicon.is_area(kind);
-                        let extension = lexicon.kind(kind).extension;
-                        found.is_storey |= extension == Extension::Storeys;
-                        found.is_general |= matches!(
-                            extension,
-                            Extension::Storeys
-                                | Extension::Rooms
-                                | Extension::Places
-                                | Extension::Doors
-                                | Extension::Things
-                        );
-                        if !found.kinds.contains(&kind) {
-                            found.kinds.push(kind);
-                        }
-                    }
-                }
-            }
-            found.readings.push(hit.readings);
-        }
-        if is_kind && hits.iter().all(|h| h.spelling == crate::language::Spelling::Part) {
-            found.named.clear();
-        }
-        found
-    }
-
-    /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
-    fn is_numbered(&self, at: usize, taken: usize) -> bool {
-        let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));
-        let told = matches!(
-            before.map(|t| t.kind),
-            Some(
-                Tok::Number(_)
-                    | Tok::Mark(
-                        Mark::Rank(_)
-                            | Mark::Which
-                            | Mark::What
-                            | Mark::HowMany
-                            | Mark::All
-                            | Mark::Best(_)
-                    )
-            )
-        );
-        let next = self.keys.get(at + taken).and_then(|key| number_of(key)).is_some();
-        told || next || self.keys[at] == "floors"
     }
 
     /// All items of the sentence.
@@ -728,33 +479,4 @@ enum Modifier {
 
 fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {
     Err(nom::Err::Error(Error::new(input, ErrorKind::Tag)))
-}
-
-/// Digits and the small number words of both languages.
-pub(super) fn number_of(key: &str) -> Option<u64> {
-    const WORDS: [(&str, u64); 22] = [
-        ("два", 2),
-        ("две", 2),
-        ("двух", 2),
-        ("двумя", 2),
-        ("три", 3),
-        ("трех", 3),
-        ("тремя", 3),
-        ("четыре", 4),
-        ("четырех", 4),
-        ("пять", 5),
-        ("пяти", 5),
-        ("шесть", 6),
-        ("семь", 7),
-        ("восемь", 8),
-        ("девять", 9),
-        ("десять", 10),
-        ("two", 2),
-        ("three", 3),
-        ("four", 4),
-        ("five", 5),
-        ("six", 6),
-        ("ten", 10),
-    ];
-    WORDS.iter().find(|(word, _)| *word == key).map(|(_, n)| *n).or_else(|| key.parse().ok())
 }
