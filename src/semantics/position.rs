@@ -181,7 +181,8 @@ pub(super) fn by_walls(
 }
 
 /// Solid sides of an Area that bound it, in the Map's frame.
-fn walls(world: &World, measured: &Measurements, area: AreaId) -> Vec<(Point, Point)> {
+#[must_use]
+pub fn walls(world: &World, measured: &Measurements, area: AreaId) -> Vec<(Point, Point)> {
     let (Some(room), Some((_, frame))) = (measured.rooms.get(&area), world.placement(area)) else {
         return Vec::new();
     };

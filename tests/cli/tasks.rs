@@ -237,3 +237,35 @@ fn corridors_are_told_by_entrances() {
     let drawn = place.run(&["draw", "corridor", paper, "--from", "201", "--to", "210"]).is(0).out;
     assert!(drawn.starts_with("<svg"));
 }
+
+/// After a task, an observation and an edit of the map alike, words lead to where the thing is.
+#[test]
+fn words_lead_to_where_a_thing_is_now() {
+    let place = Place::with_rb2();
+    let asked = |question: &str| place.run(&["ask", question]).is(0).out;
+    let holds = |question: &str, words: &[&str], not: &[&str]| {
+        let said = asked(question);
+        assert!(words.iter().all(|w| said.contains(w)), "{question}: {said}");
+        assert!(not.iter().all(|w| !said.contains(w)), "{question}: {said}");
+    };
+    holds("Где лекарство?", &["на Тумбочке-2", "в Комнате-Y"], &[]);
+    holds("Как проехать из Коридора к лекарству?", &["в Комнату-Y", "до Лекарства"], &[]);
+    place.json(&["do", "Положи лекарство на Письменный стол"], 0);
+    holds("Где лекарство?", &["на Письменном столе", "в Комнате-В"], &["Комнате-Y"]);
+    let way = ["в Комнату-В", "до Лекарства"];
+    holds("Как проехать из Коридора к лекарству?", &way, &["Комнату-Y", "Комнату-Z"]);
+    holds("Где ты?", &["в Комнате-В"], &[]);
+    holds("Что на Письменном столе?", &["Лекарство"], &[]);
+    // What was seen elsewhere is believed to be there.
+    place.run(&["observe", "Зонт-1", "--area", "Комната-В", "--at", "250,250"]).is(0);
+    holds("Где зонт?", &["в Комнате-В"], &["Коридоре"]);
+    holds("Как проехать из Коридора к зонту?", &["в Комнату-В", "до Зонта-1"], &[]);
+    // And what the map itself says anew.
+    holds("Как проехать из Комнаты-В к Стулу-6?", &["в Комнату-Z"], &["Комнату-Y"]);
+    place.run(&["edit", "move", "Стул-6", "--area", "Комната-Y", "--to", "200,150"]).is(0);
+    holds("Где Стул-6?", &["в Комнате-Y"], &["Комнате-Z"]);
+    holds("Как проехать из Комнаты-В к Стулу-6?", &["в Комнату-Y", "до Стула-6"], &[]);
+    let gone = place.json(&["do", "Подъедь к Стулу-6", "--from", "Комната-В"], 0);
+    assert_eq!(gone["outcome"], "done");
+    assert_eq!(place.json(&["where"], 0)["area"], "Комната-Y");
+}

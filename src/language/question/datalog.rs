@@ -338,6 +338,7 @@ impl Rule<'_, '_> {
                 | Extension::Building
                 | Extension::Floor
                 | Extension::Walls
+                | Extension::Corners
                 | Extension::Robot => unknown = true,
                 // A part is no thing of the facts; the kinds beside it say what is meant.
                 Extension::Part(_) => unknown |= noun.head.kinds.len() == 1,

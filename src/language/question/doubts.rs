@@ -26,8 +26,9 @@ impl Knowledge<'_> {
                 _ => continue,
             };
             for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
-                let described =
-                    !phrase.noun.filters.is_empty() || !phrase.noun.restrictions.is_empty();
+                let described = !phrase.noun.filters.is_empty()
+                    || !phrase.noun.restrictions.is_empty()
+                    || phrase.noun.rank.is_some();
                 let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
                 let after = items[at + 1..].iter().map_while(|next| match next {
                     Item::Place { rel, nouns, .. } => Some((*rel, nouns)),

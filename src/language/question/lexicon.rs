@@ -37,6 +37,8 @@ pub enum Extension {
     Building,
     Floor,
     Walls,
+    /// Where two walls of a room meet.
+    Corners,
     /// Doors and passages that lead out of the map.
     Exits,
     /// Parts of objects of this type, which are no things by themselves: legs, armrests.
@@ -87,7 +89,8 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     ),
     (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),
     (Extension::Floor, "пол", "floor|ground"),
-    (Extension::Walls, "стена", "wall"),
+    (Extension::Walls, "стена|стенка", "wall"),
+    (Extension::Corners, "угол|уголок", "corner"),
     (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
     (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
     (Extension::Trait("light"), "светильник", "light fixture|luminaire"),

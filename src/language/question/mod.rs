@@ -7,6 +7,8 @@
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
 //! three different [`Doubt`]s. No text makes it panic.
 
+use std::borrow::Cow;
+
 mod answer;
 mod assemble;
 mod datalog;
@@ -18,6 +20,7 @@ mod lexicon;
 mod query;
 mod several;
 mod speech;
+mod storeys;
 mod values;
 mod vocabulary;
 mod why;
@@ -375,7 +378,7 @@ impl Asker<'_> {
             return Err(Doubt::TooLong { length });
         }
         let text = several::without_tag(text);
-        let text = &everyday::plain(text, &self.mind.lexicon);
+        let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
@@ -401,7 +404,7 @@ impl Asker<'_> {
         if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
             return text.to_owned();
         }
-        let text = &everyday::plain(text, &self.mind.lexicon);
+        let text = &self.plain(text);
         // "Open the lab door" orders; it does not speak of the open one.
         let described = crate::language::command::without_verbs(text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
@@ -417,6 +420,15 @@ impl Asker<'_> {
             settled.replace_range(first.start..last.end, &name);
         }
         settled
+    }
+
+    /// A text in words that the map knows: "upstairs" is a storey, «столик» a table.
+    fn plain<'t>(&self, text: &'t str) -> Cow<'t, str> {
+        let here = self.senses.robot().map(|(map, _)| map);
+        match storeys::named(text, self.world, here) {
+            Cow::Borrowed(text) => everyday::plain(text, &self.mind.lexicon),
+            Cow::Owned(text) => Cow::Owned(everyday::plain(&text, &self.mind.lexicon).into_owned()),
+        }
     }
 
     /// Whether a text begins as a question of this grammar does, whatever follows.
@@ -462,43 +474,82 @@ impl Asker<'_> {
 
     /// «А чайник?» after a question about something else: the same question about the kettle.
     fn continued(&self, text: &str, memory: &Memory) -> Option<Query> {
-        let last = memory.query.as_ref()?;
+        let waiting = memory.pending.as_ref().map(|pending| &pending.query);
+        let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
         if !begins.iter().any(|b| key.starts_with(b)) {
             return None;
         }
-        let text = &everyday::plain(text, &self.mind.lexicon);
+        let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
         let mut query = last.clone();
         if noun.head == Head::default() {
-            // «А на полу?»: the same question about another place.
-            let asked = match &mut query {
-                Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
-                Query::Exists { what, .. } => what.first_mut()?,
-                Query::Place { within, .. } if !noun.restrictions.is_empty() => {
-                    *within = noun.restrictions;
-                    return Some(query);
-                }
-                _ => return None,
-            };
-            if !noun.restrictions.is_empty() {
-                asked.restrictions = noun.restrictions;
-            } else if !noun.filters.is_empty() {
-                asked.filters = noun.filters;
-            } else {
-                return None;
-            }
-            return Some(query);
+            return self.elsewhere(query, noun);
         }
-        let mut first = true;
+        // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
+        let is_room = self.is_room(&noun);
+        let mut rooms = false;
+        query.each_noun(&mut |old| rooms |= self.is_room(old));
+        // A room may narrow several nouns of the question: all that mean what is replaced.
+        let mut replaced: Option<Noun> = None;
         query.each_noun(&mut |old| {
-            if std::mem::take(&mut first) {
+            let fits = match &replaced {
+                Some(first) => is_room && rooms && old == first,
+                None => !(is_room && rooms) || self.is_room(old),
+            };
+            if fits {
+                replaced.get_or_insert_with(|| old.clone());
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
             }
         });
-        (!first).then_some(query)
+        replaced.map(|_| query)
+    }
+
+    /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
+    fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
+        let asked = match &mut query {
+            Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
+            Query::Exists { what, .. } => what.first_mut()?,
+            Query::Place { within, .. } if !noun.restrictions.is_empty() => {
+                *within = noun.restrictions;
+                return Some(query);
+            }
+            // «Книга на столе? А на полу?»
+            Query::Holds { claims, .. } if !noun.restrictions.is_empty() => {
+                *claims = noun.restrictions.into_iter().map(Claim::Related).collect();
+                return Some(query);
+            }
+            // «На чём стоит лампа? А на полу?» asks what is there.
+            _ if !noun.restrictions.is_empty() => {
+                let head = Head { anything: true, ..Head::default() };
+                return Some(Query::Find(Noun { head, plural: true, ..noun }));
+            }
+            _ => return None,
+        };
+        if noun.restrictions.is_empty() && noun.filters.is_empty() {
+            return None;
+        }
+        if !noun.restrictions.is_empty() {
+            // «Что на столе в кухне? А на полу?» stays in the kitchen.
+            let names_room =
+                noun.restrictions.iter().any(|r| r.anchors.iter().any(|a| self.is_room(a)));
+            let room =
+                asked.restrictions.iter().find(|r| r.anchors.iter().any(|a| self.is_room(a)));
+            let room = room.filter(|_| !names_room).cloned();
+            asked.restrictions = noun.restrictions;
+            asked.restrictions.extend(room);
+        } else {
+            asked.filters = noun.filters;
+        }
+        Some(query)
+    }
+
+    fn is_room(&self, noun: &Noun) -> bool {
+        let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Area(_));
+        (!noun.head.named.is_empty() && noun.head.named.iter().all(named))
+            || noun.head.kinds.iter().any(|k| self.mind.lexicon.is_area(*k))
     }
 
     /// «Красная» after «Какая чашка – белая или красная?»: the question that waited, with the thing that is meant.

@@ -137,7 +137,7 @@ pub(super) enum Pronoun {
 const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Where,
-        "не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        "помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
         where can i find|where do i find|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
@@ -491,6 +491,14 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Detail(Detail::Heading),
         "подробно|подробнее|поподробнее|детально|во всех подробностях|в подробностях|в деталях|шаг за шагом|по шагам|пошагово|in detail|in details|in full detail|in more detail|detailed|step by step|precisely how",
+    ),
+    (
+        Mark::More(Extreme::LeftMost),
+        "further left|farther left|further to the left|farther to the left|more to the left",
+    ),
+    (
+        Mark::More(Extreme::RightMost),
+        "further right|farther right|further to the right|farther to the right|more to the right",
     ),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),

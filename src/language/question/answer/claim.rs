@@ -49,13 +49,17 @@ impl Knowledge<'_> {
         thing: Thing,
         restriction: &Restriction,
     ) -> Result<(bool, Vec<Fact>, Vec<Thing>), Doubt> {
-        if restriction.rel == Rel::Between || restriction.anchors.iter().any(|a| self.is_floor(a)) {
+        if restriction.rel == Rel::Between
+            || restriction.anchors.iter().any(|a| self.is_floor(a) || self.is_walls(a))
+        {
             let mut noun = Noun::default();
             noun.head.things = Some(vec![thing]);
             noun.restrictions.push(restriction.clone());
             let holds = !self.find(&noun, false)?.is_empty();
             let mut anchors = Vec::new();
-            for anchor in restriction.anchors.iter().filter(|a| !self.is_floor(a)) {
+            for anchor in
+                restriction.anchors.iter().filter(|a| !self.is_floor(a) && !self.is_walls(a))
+            {
                 anchors.extend(self.definite(anchor)?);
             }
             return Ok((holds, Vec::new(), anchors));

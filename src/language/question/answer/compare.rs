@@ -187,6 +187,9 @@ impl Knowledge<'_> {
     ) -> Result<Draft, Doubt> {
         let to = to.map(|noun| self.one(noun)).transpose()?;
         let (a, b) = (self.champion(&of[0], extreme, to)?, self.champion(&of[1], extreme, to)?);
+        if matches!(extreme, Extreme::LeftMost | Extreme::RightMost) {
+            return Ok(self.further_aside([a, b], extreme, true));
+        }
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
             return Ok(self.apart(&[a, b]));
@@ -207,6 +210,30 @@ impl Knowledge<'_> {
             false => format!("{name} is {comparative} ({best}; {other_name}: {rest})"),
         };
         Ok(Draft::new(Said::Found, text).with(vec![winner]).about(&[other]))
+    }
+
+    /// «Что левее, диван или стол?»: as the robot sees them from where it is. `asks` which; else whether the first is.
+    fn further_aside(&self, [a, b]: [Thing; 2], extreme: Extreme, asks: bool) -> Draft {
+        let seen = self.outermost(&[a, b], extreme);
+        let [(x, _), (y, _)] = seen[..] else { return self.apart(&[a, b]) };
+        let from = self.pick("если смотреть с моего места", "as seen from where I am");
+        let first = x < y;
+        let (winner, other) = if first { (a, b) } else { (b, a) };
+        let side = match extreme {
+            Extreme::LeftMost => self.pick("левее", "further left"),
+            _ => self.pick("правее", "further right"),
+        };
+        let (name, other_name) = (self.name(winner), self.name(other));
+        let (said, head) = match (asks, first) {
+            (true, _) => (Said::Found, ""),
+            (false, true) => (Said::Yes, self.pick("да, ", "yes, ")),
+            (false, false) => (Said::No, self.pick("нет, ", "no, ")),
+        };
+        let text = match self.is_russian() {
+            true => format!("{head}{name} {side}, чем {other_name} ({from})"),
+            false => format!("{head}{name} is {side} than {other_name} ({from})"),
+        };
+        Draft::new(said, text).with(vec![winner]).about(&[other])
     }
 
     fn comparative(&self, extreme: Extreme) -> &'static str {
@@ -233,6 +260,9 @@ impl Knowledge<'_> {
     ) -> Result<Draft, Doubt> {
         let (a, b) = (self.one(what)?, self.one(than)?);
         let to = to.map(|noun| self.one(noun)).transpose()?;
+        if matches!(extreme, Extreme::LeftMost | Extreme::RightMost) {
+            return Ok(self.further_aside([a, b], extreme, false));
+        }
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
             return Ok(self.apart(&[a, b]));

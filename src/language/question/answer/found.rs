@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::lexicon::Extension;
+use crate::language::question::lexicon::{Extension, KindId};
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::words::length;
@@ -241,6 +241,19 @@ impl Knowledge<'_> {
         }
     }
 
+    /// A lift has an Area on every floor where it stops; people count it once. Rooms in general are counted as such.
+    fn one_of_each_lift(&self, noun: &Noun, found: &mut Vec<Thing>) {
+        let rooms = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
+        if noun.head.anything || noun.head.kinds.iter().any(rooms) {
+            return;
+        }
+        for (_, stops) in &self.world.domain.lifts {
+            let is_stop = |t: &Thing| t.area().is_some_and(|a| stops.iter().any(|s| s.area == a));
+            let mut met = false;
+            found.retain(|t| !is_stop(t) || !std::mem::replace(&mut met, true));
+        }
+    }
+
     pub(super) fn count(&self, noun: &Noun) -> Result<Draft, Doubt> {
         if let Some(parts) = self.count_parts(noun)? {
             return Ok(parts);
@@ -248,7 +261,8 @@ impl Knowledge<'_> {
         if let Some((each, rooms)) = self.in_each(noun)? {
             return Ok(self.count_in_each(&each, &rooms));
         }
-        let found = self.find(noun, false)?;
+        let mut found = self.find(noun, false)?;
+        self.one_of_each_lift(noun, &mut found);
         let facts = self.facts_of(noun, &found);
         let place = self.restrictions(noun);
         let anchors = self.anchor_things(noun);

@@ -28,7 +28,8 @@ pub(super) fn query(
 ) -> Result<Query, Doubt> {
     let items = sentence.items();
     if items.is_empty() {
-        return Err(Doubt::Empty);
+        // «Привет» greets; it asks nothing.
+        return if sentence.words.is_empty() { Err(Doubt::Empty) } else { Ok(Query::Help) };
     }
     let frame = Frame::of(sentence, lexicon, &items, referent)?;
     if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
@@ -201,6 +202,11 @@ impl Frame<'_, '_> {
     fn read(&self) -> Option<Query> {
         if self.has(Mark::Why) || self.has(Mark::WhyNot) {
             return Some(self.why());
+        }
+        // «Влезет ли коробка под кровать?»: the room under things is not known.
+        let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
+        if fits && self.spot(&[Rel::Under]).is_some() {
+            return None;
         }
         self.of_robot()
             .or_else(|| self.way())

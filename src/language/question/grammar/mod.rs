@@ -22,11 +22,11 @@ use nom::multi::{many0, many1};
 use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
-use super::lexicon::{Extension, KindId, Lexicon, Meaning};
+use super::lexicon::KindId;
 use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction};
 use super::values::{Property, ValueId};
-use super::vocabulary::{self, Mark, Pronoun};
-use crate::language::words::{Case, Language, Number, Readings, word_ranges};
+use super::vocabulary::{Mark, Pronoun};
+use crate::language::words::{Case, Language, Number, Readings};
 use crate::map::Entity;
 use crate::units::name_key;
 
@@ -436,6 +436,18 @@ impl<'t> Sentence<'t> {
             Language::English if found.is_area && !next.is_area => {
                 let words = input.0[0].from as usize..input.0[0].to as usize;
                 Ok((after, Some(next), Some((Rel::In, noun_of(found, words)))))
+            }
+            // "the desk lamp" is a lamp at the desk, not the desk; "are lamps devices" joins nothing.
+            Language::English
+                if !found.is_area
+                    && !asked
+                    && !found.kinds.is_empty()
+                    && !next.kinds.is_empty()
+                    && found.readings.iter().any(|r| r.is_singular()) =>
+            {
+                let words = input.0[0].from as usize..input.0[0].to as usize;
+                let owner = Noun { indefinite: true, ..noun_of(found, words) };
+                Ok((after, Some(next), Some((Rel::Near, owner))))
             }
             _ => Ok((rest, Some(found), None)),
         }

@@ -2,7 +2,7 @@
 
 use super::{Found, Sentence, Tok, Token};
 use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
-use crate::language::question::query::{Quantity, Rel};
+use crate::language::question::query::{Extreme, Quantity, Rel};
 use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary::{self, Mark};
 use crate::language::words::{Language, word_ranges};
@@ -82,7 +82,9 @@ impl<'t> Sentence<'t> {
                 None => true,
             }
             && (valued < longest || !self.begins_noun(at + longest, lexicon));
-        if noun_wins && !(property.is_some() && named == 1 && self.asks_property()) {
+        let of_what = |s: &Self| (at + named..s.keys.len()).any(|n| s.begins_noun(n, lexicon));
+        if noun_wins && !(property.is_some() && named == 1 && self.asks_property() && of_what(self))
+        {
             let found = self.noun(at, named, lexicon);
             self.nouns.push(found);
             let number = self.nouns.len() as u32 - 1;
@@ -96,6 +98,14 @@ impl<'t> Sentence<'t> {
             (Some((n, Mark::OnlyOne)), _, _) if n == longest => {
                 push(self, n, Tok::Mark(Mark::Number(Quantity::Exactly)));
                 push(self, n, Tok::Number(1))
+            }
+            // «Что левее, стол или шкаф?» compares; «Что левее стола?» asks for a place.
+            (Some((n, Mark::Link(side @ (Rel::LeftOf | Rel::RightOf)))), _, _)
+                if n == longest && self.comma_between(at + n, at + n) =>
+            {
+                let left = side == Rel::LeftOf;
+                let extreme = if left { Extreme::LeftMost } else { Extreme::RightMost };
+                push(self, n, Tok::Mark(Mark::More(extreme)))
             }
             (Some((n, mark)), _, _)
                 if n == longest && !(mark == Mark::Filler && valued == longest) =>

@@ -76,7 +76,9 @@ impl Knowledge<'_> {
             Extension::Exits => {
                 self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
             }
-            Extension::Floor | Extension::Walls | Extension::Part(_) => Vec::new(),
+            Extension::Floor | Extension::Walls | Extension::Corners | Extension::Part(_) => {
+                Vec::new()
+            }
         }
     }
 
@@ -113,6 +115,10 @@ impl Knowledge<'_> {
         noun: &Noun,
         loose: bool,
     ) -> Result<Vec<Thing>, Doubt> {
+        if self.is_walls(noun) {
+            // The map has walls, but no list of them: «нет стен» would be untrue.
+            return Err(Doubt::NotUnderstood { words: noun.text.clone() });
+        }
         let mut found = self.base(&noun.head);
         if noun.other {
             found.retain(|t| !self.memory.spoken.contains(t));
@@ -220,6 +226,9 @@ impl Knowledge<'_> {
                 let within = self.related_to(inner, loose)?;
                 found.retain(|t| within.contains(t));
             }
+            return Ok(found);
+        }
+        if let Some(found) = self.at_walls(restriction.rel, noun)? {
             return Ok(found);
         }
         let mut found = HashSet::new();
@@ -392,7 +401,11 @@ impl Knowledge<'_> {
     }
 
     /// Things in the order in which the robot sees them, from the left or from the right.
-    fn outermost(&self, found: &[Thing], extreme: Extreme) -> Vec<(f64, Thing)> {
+    pub(in crate::language::question) fn outermost(
+        &self,
+        found: &[Thing],
+        extreme: Extreme,
+    ) -> Vec<(f64, Thing)> {
         let Some((map, pose)) = self.senses.robot() else { return Vec::new() };
         let placed: Vec<(Vector, Thing)> = found
             .iter()

@@ -4,6 +4,7 @@ mod find;
 mod measure;
 mod relate;
 mod values;
+mod walls;
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};

@@ -1,0 +1,98 @@
+//! What stands at the walls of a room, in its corners, and what hangs on them.
+//!
+//! Invariant: walls are the impermeable sides of the room's own Orthoframes; what is said of them is measured.
+
+use super::Knowledge;
+use crate::language::question::Doubt;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::map::Entity;
+use crate::semantics::walls;
+use crate::units::{AreaId, Point, ReplicaId};
+use std::collections::{BTreeSet, HashSet};
+
+/// Furniture this near to a wall stands at it, cm.
+const AT_WALL: f64 = 30.0;
+/// Both walls of a corner are this near to what stands in it, cm.
+const IN_CORNER: f64 = 50.0;
+/// What hangs on a wall is this near to it, cm.
+const HANGING: f64 = 8.0;
+
+impl Knowledge<'_> {
+    /// Whether a noun means walls or corners, which have no names of their own.
+    pub(in crate::language::question) fn is_walls(&self, noun: &Noun) -> bool {
+        let is_wall = |e: &Extension| matches!(e, Extension::Walls | Extension::Corners);
+        noun.head.named.is_empty()
+            && !noun.head.kinds.is_empty()
+            && noun.head.kinds.iter().all(|k| is_wall(&self.lexicon().kind(*k).extension))
+    }
+
+    /// What stands at walls or in corners, or hangs on a wall; none where the noun means neither.
+    pub(super) fn at_walls(&self, rel: Rel, noun: &Noun) -> Result<Option<HashSet<Thing>>, Doubt> {
+        if !self.is_walls(noun) {
+            return Ok(None);
+        }
+        let corners =
+            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Corners);
+        let mut rooms: BTreeSet<AreaId> = self.world.areas.keys().copied().collect();
+        for restriction in &noun.restrictions {
+            for anchor in &restriction.anchors {
+                let meant: HashSet<AreaId> =
+                    self.find(anchor, true)?.into_iter().filter_map(Thing::area).collect();
+                if !meant.is_empty() {
+                    rooms.retain(|room| meant.contains(room));
+                }
+            }
+        }
+        let on_floor: HashSet<ReplicaId> = self.on_floor().iter().copied().collect();
+        let mut found = HashSet::new();
+        for room in rooms {
+            let sides = walls(self.world, self.relations.measurements(), room);
+            let all = self.related(Rel::In, Thing::Entity(Entity::Area(room)));
+            for thing in all {
+                let Some(id) = thing.replica() else { continue };
+                let near: Vec<(Point, Point)> = sides
+                    .iter()
+                    .copied()
+                    .filter(|side| {
+                        let reach = match (corners, rel) {
+                            (true, _) => IN_CORNER,
+                            (false, Rel::On) => HANGING,
+                            _ => AT_WALL,
+                        };
+                        self.relations.distance_to_segment(id, *side).is_some_and(|d| d <= reach)
+                    })
+                    .collect();
+                let fits = match (corners, rel) {
+                    (true, _) => on_floor.contains(&id) && meet(&near),
+                    (false, Rel::On) => {
+                        !near.is_empty()
+                            && !on_floor.contains(&id)
+                            && self.relations.support_of(id).is_none()
+                    }
+                    _ => on_floor.contains(&id) && !near.is_empty(),
+                };
+                if fits {
+                    found.insert(thing);
+                }
+            }
+        }
+        Ok(Some(found))
+    }
+}
+
+/// Whether two of these walls, which go counter-clockwise about the room, meet in an inner corner.
+fn meet(sides: &[(Point, Point)]) -> bool {
+    // Turned by more than 30°; ends of neighbouring sides may lie a grid step apart.
+    const TURN: f64 = 0.5;
+    const GAP: f64 = 2.0;
+    sides.iter().any(|(a, b)| {
+        sides.iter().any(|(c, d)| {
+            let (Some(u), Some(v)) = ((b - a).try_normalize(1e-9), (d - c).try_normalize(1e-9))
+            else {
+                return false;
+            };
+            (c - b).norm() <= GAP && u.perp(&v) > TURN
+        })
+    })
+}
