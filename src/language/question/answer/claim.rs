@@ -301,6 +301,12 @@ impl Knowledge<'_> {
                     Some(anchor) if self.is_floor(anchor) => {
                         self.pick("на полу", "on the floor").to_owned()
                     }
+                    // Walls and corners have no names: «в углах», "next to the walls".
+                    Some(anchor) if self.is_walls(anchor) => {
+                        let mut noun = Noun::default();
+                        noun.restrictions.push(restriction.clone());
+                        self.restrictions(&noun)
+                    }
                     _ => place,
                 };
                 let verb = match (restriction.rel, self.is_russian()) {

@@ -175,11 +175,11 @@ impl<'t> Sentence<'t> {
         }
     }
 
-    /// Whether a comma stands between two words.
+    /// Whether a comma or a colon stands between two words.
     pub(super) fn comma_between(&self, end: usize, start: usize) -> bool {
         match (end.checked_sub(1).and_then(|n| self.words.get(n)), self.words.get(start)) {
             (Some(before), Some(after)) if before.end <= after.start => {
-                self.text[before.end..after.start].contains(',')
+                self.text[before.end..after.start].contains([',', ':'])
             }
             _ => false,
         }
