@@ -372,12 +372,18 @@ impl Knowledge<'_> {
     /// A place told by its kind: «на столах», "on the tables".
     fn general_place(&self, rel: Rel, anchor: &Noun) -> String {
         let (phrase, english_name) = self.kind_phrase(anchor);
-        let plural = |case: Case| lower_first(&phrase.form(case, Number::Plural));
+        // «в углу», "next to the wall": of these people speak as of one.
+        let walls = self.is_walls(anchor);
+        let number = if walls { Number::Singular } else { Number::Plural };
+        let plural = |case: Case| lower_first(&phrase.form(case, number));
         if !self.is_russian() {
             if matches!(rel, Rel::Has | Rel::Bears) {
                 return format!("with {}", english::plural(&english_name));
             }
-            let name = format!("the {}", english::plural(&english_name));
+            let name = match walls {
+                true => format!("the {english_name}"),
+                false => format!("the {}", english::plural(&english_name)),
+            };
             let named = self.place(rel, &[Thing::Robot]);
             return named.replace("me", &name);
         }
@@ -396,7 +402,7 @@ impl Knowledge<'_> {
             Rel::RightOf => format!("справа {}", with(Preposition::Ot, Case::Genitive)),
             Rel::Near => format!("недалеко {}", with(Preposition::Ot, Case::Genitive)),
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
-            _ => with(Preposition::V, Case::Prepositional),
+            _ => with(Preposition::V, if walls { Case::Locative } else { Case::Prepositional }),
         }
     }
 
