@@ -300,13 +300,14 @@ impl PlanningGraph {
             }
             let is_new = self.fact_level(a) == level + 1;
             let row = old.row(a);
+            let barred = self.barred(old, a);
             for word in 0..=number / 64 {
                 let mut open =
                     if is_new { present[word] } else { present[word] & (row[word] | new[word]) };
                 while open != 0 {
                     let b = FactId((word * 64) as u32 + open.trailing_zeros());
                     open &= open - 1;
-                    if b < a && (known(a, b) || !self.jointly_achievable(old, a, b)) {
+                    if b < a && (known(a, b) || !self.jointly_achievable(old, a, b, &barred)) {
                         next.insert(a, b);
                     }
                 }
@@ -315,15 +316,43 @@ impl PlanningGraph {
         Ok(next)
     }
 
-    fn jointly_achievable(&self, mutex: &Pairs, p: FactId, q: FactId) -> bool {
+    /// The facts, as a row of bits, that no action may need beside any way to have `p`: each way excludes its
+    /// preconditions or takes it away. With one robot that moves, mostly all the places where it may be.
+    fn barred(&self, mutex: &Pairs, p: FactId) -> Vec<u64> {
+        let mut barred = vec![u64::MAX; mutex.words];
+        let mut excluded = vec![0_u64; mutex.words];
+        for a in self.ways(p) {
+            excluded.fill(0);
+            let action = self.action(a);
+            for &fact in &action.preconditions {
+                for (word, row) in excluded.iter_mut().zip(mutex.row(fact)) {
+                    *word |= row;
+                }
+            }
+            for fact in &action.del_effects {
+                excluded[fact.index() / 64] |= 1 << (fact.index() % 64);
+            }
+            for (word, more) in barred.iter_mut().zip(&excluded) {
+                *word &= more;
+            }
+        }
+        barred
+    }
+
+    /// The actions of this level that add a fact.
+    fn ways(&self, fact: FactId) -> impl Iterator<Item = ActionId> {
         let level = self.top as u32;
-        let ways = |fact: FactId| {
-            self.achievers(fact).iter().copied().filter(|&a| self.action_level(a) <= level)
+        self.achievers(fact).iter().copied().filter(move |&a| self.action_level(a) <= level)
+    }
+
+    fn jointly_achievable(&self, mutex: &Pairs, p: FactId, q: FactId, barred: &[u64]) -> bool {
+        let is_barred = |fact: &FactId| barred[fact.index() / 64] >> (fact.index() % 64) & 1 == 1;
+        let goes_beside = |b: ActionId| {
+            !self.action(b).preconditions.iter().any(is_barred)
+                && self.ways(p).any(|a| !self.compete(mutex, a, b) && !self.interfere(a, b))
         };
-        ways(p).any(|a| {
-            self.action(a).add_effects.contains(&q)
-                || ways(q).any(|b| !self.compete(mutex, a, b) && !self.interfere(a, b))
-        })
+        self.ways(p).any(|a| self.action(a).add_effects.contains(&q))
+            || self.ways(q).any(goes_beside)
     }
 
     /// Memory held, near enough to honour a limit.
