@@ -65,8 +65,7 @@ fn left_of(a: Point, b: Point) -> Vector {
 
 /// Whether an Area is a corridor, by its type.
 pub(super) fn is_corridor(world: &World, area: AreaId) -> bool {
-    let area = world.areas.get(&area);
-    area.is_some_and(|a| world.types.area.has_trait(a.area_type, "corridor"))
+    world.area_has_trait(area, "corridor")
 }
 
 impl Plan {

@@ -161,9 +161,7 @@ impl Words<'_> {
     fn is_container(&self, name: &str) -> bool {
         self.world.find(name).iter().any(|entity| match entity {
             Entity::Replica(id) => {
-                let kind = self.world.objects[&self.world.replicas[id].object].object_type;
-                let has = |wanted| self.world.types.object.has_trait(kind, wanted);
-                has("container") && !has("support")
+                self.world.has_trait(*id, "container") && !self.world.has_trait(*id, "support")
             }
             _ => false,
         })

@@ -18,7 +18,7 @@ impl Engine {
     pub(super) fn portable(&self, entity: Entity) -> Result<ReplicaId, Error> {
         let world = self.world()?;
         match entity {
-            Entity::Replica(id) if is(world, id, "portable") => Ok(id),
+            Entity::Replica(id) if world.has_trait(id, "portable") => Ok(id),
             other => Err(RequestError::NotPortable { name: world.name(other).to_owned() }.into()),
         }
     }
@@ -112,7 +112,8 @@ impl Engine {
                 .into_iter()
                 .collect());
         }
-        let bears = |id: ReplicaId| !is(&now.world, id, "portable") && self.takes(id, thing, now);
+        let bears =
+            |id: ReplicaId| !now.world.has_trait(id, "portable") && self.takes(id, thing, now);
         let reached = |id: ReplicaId| {
             let support = world.name(Entity::Replica(id));
             facts
@@ -165,15 +166,8 @@ impl Engine {
 /// How unfit a thing is to be put on: what is made to bear things before others, and seats last.
 fn unfit(world: &World, entity: Entity) -> u8 {
     match entity {
-        Entity::Replica(id) if is(world, id, "seat") => 2,
-        Entity::Replica(id) if !is(world, id, "support") => 1,
+        Entity::Replica(id) if world.has_trait(id, "seat") => 2,
+        Entity::Replica(id) if !world.has_trait(id, "support") => 1,
         _ => 0,
     }
-}
-
-fn is(world: &World, id: ReplicaId, wanted: &str) -> bool {
-    world
-        .replicas
-        .get(&id)
-        .is_some_and(|r| world.types.object.has_trait(world.objects[&r.object].object_type, wanted))
 }

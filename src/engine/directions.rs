@@ -212,10 +212,8 @@ impl Guide<'_> {
         let here: Vec<&PlacedReplica> = self.floor.scene().replicas_in(area).collect();
         let name = |thing: &PlacedReplica| self.world.name(Entity::Replica(thing.id));
         let stays = |thing: &&&PlacedReplica| {
-            let kind = self.world.objects.get(&self.world.replicas[&thing.id].object);
-            let kind = kind.and_then(|o| o.object_type);
             *self.end != End::Entity(Entity::Replica(thing.id))
-                && !self.world.types.object.has_trait(kind, "portable")
+                && !self.world.has_trait(thing.id, "portable")
                 && self.relations.support_of(thing.id).is_none()
                 && here.iter().filter(|other| name(other) == name(thing)).count() == 1
         };

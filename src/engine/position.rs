@@ -167,8 +167,7 @@ impl Telling<'_> {
         }
         let things = self.world.replicas.values().filter(|r| r.area == self.area);
         let stays = |r: &&crate::map::Replica| {
-            let kind = self.world.objects.get(&r.object).and_then(|o| o.object_type);
-            !self.world.types.object.has_trait(kind, "portable") && !r.name.is_empty()
+            !self.world.has_trait(r.id, "portable") && !r.name.is_empty()
         };
         let things = things.filter(stays).map(|r| Entity::Replica(r.id));
         for thing in things.chain(doors) {

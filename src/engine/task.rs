@@ -331,14 +331,7 @@ impl Engine {
     fn switched(&self, predicate: &str, entity: Entity) -> Result<GoalFact, Error> {
         let world = self.world()?;
         let name = world.name(entity).to_owned();
-        let is_device = match entity {
-            Entity::Replica(id) => {
-                let object = &world.objects[&world.replicas[&id].object];
-                world.types.object.has_trait(object.object_type, "device")
-            }
-            _ => false,
-        };
-        if !is_device {
+        if !matches!(entity, Entity::Replica(id) if world.has_trait(id, "device")) {
             return Err(RequestError::NotADevice { name }.into());
         }
         Ok(GoalFact { predicate: predicate.to_owned(), args: vec![name] })

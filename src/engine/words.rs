@@ -43,8 +43,7 @@ impl Surroundings<'_> {
         }
         // A map without corridors, or with ones that the road graph cannot read, is told room by room.
         let corridors = CorridorSystem::from_map(world, answer.map).ok();
-        let is_corridor =
-            |area: AreaId| world.types.area.has_trait(world.areas[&area].area_type, "corridor");
+        let is_corridor = |area: AreaId| world.area_has_trait(area, "corridor");
         let mut sentences = Vec::new();
         let mut at = 0;
         while at < answer.stages.len() {

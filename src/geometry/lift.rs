@@ -162,11 +162,9 @@ pub fn across(
 }
 
 fn stops(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> Vec<Stop> {
-    let is_stairs =
-        |area: AreaId| world.types.area.has_trait(world.areas[&area].area_type, "stairs");
     let mut found = Vec::new();
     for (lift, (_, stops)) in world.domain.lifts.iter().enumerate() {
-        if stops.iter().any(|s| is_stairs(s.area)) {
+        if stops.iter().any(|s| world.area_has_trait(s.area, "stairs")) {
             continue;
         }
         for area in stops.iter().map(|s| s.area) {

@@ -223,6 +223,20 @@ impl World {
         })
     }
 
+    /// Whether the type of a replica's Object has a trait.
+    #[must_use]
+    pub fn has_trait(&self, replica: ReplicaId, wanted: &str) -> bool {
+        let object = self.replicas.get(&replica).and_then(|r| self.objects.get(&r.object));
+        object.is_some_and(|object| self.types.object.has_trait(object.object_type, wanted))
+    }
+
+    /// Whether the type of an Area has a trait.
+    #[must_use]
+    pub fn area_has_trait(&self, area: AreaId, wanted: &str) -> bool {
+        let area = self.areas.get(&area);
+        area.is_some_and(|area| self.types.area.has_trait(area.area_type, wanted))
+    }
+
     /// The replicas of a Fragment, in the order of their ids.
     pub fn replicas_in(&self, area: AreaId) -> impl Iterator<Item = &Replica> + '_ {
         self.replicas.values().filter(move |r| r.area == area)

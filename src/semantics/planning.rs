@@ -178,7 +178,7 @@ impl Writer<'_> {
 
     /// A device and its state; where it is reached from, of one that can be carried.
     fn device(&mut self, id: ReplicaId, name: &str, root: ReplicaId, area: AreaId) {
-        let is_portable = self.is(id, "portable");
+        let is_portable = self.world.has_trait(id, "portable");
         let kind = if is_portable { ITEM } else { OBJECT };
         self.fact(predicate::DEVICE_HAS_BUTTON, &[(name, kind)]);
         match is_on(&self.world.replicas[&id].properties) {
@@ -203,18 +203,18 @@ impl Writer<'_> {
             let name = self.relations.symbols().replica(id).to_string();
             let chain = self.supports(id);
             let root = chain.last().copied().unwrap_or(id);
-            if self.is(id, "person") {
+            if self.world.has_trait(id, "person") {
                 for place in self.places_of(root, area) {
                     self.fact(predicate::PERSON_AT_PLACE, &[(&name, PERSON), (&place, PLACE)]);
                 }
-            } else if self.is(id, "portable") {
+            } else if self.world.has_trait(id, "portable") {
                 self.portable(id, &name, &chain, root, area);
             } else {
                 for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
                     self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, OBJECT)]);
                 }
             }
-            if self.is(id, "device") {
+            if self.world.has_trait(id, "device") {
                 self.device(id, &name, root, area);
             }
             if let Some((_, door)) = Mark::KeyOf.of(&replica.properties) {
@@ -240,7 +240,7 @@ impl Writer<'_> {
             return;
         }
         // On a plate on the table is on the table: the plate itself may be carried away.
-        match chain.iter().find(|&&s| !self.is(s, "portable")) {
+        match chain.iter().find(|&&s| !self.world.has_trait(s, "portable")) {
             Some(&support) => {
                 let on = self.relations.symbols().replica(support).to_string();
                 self.fact(predicate::THING_ON, &[(name, ITEM), (&on, OBJECT)]);
@@ -289,7 +289,8 @@ impl Writer<'_> {
         }
         let thing = self.relations.symbols().replica(root);
         // What can be carried is no place by its own name: a name has one type in a rule file.
-        let name = if self.is(root, "portable") || self.is(root, "person") {
+        let name = if self.world.has_trait(root, "portable") || self.world.has_trait(root, "person")
+        {
             format!("{PLACE_BESIDE}{thing}")
         } else {
             thing.to_string()
@@ -330,11 +331,6 @@ impl Writer<'_> {
 
     fn area(&self, id: AreaId) -> String {
         self.relations.symbols().area(id).to_string()
-    }
-
-    fn is(&self, id: ReplicaId, wanted: &str) -> bool {
-        let object = &self.world.objects[&self.world.replicas[&id].object];
-        self.world.types.object.has_trait(object.object_type, wanted)
     }
 }
 

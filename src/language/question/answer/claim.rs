@@ -201,7 +201,7 @@ impl Knowledge<'_> {
         let yes = held.is_empty() != negated;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let inside = held.iter().any(|t| self.tuple(Rel::In, *t, thing).is_some());
-        let container = thing.replica().is_some_and(|id| self.has_trait(id, "container"));
+        let container = thing.replica().is_some_and(|id| self.world.has_trait(id, "container"));
         let rel = if inside || (held.is_empty() && container) { Rel::In } else { Rel::On };
         let place = self.place(rel, &[thing]);
         let text = match (held.is_empty(), self.is_russian()) {

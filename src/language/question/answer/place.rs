@@ -125,7 +125,7 @@ impl Knowledge<'_> {
         let mut near: Vec<(f64, Thing)> = self
             .related(Rel::NextTo, thing)
             .into_iter()
-            .filter(|t| t.replica().is_some_and(|r| !self.has_trait(r, "portable")))
+            .filter(|t| t.replica().is_some_and(|r| !self.world.has_trait(r, "portable")))
             .filter_map(|t| Some((self.distance(thing, t)?, t)))
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
@@ -466,7 +466,7 @@ impl Knowledge<'_> {
         let mut near: Vec<(f64, Thing)> = self
             .related(Rel::Near, thing)
             .into_iter()
-            .filter(|t| t.replica().is_some_and(|r| !self.has_trait(r, "portable")))
+            .filter(|t| t.replica().is_some_and(|r| !self.world.has_trait(r, "portable")))
             .filter_map(|t| Some((self.distance(thing, t)?, t)))
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));

@@ -85,11 +85,11 @@ impl Knowledge<'_> {
         let fits = |t: &Thing| {
             let Some(id) = t.replica() else { return false };
             match use_for {
-                Use::Sit => self.has_trait(id, "seat"),
-                Use::Lie => self.has_trait(id, "bed"),
+                Use::Sit => self.world.has_trait(id, "seat"),
+                Use::Lie => self.world.has_trait(id, "bed"),
                 Use::Put => {
-                    self.has_trait(id, "support")
-                        && !self.has_trait(id, "portable")
+                    self.world.has_trait(id, "support")
+                        && !self.world.has_trait(id, "portable")
                         && Some(*t) != thing
                         && self.relations.free_top(id).is_some_and(|(_, free)| free >= needed)
                 }
@@ -161,7 +161,7 @@ impl Knowledge<'_> {
             1 => found,
             _ => self.definite(anchor)?,
         };
-        let fits = |t: &Thing| t.replica().is_some_and(|id| self.has_trait(id, wanted));
+        let fits = |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, wanted));
         let bears = |t: &Thing| t.replica().is_some_and(|id| self.relations.bears_something(id));
         let (good, bad): (Vec<Thing>, Vec<Thing>) =
             found.iter().copied().partition(|t| fits(t) && !bears(t));

@@ -44,7 +44,7 @@ impl Knowledge<'_> {
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
             Extension::Furniture => {
                 let all = self.world.replicas.keys();
-                all.filter(|id| !self.has_trait(**id, "portable")).map(replica).collect()
+                all.filter(|id| !self.world.has_trait(**id, "portable")).map(replica).collect()
             }
             Extension::AreaType(kind) => {
                 let all = self.world.areas.values().filter(|a| a.area_type == Some(*kind));

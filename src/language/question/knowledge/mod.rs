@@ -241,10 +241,4 @@ impl Knowledge<'_> {
             things.filter_map(|t| self.thing(t.symbol(0)?)?.replica()).collect()
         })
     }
-
-    pub(super) fn has_trait(&self, replica: ReplicaId, wanted: &str) -> bool {
-        let object = self.world.replicas.get(&replica).map(|r| r.object);
-        let kind = object.and_then(|o| self.world.objects.get(&o)).and_then(|o| o.object_type);
-        self.world.types.object.has_trait(kind, wanted)
-    }
 }

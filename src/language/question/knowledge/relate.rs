@@ -78,7 +78,8 @@ impl Knowledge<'_> {
     fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
         let mut found: Vec<Thing> = Vec::new();
         for basis in bases(rel) {
-            if basis.of_support && anchor.replica().is_none_or(|id| !self.has_trait(id, "support"))
+            if basis.of_support
+                && anchor.replica().is_none_or(|id| !self.world.has_trait(id, "support"))
             {
                 continue;
             }
