@@ -11,6 +11,7 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFaults};
+use crate::units::capitalized;
 
 use super::args::Lang;
 
@@ -212,9 +213,4 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
 pub(super) fn decimal(value: f64, unit: &str, lang: Lang) -> String {
     let text = format!("{value:.1} {unit}");
     if lang == Lang::Ru { text.replacen('.', ",", 1) } else { text }
-}
-
-fn capitalized(text: &str) -> String {
-    let mut chars = text.chars();
-    chars.next().map(|c| c.to_uppercase().chain(chars).collect()).unwrap_or_default()
 }

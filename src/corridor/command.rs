@@ -1,6 +1,6 @@
 //! Commands for the robot, in the paper's words and in English.
 
-use crate::units::Language;
+use crate::units::{Language, capitalized};
 
 use super::system::{JunctionKind, Side, Turn};
 
@@ -126,7 +126,7 @@ impl Language {
                 format!("Drive past {passed} {word} to the corridor junction.")
             }
             (Self::Russian, other) => imperative(other).to_owned(),
-            (Self::English, other) => capitalised(other.english()),
+            (Self::English, other) => format!("{}.", capitalized(other.english())),
         }
     }
 }
@@ -143,12 +143,6 @@ fn imperative(command: Command) -> &'static str {
         Command::ToDoor(_) => "Проезжайте до двери.",
         Command::UTurn => "Развернитесь.",
     }
-}
-
-fn capitalised(text: &str) -> String {
-    let mut letters = text.chars();
-    let first = letters.next().into_iter().flat_map(char::to_uppercase);
-    first.chain(letters).chain(['.']).collect()
 }
 
 fn english_ordinal(n: usize) -> String {

@@ -7,7 +7,7 @@ use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::Entity;
 use crate::semantics::predicate;
-use crate::units::AreaId;
+use crate::units::{AreaId, capitalized};
 
 use super::lexicon::named;
 use super::{Engine, TaskAnswer};
@@ -71,9 +71,4 @@ impl Engine {
         };
         self.unconnected(answer).iter().map(told).collect()
     }
-}
-
-fn capitalized(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }

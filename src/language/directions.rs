@@ -23,6 +23,7 @@
 use super::report::{Detail, Named, Opening};
 use super::words::russian::{self, Preposition};
 use super::words::{Case, Gender, Language, Number, enumerate, length};
+use crate::units::capitalized;
 
 /// A change of direction, as people name it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -423,9 +424,7 @@ fn round_length(cm: f64) -> f64 {
 }
 
 fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    let first: String = letters.next().map(|c| c.to_uppercase().collect()).unwrap_or_default();
-    format!("{first}{}.", letters.as_str())
+    format!("{}.", capitalized(text))
 }
 
 #[cfg(test)]

@@ -20,6 +20,6 @@ mod source;
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
 pub use language::Language;
-pub use name::{name_key, nearest_name};
+pub use name::{capitalized, name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::Source;

@@ -22,6 +22,13 @@ pub fn name_key(name: &str) -> String {
     key
 }
 
+/// The text with a capital at its beginning.
+#[must_use]
+pub fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
+}
+
 /// The candidate most like `wanted`, for "did you mean …"; none when nothing is near.
 pub fn nearest_name<'a>(
     wanted: &str,

@@ -11,7 +11,9 @@ use crate::map::{
     Area, Domain, DomainMap, DoorMount, Forms, Gender, Item, LiftStop, Map, MapItem, Orthoframe,
     Permeability, Properties, TypeKind, World,
 };
-use crate::units::{AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, PlaceId, Point, TypeId};
+use crate::units::{
+    AreaId, Cm, Deg, DoorId, Frame, MapId, OrFrId, PlaceId, Point, TypeId, capitalized,
+};
 
 use super::names::{self, Names, letters};
 use super::openings::{self, Placed};
@@ -380,7 +382,7 @@ impl Maker<'_> {
         let given = match (&meaning, says_only_type) {
             (Some(m), true) => {
                 let own = by_name.filter(|f| f.is_whole).map_or(m, |f| f.meaning);
-                let (ru, en) = (own.name.clone(), names::capital(&own.name_en));
+                let (ru, en) = (own.name.clone(), capitalized(&own.name_en));
                 match trailing_number(&name) {
                     Some(n) => self.names.unique(&format!("{ru}-{n}"), &format!("{en} {n}")),
                     None => self.names.unique(&ru, &en),

@@ -3,7 +3,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::units::name_key;
+use crate::units::{capitalized, name_key};
 
 /// A name longer than this is a text, not a name.
 const LONGEST: usize = 80;
@@ -96,12 +96,6 @@ pub(super) fn tidy(name: &str) -> String {
     words.join(" ").chars().take(LONGEST).collect()
 }
 
-/// "side table" as a name: "Side table".
-pub(super) fn capital(name: &str) -> String {
-    let mut letters = name.chars();
-    letters.next().map_or_else(String::new, |c| c.to_uppercase().chain(letters).collect())
-}
-
 /// `Dresser_315` as words: "Dresser 315"; CamelCase comes apart.
 pub(super) fn words(name: &str) -> String {
     let mut spaced = String::new();
@@ -116,7 +110,7 @@ pub(super) fn words(name: &str) -> String {
         }
         before = c;
     }
-    capital(&tidy(&spaced))
+    capitalized(&tidy(&spaced))
 }
 
 pub(super) fn is_russian(name: &str) -> bool {

@@ -10,7 +10,7 @@ use crate::exchange::synonyms::{Meaning, Vocabulary};
 use crate::exchange::{Kind, Level, Spot, Thing};
 use crate::map::plane::{bounds, doubled_area, edges, meeting};
 use crate::map::{BaseVector, Forms, Object, Place, Properties, Replica, TypeKind};
-use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector};
+use crate::units::{Frame, ObjectId, PlaceId, Point, ReplicaId, Vector, capitalized};
 
 use super::build::{Maker, Storey};
 use super::index::Index;
@@ -252,7 +252,7 @@ impl Maker<'_> {
         let object = &self.world.objects[&made.object];
         let known = self.synonyms.find(Vocabulary::Object, &name);
         if name.is_empty() || known.is_some() || name == object.properties[SOURCE] {
-            let (ru, en) = (object.name.clone(), names::capital(&object.name_en));
+            let (ru, en) = (object.name.clone(), capitalized(&object.name_en));
             return self.names.numbered(&ru, &en);
         }
         let name_en = if names::is_russian(&name) { String::new() } else { name.clone() };
@@ -301,7 +301,7 @@ impl Maker<'_> {
         let by_kind = self.synonyms.find(Vocabulary::Place, &spot.kind);
         let (ru, en) = by_name.or(by_kind).map_or_else(
             || ("Точка".to_owned(), "Point".to_owned()),
-            |f| (f.meaning.name.clone(), names::capital(&f.meaning.name_en)),
+            |f| (f.meaning.name.clone(), capitalized(&f.meaning.name_en)),
         );
         if name.is_empty() || by_name.is_some_and(|f| f.is_whole) {
             return self.names.numbered(&ru, &en);

@@ -27,7 +27,7 @@ use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
 use super::words::{FormIndex, Language, alternatives};
-use crate::units::Source;
+use crate::units::{Source, capitalized};
 
 /// How one thing is to lie to another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -299,12 +299,9 @@ pub(in crate::language) fn without_verbs(text: &str) -> String {
 fn sentences(first: &str, second: &str) -> String {
     let mut text = String::new();
     for part in [first, second].into_iter().filter(|part| !part.is_empty()) {
-        let mut letters = part.chars();
         let blank = if text.is_empty() { "" } else { " " };
         let stop = if part.ends_with(['?', '.', '!']) { "" } else { "." };
-        let first =
-            letters.next().map(char::to_uppercase).into_iter().flatten().collect::<String>();
-        text.push_str(&format!("{blank}{first}{}{stop}", letters.as_str()));
+        text.push_str(&format!("{blank}{}{stop}", capitalized(part)));
     }
     text
 }

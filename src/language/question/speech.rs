@@ -7,6 +7,7 @@ use crate::language::words::{
     Case, Gender, Language, NounPhrase, Number, WordHints, english, enumerate,
 };
 use crate::map::Entity;
+use crate::units::capitalized;
 
 use super::knowledge::{Frame, Knowledge};
 use super::lexicon::{Extension, lower_first};
@@ -461,9 +462,6 @@ fn window_of(area: &str) -> String {
 /// A text with a capital at its beginning and a stop at its end.
 pub(super) fn sentence(text: &str) -> String {
     let text = text.trim();
-    let mut letters = text.chars();
-    let Some(first) = letters.next() else { return String::new() };
-    let rest = letters.as_str();
-    let stop = if text.ends_with(['.', '?', '!', '…']) { "" } else { "." };
-    format!("{}{rest}{stop}", first.to_uppercase())
+    let stop = if text.is_empty() || text.ends_with(['.', '?', '!', '…']) { "" } else { "." };
+    format!("{}{stop}", capitalized(text))
 }

@@ -11,6 +11,7 @@
 use super::adjective::Adjective;
 use super::letters::{Run, cyrillic_twin, runs};
 use super::lexicon;
+use crate::units::capitalized;
 
 /// The name inside a sentence, with "the" where English wants it: "the kitchen" for Kitchen, but "Room-B", "Office 12",
 /// "Anna's desk". A plain capital at the start is dropped, since a thing's name is no proper name.
@@ -291,13 +292,7 @@ const ADJECTIVES: &[(&str, &str)] = &[
 ];
 
 fn cased_like(written: &str, english: &str) -> String {
-    let mut letters = english.chars();
-    match letters.next() {
-        Some(first) if written.starts_with(char::is_uppercase) => {
-            first.to_uppercase().chain(letters).collect()
-        }
-        _ => english.to_owned(),
-    }
+    if written.starts_with(char::is_uppercase) { capitalized(english) } else { english.to_owned() }
 }
 
 /// A tag in Latin letters: each by its look, and where none looks like it by its usual transcription; a letter that
