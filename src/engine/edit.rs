@@ -224,15 +224,7 @@ fn news(before: &World, after: &World) -> MapErrors {
 
 /// The replicas that differ between two worlds that are else alike; none when they are not.
 fn only_replicas(before: &World, after: &World) -> Option<Vec<ReplicaId>> {
-    let alike = before.domain == after.domain
-        && before.maps == after.maps
-        && before.areas == after.areas
-        && before.objects == after.objects
-        && before.orthoframes == after.orthoframes
-        && before.doors == after.doors
-        && before.types == after.types
-        && before.places == after.places
-        && before.robot == after.robot;
+    let alike = before.is_same_building(after) && before.doors == after.doors;
     let differ = |w: &BTreeMap<ReplicaId, map::Replica>, of: &BTreeMap<_, _>| -> Vec<ReplicaId> {
         of.iter().filter(|(id, r)| w.get(id) != Some(*r)).map(|(id, _)| *id).collect()
     };

@@ -208,6 +208,22 @@ impl World {
         }
     }
 
+    /// Whether another world differs from this one in its replicas and the states of its doors only.
+    #[must_use]
+    pub fn is_same_building(&self, other: &Self) -> bool {
+        let door = |(is, was): (&Door, &Door)| *is == Door { state: is.state, ..was.clone() };
+        self.domain == other.domain
+            && self.maps == other.maps
+            && self.areas == other.areas
+            && self.objects == other.objects
+            && self.orthoframes == other.orthoframes
+            && self.types == other.types
+            && self.places == other.places
+            && self.robot == other.robot
+            && self.doors.len() == other.doors.len()
+            && self.doors.values().zip(other.doors.values()).all(door)
+    }
+
     /// Where every Area stands; for work that asks for many of them, see [`Self::placement`] for one.
     #[must_use]
     pub fn placements(&self) -> BTreeMap<AreaId, (MapId, Frame)> {

@@ -1,6 +1,9 @@
 //! The steps of an edit as arguments.
 
-use clap::{Args, Subcommand, ValueEnum};
+use clap::builder::PossibleValuesParser;
+use clap::{Args, Subcommand};
+
+use crate::map;
 
 #[derive(Debug, Subcommand)]
 pub(super) enum Step {
@@ -275,19 +278,8 @@ pub(super) struct At {
 #[derive(Debug, Args)]
 pub(super) struct KindArg {
     /// What bears the name, where several kinds of things do
-    #[arg(long, value_enum)]
-    pub(super) kind: Option<KindWord>,
-}
-
-#[derive(Debug, Clone, Copy, ValueEnum)]
-pub(super) enum KindWord {
-    Replica,
-    Area,
-    Door,
-    Place,
-    Map,
-    Object,
-    Orthoframe,
+    #[arg(long, value_parser = PossibleValuesParser::new(map::kinds()))]
+    pub(super) kind: Option<String>,
 }
 
 /// What most records have.

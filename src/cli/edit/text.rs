@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use clap::ValueEnum;
 use serde_json::json;
 
 use super::step::{At, Group, KindArg, Names, Numbers, Step};
@@ -56,8 +55,7 @@ impl Text {
     }
 
     fn kind(self, kind: &KindArg) -> Self {
-        let word = kind.kind.and_then(|k| k.to_possible_value().map(|v| v.get_name().to_owned()));
-        self.opt("kind", word.as_ref())
+        self.opt("kind", kind.kind.as_ref())
     }
 
     fn names(self, names: &Names) -> Self {

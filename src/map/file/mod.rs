@@ -24,7 +24,7 @@ use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
 use crate::units::Source;
 
-pub use edit::{EditReading, NextIds, edit};
+pub use edit::{EditReading, NextIds, edit, kinds};
 pub use schema::json_schema;
 
 /// A text larger than this is no map: forty thousand replicas take some five megabytes.

@@ -6,7 +6,7 @@
 use std::collections::BTreeSet;
 
 use crate::facts::{FactError, Value};
-use crate::map::{Entity, Replica, World};
+use crate::map::{Door, Entity, Replica, World};
 use crate::semantics::feed::{Cell, Feed};
 use crate::semantics::names::Subject;
 use crate::semantics::openings::openings;
@@ -122,16 +122,7 @@ impl Relations {
 
 /// The replicas and doors that differ; none where something else does, or too much.
 fn followed(before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId>)> {
-    let alike = before.domain == after.domain
-        && before.maps == after.maps
-        && before.areas == after.areas
-        && before.objects == after.objects
-        && before.orthoframes == after.orthoframes
-        && before.types == after.types
-        && before.places == after.places
-        && before.robot == after.robot
-        && before.doors.len() == after.doors.len();
-    if !alike {
+    if !before.is_same_building(after) {
         return None;
     }
     // What is gone goes first: nothing that is measured afterwards may lie beside it.
@@ -148,20 +139,8 @@ fn followed(before: &World, after: &World) -> Option<(Vec<ReplicaId>, Vec<DoorId
         }
         replicas.push(*id);
     }
-    let mut doors = Vec::new();
-    for (id, is) in &after.doors {
-        let was = before.doors.get(id)?;
-        let same = map_door_but_state(was, is);
-        if !same {
-            return None;
-        }
-        if was.state != is.state {
-            doors.push(*id);
-        }
-    }
+    let other_state = |(is, was): &(&Door, &Door)| is.state != was.state;
+    let doors = after.doors.values().zip(before.doors.values()).filter(other_state);
+    let doors = doors.map(|(is, _)| is.id).collect();
     (replicas.len() <= MOST_FOLLOWED).then_some((replicas, doors))
-}
-
-fn map_door_but_state(was: &crate::map::Door, is: &crate::map::Door) -> bool {
-    crate::map::Door { state: is.state, ..was.clone() } == *is
 }

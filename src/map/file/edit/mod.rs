@@ -29,6 +29,8 @@ use crate::map::fault::{Fault, MapError};
 use crate::map::{Entity, MapErrors, TypeKind, World, check};
 use crate::units::{ReplicaId, Source};
 
+pub use tree::kinds;
+
 use steps::Steps;
 use tree::{Kind, Tree};
 

@@ -20,6 +20,12 @@ pub(super) enum Kind {
     Orthoframe,
 }
 
+/// The words by which an edit tells kinds of things apart that bear one name.
+#[must_use]
+pub fn kinds() -> [&'static str; 7] {
+    Kind::ALL.map(Kind::word)
+}
+
 impl Kind {
     pub(super) const ALL: [Self; 7] = [
         Self::Replica,
