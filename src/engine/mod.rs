@@ -135,6 +135,21 @@ pub fn change_now(user: &str, reason: &str) -> Change {
 }
 
 impl Engine {
+    /// Nothing is derived yet.
+    fn new(store: Option<Store>, opened: OpenReport, rules: Rules, world: Option<World>) -> Self {
+        Self {
+            store,
+            rules,
+            world,
+            relations: OnceCell::new(),
+            floors: OnceCell::new(),
+            mind: OnceCell::new(),
+            forms: OnceCell::new(),
+            present: OnceCell::new(),
+            opened,
+        }
+    }
+
     /// Opens the store in a directory, or makes one there. `rules` is a directory of rule files; the texts
     /// built in serve where it has none.
     ///
@@ -144,17 +159,7 @@ impl Engine {
         let rules = Rules::read(rules)?;
         let (store, opened) = Store::open(dir)?;
         let world = store.world()?;
-        Ok(Self {
-            store: Some(store),
-            rules,
-            world,
-            relations: OnceCell::new(),
-            floors: OnceCell::new(),
-            mind: OnceCell::new(),
-            forms: OnceCell::new(),
-            present: OnceCell::new(),
-            opened,
-        })
+        Ok(Self::new(Some(store), opened, rules, world))
     }
 
     /// Opens a store for reading, without touching it: another program may be writing it meanwhile.
@@ -165,17 +170,7 @@ impl Engine {
         let rules = Rules::read(rules)?;
         let (store, opened) = Store::open_read_only(dir)?;
         let world = store.world()?;
-        Ok(Self {
-            store: Some(store),
-            rules,
-            world,
-            relations: OnceCell::new(),
-            floors: OnceCell::new(),
-            mind: OnceCell::new(),
-            forms: OnceCell::new(),
-            present: OnceCell::new(),
-            opened,
-        })
+        Ok(Self::new(Some(store), opened, rules, world))
     }
 
     /// Opens a store that is there already.
@@ -194,17 +189,7 @@ impl Engine {
     /// # Errors
     /// The rules are faulty.
     pub fn in_memory(world: World, rules: Option<&Path>) -> Result<Self, Error> {
-        Ok(Self {
-            store: None,
-            rules: Rules::read(rules)?,
-            world: Some(world),
-            relations: OnceCell::new(),
-            floors: OnceCell::new(),
-            mind: OnceCell::new(),
-            forms: OnceCell::new(),
-            present: OnceCell::new(),
-            opened: OpenReport::default(),
-        })
+        Ok(Self::new(None, OpenReport::default(), Rules::read(rules)?, Some(world)))
     }
 
     /// Reads a building of any format that [`crate::exchange`] knows and makes it the store's map, in one transaction
