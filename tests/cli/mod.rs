@@ -2,6 +2,7 @@
 
 mod faults;
 mod map;
+mod readme;
 mod rules;
 mod tasks;
 mod words;
