@@ -40,6 +40,7 @@ mod sqlite;
 mod store;
 mod store_faults;
 mod store_world;
+mod storeys;
 mod story;
 mod talk;
 mod talk_ways;

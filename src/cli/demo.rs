@@ -51,9 +51,10 @@ pub(super) fn run(
     engine.reset_robot(&change_now(&common.user, "demo"))?;
     let answer = perform(common, &mut engine, task)?;
     let drawing = out.join("plan.svg");
-    super::draw::put_driven(common, &engine, &answer, &drawing)?;
-    if !common.json {
-        say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawing.display()))?;
+    for drawn in super::draw::put_driven(common, &engine, &answer, &drawing)? {
+        if !common.json {
+            say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawn.display()))?;
+        }
     }
     Ok(match answer.ending {
         TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,

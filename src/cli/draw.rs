@@ -104,7 +104,7 @@ pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
         What::Route { task: Some(task), .. } => {
             let engine = open(common)?;
             let answer = engine.perform(task, &mut |_| {})?;
-            driven(common, &engine, &answer)?
+            driven(common, &engine, &answer, answer.map)?
         }
         What::Route { from, to, .. } => {
             let engine = open(common)?;
@@ -163,34 +163,58 @@ fn draw_view(common: &Common, args: &ViewArgs) -> Result<String, Failure> {
     Ok(engine.draw_view(map, lens, language)?)
 }
 
-/// Writes the map with the way driven for a task, into a folder that is made when it is not there.
+/// Writes the map with the way driven for a task, into a folder that is made when it is not there. Each further storey
+/// that the robot came to has a file of its own beside it, numbered from 2.
 pub(super) fn put_driven(
     common: &Common,
     engine: &Engine,
     answer: &TaskAnswer,
     path: &Path,
-) -> Result<(), Failure> {
+) -> Result<Vec<PathBuf>, Failure> {
     if let Some(dir) = path.parent() {
         std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
     }
-    put(&driven(common, engine, answer)?, Some(path), None)?;
-    Ok(())
+    let mut storeys = vec![answer.map];
+    for report in &answer.reports {
+        if !storeys.contains(&report.map) {
+            storeys.push(report.map);
+        }
+    }
+    let mut written = Vec::new();
+    for (k, map) in storeys.into_iter().enumerate() {
+        let path = if k == 0 { path.to_owned() } else { numbered(path, k + 1) };
+        put(&driven(common, engine, answer, map)?, Some(&path), None)?;
+        written.push(path);
+    }
+    Ok(written)
 }
 
-/// The map with Passframes and the way driven for a task, its directives listed below.
-fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<String, Failure> {
-    let driven = answer.reports.iter().filter(|r| !r.points.is_empty());
+/// `plan-2.svg` beside `plan.svg`.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
+    path.with_file_name(format!("{stem}-{number}{ending}"))
+}
+
+/// One storey with Passframes and what was driven there for a task; all directives are listed below.
+fn driven(
+    common: &Common,
+    engine: &Engine,
+    answer: &TaskAnswer,
+    map: MapId,
+) -> Result<String, Failure> {
+    let driven = answer.reports.iter().filter(|r| !r.points.is_empty() && r.map == map);
     let legs = driven.map(|r| (r.number, r.points.clone())).collect();
     let directives = answer.reports.iter().map(|r| (r.number, r.directive.to_string())).collect();
     let drawing = Drawing {
         floor: true,
         legs,
         directives,
-        robot: Some(answer.start),
+        robot: Some(answer.start).filter(|_| map == answer.map),
         language: common.lang.language(),
         ..Drawing::default()
     };
-    Ok(engine.draw(answer.map, &drawing)?)
+    Ok(engine.draw(map, &drawing)?)
 }
 
 /// Writes a drawing, as PNG where the file's name ends so; to standard output without a file.

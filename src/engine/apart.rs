@@ -1,21 +1,30 @@
-//! Rooms that a goal speaks of and to which no door, passage or lift leads at all: then the rules need not be read to
-//! see why there is no plan.
+//! Rooms and storeys that a goal speaks of and to which no door, passage or lift leads at all: then the rules need not
+//! be read to see why there is no plan.
 
 use std::collections::BTreeSet;
 
 use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::Entity;
-use crate::semantics::predicate;
+use crate::semantics::{predicate, storey_name};
 use crate::units::{AreaId, capitalized};
 
 use super::lexicon::named;
 use super::{Engine, TaskAnswer};
 
+/// A room or storey where the robot cannot come, however doors stand.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Apart {
+    /// An Area, or a Map as a storey.
+    pub place: Entity,
+    /// Stairs lead there, which a robot on wheels does not climb.
+    pub by_stairs: bool,
+}
+
 impl Engine {
-    /// The rooms of a task's goal that nothing joins to the one in which the robot began, open or shut.
+    /// The rooms and storeys of a task's goal that nothing joins to the one in which the robot began, open or shut.
     #[must_use]
-    pub fn unconnected(&self, answer: &TaskAnswer) -> Vec<AreaId> {
+    pub fn unconnected(&self, answer: &TaskAnswer) -> Vec<Apart> {
         let (Ok(world), Ok(relations)) = (self.world(), self.relations()) else {
             return Vec::new();
         };
@@ -23,9 +32,44 @@ impl Engine {
         else {
             return Vec::new();
         };
-        let mut near = BTreeSet::from([start.0]);
-        let mut open = vec![start.0];
+        let (near, by_foot) = (self.joined_to(start.0, false), self.joined_to(start.0, true));
+        let area_of = |entity: Entity| match entity {
+            Entity::Area(id) => Some(id),
+            Entity::Replica(id) => relations.area_of(id),
+            Entity::Place(id) => world.places.get(&id).map(|place| place.area),
+            Entity::Door(_) | Entity::Map(_) => None,
+        };
+        let storey_of = |name: &str| {
+            let map = world.maps.keys().find(|map| storey_name(world, **map) == name)?;
+            let areas = || world.maps[map].items.iter().map(|item| item.area);
+            let is_apart = areas().all(|area| !near.contains(&area));
+            let by_stairs = areas().any(|area| by_foot.contains(&area));
+            is_apart.then_some(Apart { place: Entity::Map(*map), by_stairs })
+        };
+        let mut apart = Vec::new();
+        for goal in answer.goal.iter().filter(|g| g.predicate != predicate::FOUND) {
+            for name in &goal.args {
+                if goal.predicate == predicate::ROBOT_ON_STOREY {
+                    apart.extend(storey_of(name));
+                } else if let Some(area) = world.find(name).into_iter().find_map(area_of)
+                    && !near.contains(&area)
+                {
+                    let by_stairs = by_foot.contains(&area);
+                    apart.push(Apart { place: Entity::Area(area), by_stairs });
+                }
+            }
+        }
+        apart.sort_unstable();
+        apart.dedup();
+        apart
+    }
+
+    /// The rooms to which doors, passages and lifts lead from this one; stairs too for one who climbs them.
+    fn joined_to(&self, start: AreaId, climbs: bool) -> BTreeSet<AreaId> {
+        let mut near = BTreeSet::from([start]);
+        let (Ok(world), Ok(relations)) = (self.world(), self.relations()) else { return near };
         let joins = relations.joins();
+        let mut open = vec![start];
         while let Some(area) = open.pop() {
             let beside = joins.iter().filter(|j| j.from == area).map(|j| j.to);
             let stops = world
@@ -33,39 +77,61 @@ impl Engine {
                 .lifts
                 .iter()
                 .filter(|(_, stops)| stops.iter().any(|stop| stop.area == area))
+                .filter(|(_, stops)| {
+                    climbs || !stops.iter().any(|s| world.area_has_trait(s.area, "stairs"))
+                })
                 .flat_map(|(_, stops)| stops.iter().map(|stop| stop.area));
             open.extend(beside.chain(stops).filter(|next| near.insert(*next)));
         }
-        let area_of = |entity: Entity| match entity {
-            Entity::Area(id) => Some(id),
-            Entity::Replica(id) => relations.area_of(id),
-            Entity::Place(id) => world.places.get(&id).map(|place| place.area),
-            Entity::Door(_) | Entity::Map(_) => None,
-        };
-        let told = answer.goal.iter().filter(|g| g.predicate != predicate::FOUND);
-        let mut apart: Vec<AreaId> = told
-            .flat_map(|goal| &goal.args)
-            .filter_map(|name| world.find(name).into_iter().find_map(area_of))
-            .filter(|area| !near.contains(area))
-            .collect();
-        apart.sort_unstable();
-        apart.dedup();
-        apart
+        near
     }
 
-    /// «В Гостиную не ведёт ни одна дверь.»
+    /// «В Гостиную не ведёт ни дверь, ни проход.»
     #[must_use]
     pub fn unconnected_in_words(&self, answer: &TaskAnswer, language: Language) -> Vec<String> {
         let Ok(world) = self.world() else { return Vec::new() };
-        let told = |area: &AreaId| {
-            let room = named(world, Entity::Area(*area));
+        let told = |apart: &Apart| {
+            let to = named(world, apart.place);
+            let map = match apart.place {
+                Entity::Map(map) => Some(map),
+                Entity::Area(area) => world.placement(area).map(|(map, _)| map),
+                _ => None,
+            };
+            let elsewhere = map.is_some_and(|map| map != answer.map);
             match language {
                 Language::Russian => {
-                    let into = russian::with(Preposition::V, Case::Accusative, room.phrase());
-                    format!("{} не ведёт ни дверь, ни проход.", capitalized(&into))
+                    let into = match apart.place {
+                        Entity::Map(map) => format!("на этаж «{}»", world.maps[&map].name),
+                        _ => russian::with(Preposition::V, Case::Accusative, to.phrase()),
+                    };
+                    let into = capitalized(&into);
+                    match (apart.by_stairs, elsewhere) {
+                        (true, _) => {
+                            format!("{into} ведёт только лестница, а по ней роботу не проехать.")
+                        }
+                        (false, true) => format!("{into} не ведёт ни дверь, ни лифт."),
+                        (false, false) => format!("{into} не ведёт ни дверь, ни проход."),
+                    }
                 }
                 Language::English => {
-                    format!("Neither door nor passage leads to {}.", room.english())
+                    let to = match apart.place {
+                        Entity::Map(map) => {
+                            let (name, english) =
+                                (&world.maps[&map].name, &world.maps[&map].name_en);
+                            format!(
+                                "the floor “{}”",
+                                if english.is_empty() { name } else { english }
+                            )
+                        }
+                        _ => to.english(),
+                    };
+                    match (apart.by_stairs, elsewhere) {
+                        (true, _) => {
+                            format!("Only stairs lead to {to}, and the robot cannot climb them.")
+                        }
+                        (false, true) => format!("Neither door nor lift leads to {to}."),
+                        (false, false) => format!("Neither door nor passage leads to {to}."),
+                    }
                 }
             }
         };

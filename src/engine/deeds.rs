@@ -94,6 +94,18 @@ impl Words<'_> {
                 let (ru, en) = opened(*status);
                 format!("{} {}", pick(ru, en), accusative(door))
             }
+            Deed::CallLift { lift, .. } => match self.language {
+                Language::Russian => format!("вызвать лифт «{lift}»"),
+                Language::English => format!("call the lift “{lift}”"),
+            },
+            Deed::Ride { lift, to, .. } => match self.language {
+                Language::Russian => {
+                    format!("поехать на лифте «{lift}» на этаж «{}»", self.storey(to))
+                }
+                Language::English => {
+                    format!("ride the lift “{lift}” to the floor “{}”", self.storey(to))
+                }
+            },
             Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
             Deed::Put { thing, onto: Some(onto) } => format!(
                 "{} {} {}",
@@ -155,6 +167,18 @@ impl Words<'_> {
             }
             (None, _) => name.to_owned(),
         }
+    }
+
+    /// The storey of a room, as it is called on the map.
+    fn storey(&self, room: &str) -> String {
+        let area = |e| if let Entity::Area(id) = e { Some(id) } else { None };
+        let area = self.world.find(room).into_iter().find_map(area);
+        let map = area.and_then(|id| self.world.placement(id)).map(|(map, _)| map);
+        let name = |map| match self.world.maps[&map].name_en.as_str() {
+            english if self.language == Language::English && !english.is_empty() => english,
+            _ => self.world.maps[&map].name.as_str(),
+        };
+        map.map_or(room, name).to_owned()
     }
 
     /// Made to have things in it, and not on it.

@@ -95,11 +95,18 @@ impl Engine {
         })
     }
 
-    /// The free floor of the world as it is now: that of the map, with what differs rebuilt.
-    pub(super) fn floor_now(&self, now: &Now) -> Result<FloorPlan, Error> {
-        let mut floor = self.floor(now.map)?.clone();
-        floor.follow(self.world()?, &now.world);
-        Ok(floor)
+    /// The free floor of the world as it is now, of the robot's map and of those to which lifts lead: that of the
+    /// survey, with what differs rebuilt.
+    pub(super) fn floors_now(&self, now: &Now) -> Result<BTreeMap<MapId, FloorPlan>, Error> {
+        let surveyed = self.world()?;
+        let leads = |map: &MapId| *map == now.map || !surveyed.domain.lifts.is_empty();
+        let mut floors = BTreeMap::new();
+        for (&map, floor) in self.floors()?.iter().filter(|(map, _)| leads(map)) {
+            let mut floor = floor.clone();
+            floor.follow(surveyed, &now.world);
+            floors.insert(map, floor);
+        }
+        Ok(floors)
     }
 
     /// The relations of the world as it is now; those of the map where nothing differs.

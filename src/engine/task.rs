@@ -11,7 +11,7 @@ use crate::robot::{
     Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator,
     Station, Surprise,
 };
-use crate::semantics::{Profile, Relations, derive, predicate};
+use crate::semantics::{Profile, Relations, derive, lifts, predicate, storey_name};
 use crate::units::{MapId, Point, Pose};
 
 use super::memory::{After, Now};
@@ -44,6 +44,8 @@ pub enum Progress<'a> {
 pub struct Report {
     pub number: usize,
     pub directive: Directive,
+    /// Of the storey on which the robot is.
+    pub map: MapId,
     pub pose: Pose,
     /// `None` when the robot was in no Area.
     pub position: Option<Position>,
@@ -68,7 +70,10 @@ pub struct TaskAnswer {
     pub goal: Vec<GoalFact>,
     pub map: MapId,
     pub start: Pose,
+    /// On [`Self::end_map`].
     pub end: Pose,
+    /// Another than `map` when the robot rode a lift.
+    pub end_map: MapId,
     pub reports: Vec<Report>,
     /// How often a new plan was needed.
     pub replans: usize,
@@ -138,7 +143,7 @@ impl Engine {
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
         let (map, start) = (now.map, now.pose);
-        let mut belief = Belief::new(now.world.clone(), self.floor_now(now)?, start)
+        let mut belief = Belief::new(now.world.clone(), self.floors_now(now)?, map, start)
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
         belief.handed_over.clone_from(&now.handed_over);
@@ -220,6 +225,7 @@ impl Engine {
             map,
             start,
             end: last.pose,
+            end_map: last.map,
             reports,
             replans: plans - begun,
             seconds: last.time,
@@ -349,8 +355,10 @@ impl Engine {
             Entity::Door(_) => predicate::ROBOT_AT_DOOR,
             Entity::Place(_) => predicate::ROBOT_AT_PLACE,
             Entity::Replica(_) => return self.being_near(entity, now, relations),
-            Entity::Map(_) => {
-                return Err(RequestError::NotAPlace { name: world.name(entity).to_owned() }.into());
+            // On a storey is in any room of it.
+            Entity::Map(map) => {
+                let predicate = predicate::ROBOT_ON_STOREY.to_owned();
+                return Ok(GoalFact { predicate, args: vec![storey_name(world, map)] });
             }
         };
         Ok(GoalFact { predicate: predicate.to_owned(), args: vec![world.name(entity).to_owned()] })
@@ -384,7 +392,16 @@ impl Engine {
         let Entity::Door(door) = entity else {
             return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
         };
-        let joins = self.relations()?.joins();
+        let relations = self.relations()?;
+        let joins = relations.joins();
+        // A lift opens its door by itself when it has come.
+        let lift = lifts(world, relations).into_iter().find_map(|lift| {
+            let join = lift.doors.iter().find(|join| join.door == Some(door))?;
+            Some(vec![lift.name, join.opening.clone()])
+        });
+        if let Some(args) = lift.filter(|_| predicate == predicate::DOOR_OPEN) {
+            return Ok(vec![GoalFact { predicate: predicate::CABIN_AT.to_owned(), args }]);
+        }
         let facts: Vec<GoalFact> = joins
             .iter()
             .filter(|j| j.door == Some(door))
@@ -416,6 +433,7 @@ impl Engine {
         Report {
             number,
             directive: directive.clone(),
+            map: belief.map,
             pose: belief.pose,
             position,
             length: leg.route.as_ref().map_or(0.0, |r| r.length),

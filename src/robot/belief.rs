@@ -3,9 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::geometry::{DoorStates, FloorPlan, Scene};
-use crate::map::{DoorState, Entity, Replica, World, switch};
+use crate::map::{DoorState, DoorStatus, Entity, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
-use crate::semantics::{Relations, predicate};
+use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::drive::Sighting;
@@ -62,14 +62,22 @@ pub struct Belief {
     pub homes: Vec<(String, String)>,
     /// What is to be put into another thing, not onto it: by the names of both.
     pub into: BTreeSet<(String, String)>,
-    pub floor: FloorPlan,
+    /// The door at which the cabin of a lift stands, by the names of both; none where it was not seen.
+    pub cabins: BTreeMap<String, String>,
+    /// Of the robot's Map, and of those to which lifts lead.
+    floors: BTreeMap<MapId, FloorPlan>,
 }
 
 impl Belief {
-    /// What the Map says, with the robot at a pose. `None` when the pose lies in no Area.
+    /// What the Map says, with the robot at a pose of one of the floors. `None` when the pose lies in no Area.
     #[must_use]
-    pub fn new(world: World, floor: FloorPlan, pose: Pose) -> Option<Self> {
-        let map = floor.map();
+    pub fn new(
+        world: World,
+        floors: BTreeMap<MapId, FloorPlan>,
+        map: MapId,
+        pose: Pose,
+    ) -> Option<Self> {
+        let floor = floors.get(&map)?;
         let (area, _) = floor.locate(pose.at)?;
         let frame = floor.scene().areas.get(&area)?.frame;
         let near = |at: Point| (frame.apply(at) - pose.at).norm() <= AT_PLACE;
@@ -95,8 +103,25 @@ impl Belief {
             found: BTreeSet::new(),
             homes: Vec::new(),
             into: BTreeSet::new(),
-            floor,
+            cabins: BTreeMap::new(),
+            floors,
         })
+    }
+
+    /// The free floor of the Map on which the robot is.
+    #[must_use]
+    pub fn floor(&self) -> &FloorPlan {
+        &self.floors[&self.map]
+    }
+
+    /// That of another Map; none where no lift leads.
+    pub(super) fn floor_of(&self, map: MapId) -> Option<&FloorPlan> {
+        self.floors.get(&map)
+    }
+
+    fn rebuild(&mut self, things: &[ReplicaId]) {
+        let floor = self.floors.get_mut(&self.map).expect("the robot stands on a floor");
+        floor.rebuild(&self.world, things);
     }
 
     /// The initial position of a planning problem, and the places that it speaks of.
@@ -104,9 +129,29 @@ impl Belief {
         // The state of the robot is told below: its spots and its load are not in the Map.
         let state = RobotState { area: self.area, at: RobotAt::Elsewhere, holds: None };
         let initial = planning::initial(&self.world, relations, &state);
-        let of_map =
-            initial.facts.into_iter().filter(|f| !speaks_of_robot(f) && !self.is_refuted(f));
-        (of_map.chain(self.of_robot()).collect(), initial.places)
+        let is_seen = |f: &InitialFact| {
+            is(f, predicate::CABIN_AT) && self.cabins.contains_key(&f.arguments[0].name)
+        };
+        let of_map = initial
+            .facts
+            .into_iter()
+            .filter(|f| !speaks_of_robot(f) && !self.is_refuted(f) && !is_seen(f));
+        let known = self.of_robot().into_iter().chain(self.on_storey(relations));
+        (of_map.chain(known).collect(), initial.places)
+    }
+
+    /// The storey on which the robot is, unless it is in the cabin of a lift, and where cabins were seen.
+    fn on_storey(&self, relations: &Relations) -> Vec<InitialFact> {
+        let mut all = Vec::new();
+        if !lifts(&self.world, relations).iter().any(|lift| lift.cabins.contains(&self.area)) {
+            let storey = storey_name(&self.world, self.map);
+            all.push(fact(predicate::ROBOT_ON_STOREY, &[(&storey, "этаж")]));
+        }
+        for (lift, door) in &self.cabins {
+            let args = [(lift.as_str(), "лифт"), (door.as_str(), "дверь")];
+            all.push(InitialFact { assumed: true, ..fact(predicate::CABIN_AT, &args) });
+        }
+        all
     }
 
     /// The robot, its hand, people, and spots.
@@ -184,14 +229,23 @@ impl Belief {
     /// Takes over what was seen; whether it was news.
     pub(super) fn learn(&mut self, sighting: Sighting) -> bool {
         match sighting {
-            Sighting::Door { door, state } => self.set_door(door, state),
+            Sighting::Door { door, state } => {
+                // Shut where the cabin of a lift was to stand: it is not there.
+                let name = self.world.doors.get(&door).map(|d| d.name.as_str());
+                let cabins = self.cabins.len();
+                if state.status != DoorStatus::Open {
+                    self.cabins.retain(|_, at| Some(at.as_str()) != name);
+                }
+                let left = self.cabins.len() < cabins;
+                self.set_door(door, state) || left
+            }
             Sighting::Replica { replica, area, frame } => {
                 let Some(believed) = self.world.replicas.get_mut(&replica) else { return false };
                 if (believed.area, believed.frame) == (area, frame) {
                     return false;
                 }
                 (believed.area, believed.frame) = (area, frame);
-                self.floor.rebuild(&self.world, &[replica]);
+                self.rebuild(&[replica]);
                 true
             }
         }
@@ -202,7 +256,11 @@ impl Belief {
         if before == state {
             return false;
         }
-        self.floor = self.floor.with_doors(&self.world, &DoorStates::from([(door, state)]));
+        for floor in self.floors.values_mut() {
+            if floor.doorways_of(door).next().is_some() {
+                *floor = floor.with_doors(&self.world, &DoorStates::from([(door, state)]));
+            }
+        }
         self.world.doors.get_mut(&door).expect("found above").state = state;
         true
     }
@@ -211,7 +269,7 @@ impl Belief {
     pub(super) fn pick_up(&mut self, thing: ReplicaId) {
         if let Some(replica) = self.world.replicas.remove(&thing) {
             self.held = Some(replica);
-            self.floor.rebuild(&self.world, &[thing]);
+            self.rebuild(&[thing]);
         }
     }
 
@@ -220,12 +278,12 @@ impl Belief {
         if let Some(replica) = self.held.take() {
             let id = replica.id;
             self.world.replicas.insert(id, Replica { area, frame, ..replica });
-            self.floor.rebuild(&self.world, &[id]);
+            self.rebuild(&[id]);
         }
     }
 
     pub(super) fn scene(&self) -> &Scene {
-        self.floor.scene()
+        self.floor().scene()
     }
 
     pub(super) fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Option<T> {

@@ -45,6 +45,17 @@ pub enum Deed {
         door: String,
         status: DoorStatus,
     },
+    /// Have the cabin of a lift come to the door at which the robot stands.
+    CallLift {
+        lift: String,
+        door: String,
+    },
+    /// Ride to where the cabin is another Area, and have this door of it opened.
+    Ride {
+        lift: String,
+        to: String,
+        door: String,
+    },
     Take(String),
     /// Put a thing onto another, or down where the robot stands.
     Put {
@@ -103,7 +114,13 @@ impl Directive {
     #[must_use]
     pub fn deeds(&self) -> Vec<Deed> {
         let mut deeds = Vec::new();
-        if let Some([place]) = self.added(predicate::ROBOT_AT_PLACE) {
+        if let Some([lift, door]) = self.added(predicate::CABIN_AT) {
+            let (lift, door) = (lift.clone(), door.clone());
+            deeds.push(match self.added(predicate::ROBOT_IN) {
+                Some([to, ..]) => Deed::Ride { lift, to: to.clone(), door },
+                _ => Deed::CallLift { lift, door },
+            });
+        } else if let Some([place]) = self.added(predicate::ROBOT_AT_PLACE) {
             deeds.push(Deed::GoToPlace(place.clone()));
         } else if let Some([door]) = self.added(predicate::ROBOT_AT_DOOR) {
             deeds.push(Deed::GoToDoor(door.clone()));

@@ -1,5 +1,6 @@
 //! [`Drive`]: all that a mission asks of a vehicle (X3).
 
+use crate::geometry::Ride;
 use crate::map::DoorState;
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -83,6 +84,24 @@ pub trait Drive {
     /// # Errors
     /// [`Refusal`]; the door is then as it was.
     fn set_door(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal>;
+
+    /// Calls a lift to the door at which the vehicle stands, and waits until it is open; without a door, to a passage.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the cabin is not there.
+    fn call_lift(&mut self, door: Option<DoorId>) -> Result<(), Refusal>;
+
+    /// Rides a lift in whose cabin it stands, until this door of it is open where it stops. `arrival` is where the
+    /// vehicle then is, on the Map of that storey.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the door stays shut. The vehicle is where it rode to all the same.
+    fn ride(
+        &mut self,
+        ride: &Ride,
+        door: Option<DoorId>,
+        arrival: (MapId, Pose),
+    ) -> Result<(), Refusal>;
 
     /// Takes a thing into the hand.
     ///

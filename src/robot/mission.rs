@@ -1,12 +1,12 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{Method, NoRoute, Route, Target};
+use crate::geometry::{Method, NoRoute, Ride, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
-use crate::semantics::{Profile, RelationError, RelationRules, derive};
+use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
-use crate::units::{AreaId, DoorId, Frame, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -32,6 +32,9 @@ pub struct Planned {
     pub steps: Vec<Vec<Directive>>,
     /// The places that the plan may name.
     pub places: Vec<PlanPlace>,
+    /// The doors and passages that it may name, and the lifts.
+    pub joins: Vec<Join>,
+    pub lifts: Vec<Lift>,
     /// Whether what the plan before had taught went into this one.
     pub learned_before: bool,
 }
@@ -118,6 +121,8 @@ pub struct Mission<'r> {
     limits: Limits,
     /// Of the plan in force.
     places: Vec<PlanPlace>,
+    joins: Vec<Join>,
+    lifts: Vec<Lift>,
 }
 
 impl<'r> Mission<'r> {
@@ -128,7 +133,8 @@ impl<'r> Mission<'r> {
         relations: &'r RelationRules,
         limits: Limits,
     ) -> Self {
-        Self { belief, domain, relations, limits, places: Vec::new() }
+        let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
+        Self { belief, domain, relations, limits, places, joins, lifts }
     }
 
     /// The plan for a goal from what is believed now.
@@ -164,7 +170,8 @@ impl<'r> Mission<'r> {
             }
             _ => Vec::new(),
         };
-        Ok((Planned { solved, steps, places, learned_before }, now_learned))
+        let (joins, lifts) = (relations.joins(), lifts(&self.belief.world, &relations));
+        Ok((Planned { solved, steps, places, joins, lifts, learned_before }, now_learned))
     }
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
@@ -194,6 +201,8 @@ impl<'r> Mission<'r> {
             }
             moved = true;
             self.places.clone_from(&planned.places);
+            self.joins.clone_from(&planned.joins);
+            self.lifts.clone_from(&planned.lifts);
             let Err((done, surprise)) = self.carry_out(&directives, drive, tell) else {
                 return Ok(Ending::Done);
             };
@@ -242,20 +251,26 @@ impl<'r> Mission<'r> {
                 self.belief.station = Station::Place(name.clone());
             }
             Deed::GoToDoor(name) => {
-                let (door, area) = (self.door(name)?, self.belief.area);
-                self.go(name, Target::Door { door, area }, &[area], drive, leg)?;
+                let area = self.belief.area;
+                let target = self.door_target(name, area, area)?;
+                self.go(name, target, &[area], drive, leg)?;
                 self.belief.station = Station::Door(name.clone());
             }
             Deed::Cross { door: name, into } => {
-                let door = self.door(name)?;
-                let into =
-                    self.entity(into, |e| if let Entity::Area(id) = e { Some(id) } else { None })?;
+                let into = self.area(into)?;
                 let areas = [self.belief.area, into];
-                self.go(name, Target::Door { door, area: into }, &areas, drive, leg)?;
+                let target = self.door_target(name, self.belief.area, into)?;
+                self.go(name, target, &areas, drive, leg)?;
                 self.belief.area = into;
                 self.belief.station = Station::Door(name.clone());
             }
             Deed::SetDoor { door, status } => self.set_door(door, *status, drive)?,
+            Deed::CallLift { lift, door } => {
+                let opening = self.opening(door)?;
+                drive.call_lift(opening).map_err(|r| refused(r, drive))?;
+                self.cabin_stands_at(lift, door, opening);
+            }
+            Deed::Ride { lift, to, door } => self.ride(lift, to, door, drive)?,
             Deed::Take(name) => {
                 let thing = self.replica(name)?;
                 drive.take(thing).map_err(|r| refused(r, drive))?;
@@ -291,13 +306,72 @@ impl<'r> Mission<'r> {
         let from = self.belief.pose.at;
         let route = self
             .belief
-            .floor
+            .floor()
             .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
             .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
         let driven = drive.follow(&route.points, route.heading);
         leg.route = Some(route);
         self.belief.pose = drive.pose().1;
         driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+    }
+
+    /// Rides to another stop of the lift in which the robot stands: where it stands in the cabin, or in the middle of
+    /// a cabin that lies elsewhere on the Map of that storey.
+    fn ride(
+        &mut self,
+        lift: &str,
+        to: &str,
+        door: &str,
+        drive: &mut dyn Drive,
+    ) -> Result<(), Surprise> {
+        let (to, opening) = (self.area(to)?, self.opening(door)?);
+        let number = self.lifts.iter().find(|l| l.name == lift).map(|l| l.number);
+        let number = number.ok_or_else(|| Surprise::Unknown { name: lift.to_owned() })?;
+        let Some((arrival, rise)) = self.arrival(to) else {
+            self.belief.unreachable.push((to, door.to_owned()));
+            return Err(Surprise::NoWay { to: lift.to_owned(), why: NoRoute::NoFloor });
+        };
+        let ride = Ride { lift: number, from: self.belief.area, to, rise };
+        let ridden = drive.ride(&ride, opening, arrival);
+        (self.belief.map, self.belief.pose) = drive.pose();
+        self.belief.area = to;
+        self.belief.station = Station::Door(door.to_owned());
+        ridden.map_err(|r| refused(r, drive))?;
+        self.cabin_stands_at(lift, door, opening);
+        Ok(())
+    }
+
+    /// Where the robot is after a ride, and how much higher, cm.
+    fn arrival(&self, to: AreaId) -> Option<((MapId, Pose), f64)> {
+        let belief = &self.belief;
+        let storey = |map: MapId| {
+            let maps = &belief.world.domain.maps;
+            maps.iter().find(|m| m.map == map).map_or(Frame::IDENTITY, |m| m.frame)
+        };
+        let (map, frame) = belief.world.placement(to)?;
+        let (below, above) = (storey(belief.map), storey(map));
+        let floor = belief.floor_of(map)?;
+        let same = above.invert(below.apply(belief.pose.at));
+        let stands = |at: &Point| {
+            floor.locate(*at).is_some_and(|(area, _)| area == to)
+                && floor.standing_at(*at).is_some_and(|near| (near - at).norm() < 1e-6)
+        };
+        let at = Some(same).filter(stands).or_else(|| floor.rest_in(to))?;
+        let heading = belief.pose.heading + below.angle - above.angle;
+        let height = |storey: Frame, cabin: Frame| storey.z.get() + cabin.z.get();
+        let (_, here) = belief.world.placement(belief.area)?;
+        Some(((map, Pose { at, heading }), height(above, frame) - height(below, here)))
+    }
+
+    /// A lift has opened its door.
+    fn cabin_stands_at(&mut self, lift: &str, door: &str, opening: Option<DoorId>) {
+        self.belief.cabins.insert(lift.to_owned(), door.to_owned());
+        let state = opening.and_then(|id| self.belief.world.doors.get(&id)).map(|d| d.state);
+        if let (Some(id), Some(state)) = (opening, state)
+            && state.status != DoorStatus::Open
+        {
+            self.belief.set_door(id, DoorState::OPEN);
+        }
     }
 
     /// Looks for a thing from here, then from each place of the Area in turn.
@@ -412,7 +486,7 @@ impl<'r> Mission<'r> {
     }
 
     fn name_this_point(&mut self) {
-        let Some((area, _)) = self.belief.floor.locate(self.belief.pose.at) else { return };
+        let Some((area, _)) = self.belief.floor().locate(self.belief.pose.at) else { return };
         self.belief.area = area;
         let name = format!("Остановка-{}", self.belief.spots.len() + 1);
         self.belief.spots.push(super::belief::Spot {
@@ -433,6 +507,42 @@ impl<'r> Mission<'r> {
             Some(PlaceSource::Before(id)) => Ok(Target::Replica(id)),
             Some(PlaceSource::Robot) | None => Err(Surprise::Unknown { name: name.to_owned() }),
         }
+    }
+
+    /// Where the robot stands at a door or passage on the side of `side`, coming from `from`.
+    fn door_target(&self, name: &str, from: AreaId, side: AreaId) -> Result<Target, Surprise> {
+        /// How far before a passage one stands that has no leaf, in radii of the robot.
+        const BEFORE: f64 = 1.2;
+        if let Some(door) = self.opening(name)? {
+            return Ok(Target::Door { door, area: side });
+        }
+        let unknown = || Surprise::Unknown { name: name.to_owned() };
+        let join = self.joins.iter().find(|j| j.opening == name && j.from == from);
+        let areas = join.map(|j| [j.from, j.to]).ok_or_else(unknown)?;
+        let from_here = |at: Point| (at - self.belief.pose.at).norm();
+        let floor = self.belief.floor();
+        let passages = floor
+            .doorways()
+            .iter()
+            .filter(|d| d.door.is_none() && areas.iter().all(|area| d.index_of(*area).is_some()));
+        let doorway = passages
+            .min_by(|a, b| from_here(a.middle()).total_cmp(&from_here(b.middle())))
+            .ok_or_else(unknown)?;
+        let before = self.belief.world.robot.radius.get() * BEFORE;
+        let side = doorway.index_of(side).ok_or_else(unknown)?;
+        Ok(Target::Point(doorway.before(side, before)))
+    }
+
+    /// The door of this name; none where it is a passage that has no name of its own on the Map.
+    fn opening(&self, name: &str) -> Result<Option<DoorId>, Surprise> {
+        match self.joins.iter().find(|join| join.opening == name) {
+            Some(join) => Ok(join.door),
+            None => self.door(name).map(Some),
+        }
+    }
+
+    fn area(&self, name: &str) -> Result<AreaId, Surprise> {
+        self.entity(name, |e| if let Entity::Area(id) = e { Some(id) } else { None })
     }
 
     fn door(&self, name: &str) -> Result<DoorId, Surprise> {

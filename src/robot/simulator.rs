@@ -10,7 +10,7 @@ use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
 use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Scene, doorways, opening_of};
+use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of};
 use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -27,6 +27,7 @@ const SKIN: f64 = 0.01;
 pub struct Moment {
     /// Seconds since the start.
     pub time: f64,
+    pub map: MapId,
     pub pose: Pose,
 }
 
@@ -67,7 +68,7 @@ impl Simulator {
             held: None,
             edges: Vec::new(),
             doorways: Vec::new(),
-            trace: vec![Moment { time: 0.0, pose }],
+            trace: vec![Moment { time: 0.0, map, pose }],
             calls: Vec::new(),
         };
         simulator.rebuild();
@@ -221,7 +222,7 @@ impl Simulator {
         self.time += duration;
         self.pose = pose;
         if duration > 0.0 {
-            self.trace.push(Moment { time: self.time, pose });
+            self.trace.push(Moment { time: self.time, map: self.map, pose });
         }
     }
 
@@ -229,6 +230,16 @@ impl Simulator {
         let replica = self.held.take_if(|held| held.id == thing).ok_or(Refusal::NotHeld(thing))?;
         self.advance(GRASP_TIME, self.pose);
         Ok(replica)
+    }
+
+    /// The doors of a lift open by themselves, unless they are locked.
+    fn open_for_lift(&mut self, door: Option<DoorId>) -> Result<(), Refusal> {
+        let Some(door) = door else { return Ok(()) };
+        match self.truth.doors.get(&door).map(|model| model.state.status) {
+            Some(DoorStatus::Closed) => self.set_door(door, DoorState::OPEN),
+            Some(DoorStatus::Locked) => Err(Refusal::Locked(door)),
+            Some(DoorStatus::Open) | None => Ok(()),
+        }
     }
 
     fn reaches(&self, thing: ReplicaId) -> Result<bool, Refusal> {
@@ -306,6 +317,23 @@ impl Drive for Simulator {
         Ok(())
     }
 
+    fn call_lift(&mut self, door: Option<DoorId>) -> Result<(), Refusal> {
+        self.advance(LIFT_WAIT, self.pose);
+        self.open_for_lift(door)
+    }
+
+    fn ride(
+        &mut self,
+        ride: &Ride,
+        door: Option<DoorId>,
+        (map, pose): (MapId, Pose),
+    ) -> Result<(), Refusal> {
+        self.map = map;
+        self.advance(LIFT_STOP + ride.rise.abs() / LIFT_SPEED, pose);
+        self.rebuild();
+        self.open_for_lift(door)
+    }
+
     fn take(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
         if let Some(held) = &self.held {
             return Err(Refusal::HandFull(held.id));
@@ -380,6 +408,12 @@ impl Drive for Simulator {
     }
 }
 
+/// Seconds until a lift comes when it is called.
+const LIFT_WAIT: f64 = 20.0;
+/// Seconds that a lift takes to shut its doors, start and stop.
+const LIFT_STOP: f64 = 10.0;
+/// How fast a lift rides, in cm a second.
+const LIFT_SPEED: f64 = 100.0;
 /// Seconds to press a button.
 const SWITCH_TIME: f64 = 3.0;
 /// Seconds to call a person.

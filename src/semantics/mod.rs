@@ -48,6 +48,7 @@ mod body;
 mod claim;
 mod feed;
 mod grid;
+mod lifts;
 mod measure;
 mod names;
 mod openings;
@@ -59,6 +60,7 @@ mod view;
 
 pub use ask::Extent;
 pub use claim::{Claim, claim_bounds, claim_holds};
+pub use lifts::{Lift, lifts, storey_name};
 pub use measure::{
     Below, Beside, Between, Change, Directed, Into, Located, Measurements, Over, Pair, Reach,
     Single, Within,

@@ -10,6 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_on};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
+use super::lifts::{Lift, lifts, storey_name};
 use super::measure::Located;
 use super::predicate;
 use super::relations::Relations;
@@ -88,7 +89,10 @@ pub const PLACE_BESIDE: &str = "Место-у-";
 #[must_use]
 pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
     let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
-    writer.doors();
+    let lifts = lifts(world, relations);
+    writer.doors(&lifts);
+    writer.storeys(&lifts);
+    writer.lifts(&lifts, state.area);
     writer.named_places();
     writer.light();
     writer.things(state.holds);
@@ -109,6 +113,8 @@ const PLACE: &str = "место";
 const ITEM: &str = "предмет";
 const OBJECT: &str = "объект";
 const PERSON: &str = "человек";
+const LIFT: &str = "лифт";
+const STOREY: &str = "этаж";
 
 struct Writer<'a> {
     world: &'a World,
@@ -135,23 +141,60 @@ impl Writer<'_> {
         self.facts.insert(InitialFact { predicate, arguments, assumed });
     }
 
-    fn doors(&mut self) {
+    /// A lift works its doors by itself: whether one stands open is where the cabin is.
+    fn doors(&mut self, lifts: &[Lift]) {
+        let of_lifts: BTreeSet<&str> =
+            lifts.iter().flat_map(|lift| &lift.doors).map(|join| join.opening.as_str()).collect();
         for join in self.relations.joins() {
             let (from, to) = (self.area(join.from), self.area(join.to));
             self.fact(predicate::DOOR_IN, &[(&join.opening, DOOR), (&from, ROOM)]);
             let door = join.door.and_then(|d| self.world.doors.get(&d));
             let leafed = door.filter(|d| d.kind != DoorKind::Passage && !d.leaves.is_empty());
-            if leafed.is_some() {
+            let of_lift = of_lifts.contains(join.opening.as_str());
+            if leafed.is_some() && !of_lift {
                 self.fact(predicate::DOOR_HAS_LEAF, &[(&join.opening, DOOR)]);
             }
             let predicate = match leafed.map(|d| d.state.status) {
+                Some(DoorStatus::Locked) => predicate::DOOR_LOCKED,
+                _ if of_lift => continue,
                 None | Some(DoorStatus::Open) => predicate::DOOR_OPEN,
                 Some(DoorStatus::Closed) => predicate::DOOR_CLOSED,
-                Some(DoorStatus::Locked) => predicate::DOOR_LOCKED,
             };
             let arguments =
                 [(join.opening.as_str(), DOOR), (from.as_str(), ROOM), (to.as_str(), ROOM)];
             self.insert(predicate, &arguments, true);
+        }
+    }
+
+    /// Rooms of storeys, where there is more than one; in a cabin one is on none.
+    fn storeys(&mut self, lifts: &[Lift]) {
+        if self.world.maps.len() < 2 {
+            return;
+        }
+        let cabins: BTreeSet<AreaId> =
+            lifts.iter().flat_map(|lift| lift.cabins.iter().copied()).collect();
+        for (area, (map, _)) in self.world.placements() {
+            if !cabins.contains(&area) {
+                let (room, storey) = (self.area(area), storey_name(self.world, map));
+                self.fact(predicate::ROOM_ON_STOREY, &[(&room, ROOM), (&storey, STOREY)]);
+            }
+        }
+    }
+
+    fn lifts(&mut self, lifts: &[Lift], robot: AreaId) {
+        for lift in lifts {
+            let name = (lift.name.as_str(), LIFT);
+            for &cabin in &lift.cabins {
+                let cabin = self.area(cabin);
+                self.fact(predicate::LIFT_HAS_CABIN, &[name, (&cabin, ROOM)]);
+            }
+            for join in &lift.doors {
+                self.fact(predicate::LIFT_HAS_DOOR, &[name, (&join.opening, DOOR)]);
+            }
+            self.insert(predicate::LIFT_WORKS, &[name], true);
+            if let Some(join) = lift.cabin_unseen(self.world, robot) {
+                self.insert(predicate::CABIN_AT, &[name, (&join.opening, DOOR)], true);
+            }
         }
     }
 

@@ -57,3 +57,15 @@ pub const STORED_ON: &str = "ПРЕДМЕТ_ХРАНИТСЯ-НА";
 pub const IN_ITS_PLACE: &str = "ПРЕДМЕТ-НА-СВОЁМ-МЕСТЕ";
 /// (человек)
 pub const CALLED: &str = "ЧЕЛОВЕК-ПОЗВАН";
+/// (этаж)
+pub const ROBOT_ON_STOREY: &str = "РОБОТ-НАХОДИТСЯ-НА-ЭТАЖЕ";
+/// (помещение, этаж): of every room that is not the cabin of a lift
+pub const ROOM_ON_STOREY: &str = "ПОМЕЩЕНИЕ_НАХОДИТСЯ-НА-ЭТАЖЕ";
+/// (лифт, помещение): one on each storey at which it stops
+pub const LIFT_HAS_CABIN: &str = "ЛИФТ_ИМЕЕТ-КАБИНУ";
+/// (лифт, дверь)
+pub const LIFT_HAS_DOOR: &str = "ЛИФТ_ИМЕЕТ-ДВЕРЬ";
+/// (лифт)
+pub const LIFT_WORKS: &str = "ЛИФТ-РАБОТАЕТ";
+/// (лифт, дверь)
+pub const CABIN_AT: &str = "КАБИНА_СТОИТ-У";
