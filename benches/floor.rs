@@ -194,7 +194,7 @@ fn alone(program: &str, name: &str) {
             println!("before\t{}", held("VmRSS:"));
             let (plan, build) = least(times, || plan(world));
             println!("build\t{}\npeak\t{}", build * 1e3, held("VmHWM:"));
-            println!("cells\t{}", plan.fragments().map(|f| f.passframes.len()).sum::<usize>());
+            println!("cells\t{}", plan.fragments().map(|f| f.passframes().len()).sum::<usize>());
             ask(&pairs, |from, to| {
                 let found = plan.route(world, from, Target::Point(to), Method::Shortest).ok()?;
                 let at_ends = found.moved_start.is_none() && found.moved_goal.is_none();

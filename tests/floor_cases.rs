@@ -26,7 +26,7 @@ pub(crate) fn build(b: &Builder) -> FloorPlan {
 }
 
 fn free_area(plan: &FloorPlan) -> f64 {
-    plan.fragments().flat_map(|f| f.free.iter().map(Region::area).collect::<Vec<_>>()).sum()
+    plan.fragments().flat_map(|f| f.free().iter().map(Region::area).collect::<Vec<_>>()).sum()
 }
 
 fn raw_area(plan: &FloorPlan) -> f64 {
@@ -78,7 +78,7 @@ fn turned_boxes_that_touch_leave_no_slit_either() {
     let (b, _) = room(&[[150., 100., 60., 40., 17.3], [x, y, 60., 40., 17.3]]);
     let plan = build(&b);
     assert!((raw_area(&plan) - (120_000.0 - 4_800.0)).abs() < 0.1);
-    let frames: usize = plan.fragments().map(|f| f.passframes.len()).sum();
+    let frames: usize = plan.fragments().map(|f| f.passframes().len()).sum();
     assert!(frames <= 6, "{frames}");
 }
 
@@ -123,7 +123,7 @@ fn a_room_with_less_floor_than_the_robot_is_all_dead() {
     let (b, hall) = room(&[[0., 0., 400., 260., 0.]]);
     let plan = build(&b);
     assert!(plan.passframes(hall).is_empty());
-    assert!((plan.fragment(hall).unwrap().dead_zones[0].region.area() - 16_000.0).abs() < 1.0);
+    assert!((plan.fragment(hall).unwrap().dead_zones[0].area() - 16_000.0).abs() < 1.0);
 }
 
 #[test]

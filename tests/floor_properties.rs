@@ -79,7 +79,7 @@ fn the_centre_space_is_where_the_disc_fits() {
             let on_floor = plan.scene().area_at(q).is_some();
             let room = solid_distance(&plan, q);
             let fits = plan.fragments().any(|f| f.fits(q));
-            if on_floor && room > radius * 1.0087 + 0.001 {
+            if on_floor && room > radius * 1.0125 + 0.001 {
                 assert!(fits, "seed {seed}: {q:?} has {room} of {radius}");
             }
             if room < radius - 0.005 {
@@ -97,10 +97,10 @@ fn dead_zones_are_what_no_position_covers() {
         let radius = plan.reach();
         let mut random = Random(seed + 2000);
         for floor in plan.fragments() {
+            let (centre, free) = (floor.centre(), floor.free());
             let centre_distance = |q: Point| {
-                let inside = floor.centre.iter().any(|r| r.contains(q, 1e-6));
-                let rim = floor
-                    .centre
+                let inside = centre.iter().any(|r| r.contains(q, 1e-6));
+                let rim = centre
                     .iter()
                     .flat_map(|r| r.contours().map(|c| c.border_distance(q)).collect::<Vec<_>>());
                 if inside { 0.0 } else { rim.fold(f64::INFINITY, f64::min) }
@@ -116,7 +116,7 @@ fn dead_zones_are_what_no_position_covers() {
                         centre_distance(q)
                     );
                 }
-                if floor.free.iter().any(|r| r.contains(q, 0.0)) && !near_doorway(&plan, q) {
+                if free.iter().any(|r| r.contains(q, 0.0)) && !near_doorway(&plan, q) {
                     let far = centre_distance(q);
                     assert!(far < radius * 2.1, "seed {seed}: {q:?} {far}");
                 }
@@ -191,7 +191,8 @@ fn no_way_is_shorter_than_the_one_found() {
         b.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED);
         let plan = build(&b);
         let floor = plan.fragments().next().unwrap();
-        let regions: Vec<&Region> = floor.centre.iter().collect();
+        let centre = floor.centre();
+        let regions: Vec<&Region> = centre.iter().collect();
         let mut random = Random(seed + 3000);
         for _ in 0..3 {
             let mut spot = || p(random.between(0.0, 400.0), random.between(0.0, 300.0));

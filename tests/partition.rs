@@ -195,11 +195,18 @@ fn has_choice(count: usize, clauses: &[Vec<i32>], most: usize) -> bool {
 }
 
 /// How many Passframes the pieces of a Fragment's free floor have.
-fn counts(floor: &FragmentFloor) -> Vec<(&Region, usize)> {
+fn counts(floor: &FragmentFloor) -> Vec<(Region, usize)> {
     let own = |r: &Region| {
-        floor.passframes.iter().filter(|f| r.contains(f.polygon.centroid(), 0.0)).count()
+        floor.passframes().iter().filter(|f| r.contains(f.polygon.centroid(), 0.0)).count()
     };
-    floor.free.iter().map(|r| (r, own(r))).collect()
+    floor
+        .free()
+        .into_iter()
+        .map(|r| {
+            let count = own(&r);
+            (r, count)
+        })
+        .collect()
 }
 
 /// A room with bays and columns along its walls, and nothing on its floor.
@@ -266,14 +273,14 @@ fn passframes_are_few() {
                 // The most pieces of which 1.2 times are fewer than the Passframes.
                 let fewer = (frames as f64 / 1.2).ceil() as usize - 1;
                 assert!(
-                    fewer == 0 || !can_be_cut_into(region, fewer),
+                    fewer == 0 || !can_be_cut_into(&region, fewer),
                     "seed {seed}: {frames} Passframes where {fewer} pieces do"
                 );
                 looked_at += 1;
-                let is_small = region.holes.is_empty() && contours(region)[0].len() <= 18;
+                let is_small = region.holes.is_empty() && contours(&region)[0].len() <= 18;
                 if is_small {
-                    let fewest = fewest(region);
-                    assert!(can_be_cut_into(region, fewest));
+                    let fewest = fewest(&region);
+                    assert!(can_be_cut_into(&region, fewest));
                     exact += frames;
                     least += fewest;
                 }

@@ -20,8 +20,8 @@ fn types_are_what_their_definitions_say() {
         let plan = build(&random_world(seed).world);
         for floor in plan.fragments() {
             let frames: BTreeMap<PassframeId, &Passframe> =
-                floor.passframes.iter().map(|f| (f.id, f)).collect();
-            assert_eq!(frames.len(), floor.passframes.len(), "ids are unique");
+                floor.passframes().iter().map(|f| (f.id, f)).collect();
+            assert_eq!(frames.len(), floor.passframes().len(), "ids are unique");
             let at_door = |f: &Passframe| {
                 f.borders.iter().any(|b| matches!(b.beyond, Beyond::Doorway { .. }))
             };
@@ -36,7 +36,7 @@ fn types_are_what_their_definitions_say() {
                 }
                 false
             };
-            for frame in &floor.passframes {
+            for frame in floor.passframes() {
                 let wanted = if !reaches_a_door(frame.id) {
                     PassframeKind::Closed
                 } else if at_door(frame) {
@@ -94,6 +94,7 @@ fn assert_same(one: &FloorPlan, other: &FloorPlan, what: &str) {
     assert_eq!(one.fragments().len(), other.fragments().len());
     for (a, b) in one.fragments().zip(other.fragments()) {
         assert!(a == b, "{what}: Area {:?}", a.area);
+        assert_eq!(a.passframes(), b.passframes(), "{what}: Area {:?}", a.area);
     }
     assert_eq!(one.open_doorways(), other.open_doorways());
 }

@@ -19,15 +19,15 @@ fn area_of(regions: &[Region]) -> f64 {
 /// Everything that must hold of any plan.
 pub(crate) fn check_invariants(plan: &FloorPlan) {
     for floor in plan.fragments() {
-        let frames: f64 = floor.passframes.iter().map(|f| f.polygon.signed_area()).sum();
-        let free = area_of(&floor.free);
+        let frames: f64 = floor.passframes().iter().map(|f| f.polygon.signed_area()).sum();
+        let free = area_of(&floor.free());
         assert!((frames - free).abs() <= 1e-6 * free.max(1.0), "partition {frames} of {free}");
-        let dead: f64 = floor.dead_zones.iter().map(|z| z.region.area()).sum();
+        let dead: f64 = floor.dead_zones.iter().map(|z| z.area()).sum();
         assert!(free + dead <= area_of(&floor.raw) + 1.0);
-        for (i, frame) in floor.passframes.iter().enumerate() {
+        for (i, frame) in floor.passframes().iter().enumerate() {
             assert!(frame.polygon.is_convex(1e-6), "{:?}", frame.polygon);
             let c = frame.polygon.centroid();
-            for other in &floor.passframes[i + 1..] {
+            for other in &floor.passframes()[i + 1..] {
                 assert_ne!(frame.id, other.id);
                 let inside =
                     other.polygon.contains(c, 0.0) && other.polygon.border_distance(c) > 1e-3;
@@ -188,8 +188,12 @@ fn a_gap_too_narrow_is_a_dead_zone_with_its_width_and_owners() {
     let two = b.put(hall, 180.0, 174.0, 40.0, 126.0, 0.0, 100.0);
     let plan = plan(&b);
     check_invariants(&plan);
-    let zone = plan.fragment(hall).unwrap().dead_zone_at(p(200.0, 150.0)).expect("a dead zone");
-    assert!((zone.gap.unwrap() - 48.0).abs() < 1e-3);
+    let floor = plan.fragment(hall).unwrap();
+    let zone = floor.dead_zone_at(p(200.0, 150.0)).expect("a dead zone");
+    let around = plan.around(floor, zone);
+    assert!((around.gap.unwrap() - 48.0).abs() < 1e-3);
+    let owner = |replica| Blocker::Replica { replica, item: 0 };
+    assert_eq!(around.owners, [owner(one), owner(two)]);
     let no = plan
         .route(&b.world, p(60.0, 150.0), Target::Point(p(350.0, 150.0)), Method::Shortest)
         .unwrap_err();
@@ -242,7 +246,7 @@ fn rooms_at_any_angle_and_far_away_behave_alike() {
         let outer = Frame::new(x, y, 0.0, Deg::of(turn));
         let moved = build().moved(x, y, turn);
         let (short, _) = both_ways(&moved, outer.apply(from), outer.apply(to));
-        assert!((short.length - straight).abs() < 1e-2, "{turn}: {} {straight}", short.length);
+        assert!((short.length - straight).abs() < 2e-2, "{turn}: {} {straight}", short.length);
     }
 }
 
@@ -378,7 +382,7 @@ fn every_room_of_the_flat_is_reached_from_every_other() {
         eprintln!(
             "{}: {} Passframes, {} dead zones",
             world.areas[&floor.area].name,
-            floor.passframes.len(),
+            floor.passframes().len(),
             floor.dead_zones.len()
         );
     }

@@ -3,7 +3,7 @@
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
-use orthoframe::geometry::{FloorPlan, Scene};
+use orthoframe::geometry::{FloorPlan, Region, Scene};
 use orthoframe::map::Permeability;
 use orthoframe::units::{MapId, Point};
 use polyanya::{Coords, Mesh, Triangulation};
@@ -169,10 +169,10 @@ pub(crate) fn outlines(plan: &FloorPlan) -> Vec<Outline> {
         let (a, b) = (a + inset, b - inset);
         [a - across, b - across, b + across, a + across].map(|p| [p.x, p.y]).to_vec()
     };
-    let mut contours: Vec<Vec<[f64; 2]>> = plan
-        .fragments()
-        .flat_map(|f| &f.centre)
-        .flat_map(|region| region.contours())
+    let regions: Vec<Region> = plan.fragments().flat_map(|f| f.centre()).collect();
+    let mut contours: Vec<Vec<[f64; 2]>> = regions
+        .iter()
+        .flat_map(Region::contours)
         .map(|c| c.corners.iter().map(|p| [p.x, p.y]).collect())
         .collect();
     contours.extend(plan.doorways().iter().map(weld));

@@ -44,8 +44,8 @@ impl NetworkLayer {
             Default::default();
         for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
             let centre: std::collections::BTreeMap<_, _> =
-                fragment.passframes.iter().map(|p| (p.id, p.polygon.centroid())).collect();
-            for frame in &fragment.passframes {
+                fragment.passframes().iter().map(|p| (p.id, p.polygon.centroid())).collect();
+            for frame in fragment.passframes() {
                 let from = centre[&frame.id];
                 layer.vertices.push(from);
                 for (to, crossing) in frame.neighbours().filter(|(to, _)| *to > frame.id) {

@@ -205,11 +205,11 @@ fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {
     for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
         layer.passframes.extend(
             fragment
-                .passframes
+                .passframes()
                 .iter()
                 .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name()))),
         );
-        layer.dead_zones.extend(fragment.dead_zones.iter().map(|zone| zone.region.clone()));
+        layer.dead_zones.extend(fragment.dead_zones.iter().cloned());
     }
     layer
 }

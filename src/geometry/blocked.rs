@@ -11,6 +11,7 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
+use super::dead_zone::Surroundings;
 use super::doors::{Doorway, opening_of};
 use super::network::Piece;
 use super::obstacle::Blocker;
@@ -297,17 +298,21 @@ fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
     let floor = plan.floor(number);
     let mut found = Vec::new();
     for zone in &floor.dead_zones {
-        let Some(width) = zone.gap else { continue };
-        let bounds = zone.region.outer.bounds().grown(2.0 * plan.reach());
+        let bounds = zone.outer.bounds().grown(2.0 * plan.reach());
         let mut pieces = BTreeSet::new();
         for cell in floor.cells.cells() {
             let polygon = floor.cells.polygon(cell);
             if polygon.bounds().meets(&bounds)
-                && super::doors::distance(&polygon, &zone.region.outer) <= plan.reach() * 1.02
+                && super::doors::distance(&polygon, &zone.outer) <= plan.reach() * 1.02
             {
                 pieces.insert(floor.cells.component[cell as usize]);
             }
         }
+        if pieces.len() < 2 {
+            continue;
+        }
+        let Surroundings { owners, gap: Some(width) } = plan.around(floor, zone) else { continue };
+        let between = things(plan.scene(), &owners);
         let pieces: Vec<u32> = pieces.into_iter().collect();
         for (i, &a) in pieces.iter().enumerate() {
             for &b in &pieces[i + 1..] {
@@ -315,7 +320,7 @@ fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
                     area: floor.area,
                     width,
                     needed: plan.robot().passing_width(),
-                    between: things(plan.scene(), &zone.owners),
+                    between: between.clone(),
                 };
                 found.push((a, b, barrier));
             }

@@ -20,13 +20,15 @@ use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, Wo
 use crate::units::{AreaId, DoorId, Point, ReplicaId};
 
 use super::buckets::Buckets;
-use super::dead_zone::{DeadZone, dead_zones};
+use super::dead_zone::dead_zones;
 use super::doors::Doorway;
-use super::grid::{Contour, Grid, difference, intersection, overlays, smooth};
+use super::edging::Edging;
+use super::grid::{Contour, Grid, Shapes, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
-use super::passframe::{Passframe, passframes};
+use super::on_demand::OnDemand;
+use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::Scene;
 use super::storey::{Storey, THIN};
@@ -56,17 +58,22 @@ pub struct FragmentFloor {
     pub level: f64,
     /// Floor that nothing stands on, dead zones included; reaches into the open doorways' other sides.
     pub raw: Vec<Region>,
-    pub free: Vec<Region>,
-    /// Where the robot's centre may be.
-    pub centre: Vec<Region>,
+    /// The grid of `free` and `centre`.
+    pub(super) grid: Grid,
+    pub(super) free: Shapes,
+    pub(super) centre: Shapes,
     pub obstacles: Vec<Obstacle>,
     /// Walls and jambs, whatever the state of the doors.
     pub walls: Vec<(Point, Point)>,
-    pub dead_zones: Vec<DeadZone>,
-    /// Sorted by place; see [`Passframe::id`].
-    pub passframes: Vec<Passframe>,
-    /// The cells of `passframes`, in the same order.
+    /// Floor that the robot cannot cover from any place where it fits; what stands around, see
+    /// [`super::FloorPlan::around`].
+    pub dead_zones: Vec<Region>,
+    pub(super) edging: Edging,
+    /// The cells of the Passframes, sorted by place.
     pub(super) frames: Mesh,
+    /// The ids of the Passframes, in the order of the cells.
+    pub(super) ids: Vec<PassframeId>,
+    pub(super) passframes: OnDemand<Vec<Passframe>>,
     /// A convex partition of `centre`.
     pub(super) cells: Mesh,
     pub(super) exits: Vec<Exit>,
@@ -179,25 +186,37 @@ impl FragmentFloor {
         let frames = Mesh::of(&grid, &free, PATIENCE);
         let exits = exits(&cells, &open);
         let walls = walls(site, placed);
-        let dead_zones = dead_zones(&grid, &dead, area, &obstacles, &storey.sides, reach);
+        let dead_zones = dead_zones(&grid, &dead);
         let mut built = Self {
             area,
             bounds,
             level: storey.level,
             raw,
-            free: grid.regions(&free),
-            centre: grid.regions(&centre),
+            grid,
+            free,
+            centre,
             obstacles,
             walls,
             dead_zones,
-            passframes: Vec::new(),
+            edging: Edging::default(),
+            ids: ids(&frames),
+            passframes: OnDemand::default(),
             frames,
             cells,
             exits,
         };
         built.obstacles.shrink_to_fit();
-        built.passframes = passframes(site, &built, &storey.sides);
+        built.edging = Edging::of(site, &built, storey.sides);
         built
+    }
+
+    /// The doorways that it names, by their index in [`super::FloorPlan::doorways`].
+    pub(super) fn doorways(&self) -> impl Iterator<Item = usize> + '_ {
+        let along = self.edging.doorways.iter().filter_map(|face| match face.beyond {
+            Beyond::Doorway { doorway, .. } => Some(doorway),
+            _ => None,
+        });
+        along.chain(self.exits.iter().map(|exit| exit.doorway))
     }
 
     /// Whether the robot's centre may be at `p`.
@@ -206,16 +225,38 @@ impl FragmentFloor {
         self.cells.locate(p, 1e-6).is_some()
     }
 
+    /// Floor that nothing stands on and that the robot covers from somewhere.
+    #[must_use]
+    pub fn free(&self) -> Vec<Region> {
+        self.grid.regions(&self.free)
+    }
+
+    /// Where the robot's centre may be.
+    #[must_use]
+    pub fn centre(&self) -> Vec<Region> {
+        self.grid.regions(&self.centre)
+    }
+
+    /// The Passframes, sorted by place; see [`Passframe::id`].
+    pub fn passframes(&self) -> &[Passframe] {
+        self.passframes.get(|| passframes(self))
+    }
+
     /// The Passframe that holds a point of the floor.
     #[must_use]
     pub fn passframe_at(&self, p: Point) -> Option<&Passframe> {
-        self.frames.locate(p, 1e-3).map(|cell| &self.passframes[cell as usize])
+        self.frames.locate(p, 1e-3).map(|cell| &self.passframes()[cell as usize])
+    }
+
+    /// The id of the Passframe that holds a point of the floor.
+    pub(super) fn passframe_id_at(&self, p: Point) -> Option<PassframeId> {
+        self.frames.locate(p, 1e-3).map(|cell| self.ids[cell as usize])
     }
 
     /// The dead zone that holds a point of the floor.
     #[must_use]
-    pub fn dead_zone_at(&self, p: Point) -> Option<&DeadZone> {
-        self.dead_zones.iter().find(|z| z.region.contains(p, 1e-3))
+    pub fn dead_zone_at(&self, p: Point) -> Option<&Region> {
+        self.dead_zones.iter().find(|z| z.contains(p, 1e-3))
     }
 
     /// What stands on a point of the floor.

@@ -56,9 +56,9 @@ impl Region {
 /// The grid of one Fragment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Grid {
-    origin: Point,
+    pub(super) origin: Point,
     /// Grid units per cm; a power of two.
-    scale: f64,
+    pub(super) scale: f64,
 }
 
 /// i_overlay's limit for `i32` is 2^30; one bit is left for what sticks out of the bounds.

@@ -12,15 +12,16 @@ use std::collections::HashMap;
 use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point, ReplicaId};
 
-use super::dead_zone::DeadZone;
+use super::edging::{Edging, Face, Mark};
 use super::floor::{Exit, FragmentFloor};
-use super::mesh::NONE;
+use super::grid::{Grid, Node};
 use super::obstacle::{Blocker, Obstacle};
-use super::passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
+use super::passframe::{Beyond, PassframeId};
+use super::storey::Side;
 use super::{Bounds, Polygon, Region};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 1");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 2");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -63,15 +64,12 @@ pub(super) fn read(mut bytes: &[u8]) -> HashMap<AreaId, (u64, FragmentFloor)> {
 
 /// Whether the numbers by which a floor's parts name each other lead somewhere.
 fn is_sound(floor: &FragmentFloor) -> bool {
-    let leads = |border: &Border| {
-        (border.across == NONE || (border.across as usize) < floor.frames.len())
-            && !matches!(border.beyond, Beyond::DeadZone(zone) if zone >= floor.dead_zones.len())
-    };
+    let is_doorway = |face: &Face| matches!(face.beyond, Beyond::Doorway { .. });
     let is_edge = |exit: &Exit| {
         (exit.cell as usize) < floor.cells.len() && exit.edge < floor.cells.ring(exit.cell).len()
     };
-    floor.passframes.len() == floor.frames.len()
-        && floor.passframes.iter().flat_map(|f| &f.borders).all(leads)
+    floor.ids.len() == floor.frames.len()
+        && floor.edging.doorways.iter().all(is_doorway)
         && floor.exits.iter().all(is_edge)
 }
 
@@ -91,7 +89,7 @@ macro_rules! kept_numbers {
     )*};
 }
 
-kept_numbers!(u8, u32, u64, f64);
+kept_numbers!(u8, u32, i32, u64, f64);
 
 impl Kept for usize {
     fn put(&self, out: &mut Vec<u8>) {
@@ -178,6 +176,16 @@ impl Kept for Point {
     }
 }
 
+impl Kept for Node {
+    fn put(&self, out: &mut Vec<u8>) {
+        (self.x, self.y).put(out);
+    }
+
+    fn take(bytes: &mut &[u8]) -> Option<Self> {
+        Some(Self::new(i32::take(bytes)?, i32::take(bytes)?))
+    }
+}
+
 macro_rules! kept_ids {
     ($($id:ident),*) => {$(
         impl Kept for $id {
@@ -212,15 +220,18 @@ macro_rules! kept_structs {
 
 kept_structs! {
     Polygon { corners }
+    Grid { origin, scale }
     Region { outer, holes }
     Bounds { min, max }
     Obstacle { blocker, polygon, bottom, top }
-    DeadZone { region, owners, gap }
-    Border { start, end, permeability, beyond, names, crossing, across }
-    Passframe { id, polygon, kind, borders }
+    Side { item, side, start, end, permeability }
+    Face { start, end, beyond, permeability, names }
+    Mark { blocker, side, permeability, names }
+    Edging { doorways, sides, marks }
     Exit { doorway, cell, edge }
     FragmentFloor {
-        area, bounds, level, raw, free, centre, obstacles, walls, dead_zones, passframes, frames, cells, exits
+        area, bounds, level, raw, grid, free, centre, obstacles, walls, dead_zones, edging, frames, ids, passframes,
+        cells, exits
     }
 }
 
@@ -244,7 +255,6 @@ macro_rules! kept_words {
 
 kept_words! {
     Permeability { 0 => Permeable, 1 => Conditional, 2 => Impermeable }
-    PassframeKind { 0 => Closed, 1 => Boundary, 2 => DeadEnd, 3 => Passage }
 }
 
 impl Kept for Blocker {

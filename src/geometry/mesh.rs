@@ -9,6 +9,7 @@ use super::buckets::Buckets;
 use super::grid::{Grid, Shapes};
 use super::half_edge::HalfEdges;
 use super::kept::Kept;
+use super::on_demand::OnDemand;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// No cell: the edge is a border of the floor.
@@ -48,7 +49,7 @@ pub(super) struct Mesh {
     /// The cell that a branch of cells hangs on: a way enters the branch over it alone, and leaves it there again.
     /// [`NONE`] for cells in a ring, and for the last of a tree.
     pub(super) trunk: Vec<u32>,
-    buckets: Buckets,
+    buckets: OnDemand<Buckets>,
 }
 
 impl Mesh {
@@ -83,13 +84,12 @@ impl Mesh {
         mesh.is_corner = edges.corners();
         (mesh.component, mesh.components) = mesh.find_components();
         mesh.trunk = mesh.trunks();
-        mesh.buckets = Buckets::of(&mesh.boxes());
         mesh
     }
 
     /// Takes a mesh off the front of bytes; see [`Kept`].
     fn restored(bytes: &mut &[u8]) -> Option<Self> {
-        let mut mesh = Self {
+        let mesh = Self {
             vertices: Kept::take(bytes)?,
             is_corner: Kept::take(bytes)?,
             starts: Kept::take(bytes)?,
@@ -98,7 +98,7 @@ impl Mesh {
             component: Kept::take(bytes)?,
             components: Kept::take(bytes)?,
             trunk: Kept::take(bytes)?,
-            buckets: Buckets::default(),
+            buckets: OnDemand::default(),
         };
         let cells = mesh.len();
         // Numbers that lead nowhere would be asked for later.
@@ -111,9 +111,6 @@ impl Mesh {
             && mesh.ring.iter().all(|&v| (v as usize) < mesh.vertices.len())
             && mesh.across.iter().chain(&mesh.trunk).all(|&c| c == NONE || (c as usize) < cells)
             && mesh.component.iter().all(|&c| c < mesh.components);
-        if cells > 0 && is_sound {
-            mesh.buckets = Buckets::of(&mesh.boxes());
-        }
         is_sound.then_some(mesh)
     }
 
@@ -148,14 +145,16 @@ impl Mesh {
         Polygon::new(self.ring(cell).iter().map(|&v| self.vertices[v as usize]).collect())
     }
 
-    fn boxes(&self) -> Vec<Bounds> {
+    /// The cells by place.
+    fn buckets(&self) -> &Buckets {
         let corner = |&v: &u32| self.vertices[v as usize];
-        self.cells().map(|c| Bounds::of(self.ring(c).iter().map(corner)).grown(1e-3)).collect()
+        let reach = |c: u32| Bounds::of(self.ring(c).iter().map(corner)).grown(1e-3);
+        self.buckets.get(|| Buckets::of(&self.cells().map(reach).collect::<Vec<_>>()))
     }
 
     /// A cell that holds `p`, its border within `tolerance` cm; the lowest of several.
     pub(super) fn locate(&self, p: Point, tolerance: f64) -> Option<u32> {
-        self.buckets.near(p).iter().copied().find(|&c| self.holds(c, p, tolerance))
+        self.buckets().near(p).iter().copied().find(|&c| self.holds(c, p, tolerance))
     }
 
     /// Whether a point lies in a cell, its border within `tolerance` cm.
@@ -236,7 +235,7 @@ impl Mesh {
 
     /// The cells whose boxes come near segment `a`-`b`, written into `found`.
     pub(super) fn near_segment(&self, a: Point, b: Point, found: &mut Vec<u32>) {
-        self.buckets.along(a, b, found);
+        self.buckets().along(a, b, found);
     }
 
     /// The stretches of segment `a`-`b` that lie on the floor, as fractions of its length.

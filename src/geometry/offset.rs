@@ -23,7 +23,7 @@
 //! as wide as they are.
 //!
 //! **Invariant**: tangents stand outside the circle, so that a centre never comes nearer to a wall than the
-//! radius; they exceed it by 0.9 % at most, and not at all where a gap is narrowest.
+//! radius; they exceed it by 1.3 % at most, and not at all where a gap is narrowest.
 
 use std::f64::consts::PI;
 
@@ -33,8 +33,8 @@ use super::buckets::Buckets;
 use super::grid::{Contour, Grid, Region};
 use super::{Bounds, Polygon, nearest_on_segment};
 
-/// The widest turn that one tangent takes, in radians: 15°.
-const ARC_STEP: f64 = PI / 12.0;
+/// The widest turn that one tangent takes, in radians: 18°.
+const ARC_STEP: f64 = PI / 10.0;
 
 /// Contours that wind once around the places of a disc's centre from which the disc lies within `floor`, and
 /// around all others less often.
@@ -359,7 +359,7 @@ mod tests {
         let hole = &grid().regions(&shapes)[0].holes[0];
         let blocked = -hole.signed_area();
         let exact = 40.0 * 40.0 + 4.0 * 40.0 * 30.0 + PI * 900.0;
-        assert!(blocked > exact && blocked < exact + 20.0, "{blocked} {exact}");
+        assert!(blocked > exact && blocked < exact + 26.0, "{blocked} {exact}");
         for &p in &hole.corners {
             assert!(pillar.border_distance(p) > 30.0 - 1e-5);
         }

@@ -2,18 +2,21 @@
 //!
 //! **Invariant**: the Passframes of a Fragment are convex, do not overlap and together are exactly its free
 //! floor. An id follows from the Passframe's place, so that it lasts while the Passframe does.
+//!
+//! The cells and their ids are made with the floor; what borders them is found when it is first asked for, from
+//! what the floor keeps ([`super::edging`]): no way is looked for along it.
 
 use std::collections::HashSet;
 use std::fmt;
 
-use crate::map::{BaseVector, Permeability};
+use crate::map::Permeability;
 use crate::units::{AreaId, DoorId, Point};
 
 use super::buckets::Buckets;
-use super::floor::{FragmentFloor, Site};
-use super::mesh::NONE;
+use super::edging::Face;
+use super::floor::FragmentFloor;
+use super::mesh::{Mesh, NONE};
 use super::obstacle::Blocker;
-use super::storey::Side;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// Unique in its Fragment.
@@ -107,15 +110,6 @@ impl Passframe {
     }
 }
 
-/// Something that can stand along a border.
-struct Face {
-    start: Point,
-    end: Point,
-    beyond: Beyond,
-    permeability: Permeability,
-    names: Vec<String>,
-}
-
 /// Everything that can stand along a border, by place.
 struct Faces {
     all: Vec<Face>,
@@ -125,12 +119,12 @@ struct Faces {
 }
 
 impl Faces {
-    fn of(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Self {
-        let all = faces(site, floor, sides);
+    fn of(floor: &FragmentFloor) -> Self {
+        let all = floor.edging.faces(floor);
         let boxes: Vec<Bounds> =
             all.iter().map(|f| Bounds::of([f.start, f.end]).grown(TOUCH)).collect();
         let zones: Vec<Bounds> =
-            floor.dead_zones.iter().map(|z| z.region.outer.bounds().grown(TOUCH)).collect();
+            floor.dead_zones.iter().map(|z| z.outer.bounds().grown(TOUCH)).collect();
         Self { all, buckets: Buckets::of(&boxes), zones: Buckets::of(&zones), boxes }
     }
 
@@ -152,9 +146,8 @@ struct Scratch {
 }
 
 /// The Passframes of a floor, in the order of its cells.
-pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Passframe> {
-    let ids = ids(floor);
-    let faces = Faces::of(site, floor, sides);
+pub(super) fn passframes(floor: &FragmentFloor) -> Vec<Passframe> {
+    let faces = Faces::of(floor);
     let mut scratch = Scratch::default();
     let mut frames: Vec<Passframe> = floor
         .frames
@@ -163,11 +156,11 @@ pub(super) fn passframes(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side])
             let edges = floor.frames.ring(cell).len();
             let mut own = Vec::with_capacity(edges);
             for edge in 0..edges {
-                borders(floor, &ids, &faces, (cell, edge), &mut scratch, &mut own);
+                borders(floor, &faces, (cell, edge), &mut scratch, &mut own);
             }
             own.shrink_to_fit();
             Passframe {
-                id: ids[cell as usize],
+                id: floor.ids[cell as usize],
                 polygon: Polygon::new(own.iter().map(|b| b.start).collect()),
                 kind: PassframeKind::Passage,
                 borders: own,
@@ -199,7 +192,6 @@ fn share_crossings(frames: &mut [Passframe]) {
 /// Adds the borders along one edge of a cell: one to another Passframe, or one for each face that stands there.
 fn borders(
     floor: &FragmentFloor,
-    ids: &[PassframeId],
     faces: &Faces,
     (cell, edge): (u32, usize),
     scratch: &mut Scratch,
@@ -212,7 +204,7 @@ fn borders(
             start,
             end,
             permeability: Permeability::Permeable,
-            beyond: Beyond::Passframe(ids[across as usize]),
+            beyond: Beyond::Passframe(floor.ids[across as usize]),
             names: Vec::new(),
             // Found once for both Passframes, see below.
             crossing: if cell < across { crossing(floor, scratch, start, end) } else { None },
@@ -310,7 +302,7 @@ fn what_stands_along<'a>(
     }
     let mut zones = Vec::new();
     faces.zones.meeting(&Bounds::of([middle]), &mut zones);
-    let off_zone = |k: usize| floor.dead_zones[k].region.outer.border_distance(middle);
+    let off_zone = |k: usize| floor.dead_zones[k].outer.border_distance(middle);
     let nearest = |zones: &mut dyn Iterator<Item = usize>| {
         zones.map(|k| (off_zone(k), k)).min_by(|x, y| x.0.total_cmp(&y.0))
     };
@@ -330,96 +322,16 @@ fn what_stands_along<'a>(
     }
 }
 
-fn faces(site: &Site<'_>, floor: &FragmentFloor, sides: &[Side]) -> Vec<Face> {
-    let mut faces = Vec::new();
-    let area = &site.world.areas[&floor.area];
-    let side_names = |item: usize, side: usize| {
-        area.items.get(item).map_or_else(Vec::new, |item| {
-            site.world.orthoframe_of(item).base.get(side).map_or_else(Vec::new, |v| v.names.clone())
-        })
-    };
-    for (index, doorway, at) in site.doorways_of(floor.area) {
-        let beyond =
-            Beyond::Doorway { doorway: index, door: doorway.door, area: doorway.areas[1 - at] };
-        let names = sides
-            .iter()
-            .find(|s| {
-                let item = &area.items[s.item];
-                let reference = &doorway.sides[at];
-                item.id == reference.item
-                    && site.world.orthoframe_of(item).base[s.side].id == reference.side
-            })
-            .map_or_else(Vec::new, |s| side_names(s.item, s.side));
-        let face = if at == 0 { 0.0 } else { doorway.gap };
-        let (t0, t1) = doorway.span();
-        // Open, the Fragment ends on the line; closed, on its side of the wall.
-        for s in [doorway.gap / 2.0, face] {
-            faces.push(Face {
-                start: doorway.at(t0, s),
-                end: doorway.at(t1, s),
-                beyond,
-                permeability: doorway.permeability,
-                names: names.clone(),
-            });
-        }
-    }
-    for obstacle in &floor.obstacles {
-        let base = base_of(site, obstacle.blocker);
-        for (side, (start, end)) in obstacle.polygon.edges().enumerate() {
-            let (permeability, names) = base
-                .and_then(|base| base.get(side))
-                .map_or((Permeability::Impermeable, Vec::new()), |v| {
-                    (v.permeability, v.names.clone())
-                });
-            let beyond = Beyond::Face { blocker: obstacle.blocker, side: Some(side) };
-            faces.push(Face { start, end, beyond, permeability, names });
-        }
-    }
-    for side in sides {
-        faces.push(Face {
-            start: side.start,
-            end: side.end,
-            beyond: Beyond::Face {
-                blocker: Blocker::Wall { area: floor.area, item: side.item, side: side.side },
-                side: Some(side.side),
-            },
-            // What leads nowhere is a wall.
-            permeability: Permeability::Impermeable,
-            names: side_names(side.item, side.side),
-        });
-    }
-    for &(start, end) in &floor.walls {
-        // Jambs have no side of their own: they belong to the wall.
-        let blocker = Blocker::Wall { area: floor.area, item: 0, side: 0 };
-        faces.push(Face {
-            start,
-            end,
-            beyond: Beyond::Face { blocker, side: None },
-            permeability: Permeability::Impermeable,
-            names: Vec::new(),
-        });
-    }
-    faces
-}
-
-/// The base vectors of the Orthoframe that a thing's part is.
-fn base_of<'a>(site: &Site<'a>, blocker: Blocker) -> Option<&'a [BaseVector]> {
-    let Blocker::Replica { replica, item } = blocker else { return None };
-    let object = site.world.objects.get(&site.world.replicas.get(&replica)?.object)?;
-    Some(&site.world.orthoframe_of(object.items.get(item)?).base)
-}
-
 /// Ids from the corners' places in the Area, to the tenth of a millimetre: what lasts keeps its id.
-fn ids(floor: &FragmentFloor) -> Vec<PassframeId> {
+pub(super) fn ids(frames: &Mesh) -> Vec<PassframeId> {
     const COUNT: u32 = 100_000;
     let mut taken = HashSet::new();
-    floor
-        .frames
+    frames
         .cells()
         .map(|cell| {
             let mut hash = 0x811c_9dc5_u32; // FNV-1a
-            for &vertex in floor.frames.ring(cell) {
-                let p = floor.frames.vertices[vertex as usize];
+            for &vertex in frames.ring(cell) {
+                let p = frames.vertices[vertex as usize];
                 for x in [p.x, p.y] {
                     for byte in ((x * 100.0).round() as i64).to_le_bytes() {
                         hash = (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);

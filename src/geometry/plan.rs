@@ -14,16 +14,17 @@ use crate::map::{DoorState, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
+use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
 use super::doors::{Doorway, doorways};
-use super::floor::{Exit, FragmentFloor, Site};
+use super::floor::{FragmentFloor, Site};
 use super::kept;
 use super::network::{Network, Portal, overlap};
 use super::replica_index::ReplicaIndex;
 use super::scene::{PlacedArea, PlacedReplica, Prism, Scene};
 use super::search::CellKey;
 use super::strait::{self, Strait};
-use super::{Bounds, Passframe, PassframeId};
+use super::{Bounds, Passframe, PassframeId, Region};
 
 /// Doors that stand otherwise than the world says: opened by the robot, or assumed.
 pub type DoorStates = BTreeMap<DoorId, DoorState>;
@@ -101,8 +102,9 @@ impl FloorPlan {
             let digests = areas.iter().zip(digests(site, &areas));
             let same = digests.filter_map(|(area, digest)| {
                 let (own, floor) = kept.remove(area)?;
-                let leads = |e: &Exit| e.doorway < site.doorways.len();
-                (own == digest && floor.exits.iter().all(leads)).then(|| Arc::new(floor))
+                let leads = |doorway: usize| doorway < site.doorways.len();
+                let is_sound = floor.doorways().all(leads);
+                (own == digest && is_sound).then(|| Arc::new(floor))
             });
             let mut floors: Vec<Arc<FragmentFloor>> = same.collect();
             let missing = |a: &&AreaId| floors.binary_search_by_key(*a, |f| f.area).is_err();
@@ -328,12 +330,18 @@ impl FloorPlan {
     /// The Passframes of an Area.
     #[must_use]
     pub fn passframes(&self, area: AreaId) -> &[Passframe] {
-        self.fragment(area).map_or(&[], |f| &f.passframes)
+        self.fragment(area).map_or(&[], FragmentFloor::passframes)
     }
 
     #[must_use]
     pub fn passframe(&self, area: AreaId, id: PassframeId) -> Option<&Passframe> {
         self.passframes(area).iter().find(|p| p.id == id)
+    }
+
+    /// What stands around a dead zone of a Fragment.
+    #[must_use]
+    pub fn around(&self, fragment: &FragmentFloor, zone: &Region) -> Surroundings {
+        surroundings(fragment, zone, self.reach())
     }
 
     pub(super) fn number(&self, area: AreaId) -> Option<usize> {

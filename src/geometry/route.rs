@@ -217,10 +217,10 @@ impl FloorPlan {
     /// The Area and the Passframe at a point of the floor.
     #[must_use]
     pub fn locate(&self, p: Point) -> Option<(AreaId, Option<PassframeId>)> {
-        let holds = |n: &&u32| self.floor(**n).passframe_at(p).is_some();
+        let holds = |n: &&u32| self.floor(**n).passframe_id_at(p).is_some();
         let on_line = || self.fragments_at(p).iter().find(holds).map(|&n| self.floor(n).area);
         let area = self.area_at(p).or_else(on_line)?;
-        let frame = self.fragment(area).and_then(|f| f.passframe_at(p)).map(|f| f.id);
+        let frame = self.fragment(area).and_then(|f| f.passframe_id_at(p));
         Some((area, frame))
     }
 
@@ -530,7 +530,7 @@ impl FloorPlan {
     fn next_frames(&self, within: &[u32], key: CellKey, goal: Point) -> Vec<(Point, CellKey)> {
         let floor = self.floor(key.0);
         let mut next = Vec::new();
-        for border in &floor.passframes[key.1 as usize].borders {
+        for border in &floor.passframes()[key.1 as usize].borders {
             let Some((a, b)) = border.crossing else { continue };
             let middle = nalgebra::center(&a, &b);
             match border.beyond {
@@ -589,7 +589,7 @@ impl FloorPlan {
             passed.sort_by(|a, b| a.0.total_cmp(&b.0));
             for &(_, fragment, cell) in &passed {
                 last = Some((fragment, cell));
-                let frame = (fragment.area, fragment.passframes[cell as usize].id);
+                let frame = (fragment.area, fragment.ids[cell as usize]);
                 if chain.last() != Some(&frame) {
                     chain.push(frame);
                 }

@@ -34,6 +34,8 @@ pub struct Prism {
     /// See [`crate::map::Orthoframe::roof_scale`].
     pub roof_scale: f64,
     pub sides: Vec<PrismSide>,
+    /// No side has names or lets anything through.
+    pub(super) is_plain: bool,
     pub base_permeability: Permeability,
     pub roof_permeability: Permeability,
 }
@@ -169,6 +171,10 @@ fn prisms(world: &World, owner: Owner, items: &[Item], frame: &Frame) -> Vec<Pri
                 .iter()
                 .map(|v| PrismSide { permeability: v.permeability })
                 .collect(),
+            is_plain: orthoframe
+                .base
+                .iter()
+                .all(|v| v.permeability == Permeability::Impermeable && v.names.is_empty()),
             base_permeability: orthoframe.base_permeability,
             roof_permeability: orthoframe.roof_permeability,
         }

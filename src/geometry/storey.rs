@@ -15,7 +15,7 @@ use super::scene::{PlacedArea, Prism};
 pub(super) const THIN: f64 = 0.01;
 
 /// An Area's side as a wall or an opening.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Side {
     pub(super) item: usize,
     pub(super) side: usize,

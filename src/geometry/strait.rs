@@ -155,15 +155,15 @@ pub(super) fn within(plan: &FloorPlan, number: u32) -> Vec<Strait> {
         return Vec::new();
     }
     let reach = plan.reach();
-    let grid = Grid::over(&fragment.bounds.grown(4.0 * reach + 200.0));
+    let grid = fragment.grid;
     let floor: Vec<Contour> =
         fragment.raw.iter().flat_map(|r| r.contours()).map(|c| grid.contour(c)).collect();
     let mut found = Vec::new();
     for zone in &fragment.dead_zones {
-        let place = zone.region.outer.bounds().grown(reach);
+        let place = zone.outer.bounds().grown(reach);
         let joins = fragment.cells.cells().filter(|&cell| {
             let polygon = fragment.cells.polygon(cell);
-            polygon.bounds().meets(&place) && distance(&polygon, &zone.region.outer) <= 1.1 * reach
+            polygon.bounds().meets(&place) && distance(&polygon, &zone.outer) <= 1.1 * reach
         });
         let mut components: Vec<u32> =
             joins.map(|c| fragment.cells.component[c as usize]).collect();
@@ -172,7 +172,7 @@ pub(super) fn within(plan: &FloorPlan, number: u32) -> Vec<Strait> {
         if components.len() < 2 {
             continue;
         }
-        let edges = zone.region.outer.edges().map(|(a, b)| b - a);
+        let edges = zone.outer.edges().map(|(a, b)| b - a);
         let long = edges.filter(|v| v.norm() > 10.0);
         found.extend(best(
             plan,
