@@ -38,12 +38,19 @@ fn scenario(name: &str) -> Result<Scenario, RuleFaults> {
         let domain = Source::new("domain", &instance.domain);
         return Scenario::parse_pddl(&domain, &Source::new("problem", &instance.problem));
     }
+    if let Some(building) = families::buildings().into_iter().find(|found| found.name == name) {
+        let rules = std::fs::read_to_string(rules().join("service-robot.strips"))
+            .expect("the rules stand beside the benches");
+        return Scenario::parse(&Source::new(name, &(rules + &building.scenario)));
+    }
     match home_robot().into_iter().find(|path| path.file_stem().is_some_and(|stem| stem == name)) {
         Some(problem) => Scenario::read_pddl(&problem.with_file_name("domain.pddl"), &problem),
-        None => Scenario::read(
-            &Path::new(env!("CARGO_MANIFEST_DIR")).join("rules/scenarios/medicine-walk.strips"),
-        ),
+        None => Scenario::read(&rules().join("scenarios/medicine-walk.strips")),
     }
+}
+
+fn rules() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("rules")
 }
 
 fn home_robot() -> Vec<PathBuf> {
@@ -70,6 +77,7 @@ fn table(wanted: &str) {
         let peer = HOME_ROBOT.iter().find(|(peer, _)| *peer == name).map(|(_, seconds)| *seconds);
         names.push((name, peer));
     }
+    names.extend(families::buildings().into_iter().map(|building| (building.name, None)));
     names.push(("medicine-walk".to_owned(), None));
     let (mut ours, mut theirs) = (0.0, 0.0);
     for (name, peer) in names.into_iter().filter(|(name, _)| name.contains(wanted)) {

@@ -3,9 +3,11 @@
 
 use std::fmt::Write;
 
+mod building;
 mod random;
 mod transport;
 
+pub(crate) use building::buildings;
 use random::Random;
 pub(crate) use transport::{
     depot, driverlog, logistics, miconic, mystery, rocket, tpp, zenotravel,

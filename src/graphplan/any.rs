@@ -10,6 +10,7 @@ use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
 use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
+use super::bits;
 use super::landmarks::{Attained, Landmarks};
 use super::plan::Plan;
 use super::relaxed::{Estimate, Relaxed, State, holds};
@@ -64,8 +65,8 @@ impl Forward<'_> {
     }
 
     fn initial(&self) -> State {
-        let mut state = vec![0; self.task.facts.len().div_ceil(64)].into_boxed_slice();
-        self.task.init.iter().for_each(|fact| state[fact.index() / 64] |= 1 << (fact.index() % 64));
+        let mut state = vec![0; bits::words(self.task.facts.len())].into_boxed_slice();
+        self.task.init.iter().for_each(|fact| bits::put(&mut state, fact.index()));
         state
     }
 
@@ -77,8 +78,8 @@ impl Forward<'_> {
 
     fn carry_out(&self, state: &mut State, id: OperatorId) {
         let operator = self.task.operator(id);
-        operator.del_effects.iter().for_each(|f| state[f.index() / 64] &= !(1 << (f.index() % 64)));
-        operator.add_effects.iter().for_each(|f| state[f.index() / 64] |= 1 << (f.index() % 64));
+        operator.del_effects.iter().for_each(|fact| bits::take(state, fact.index()));
+        operator.add_effects.iter().for_each(|fact| bits::put(state, fact.index()));
     }
 
     /// As far as a relaxed plan can be carried out one operator after the other. Where none can be, one of them is

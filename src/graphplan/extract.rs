@@ -10,6 +10,7 @@
 //! actions: no plan of any length exists. (The argument is that of property-directed reachability, and sharper
 //! than counting memos as Blum and Furst did, for an explanation need not come out the same twice.)
 
+use super::bits;
 use super::graph::{ActionId, PlanningGraph};
 use super::no_good::NoGoods;
 use super::plan::Plan;
@@ -66,22 +67,26 @@ enum Stop {
 struct GoalSet(Vec<u64>);
 
 impl GoalSet {
+    fn none(goals: usize) -> Self {
+        Self(vec![0; bits::words(goals)])
+    }
+
     fn one(goals: usize, index: usize) -> Self {
-        let mut set = Self(vec![0; goals.div_ceil(64).max(1)]);
+        let mut set = Self::none(goals);
         set.insert(index);
         set
     }
 
     fn insert(&mut self, index: usize) {
-        self.0[index / 64] |= 1 << (index % 64);
+        bits::put(&mut self.0, index);
     }
 
     fn contains(&self, index: usize) -> bool {
-        self.0[index / 64] >> (index % 64) & 1 == 1
+        bits::has(&self.0, index)
     }
 
     fn union(&mut self, other: &Self) {
-        self.0.iter_mut().zip(&other.0).for_each(|(a, b)| *a |= b);
+        bits::unite(&mut self.0, &other.0);
     }
 }
 
@@ -253,7 +258,7 @@ impl<'a> Search<'a> {
             }
             return Ok(());
         };
-        let mut reason = GoalSet(vec![0; choice.goals.len().div_ceil(64).max(1)]);
+        let mut reason = GoalSet::none(choice.goals.len());
         for need in failed {
             // The first goal that brought the need in: the further back the jump, the better.
             let &(_, owner) = choice
@@ -348,10 +353,7 @@ impl<'g> Level<'g> {
     }
 
     fn facts(&self, set: &GoalSet) -> Vec<FactId> {
-        let mut facts: Vec<FactId> = (0..self.goals.len())
-            .filter(|&index| set.contains(index))
-            .map(|index| self.goals[index])
-            .collect();
+        let mut facts: Vec<FactId> = bits::members(&set.0).map(|index| self.goals[index]).collect();
         facts.sort_unstable();
         facts
     }

@@ -5,6 +5,9 @@
 //! is kept for each level, as a bit matrix, until the graph levels off. Mutexes of actions follow from those of
 //! their preconditions and are computed when asked for.
 
+use std::cell::OnceCell;
+
+use super::bits;
 use super::replan::Inherited;
 use super::{Limit, Limits, NoPlanReason};
 use crate::strips::{FactId, Task};
@@ -39,18 +42,17 @@ struct Pairs {
 
 impl Pairs {
     fn new(facts: usize) -> Self {
-        let words = facts.div_ceil(64);
+        let words = bits::words(facts);
         Self { words, bits: vec![0; words * facts] }
     }
 
     fn contains(&self, a: FactId, b: FactId) -> bool {
-        let bit = b.index();
-        self.bits[a.index() * self.words + bit / 64] >> (bit % 64) & 1 == 1
+        bits::has(self.row(a), b.index())
     }
 
     fn insert(&mut self, a: FactId, b: FactId) {
         for (row, bit) in [(a.index(), b.index()), (b.index(), a.index())] {
-            self.bits[row * self.words + bit / 64] |= 1 << (bit % 64);
+            bits::put(&mut self.bits[row * self.words..][..self.words], bit);
         }
     }
 
@@ -156,11 +158,7 @@ impl PlanningGraph {
         level: usize,
         fact: FactId,
     ) -> impl Iterator<Item = FactId> {
-        self.mutex_at(level).row(fact).iter().enumerate().flat_map(|(word, &bits)| {
-            (0..64)
-                .filter(move |bit| bits >> bit & 1 == 1)
-                .map(move |bit| FactId((word * 64 + bit) as u32))
-        })
+        bits::members(self.mutex_at(level).row(fact)).map(|fact| FactId(fact as u32))
     }
 
     /// Whether all facts may hold at the last level, as far as pairs tell.
@@ -284,10 +282,10 @@ impl PlanningGraph {
         let (mut present, mut new) = (vec![0_u64; words], vec![0_u64; words]);
         for (fact, &first) in self.fact_level.iter().enumerate() {
             if first <= level + 1 {
-                present[fact / 64] |= 1 << (fact % 64);
+                bits::put(&mut present, fact);
             }
             if first == level + 1 {
-                new[fact / 64] |= 1 << (fact % 64);
+                bits::put(&mut new, fact);
             }
         }
         for number in 0..self.fact_level.len() {
@@ -300,14 +298,16 @@ impl PlanningGraph {
             }
             let is_new = self.fact_level(a) == level + 1;
             let row = old.row(a);
-            let barred = self.barred(old, a);
+            let barred = OnceCell::new();
             for word in 0..=number / 64 {
-                let mut open =
+                let open =
                     if is_new { present[word] } else { present[word] & (row[word] | new[word]) };
-                while open != 0 {
-                    let b = FactId((word * 64) as u32 + open.trailing_zeros());
-                    open &= open - 1;
-                    if b < a && (known(a, b) || !self.jointly_achievable(old, a, b, &barred)) {
+                for bit in bits::of_word(open) {
+                    let b = FactId((word * 64 + bit) as u32);
+                    let excluded = |barred| !self.jointly_achievable(old, a, b, barred);
+                    if b < a
+                        && (known(a, b) || excluded(barred.get_or_init(|| self.barred(old, a))))
+                    {
                         next.insert(a, b);
                     }
                 }
@@ -325,16 +325,12 @@ impl PlanningGraph {
             excluded.fill(0);
             let action = self.action(a);
             for &fact in &action.preconditions {
-                for (word, row) in excluded.iter_mut().zip(mutex.row(fact)) {
-                    *word |= row;
-                }
+                bits::unite(&mut excluded, mutex.row(fact));
             }
             for fact in &action.del_effects {
-                excluded[fact.index() / 64] |= 1 << (fact.index() % 64);
+                bits::put(&mut excluded, fact.index());
             }
-            for (word, more) in barred.iter_mut().zip(&excluded) {
-                *word &= more;
-            }
+            bits::keep_common(&mut barred, &excluded);
         }
         barred
     }
@@ -346,7 +342,7 @@ impl PlanningGraph {
     }
 
     fn jointly_achievable(&self, mutex: &Pairs, p: FactId, q: FactId, barred: &[u64]) -> bool {
-        let is_barred = |fact: &FactId| barred[fact.index() / 64] >> (fact.index() % 64) & 1 == 1;
+        let is_barred = |fact: &FactId| bits::has(barred, fact.index());
         let goes_beside = |b: ActionId| {
             !self.action(b).preconditions.iter().any(is_barred)
                 && self.ways(p).any(|a| !self.compete(mutex, a, b) && !self.interfere(a, b))

@@ -8,6 +8,7 @@
 
 use std::collections::VecDeque;
 
+use super::bits::{has, members, put, unite, words};
 use super::relaxed::{State, holds};
 use crate::strips::{FactId, Task};
 
@@ -28,20 +29,6 @@ pub(super) struct Landmarks {
     needed_by: Vec<Vec<u32>>,
 }
 
-fn has(set: &[u64], number: usize) -> bool {
-    set[number / 64] >> (number % 64) & 1 == 1
-}
-
-fn put(set: &mut [u64], number: usize) {
-    set[number / 64] |= 1 << (number % 64);
-}
-
-fn members(set: &[u64]) -> impl Iterator<Item = usize> {
-    set.iter().enumerate().flat_map(|(word, &bits)| {
-        (0..64).filter(move |bit| bits >> bit & 1 == 1).map(move |bit| word * 64 + bit)
-    })
-}
-
 impl Landmarks {
     /// None when there are too many facts, or the goal is out of reach.
     pub(super) fn of(task: &Task) -> Option<Self> {
@@ -52,7 +39,7 @@ impl Landmarks {
         let mut all = vec![0; sets.words];
         for goal in &task.goal {
             let of_goal = sets.of_fact[goal.index()].as_ref()?;
-            all.iter_mut().zip(of_goal).for_each(|(all, own)| *all |= own);
+            unite(&mut all, of_goal);
         }
         let facts: Vec<FactId> = members(&all).map(|fact| FactId(fact as u32)).collect();
         let mut number = vec![None; task.facts.len()];
@@ -127,7 +114,7 @@ impl Landmarks {
 
     /// What counts as attained at first.
     pub(super) fn initially(&self, state: &State) -> Attained {
-        let mut attained = vec![0; self.facts.len().div_ceil(64)].into_boxed_slice();
+        let mut attained = vec![0; words(self.facts.len())].into_boxed_slice();
         for (n, &fact) in self.facts.iter().enumerate() {
             if holds(state, fact) && self.before[n].is_empty() {
                 put(&mut attained, n);
@@ -198,7 +185,7 @@ struct Sets {
 
 impl Sets {
     fn new(task: &Task) -> Self {
-        let words = task.facts.len().div_ceil(64);
+        let words = words(task.facts.len());
         let mut added_by = vec![Vec::new(); task.facts.len()];
         let mut needed_by = vec![Vec::new(); task.facts.len()];
         for (number, operator) in task.operators.iter().enumerate() {
@@ -238,7 +225,7 @@ impl Sets {
         through.fill(0);
         needs.iter().all(|need| match &self.of_fact[need.index()] {
             Some(own) => {
-                through.iter_mut().zip(own).for_each(|(all, own)| *all |= own);
+                unite(through, own);
                 true
             }
             None => false,
@@ -308,7 +295,7 @@ mod tests {
     }
 
     fn state(task: &Task) -> State {
-        let mut state = vec![0; task.facts.len().div_ceil(64)].into_boxed_slice();
+        let mut state = vec![0; words(task.facts.len())].into_boxed_slice();
         task.init.iter().for_each(|fact| put(&mut state, fact.index()));
         state
     }

@@ -20,13 +20,16 @@
 //! ```
 
 mod any;
+mod bits;
 mod counting;
 mod cuts;
 mod extract;
 mod fewest;
 mod graph;
 mod landmarks;
+mod needed;
 mod no_good;
+mod pairs;
 mod plan;
 mod relaxed;
 mod replan;
@@ -137,12 +140,45 @@ pub fn solve_learning(
     limits: &Limits,
 ) -> (Outcome, Option<Learned>) {
     let inherited = learned.and_then(|learned| learned.about(task));
+    if inherited.is_none() && task.facts.len() >= LARGE {
+        return (solve_large(task, limits).unwrap_or_else(Outcome::LimitReached), None);
+    }
     match with_stack(|| search(task, limits, Turn::default(), inherited.as_ref())) {
         Ok((outcome, learned)) => {
             (outcome.expect("turns without end come to an answer"), Some(learned))
         }
         Err(limit) => (Outcome::LimitReached(limit), None),
     }
+}
+
+/// Of so many facts a task is planned without the operators that no shortest plan needs. What is learned then is about
+/// another task, and is not kept; finding them out again costs less than the whole graph would.
+const LARGE: usize = 1_000;
+
+fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
+    let reduced = needed::Reduced::of(task, limits)?;
+    let (outcome, _) = with_stack(|| search(&reduced.task, limits, Turn::default(), None))?;
+    let facts = |facts: Vec<FactId>| facts.into_iter().map(|fact| reduced.fact(fact)).collect();
+    Ok(match outcome.expect("turns without end come to an answer") {
+        Outcome::Plan(mut plan) => {
+            plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
+            Outcome::Plan(plan)
+        }
+        Outcome::NoPlan { leveled_off_at, reason } => {
+            let reason = match reason {
+                NoPlanReason::Unreachable(unreachable) => {
+                    NoPlanReason::Unreachable(facts(unreachable))
+                }
+                NoPlanReason::Exclusive(pairs) => {
+                    let pair = |(a, b)| (reduced.fact(a), reduced.fact(b));
+                    NoPlanReason::Exclusive(pairs.into_iter().map(pair).collect())
+                }
+                NoPlanReason::Together(together) => NoPlanReason::Together(facts(together)),
+            };
+            Outcome::NoPlan { leveled_off_at, reason }
+        }
+        Outcome::LimitReached(limit) => Outcome::LimitReached(limit),
+    })
 }
 
 /// Finds some plan soon, where the shortest is out of reach. The plan is then shortened piece by piece within

@@ -5,13 +5,14 @@
 
 use std::collections::{BTreeSet, HashSet};
 
+use super::bits;
 use crate::strips::{FactId, OperatorId, Task};
 
 /// What holds, as bits.
 pub(super) type State = Box<[u64]>;
 
 pub(super) fn holds(state: &State, fact: FactId) -> bool {
-    state[fact.index() / 64] >> (fact.index() % 64) & 1 == 1
+    bits::has(state, fact.index())
 }
 
 /// How far a state seems from the goal, and what to try.
@@ -100,14 +101,9 @@ impl<'a> Relaxed<'a> {
         self.missing.copy_from_slice(&self.needs);
         let mut open = self.task.goal.iter().filter(|goal| !holds(state, **goal)).count();
         let mut queue: Vec<u32> = Vec::new();
-        for (word, &bits) in state.iter().enumerate() {
-            let mut bits = bits;
-            while bits != 0 {
-                let fact = (word * 64) as u32 + bits.trailing_zeros();
-                bits &= bits - 1;
-                self.layer[fact as usize] = 0;
-                queue.push(fact);
-            }
+        for fact in bits::members(state) {
+            self.layer[fact] = 0;
+            queue.push(fact as u32);
         }
         self.applicable.clear();
         for at in 0..self.without_needs.len() {

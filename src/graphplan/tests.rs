@@ -487,3 +487,118 @@ fn another_initial_fact_teaches_nothing() {
     other.operators[0].add_effects = vec![more];
     assert!(learned.about(&other).is_none());
 }
+
+/// A task like those of a robot in a small building: rooms in a tree, things that one hand carries, doors that are
+/// closed, and sometimes a flag raised in one room.
+fn random_errand(seed: u64) -> Task {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let rooms = 3 + random.below(3);
+    let things = 1 + random.below(2);
+    let mut names: Vec<String> = Vec::new();
+    let mut operators: Vec<Operator> = Vec::new();
+    let mut fact = |name: String| {
+        let known = names.iter().position(|known| *known == name);
+        FactId(known.unwrap_or_else(|| {
+            names.push(name);
+            names.len() - 1
+        }) as u32)
+    };
+    let mut operator = |needs: Vec<FactId>, adds: Vec<FactId>, dels: Vec<FactId>| {
+        let sorted = |mut facts: Vec<FactId>| {
+            facts.sort_unstable();
+            facts.dedup();
+            facts
+        };
+        operators.push(Operator {
+            name: format!("o{}", operators.len()).into(),
+            args: Vec::new(),
+            preconditions: sorted(needs),
+            add_effects: sorted(adds),
+            del_effects: sorted(dels),
+            cost: 1,
+        });
+    };
+    let mut init = vec![fact("hand".into()), fact("in0".into())];
+    for room in 1..rooms {
+        let other = random.below(room);
+        let closed = random.below(3) == 0;
+        let (here, there) = (fact(format!("in{room}")), fact(format!("in{other}")));
+        for (a, b) in [(here, there), (there, here)] {
+            let mut needs = vec![a];
+            if closed {
+                needs.push(fact(format!("open{room}")));
+            }
+            operator(needs, vec![b], vec![a]);
+            if closed {
+                let (open, shut) = (fact(format!("open{room}")), fact(format!("shut{room}")));
+                operator(vec![a, shut], vec![open], vec![shut]);
+                operator(vec![a, open], vec![shut], vec![open]);
+            }
+        }
+        if closed {
+            let state = if random.below(2) == 0 { "open" } else { "shut" };
+            init.push(fact(format!("{state}{room}")));
+        }
+    }
+    for thing in 0..things {
+        let (hand, held) = (fact("hand".into()), fact(format!("held{thing}")));
+        for room in 0..rooms {
+            let (here, lies) = (fact(format!("in{room}")), fact(format!("lies{thing}x{room}")));
+            operator(vec![here, hand, lies], vec![held], vec![hand, lies]);
+            if random.below(4) > 0 {
+                operator(vec![here, held], vec![hand, lies], vec![held]);
+            }
+        }
+        init.push(fact(format!("lies{thing}x{}", random.below(rooms))));
+    }
+    if random.below(2) == 0 {
+        let (here, flag) = (fact(format!("in{}", random.below(rooms))), fact("flag".into()));
+        let held = fact("held0".into());
+        let needs = if random.below(2) == 0 { vec![here] } else { vec![here, held] };
+        operator(needs, vec![flag], if random.below(3) == 0 { vec![here] } else { Vec::new() });
+    }
+    let goal_count = 1 + random.below(2);
+    let count = names.len();
+    let goal = random.facts(goal_count, count);
+    init.sort_unstable();
+    init.dedup();
+    let facts = names
+        .into_iter()
+        .map(|name| Fact { predicate: name.into(), args: Vec::new(), negated: false })
+        .collect();
+    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+    task.check_invariants();
+    task
+}
+
+#[test]
+fn what_no_shortest_plan_needs_is_left_out() {
+    let (mut smaller, mut solved) = (0, 0);
+    for seed in 1..=9000 {
+        let task = match seed % 3 {
+            0 => random_task(seed),
+            1 => random_task_with_objects(seed),
+            _ => random_errand(seed),
+        };
+        let reduced = needed::Reduced::of(&task, &Limits::default()).unwrap();
+        reduced.task.check_invariants();
+        let fewest = fewest_steps(&task);
+        assert_eq!(fewest_steps(&reduced.task), fewest, "seed {seed}");
+        smaller += usize::from(reduced.task.operators.len() < task.operators.len());
+        solved += usize::from(fewest.is_some_and(|steps| steps > 2));
+        if seed % 10 == 0
+            && let Some(steps) = fewest
+        {
+            assert_eq!(least_cost(&reduced.task, steps), least_cost(&task, steps), "seed {seed}");
+        }
+        match solve_large(&task, &Limits::default()) {
+            Ok(Outcome::Plan(plan)) => {
+                assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert_eq!(Some(plan.steps.len()), fewest, "seed {seed}");
+            }
+            Ok(Outcome::NoPlan { .. }) => assert_eq!(fewest, None, "seed {seed}"),
+            other => panic!("seed {seed}: {other:?}"),
+        }
+    }
+    assert!(smaller > 3000 && solved > 1000, "{smaller} {solved}");
+}

@@ -1,0 +1,264 @@
+//! Operators that no shortest plan needs, left out before the planning graph is built: a robot's way into a room
+//! where it has nothing to do and out again, keys to such rooms, a thing put down only to be taken up again.
+//!
+//! Backward from the goal an operator is *kept* when it adds a needed fact, and then its preconditions are needed too
+//! (P. Haslum, M. Helmert, A. Jonsson, 2013, go further than that in another way). Two kinds of operators are not
+//! kept although they add a needed fact:
+//!
+//! 1. **Returns.** The operator needs a fact that lies *beyond* the one it adds: it excludes it, and was come to from
+//!    it, all the way by operators that are not kept. Who takes no such way never lost what the return brings back.
+//! 2. **Undone for nothing.** The operator gives up `p`, and whoever uses what it adds does so only to have `p`
+//!    again. Who keeps `p` needs neither.
+//!
+//! Let a plan be given, and leave out of it all that is not kept. By induction over its steps every needed fact that
+//! holds in the course of the whole plan holds in the course of the rest, too, but for what an operator of the second
+//! kind added and nobody used up to the moment when its `p` is had again – at which moment those facts hold no more,
+//! for they exclude `p`; a kept operator that uses one of them is left out as well. So the rest is a plan, with no
+//! more steps and no more actions; parallel steps lose members and stay parallel. The conditions are read off below.
+
+use super::bits;
+use super::pairs::ReachedPairs;
+use super::{Limit, Limits};
+use crate::strips::{FactId, OperatorId, Task};
+
+/// A task with fewer operators and facts, and the same fewest steps.
+pub(super) struct Reduced {
+    pub(super) task: Task,
+    facts: Vec<FactId>,
+    operators: Vec<OperatorId>,
+}
+
+impl Reduced {
+    /// # Errors
+    /// Time or memory is up.
+    pub(super) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
+        let pairs = ReachedPairs::of(task, limits)?;
+        let mut relevance = Relevance::new(task, &pairs);
+        relevance.settle(limits)?;
+        let (kept, needed) = (relevance.kept, relevance.needed);
+        let operators: Vec<OperatorId> =
+            task.operator_ids().filter(|id| kept[id.index()]).collect();
+        let (mut added, mut deleted) = (vec![false; needed.len()], vec![false; needed.len()]);
+        for operator in operators.iter().map(|&id| task.operator(id)) {
+            operator.add_effects.iter().for_each(|fact| added[fact.index()] = true);
+            operator.del_effects.iter().for_each(|fact| deleted[fact.index()] = true);
+        }
+        let (initially, is_goal) = (relevance.initially, relevance.is_goal);
+        // What holds and is never given up need not be asked for; what nobody needs still keeps operators apart, of
+        // which one adds it and one deletes it.
+        let counts = |fact: usize| {
+            let stays = initially[fact] && !deleted[fact] && !is_goal[fact];
+            if needed[fact] { !stays } else { added[fact] && deleted[fact] }
+        };
+        let facts: Vec<FactId> = task.fact_ids().filter(|fact| counts(fact.index())).collect();
+        let mut number = vec![None; task.facts.len()];
+        for (new, old) in facts.iter().enumerate() {
+            number[old.index()] = Some(FactId(new as u32));
+        }
+        let own = |facts: &[FactId]| facts.iter().filter_map(|f| number[f.index()]).collect();
+        let mut smaller = Task {
+            facts: facts.iter().map(|&fact| task.fact(fact).clone()).collect(),
+            operators: operators.iter().map(|&id| task.operator(id).clone()).collect(),
+            init: own(&task.init),
+            goal: own(&task.goal),
+            assumptions: own(&task.assumptions),
+        };
+        for operator in &mut smaller.operators {
+            operator.preconditions = own(&operator.preconditions);
+            operator.add_effects = own(&operator.add_effects);
+            operator.del_effects = own(&operator.del_effects);
+        }
+        Ok(Self { task: smaller, facts, operators })
+    }
+
+    pub(super) fn fact(&self, of_reduced: FactId) -> FactId {
+        self.facts[of_reduced.index()]
+    }
+
+    pub(super) fn operator(&self, of_reduced: OperatorId) -> OperatorId {
+        self.operators[of_reduced.index()]
+    }
+}
+
+struct Relevance<'a> {
+    task: &'a Task,
+    pairs: &'a ReachedPairs,
+    added_by: Vec<Vec<OperatorId>>,
+    needed_by: Vec<Vec<OperatorId>>,
+    deleted_by: Vec<Vec<OperatorId>>,
+    initially: Vec<bool>,
+    is_goal: Vec<bool>,
+    kept: Vec<bool>,
+    needed: Vec<bool>,
+    /// Per fact, once asked for, what lies beyond it.
+    beyond: Vec<Option<Box<[u64]>>>,
+    /// Facts that operators of the second kind give up, and those that only they add.
+    given_up: Vec<bool>,
+    missing: Vec<bool>,
+}
+
+impl<'a> Relevance<'a> {
+    fn new(task: &'a Task, pairs: &'a ReachedPairs) -> Self {
+        let count = task.facts.len();
+        let (mut added_by, mut needed_by, mut deleted_by) =
+            (vec![Vec::new(); count], vec![Vec::new(); count], vec![Vec::new(); count]);
+        for id in task.operator_ids().filter(|id| pairs.applicable[id.index()]) {
+            let operator = task.operator(id);
+            operator.add_effects.iter().for_each(|f| added_by[f.index()].push(id));
+            operator.preconditions.iter().for_each(|f| needed_by[f.index()].push(id));
+            operator.del_effects.iter().for_each(|f| deleted_by[f.index()].push(id));
+        }
+        let marked = |facts: &[FactId]| {
+            let mut marks = vec![false; count];
+            facts.iter().for_each(|fact| marks[fact.index()] = true);
+            marks
+        };
+        Self {
+            task,
+            pairs,
+            added_by,
+            needed_by,
+            deleted_by,
+            initially: marked(&task.init),
+            is_goal: marked(&task.goal),
+            kept: vec![false; task.operators.len()],
+            needed: marked(&task.goal),
+            beyond: vec![None; count],
+            given_up: vec![false; count],
+            missing: vec![false; count],
+        }
+    }
+
+    /// Keeps operators until none that is left must be kept. What one round believed of facts beyond may turn out
+    /// wrong when more is kept; the last round changes nothing, so that in it all was judged by what is kept at last.
+    fn settle(&mut self, limits: &Limits) -> Result<(), Limit> {
+        loop {
+            self.beyond.fill(None);
+            self.given_up.fill(false);
+            self.missing.fill(false);
+            let mut open: Vec<FactId> =
+                self.task.fact_ids().filter(|fact| self.needed[fact.index()]).collect();
+            let mut changed = false;
+            while let Some(fact) = open.pop() {
+                limits.check(0)?;
+                for at in 0..self.added_by[fact.index()].len() {
+                    let id = self.added_by[fact.index()][at];
+                    if self.kept[id.index()] || self.is_needless(id) {
+                        continue;
+                    }
+                    changed = true;
+                    self.kept[id.index()] = true;
+                    for &need in &self.task.operator(id).preconditions {
+                        if !std::mem::replace(&mut self.needed[need.index()], true) {
+                            open.push(need);
+                        }
+                    }
+                }
+            }
+            if !changed {
+                return Ok(());
+            }
+        }
+    }
+
+    fn is_needless(&mut self, id: OperatorId) -> bool {
+        let operator = self.task.operator(id);
+        let mut brought = Vec::new();
+        for &fact in &operator.add_effects {
+            if self.needed[fact.index()] && !self.is_return(id, fact) {
+                brought.push(fact);
+            }
+        }
+        if brought.is_empty() {
+            return true;
+        }
+        let gives_up = operator.preconditions.iter().filter(|f| operator.del_effects.contains(f));
+        for &p in gives_up {
+            if self.is_undone_for_nothing(p, &brought) {
+                self.given_up[p.index()] = true;
+                brought.iter().for_each(|fact| self.missing[fact.index()] = true);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Whether an operator adds what held before anyway.
+    fn is_return(&mut self, id: OperatorId, fact: FactId) -> bool {
+        let needs = &self.task.operator(id).preconditions;
+        needs.contains(&fact)
+            || self.is_given_up_only_by_need(fact) && {
+                let beyond = self.beyond(fact);
+                needs.iter().any(|need| bits::has(beyond, need.index()))
+            }
+    }
+
+    /// Whether no kept operator deletes a fact that need not hold then: while it is lost, none of them deletes it.
+    fn is_given_up_only_by_need(&self, fact: FactId) -> bool {
+        self.deleted_by[fact.index()]
+            .iter()
+            .filter(|id| self.kept[id.index()])
+            .all(|&id| self.task.operator(id).preconditions.contains(&fact))
+    }
+
+    /// Whether `p`, given up for these facts, is all that any kept operator makes of them.
+    fn is_undone_for_nothing(&mut self, p: FactId, brought: &[FactId]) -> bool {
+        if self.missing[p.index()] || !self.is_given_up_only_by_need(p) {
+            return false;
+        }
+        brought.iter().all(|&fact| {
+            let pairs = self.pairs;
+            let apart = |beyond: &[u64]| {
+                beyond.iter().zip(pairs.row(p)).all(|(beyond, beside)| beyond & beside == 0)
+            };
+            !self.is_goal[fact.index()]
+                && !self.given_up[fact.index()]
+                && pairs.is_exclusive(fact, p)
+                && self.needed_by[fact.index()]
+                    .iter()
+                    .filter(|id| self.kept[id.index()])
+                    .flat_map(|&id| &self.task.operator(id).add_effects)
+                    .all(|&add| add == p || !self.needed[add.index()])
+                && apart(self.beyond(fact))
+        })
+    }
+
+    /// Facts that exclude a fact and are come to only from it, by operators that are not kept: since one of them
+    /// holds, the fact has held, and in between one or another of them did.
+    fn beyond(&mut self, fact: FactId) -> &[u64] {
+        if self.beyond[fact.index()].is_none() {
+            self.beyond[fact.index()] = Some(self.found_beyond(fact));
+        }
+        self.beyond[fact.index()].as_deref().expect("it was just found")
+    }
+
+    fn found_beyond(&self, fact: FactId) -> Box<[u64]> {
+        let count = self.task.facts.len();
+        let mut beyond = vec![0; bits::words(count)].into_boxed_slice();
+        for (beyond, beside) in beyond.iter_mut().zip(self.pairs.row(fact)) {
+            *beyond = !beside;
+        }
+        (count..beyond.len() * 64).for_each(|none| bits::take(&mut beyond, none));
+        let mut open: Vec<usize> = bits::members(&beyond).collect();
+        while let Some(member) = open.pop() {
+            let comes_from_there = |id: &OperatorId| {
+                let needs = &self.task.operator(*id).preconditions;
+                !self.kept[id.index()]
+                    && (needs.contains(&fact)
+                        || needs.iter().any(|f| bits::has(&beyond, f.index())))
+            };
+            let stays =
+                !self.initially[member] && self.added_by[member].iter().all(comes_from_there);
+            if stays || !bits::has(&beyond, member) {
+                continue;
+            }
+            bits::take(&mut beyond, member);
+            // Whoever came from there may have come from nowhere else.
+            for &id in &self.needed_by[member] {
+                let adds = self.task.operator(id).add_effects.iter().map(|add| add.index());
+                open.extend(adds.filter(|&add| bits::has(&beyond, add)));
+            }
+        }
+        beyond
+    }
+}
