@@ -35,9 +35,9 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
     let corridors = rooms.div_ceil(ROOMS);
     let corridors_of_floor = corridors.div_ceil(floors);
     let mut door = |name: String, a: &str, b: &str, state: &str| {
-        write!(
+        writeln!(
             facts,
-            "ДВЕРЬ_НАХОДИТСЯ-В_({name}, {a}) ДВЕРЬ_НАХОДИТСЯ-В_({name}, {b}) ДВЕРЬ_ИМЕЕТ-СТВОРКУ_({name})\n"
+            "ДВЕРЬ_НАХОДИТСЯ-В_({name}, {a}) ДВЕРЬ_НАХОДИТСЯ-В_({name}, {b}) ДВЕРЬ_ИМЕЕТ-СТВОРКУ_({name})"
         )
         .expect("a string takes all text");
         for (from, to) in [(a, b), (b, a)] {
@@ -59,18 +59,18 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
     }
     for floor in 0..floors.min(corridors) {
         let hall = corridor(floor * corridors_of_floor);
-        write!(
+        writeln!(
             facts,
-            "ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-лифта-{floor}, {hall}) ДВЕРЬ-ЛИФТА_ИЗ_В_(Дверь-лифта-{floor}, {hall}, Лифт)\n"
+            "ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-лифта-{floor}, {hall}) ДВЕРЬ-ЛИФТА_ИЗ_В_(Дверь-лифта-{floor}, {hall}, Лифт)"
         )
         .expect("a string takes all text");
     }
     facts += "КАБИНА_СТОИТ-У_(Лифт, Дверь-лифта-0)\n";
     for room in 0..rooms {
-        write!(
+        writeln!(
             facts,
             "ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-стола-{room}, Комната-{room}) ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-окна-{room}, Комната-{room})\n\
-             ПОЗИЦИЯ_НАХОДИТСЯ-У_(У-стола-{room}, Стол-{room})\n"
+             ПОЗИЦИЯ_НАХОДИТСЯ-У_(У-стола-{room}, Стол-{room})"
         )
         .expect("a string takes all text");
         if locked(room) {
@@ -87,9 +87,9 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
     let goal = match errand {
         Errand::Drive => format!("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(У-окна-{last})"),
         Errand::Fetch => {
-            write!(
+            writeln!(
                 facts,
-                "ПРЕДМЕТ_НАХОДИТСЯ-НА_(Лекарство, Стол-{middle}) ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ_(Больной, У-окна-{last})\n"
+                "ПРЕДМЕТ_НАХОДИТСЯ-НА_(Лекарство, Стол-{middle}) ЧЕЛОВЕК_НАХОДИТСЯ-В-ПОЗИЦИИ_(Больной, У-окна-{last})"
             )
             .expect("a string takes all text");
             "ПРЕДМЕТ_ПЕРЕДАН_(Лекарство, Больной)".to_owned()
@@ -98,9 +98,9 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
             let mut goal = String::new();
             for thing in ["Книга", "Чашка", "Папка"] {
                 let (from, to) = (random.below(rooms.min(ROOMS)), random.below(rooms.min(ROOMS)));
-                write!(
+                writeln!(
                     facts,
-                    "ПРЕДМЕТ_НАХОДИТСЯ-НА_({thing}, Стол-{from}) ПРЕДМЕТ_ХРАНИТСЯ-НА_({thing}, Стол-{to})\n"
+                    "ПРЕДМЕТ_НАХОДИТСЯ-НА_({thing}, Стол-{from}) ПРЕДМЕТ_ХРАНИТСЯ-НА_({thing}, Стол-{to})"
                 )
                 .expect("a string takes all text");
                 goal += &format!("ПРЕДМЕТ-НА-СВОЁМ-МЕСТЕ_({thing}) ");
