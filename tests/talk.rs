@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Memory, World};
+use orthoframe::engine::{Error, Memory, World};
 use orthoframe::exchange::{Options, read};
 use orthoframe::facts::Value;
+use orthoframe::language::command::Misheard;
 use orthoframe::language::question::Said;
 use orthoframe::language::{Case, NounPhrase, Number, WordHints};
 use orthoframe::map::Entity;
@@ -358,7 +359,8 @@ fn commands_of_the_competition_are_understood() {
             ] {
                 asked += 1;
                 match engine.understand(&command) {
-                    Ok(_) => heard += 1,
+                    // "Take the bed from the bookshelf" is understood, and there is none.
+                    Ok(_) | Err(Error::Misheard(Misheard::NoneSuch(_))) => heard += 1,
                     Err(e) => missed.push(format!("{command} -> {e}")),
                 }
             }

@@ -40,17 +40,6 @@ impl Failure {
         Self::Output(error.to_string())
     }
 
-    /// The fault in a sentence; none where there is nobody left to tell.
-    pub(super) fn message(&self, lang: Lang) -> Option<String> {
-        match self {
-            Self::Engine(error) => Some(match lang {
-                Lang::Ru => error.to_string(),
-                Lang::En => error.english().unwrap_or_else(|| error.to_string()),
-            }),
-            Self::Output(_) => None,
-        }
-    }
-
     pub(super) fn file(path: &std::path::Path, error: &std::io::Error) -> Self {
         RequestError::File { path: path.display().to_string(), reason: error.to_string() }.into()
     }

@@ -16,7 +16,7 @@ use serde_json::json;
 
 use crate::engine::{Engine, Error, Memory, TaskAnswer};
 use crate::language::Language;
-use crate::language::command::Command;
+use crate::language::command::{Command, has_verb, likely_verb};
 use crate::units::name_key;
 
 use super::args::{Common, Lang};
@@ -28,7 +28,8 @@ use super::{Answer, demo, say};
 pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let keeps = !common.read_only && common.as_of.is_none();
-    let mut dialogue = Dialogue { engine, memory: Memory::default(), json: common.json, keeps };
+    let mut dialogue =
+        Dialogue { engine, memory: Memory::default(), offered: None, json: common.json, keeps };
     if std::io::stdin().is_terminal() {
         return on_terminal(common, &mut dialogue);
     }
@@ -72,6 +73,8 @@ fn on_terminal(common: &Common, dialogue: &mut Dialogue) -> Result<Answer, Failu
 struct Dialogue {
     engine: Engine,
     memory: Memory,
+    /// A line with its verb put right, until the person says that it was meant.
+    offered: Option<String>,
     json: bool,
     /// A store that is only read keeps nothing.
     keeps: bool,
@@ -89,8 +92,30 @@ impl Dialogue {
             "выход" | "exit" | "quit" | "конец" => return Ok(false),
             _ => {}
         }
+        let offered = self.offered.take();
+        if let Some(answer) = courtesy(line) {
+            return self.put("found", answer).map(|()| true);
+        }
+        if let Some(meant) = offered.filter(|_| is_yes(line)) {
+            return self.command(&meant).map(|()| true);
+        }
+        if let Some(whole) = self.engine.resumed(line, &self.memory)? {
+            return self.command(&whole).map(|()| true);
+        }
+        // «Где пульт? Принеси его.»: a question and a command.
+        let parts = sentences(line);
+        if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
+            for part in parts {
+                self.hear_one(part, shows)?;
+            }
+            return Ok(true);
+        }
+        self.hear_one(line, shows).map(|()| true)
+    }
+
+    fn hear_one(&mut self, line: &str, shows: bool) -> Result<(), Failure> {
         if self.engine.is_command(line)? {
-            return self.command(line).map(|()| true);
+            return self.command(line);
         }
         match self.engine.ask(line, &mut self.memory)? {
             Ok(answer) if self.json => {
@@ -106,9 +131,27 @@ impl Dialogue {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
                 let not_understood = unanswered.doubt.kind() == "not_understood";
                 if not_understood
-                    && self.engine.understand_in(line, &mut self.memory.clone()).is_ok()
+                    && (has_verb(line)
+                        || self.engine.understand_in(line, &mut self.memory.clone()).is_ok())
                 {
-                    return self.command(line).map(|()| true);
+                    return self.command(line);
+                }
+                if let Some((at, verb)) = likely_verb(line) {
+                    let said = &line[at.clone()];
+                    let text = match Language::of(line) {
+                        Language::Russian => {
+                            format!("Я не понимаю слова «{said}». Может быть, «{verb}»?")
+                        }
+                        Language::English => {
+                            format!(
+                                "I do not understand the word \"{said}\". Do you mean \"{verb}\"?"
+                            )
+                        }
+                    };
+                    let mut meant = line.to_owned();
+                    meant.replace_range(at, verb);
+                    self.offered = Some(meant);
+                    return self.put("not_understood", &text);
                 }
                 say(&match self.json {
                     true => doubt(&unanswered).to_string(),
@@ -116,7 +159,7 @@ impl Dialogue {
                 })?;
             }
         }
-        Ok(true)
+        Ok(())
     }
 
     fn command(&mut self, line: &str) -> Result<(), Failure> {
@@ -125,13 +168,18 @@ impl Dialogue {
         let commands = match self.engine.understand_in(line, &mut self.memory) {
             Ok(commands) => commands,
             Err(Error::Misheard(misheard)) => return self.put("misheard", &misheard.say(language)),
-            Err(other) => {
-                let text = Failure::from(other).message(lang).unwrap_or_default();
-                return self.put("refused", &text);
-            }
+            Err(other) => return self.refuse(&other, language),
         };
         match &commands[..] {
             [Command::Stop] => return self.put("stopped", lang.pick("Стою.", "I have stopped.")),
+            [Command::Wait] => return self.put("waiting", lang.pick("Жду.", "I am waiting.")),
+            [Command::ComeBack] => {
+                let text = lang.pick(
+                    "Я ещё никуда не уезжал. Скажите, куда ехать.",
+                    "I have not been sent anywhere yet. Say where to go.",
+                );
+                return self.put("refused", text);
+            }
             [Command::Report] => {
                 let asked = lang.pick("Где ты?", "Where are you?");
                 let text = match self.engine.ask(asked, &mut self.memory)? {
@@ -149,19 +197,18 @@ impl Dialogue {
                     self.remember(&answer)?;
                     say(&super::json::task(self.engine.world()?, &answer).to_string()).map(|_| ())
                 }
-                Err(e) => {
-                    let text = Failure::from(e).message(lang).unwrap_or_default();
-                    self.put("refused", &text)
-                }
+                Err(error) => self.refuse(&error, language),
             };
         }
         match demo::carry_out(&self.engine, &commands, lang) {
             Ok(answer) => self.remember(&answer),
-            Err(failure) => match failure.message(lang) {
-                Some(text) => self.put("refused", &text),
-                None => Err(failure),
-            },
+            Err(Failure::Engine(error)) => self.refuse(&error, language),
+            Err(failure) => Err(failure),
         }
+    }
+
+    fn refuse(&self, error: &Error, language: Language) -> Result<(), Failure> {
+        self.put("refused", &error.say(self.engine.world()?, language))
     }
 
     fn remember(&mut self, answer: &TaskAnswer) -> Result<(), Failure> {
@@ -178,6 +225,44 @@ impl Dialogue {
         }
         .map(|_| ())
     }
+}
+
+/// The sentences of a line: a mark that ends one, a blank, and a capital.
+fn sentences(line: &str) -> Vec<&str> {
+    let mut sentences = Vec::new();
+    let mut from = 0;
+    let marks = line.char_indices().filter(|(_, c)| matches!(c, '.' | '!' | '?' | '…'));
+    for (at, mark) in marks {
+        let next = at + mark.len_utf8();
+        let rest = line[next..].trim_start();
+        let begins = rest.len() < line.len() - next && rest.starts_with(char::is_uppercase);
+        if begins && next > from {
+            sentences.push(line[from..next].trim());
+            from = line.len() - rest.len();
+        }
+    }
+    sentences.push(line[from..].trim());
+    sentences
+}
+
+/// What is said back to thanks.
+fn courtesy(line: &str) -> Option<&'static str> {
+    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric()));
+    let said = |all: &[&str]| all.contains(&key.as_str());
+    if said(&["спасибо", "большое спасибо", "спасибо большое", "благодарю", "спс", "спасибо тебе"])
+    {
+        return Some("Пожалуйста.");
+    }
+    said(&["thanks", "thank you", "thanks a lot", "many thanks", "thank you very much", "cheers"])
+        .then_some("You are welcome.")
+}
+
+fn is_yes(line: &str) -> bool {
+    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric()));
+    matches!(
+        key.as_str(),
+        "да" | "ага" | "верно" | "конечно" | "yes" | "yeah" | "yep" | "sure" | "right"
+    )
 }
 
 /// Completes names of the map.

@@ -76,10 +76,11 @@ impl Engine {
     /// That things can be put into another.
     fn has_open_inside(&self, support: ReplicaId, now: &Now) -> Result<(), Error> {
         let name = || self.world().map(|w| w.name(Entity::Replica(support)).to_owned());
+        let around = self.around()?;
         let area = now.world.replicas.get(&support).map(|r| r.area);
         let map = area.and_then(|area| now.world.placement(area)).map(|(map, _)| map);
         let hollow = match map {
-            Some(map) => hollow(&now.world, self.floor(map)?.scene(), support),
+            Some(map) => hollow(&now.world, around.floor(map)?.scene(), support),
             None => Hollow::No,
         };
         match hollow {
@@ -129,11 +130,10 @@ impl Engine {
             (predicate::THING_ON, supports.collect::<Vec<_>>()),
             (predicate::THING_AT_PLACE, places.collect()),
         ] {
-            let rank = |e: &Entity| (unfit(&now.world, *e), self.way_to(*e, now));
-            let order = |(a, far_a): &(u8, f64), (b, far_b): &(u8, f64)| {
-                a.cmp(b).then(far_a.total_cmp(far_b))
-            };
-            if let Some(anchor) = anchors.into_iter().min_by(|a, b| order(&rank(a), &rank(b))) {
+            let ranked =
+                anchors.into_iter().map(|e| (unfit(&now.world, e), self.way_to(e, now), e));
+            let best = ranked.min_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+            if let Some((_, _, anchor)) = best {
                 let args = vec![name, world.name(anchor).to_owned()];
                 return Ok(vec![GoalFact { predicate: predicate.to_owned(), args }]);
             }
@@ -144,19 +144,22 @@ impl Engine {
 
     /// Whether a thing has space for another, where the robot can reach it.
     fn takes(&self, support: ReplicaId, thing: ReplicaId, now: &Now) -> bool {
-        let Some(area) = now.world.replicas.get(&support).map(|r| r.area) else { return false };
-        let floor = now.world.placement(area).and_then(|(map, _)| self.floor(map).ok());
-        let (Some(floor), Ok(world)) = (floor, self.world()) else { return false };
-        // What the robot carries stands on the surveyed map only; its shape is the same.
-        spot_on(world, floor.scene(), thing, support, now.pose.at)
-            .is_some_and(|frame| frame.z <= now.world.robot.height)
+        let space = || {
+            let (map, _) = now.world.placement(now.world.replicas.get(&support)?.area)?;
+            let around = self.around().ok()?;
+            // With what the robot carries, which stands nowhere now; its shape is the same.
+            let world = around.world().ok()?;
+            spot_on(world, around.floor(map).ok()?.scene(), thing, support, now.pose.at)
+        };
+        space().is_some_and(|frame| frame.z <= now.world.robot.height)
     }
 
     /// Length of the way from the robot, cm; infinite where there is none on this floor.
-    fn way_to(&self, entity: Entity, now: &Now) -> f64 {
+    pub(super) fn way_to(&self, entity: Entity, now: &Now) -> f64 {
         let way = || {
-            let goal = self.locate_entity(entity).ok().filter(|goal| goal.map == now.map)?;
-            let floor = self.floor(now.map).ok()?;
+            let around = self.around().ok()?;
+            let goal = around.locate_entity(entity).ok().filter(|goal| goal.map == now.map)?;
+            let floor = around.floor(now.map).ok()?;
             Some(floor.route(&now.world, now.pose.at, goal.target, Method::Shortest).ok()?.length)
         };
         way().unwrap_or(f64::INFINITY)

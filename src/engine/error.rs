@@ -8,11 +8,13 @@ use crate::exchange::ImportError;
 use crate::facts::FilesError;
 use crate::language::Language;
 use crate::language::command::Misheard;
-use crate::map::MapErrors;
+use crate::language::names::named;
+use crate::map::{MapErrors, World};
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::RuleFaults;
+use crate::units::capitalized;
 
 /// Why the engine could not do what it was asked.
 #[derive(Debug, Error, Diagnostic)]
@@ -197,7 +199,7 @@ pub enum RequestError {
     NoSpace { thing: String, area: String },
 
     /// Something that is to be opened or shut and is no door between rooms.
-    #[error("«{name}» – не дверь между помещениями")]
+    #[error("«{name}» – не дверь между помещениями, а других робот не открывает")]
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
     NotADoor { name: String },
 
@@ -205,6 +207,14 @@ pub enum RequestError {
     #[error("«{name}» нельзя ни включить, ни выключить")]
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]
     NotADevice { name: String },
+
+    /// Nobody knows where a thing belongs.
+    #[error("неизвестно, где место для «{thing}»")]
+    #[diagnostic(
+        code(engine::homeless),
+        help("скажите, куда положить, или дайте вещи свойство ХРАНИТСЯ_НА")
+    )]
+    Homeless { thing: String },
 
     /// The place where a thing is kept is not on the map.
     #[error("«{thing}» хранится на «{home}», а такой вещи на карте нет")]
@@ -277,9 +287,25 @@ impl Error {
     pub fn english(&self) -> Option<String> {
         match self {
             Self::Misheard(misheard) => Some(misheard.say(Language::English)),
-            Self::Request(request) => request.english(),
+            Self::Request(request) => request.english(&str::to_owned),
             _ => None,
         }
+    }
+
+    /// The fault in a language, where the map's own names are said in it too.
+    #[must_use]
+    pub fn say(&self, world: &World, language: Language) -> String {
+        let called = |name: &str| match world.find(name).first() {
+            Some(entity) => named(world, *entity).english(),
+            None => name.to_owned(),
+        };
+        let english = match (language, self) {
+            (Language::Russian, Self::Misheard(misheard)) => Some(misheard.say(language)),
+            (Language::Russian, _) => None,
+            (Language::English, Self::Request(request)) => request.english(&called),
+            (Language::English, _) => self.english(),
+        };
+        english.unwrap_or_else(|| capitalized(&self.to_string()))
     }
 
     /// The input is at fault, not the program or the disk.
@@ -307,26 +333,38 @@ impl Error {
 }
 
 impl RequestError {
-    fn english(&self) -> Option<String> {
+    /// `called` gives the English name of what the map calls so.
+    fn english(&self, called: &dyn Fn(&str) -> String) -> Option<String> {
         Some(match self {
             Self::NoGoal { command } => {
                 format!("The robot's rules have no goal for this: \"{command}\".")
             }
-            Self::NotPortable { name } => format!("The robot does not carry {name}."),
+            Self::NotPortable { name } => format!("The robot does not carry {}.", called(name)),
             Self::NotHollow { name } => {
-                format!("Nothing can be put into {name}: it has no inside.")
+                format!("Nothing can be put into {}: it has no inside.", called(name))
             }
             Self::Shut { name } => {
+                let name = capitalized(&called(name));
                 format!("{name} is shut, and the robot does not open doors of furniture.")
             }
             Self::NoSpace { thing, area } => {
-                format!("{area}: there is nothing that {thing} could be put on.")
+                let (thing, area) = (called(thing), called(area));
+                format!("In {area} there is nothing that {thing} could be put on.")
             }
-            Self::NotADoor { name } => format!("{name} is no door between rooms."),
-            Self::NotADevice { name } => format!("{name} can be switched neither on nor off."),
-            Self::NotAPlace { name } => format!("One cannot stand at {name}."),
+            Self::NotADoor { name } => format!(
+                "{} is no door between rooms, and the robot opens and shuts no others.",
+                capitalized(&called(name))
+            ),
+            Self::NotADevice { name } => {
+                format!("{} can be switched neither on nor off.", capitalized(&called(name)))
+            }
+            Self::NotAPlace { name } => format!("The robot cannot stand at {}.", called(name)),
+            Self::Homeless { thing } => format!("It is not known where {} belongs.", called(thing)),
             Self::NoHome { thing, home } => {
-                format!("{thing} is kept on \"{home}\", and the map has no such thing.")
+                format!(
+                    "{} is kept on \"{home}\", and the map has no such thing.",
+                    capitalized(&called(thing))
+                )
             }
             Self::RobotNowhere => {
                 "It is not known where the robot is; tell it: ortho do … --from PLACE.".to_owned()

@@ -26,6 +26,7 @@ mod edit;
 mod error;
 mod export;
 mod forms;
+mod goals;
 mod history;
 mod journey;
 mod lexicon;

@@ -2,8 +2,10 @@
 
 use crate::geometry::Method;
 use crate::language::Language;
+use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::question::{
-    Answer, Asker, Fact, Memory, Mind, Past, Senses, Sighting, Thing, Unanswered, Way,
+    Answer, Asker, Fact, Memory, Mind, Misread, Past, Senses, Settled, Sighting, Thing, Unanswered,
+    Way,
 };
 use crate::language::report::Detail;
 use crate::map::{Entity, World};
@@ -56,9 +58,30 @@ impl Engine {
     }
 
     /// A command with its descriptions replaced by names: see [`Asker::settle`].
-    pub(super) fn settle(&self, sentence: &str, memory: &Memory) -> Result<String, Error> {
+    pub(super) fn settle(&self, sentence: &str, memory: &mut Memory) -> Result<Settled, Error> {
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.settle(sentence, memory))
+        let forms = self.forms()?;
+        let strict = |text: &str| {
+            let bare = text.strip_prefix("the ").or(text.strip_prefix("The ")).unwrap_or(text);
+            match &forms.find(bare)[..] {
+                [only] => Some(*only.id),
+                _ => None,
+            }
+        };
+        self.asker(&senses)?.settle(sentence, memory, &strict).map_err(|Misread(unanswered)| {
+            let several = unanswered.doubt.kind() == "ambiguous";
+            let misheard = if several { Misheard::WhichOf } else { Misheard::NoneSuch };
+            misheard(unanswered).into()
+        })
+    }
+
+    /// A command that waited for an answer, with what these words choose; none where they choose nothing.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn resumed(&self, text: &str, memory: &Memory) -> Result<Option<String>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.resumed(text, memory))
     }
 
     /// Whether a text asks or commands, by how it begins.
@@ -68,7 +91,7 @@ impl Engine {
     pub fn is_command(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         let asks = self.asker(&senses)?.begins_as_question(text);
-        Ok(!asks && crate::language::command::is_command(text))
+        Ok((!asks && is_command(text)) || is_order(text))
     }
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {

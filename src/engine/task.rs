@@ -1,17 +1,19 @@
 //! Tasks in words: a command becomes a goal, a mission drives to it, and each directive ends with a report.
 
+use std::cell::RefCell;
 use std::collections::BTreeSet;
 
 use crate::graphplan::Limits;
-use crate::language::command::{Command, Listener};
+use crate::language::Language;
+use crate::language::command::{Command, Listener, Misheard, Placement, Relation};
 use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, Person, Planned, Simulator,
-    Station, Surprise,
+    Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, MissionError, Person, Planned,
+    Simulator, Station, Surprise,
 };
-use crate::semantics::{Profile, Relations, derive, lifts, predicate, storey_name};
+use crate::semantics::{Profile, Relations, derive};
 use crate::units::{MapId, Point, Pose};
 
 use super::memory::{After, Now};
@@ -153,20 +155,7 @@ impl Engine {
         belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
-        // What is asked for is brought about together, and then each misplaced thing is put away by itself.
-        let mut goals = vec![Vec::new()];
-        for command in commands {
-            goals[0].extend(self.goal_of(command, &here, now, relations)?);
-        }
-        for command in commands {
-            let Command::Tidy(within) = command else { continue };
-            for (thing, home) in self.misplaced(*within, now, relations)? {
-                let args = vec![thing.clone()];
-                goals.push(vec![GoalFact { predicate: predicate::IN_ITS_PLACE.to_owned(), args }]);
-                belief.homes.push((thing, home));
-            }
-        }
-        goals.retain(|goal| !goal.is_empty());
+        let goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
         for command in commands {
@@ -184,6 +173,7 @@ impl Engine {
             Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
         let mut plans = 0;
+        let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
         let mut hear = |event: &Event<'_>| match event {
             Event::Planned(planned) => {
                 plans += 1;
@@ -198,6 +188,7 @@ impl Engine {
                 reports.push(report);
             }
             Event::Surprised { directive, surprise, .. } => {
+                surprised.replace(Some(Surprise::clone(surprise)));
                 tell(&Progress::Surprised { directive, surprise });
             }
         };
@@ -205,7 +196,13 @@ impl Engine {
         let mut begun = 0;
         for goal in &goals {
             begun += 1;
-            match mission.run(goal, &mut drive, &mut hear)? {
+            let ended = match (mission.run(goal, &mut drive, &mut hear), surprised.take()) {
+                (Ok(ended), _) => ended,
+                // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
+                (Err(MissionError::Rules(_)), Some(surprise)) => Ending::Stuck(surprise),
+                (Err(error), _) => return Err(error.into()),
+            };
+            match ended {
                 Ending::Done => ending = TaskEnding::Done,
                 Ending::AlreadyTrue => {}
                 Ending::NoPlan(planned) => {
@@ -239,9 +236,7 @@ impl Engine {
     /// # Errors
     /// What was not understood, which candidates there are, or what the map lacks.
     pub fn understand(&self, sentence: &str) -> Result<Vec<Command<Entity>>, Error> {
-        let settled = self.settle(sentence, &Memory::default())?;
-        let nearest = |all: &[Entity]| self.nearest(all);
-        Ok(Listener::new(self.forms()?).choosing(&nearest).hear(&settled)?)
+        self.understand_in(sentence, &mut Memory::default())
     }
 
     /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
@@ -254,19 +249,61 @@ impl Engine {
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
         let settled = self.settle(sentence, memory)?;
-        let last = match memory.last_thing() {
-            Some(Thing::Entity(entity)) => Some(entity),
+        let entity = |thing| match thing {
+            Thing::Entity(entity) => Some(entity),
             _ => None,
         };
+        let last = memory.last_things().into_iter().filter_map(entity).collect();
         let nearest = |all: &[Entity]| self.nearest(all);
-        let listener = Listener::new(self.forms()?).remembering(last).choosing(&nearest);
-        let commands = listener.hear(&settled)?;
-        for command in &commands {
-            if let Some(entity) = thing_of(command) {
-                memory.mention(Thing::Entity(entity));
+        let meant = settled.meant.iter().copied().filter_map(entity).collect();
+        let listener =
+            Listener::new(self.forms()?).remembering(last).knowing(meant).choosing(&nearest);
+        let settled = settled.text;
+        let mut commands = match listener.hear(&settled) {
+            Ok(commands) => commands,
+            Err(misheard) => {
+                // «На карте нет «лекарсво». Есть «Лекарство».» – «Да.»
+                if let Misheard::UnknownName { near, at, .. } = &misheard
+                    && let [name] = &near[..]
+                    && let [only] = self.world()?.find(name)[..]
+                {
+                    let at = at.offset()..at.offset() + at.len();
+                    let language = Language::of(&settled);
+                    memory.wait(&settled, at, vec![Thing::Entity(only)], language);
+                }
+                return Err(misheard.into());
             }
+        };
+        if let [Command::ComeBack] = commands[..]
+            && let Some(Thing::Entity(anchor)) = memory.place_left()
+        {
+            let to = Placement { relation: Relation::At, anchor, within: None };
+            commands = vec![Command::GoTo { to, via: None }];
+        }
+        if let Some(here) = self.place_of_robot() {
+            memory.leave(Thing::Entity(here));
+        }
+        let named: Vec<Thing> = commands.iter().filter_map(thing_of).map(Thing::Entity).collect();
+        if !named.is_empty() {
+            memory.mention(&named);
         }
         Ok(commands)
+    }
+
+    /// Where the robot is, by what one can send it back to: a place of the map, else its room.
+    fn place_of_robot(&self) -> Option<Entity> {
+        /// So near to a place it is at it, cm.
+        const AT: f64 = 30.0;
+        let (map, pose) = self.robot_pose()?;
+        let world = self.world().ok()?;
+        let place = world.places.values().find(|place| {
+            let placed = world.placement(place.area);
+            placed.is_some_and(|(on, frame)| {
+                on == map && (frame.apply(place.at) - pose.at).norm() <= AT
+            })
+        });
+        let area = || self.relations().ok()?.measurements().area_at(map, pose.at);
+        place.map(|p| Entity::Place(p.id)).or_else(|| area().map(Entity::Area))
     }
 
     /// Of several things the one nearest to the robot, in its own room before all others; the first where it is not
@@ -287,135 +324,6 @@ impl Engine {
             here_a.cmp(&here_b).then(far_a.total_cmp(&far_b))
         };
         all.iter().min_by(order).copied()
-    }
-
-    /// What is to hold when a command is done. `here` is the place where it was given.
-    fn goal_of(
-        &self,
-        command: &Command<Entity>,
-        here: &str,
-        now: &Now,
-        relations: &Relations,
-    ) -> Result<Vec<GoalFact>, Error> {
-        let world = self.world()?;
-        let name = |e: Entity| world.name(e).to_owned();
-        let fact =
-            |predicate: &str, args: Vec<String>| GoalFact { predicate: predicate.to_owned(), args };
-        Ok(match command {
-            Command::GoTo { to, .. } => vec![self.being_at(to.anchor, &now.world, relations)?],
-            Command::ComeHere => vec![fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()])],
-            Command::Bring { what, to: None } => {
-                self.portable(what.id)?;
-                vec![fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()])]
-            }
-            Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
-                self.delivered(what.id, to, now, relations)?
-            }
-            Command::Take { what } => {
-                self.portable(what.id)?;
-                vec![fact(predicate::ROBOT_HOLDS, vec![name(what.id)])]
-            }
-            Command::Find(what) => match what.id {
-                Entity::Replica(_) => vec![fact(predicate::FOUND, vec![name(what.id)])],
-                place => vec![self.being_at(place, &now.world, relations)?],
-            },
-            Command::Open(door) => self.door_facts(predicate::DOOR_OPEN, door.id)?,
-            Command::Close(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
-            Command::Lock(door) => self.door_facts(predicate::DOOR_LOCKED, door.id)?,
-            Command::Unlock(door) => self.door_facts(predicate::DOOR_CLOSED, door.id)?,
-            Command::SwitchOn(device) => vec![self.switched(predicate::DEVICE_ON, device.id)?],
-            Command::SwitchOff(device) => vec![self.switched(predicate::DEVICE_OFF, device.id)?],
-            Command::CallOperator => vec![fact(predicate::CALLED, vec![OPERATOR.to_owned()])],
-            // What is to be tidied, each thing is a goal of its own: see `goals_of`.
-            Command::Tidy(_) => Vec::new(),
-            Command::Stop | Command::Report => {
-                return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
-            }
-        })
-    }
-
-    fn switched(&self, predicate: &str, entity: Entity) -> Result<GoalFact, Error> {
-        let world = self.world()?;
-        let name = world.name(entity).to_owned();
-        if !matches!(entity, Entity::Replica(id) if world.has_trait(id, "device")) {
-            return Err(RequestError::NotADevice { name }.into());
-        }
-        Ok(GoalFact { predicate: predicate.to_owned(), args: vec![name] })
-    }
-
-    fn being_at(
-        &self,
-        entity: Entity,
-        now: &World,
-        relations: &Relations,
-    ) -> Result<GoalFact, Error> {
-        let world = self.world()?;
-        let predicate = match entity {
-            Entity::Area(_) => predicate::ROBOT_IN,
-            Entity::Door(_) => predicate::ROBOT_AT_DOOR,
-            Entity::Place(_) => predicate::ROBOT_AT_PLACE,
-            Entity::Replica(_) => return self.being_near(entity, now, relations),
-            // On a storey is in any room of it.
-            Entity::Map(map) => {
-                let predicate = predicate::ROBOT_ON_STOREY.to_owned();
-                return Ok(GoalFact { predicate, args: vec![storey_name(world, map)] });
-            }
-        };
-        Ok(GoalFact { predicate: predicate.to_owned(), args: vec![world.name(entity).to_owned()] })
-    }
-
-    /// At the place from which a thing is reached: the one that serves it or what it stands on.
-    fn being_near(
-        &self,
-        entity: Entity,
-        now: &World,
-        relations: &Relations,
-    ) -> Result<GoalFact, Error> {
-        let name = self.world()?.name(entity);
-        let facts = crate::robot::facts_of_map(now, relations);
-        let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
-            facts
-                .iter()
-                .find(|f| f.predicate == predicate && f.arguments[at].name == wanted)
-                .map(|f| f.arguments[give].name.clone())
-        };
-        let support = about(predicate::THING_ON, 0, name, 1);
-        let place = about(predicate::THING_AT_PLACE, 0, name, 1)
-            .or_else(|| about(predicate::PLACE_BY, 1, support.as_deref().unwrap_or(name), 0))
-            .ok_or_else(|| RequestError::NotAPlace { name: name.to_owned() })?;
-        Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
-    }
-
-    /// A state of a door, said for every pair of Areas that it joins.
-    fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
-        let world = self.world()?;
-        let Entity::Door(door) = entity else {
-            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
-        };
-        let relations = self.relations()?;
-        let joins = relations.joins();
-        // A lift opens its door by itself when it has come.
-        let lift = lifts(world, relations).into_iter().find_map(|lift| {
-            let join = lift.doors.iter().find(|join| join.door == Some(door))?;
-            Some(vec![lift.name, join.opening.clone()])
-        });
-        if let Some(args) = lift.filter(|_| predicate == predicate::DOOR_OPEN) {
-            return Ok(vec![GoalFact { predicate: predicate::CABIN_AT.to_owned(), args }]);
-        }
-        let facts: Vec<GoalFact> = joins
-            .iter()
-            .filter(|j| j.door == Some(door))
-            .map(|j| GoalFact {
-                predicate: predicate.to_owned(),
-                args: [Entity::Door(door), Entity::Area(j.from), Entity::Area(j.to)]
-                    .map(|e| world.name(e).to_owned())
-                    .into(),
-            })
-            .collect();
-        if facts.is_empty() {
-            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
-        }
-        Ok(facts)
     }
 
     fn report(&self, number: usize, directive: &Directive, belief: &Belief, leg: &Leg) -> Report {
@@ -449,7 +357,8 @@ fn thing_of(command: &Command<Entity>) -> Option<Entity> {
         Command::Bring { what, .. } | Command::Take { what } | Command::Put { what, .. } => {
             Some(what.id)
         }
-        Command::Open(what)
+        Command::PutBack(what)
+        | Command::Open(what)
         | Command::Close(what)
         | Command::Lock(what)
         | Command::Unlock(what)

@@ -21,16 +21,7 @@ impl Engine {
         relations: &Relations,
     ) -> Result<Vec<(String, String)>, Error> {
         let world = self.world()?;
-        let mut homes = supports(world, self.relations()?);
-        for replica in world.replicas.values() {
-            let Some((_, kept)) = Mark::KeptOn.of(&replica.properties) else { continue };
-            let is_thing = |e: &Entity| matches!(e, Entity::Replica(_));
-            let Some(home) = world.find(kept).into_iter().find(is_thing) else {
-                let (thing, home) = (replica.name.clone(), kept.to_owned());
-                return Err(RequestError::NoHome { thing, home }.into());
-            };
-            homes.insert(replica.name.clone(), world.name(home).to_owned());
-        }
+        let homes = self.homes()?;
         let lie_on = supports(&now.world, relations);
         let is_asked = |thing: &str| match within {
             None => true,
@@ -48,6 +39,37 @@ impl Engine {
                     || (lies(thing) && is_asked(thing) && lie_on.get(thing) != Some(home))
             })
             .collect())
+    }
+
+    /// Where a thing is kept, by name; none where it lies there already.
+    ///
+    /// # Errors
+    /// It has no home.
+    pub(super) fn home_of(
+        &self,
+        thing: &str,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Option<String>, Error> {
+        let home = self.homes()?.remove(thing);
+        let home = home.ok_or_else(|| RequestError::Homeless { thing: thing.to_owned() })?;
+        Ok((supports(&now.world, relations).get(thing) != Some(&home)).then_some(home))
+    }
+
+    /// The names of all things that have a home, with its name.
+    fn homes(&self) -> Result<BTreeMap<String, String>, Error> {
+        let world = self.world()?;
+        let mut homes = supports(world, self.relations()?);
+        for replica in world.replicas.values() {
+            let Some((_, kept)) = Mark::KeptOn.of(&replica.properties) else { continue };
+            let is_thing = |e: &Entity| matches!(e, Entity::Replica(_));
+            let Some(home) = world.find(kept).into_iter().find(is_thing) else {
+                let (thing, home) = (replica.name.clone(), kept.to_owned());
+                return Err(RequestError::NoHome { thing, home }.into());
+            };
+            homes.insert(replica.name.clone(), world.name(home).to_owned());
+        }
+        Ok(homes)
     }
 }
 

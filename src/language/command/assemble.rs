@@ -1,11 +1,12 @@
 //! From clauses to commands: which argument is the thing, which the place, and whether each means one thing only.
 
+use std::cell::RefCell;
 use std::hash::Hash;
 use std::ops::Range;
 
 use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::vocabulary::{Link, Role, Verb, verbs};
-use super::{Command, Listener, Misheard, Placement, Relation, Thing};
+use super::{Command, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::language::words::{Case, Hit};
 use crate::units::{Source, nearest_name};
 
@@ -14,12 +15,19 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
     text: &str,
     listener: &Listener<'_, T>,
 ) -> Result<Vec<Command<T>>, Misheard> {
+    let text = &gathered(text);
     let sentence = Sentence::new(text);
     if sentence.words.is_empty() {
         return Err(Misheard::Empty);
     }
     let items = items(&sentence, listener.index);
-    let mut reader = Reader { sentence: &sentence, listener, last: listener.last.clone() };
+    let mut reader = Reader {
+        sentence: &sentence,
+        listener,
+        last: listener.last.clone(),
+        has_named: false,
+        open: RefCell::new(listener.meant.clone()),
+    };
     // «Стоп, не едь!» must stop, whatever else is in the sentence.
     if items.iter().any(|item| matches!(item, Item::Verb(Verb::Stop, _))) {
         return Ok(vec![Command::Stop]);
@@ -90,7 +98,11 @@ struct Reader<'r, 't, T> {
     sentence: &'r Sentence<'t>,
     listener: &'r Listener<'r, T>,
     /// What a pronoun or an omitted object means.
-    last: Option<T>,
+    last: Vec<T>,
+    /// Whether the sentence itself has named what they mean.
+    has_named: bool,
+    /// What is known to be meant, and was not found in the sentence yet.
+    open: RefCell<Vec<T>>,
 }
 
 /// Arguments by the part that they play. Objects keep their case for [`Reader::resolve`].
@@ -105,6 +117,9 @@ struct Roles<T> {
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     fn clause(&mut self, clause: &Clause<'_, '_, T>) -> Result<Vec<Command<T>>, Misheard> {
         let Some((verb, words)) = clause.verb else { return Err(self.no_verb(clause)) };
+        if verb == Verb::Unable {
+            return Err(self.unable(words));
+        }
         if let Some(strange) =
             clause.before.iter().find(|a| matches!(a.reference, Reference::Unknown))
         {
@@ -139,12 +154,37 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::Move | Verb::Get if objects.is_empty() => Verb::GoTo,
             Verb::Move => Verb::Put,
             Verb::Get => Verb::Bring,
+            // "Return the book to the shelf", «верни книгу»; "return to the kitchen", «вернись».
+            Verb::Return if objects.is_empty() && (to.is_some() || at.is_some()) => Verb::GoTo,
+            Verb::Return if to_me && !objects.is_empty() => Verb::Bring,
+            Verb::Return | Verb::PutBack if to.is_some() && !objects.is_empty() => Verb::Put,
+            Verb::Return if !objects.is_empty() => Verb::PutBack,
+            Verb::Return if to_me => return Ok(vec![Command::ComeHere]),
+            Verb::Return => return Ok(vec![Command::ComeBack]),
+            // «Выйди в коридор»; "leave the book on the table"
+            Verb::Leave if to.is_some() && objects.is_empty() => Verb::GoTo,
+            Verb::Leave if (to.is_some() || at.is_some()) && !objects.is_empty() => Verb::Put,
+            // What is put away without a place goes to where it is kept.
+            Verb::Clear if to.is_none() && !objects.is_empty() => Verb::PutBack,
             verb => verb,
         };
+        // "Take me to the kitchen": a person is nothing to be carried.
+        if to_me
+            && objects.is_empty()
+            && to.is_some()
+            && matches!(verb, Verb::Bring | Verb::Take | Verb::Put)
+        {
+            return Err(self.unable(words));
+        }
         match verb {
             Verb::CallOperator => return Ok(vec![Command::CallOperator]),
             Verb::Report => return Ok(vec![Command::Report]),
             Verb::Stop => return Ok(vec![Command::Stop]),
+            Verb::Leave => {
+                let place = at.map(|place| place.anchor).or_else(|| objects.pop());
+                return Ok(vec![Command::Leave(place)]);
+            }
+            Verb::Wait => return Ok(vec![Command::Wait]),
             Verb::Tidy | Verb::Clear
                 if to.is_none() && (verb == Verb::Tidy || objects.is_empty()) =>
             {
@@ -159,21 +199,30 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
                 let bare = |anchor: T| Placement { relation: Relation::At, anchor, within: None };
                 let to = to.or(at).or_else(|| objects.pop().map(bare));
-                return match to {
-                    Some(to) => Ok(vec![Command::GoTo { to, via }]),
-                    None if to_me => Ok(vec![Command::ComeHere]),
-                    None => Err(self.incomplete(words, ("куда ехать", "where to go"))),
+                return match (to, via) {
+                    (Some(to), via) => {
+                        // "Go to the fridge and open it"; the book of «Возьми книгу, поезжай на кухню и положи её» stays.
+                        if !self.has_named {
+                            self.last = vec![to.anchor.clone()];
+                        }
+                        Ok(vec![Command::GoTo { to, via }])
+                    }
+                    (None, Some(door)) => Ok(vec![Command::GoThrough(door)]),
+                    (None, None) if to_me => Ok(vec![Command::ComeHere]),
+                    (None, None) => Err(self.incomplete(words, ("куда ехать", "where to go"))),
                 };
             }
             _ => {}
         }
         if objects.is_empty() {
-            objects.extend(self.last.clone());
+            let spoken = if self.has_named { 0 } else { self.last.len().saturating_sub(1) };
+            objects.extend(self.last[spoken..].iter().cloned());
         }
         if objects.is_empty() {
             return Err(self.incomplete(words, question(verb)));
         }
-        self.last = objects.last().cloned();
+        self.last.clone_from(&objects);
+        self.has_named = true;
         if matches!(verb, Verb::Put | Verb::Clear) && to.is_none() {
             // "Put the book on the table": on and in are whither here.
             to = at.take();
@@ -201,6 +250,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             (Verb::Take, None) => Command::Take { what },
             (Verb::Put | Verb::Clear, Some(to)) => Command::Put { what, to },
             (Verb::Put, None) if to_me => Command::Bring { what, to: None },
+            (Verb::PutBack, _) => Command::PutBack(what),
             (Verb::Put | Verb::Clear, None) => {
                 return Err(self.incomplete(words, ("куда положить", "where to put it")));
             }
@@ -219,6 +269,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::Tidy
                 | Verb::CallOperator
                 | Verb::Report
+                | Verb::Return
+                | Verb::Leave
+                | Verb::Wait
+                | Verb::Unable
                 | Verb::Stop,
                 _,
             ) => {
@@ -240,7 +294,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 roles.to_me = true;
                 continue;
             }
-            let anchor = self.resolve(argument, cases_after(link), (None, None))?;
+            let anchor = match self.resolve(argument, cases_after(link)) {
+                // «Выйди из комнаты»: whichever it is, the robot is in it.
+                Err(_) if verb == Verb::Leave && link.role == Role::Whence => continue,
+                resolved => resolved?,
+            };
             let place = Placement { relation: link.relation, anchor, within: None };
             let role = direction(verb, link, argument);
             match (role, latest_is_to) {
@@ -266,17 +324,20 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             arguments.iter().filter(|a| a.link.is_none() && !matches!(a.reference, Reference::Me))
         {
             let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
-            let place = (roles.at.as_ref(), roles.to.as_ref());
             let objects = match &argument.reference {
-                Reference::Known(hits) if argument.all => self.choose(hits, &cases, place),
+                Reference::Known(hits) if argument.all => choose(hits, &cases),
                 Reference::Known(hits) if verb == Verb::Find => {
-                    let ids = self.choose(hits, &cases, place);
+                    let ids = choose(hits, &cases);
                     match self.listener.any.and_then(|any| any(&ids)) {
                         Some(chosen) => vec![chosen],
-                        None => vec![self.resolve(argument, &cases, place)?],
+                        None => vec![self.resolve(argument, &cases)?],
                     }
                 }
-                _ => vec![self.resolve(argument, &cases, place)?],
+                Reference::Known(_) if verb == Verb::Leave => {
+                    self.resolve(argument, &cases).into_iter().collect()
+                }
+                Reference::Them if !self.last.is_empty() => self.last.clone(),
+                _ => vec![self.resolve(argument, &cases)?],
             };
             roles.objects.extend(objects);
         }
@@ -284,24 +345,23 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     }
 
     /// The one thing that an argument means.
-    fn resolve(
-        &self,
-        argument: &Argument<'_, T>,
-        cases: &[Case],
-        place: Place<'_, T>,
-    ) -> Result<T, Misheard> {
+    fn resolve(&self, argument: &Argument<'_, T>, cases: &[Case]) -> Result<T, Misheard> {
         let hits = match &argument.reference {
             Reference::Known(hits) => hits,
-            Reference::Pronoun => {
-                return self.last.clone().ok_or_else(|| {
+            Reference::Pronoun | Reference::Them => {
+                return self.last.last().cloned().ok_or_else(|| {
                     self.incomplete(&argument.words, ("о чём речь", "what you mean"))
                 });
             }
             Reference::Unknown | Reference::Me => return Err(self.unknown(argument)),
         };
-        let ids = self.choose(hits, cases, place);
+        let ids = choose(hits, cases);
         if let [only] = &ids[..] {
             return Ok(only.clone());
+        }
+        let mut open = self.open.borrow_mut();
+        if let Some(at) = open.iter().position(|meant| ids.contains(meant)) {
+            return Ok(open.remove(at));
         }
         // «чашка или чашка?» tells nothing: then each by its title.
         let meant: Vec<&Hit<'_, T>> = hits.iter().filter(|hit| ids.contains(hit.id)).collect();
@@ -312,21 +372,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         Err(Misheard::Ambiguous { reference, candidates, text: self.source(), at })
     }
 
-    /// All that a name may mean in these cases, narrowed by what the caller knows of the place.
-    fn choose(&self, hits: &[Hit<'_, T>], cases: &[Case], (at, toward): Place<'_, T>) -> Vec<T> {
-        let ids: Vec<T> = in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect();
-        match self.listener.narrow {
-            Some(narrow) if ids.len() > 1 => {
-                let narrowed = narrow(&ids, at, toward);
-                if narrowed.is_empty() { ids } else { narrowed }
-            }
-            _ => ids,
-        }
-    }
-
     fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {
         let (reference, at) = self.shown(&argument.words);
-        let near = self.listener.index.near(&reference, 3).into_iter().map(Into::into).collect();
+        let index = self.listener.index;
+        let mut near: Vec<String> = index.near(&reference, 3).into_iter().map(Into::into).collect();
+        if let (true, Some((_, last))) = (near.is_empty(), reference.rsplit_once(' ')) {
+            near = index.near(last, 3).into_iter().map(Into::into).collect();
+        }
         Misheard::UnknownName { reference, near, text: self.source(), at }
     }
 
@@ -348,6 +400,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             }
             None => self.incomplete(&(0..self.sentence.words.len()), ("что сделать", "what to do")),
         }
+    }
+
+    fn unable(&self, words: &Range<usize>) -> Misheard {
+        let (word, at) = self.shown(words);
+        Misheard::Unable { word, text: self.source(), at }
     }
 
     fn not_understood(&self, words: &Range<usize>, hint: String) -> Misheard {
@@ -374,8 +431,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
     }
 }
 
-/// Where a thing was said to be, and whither it leads or goes.
-type Place<'p, T> = (Option<&'p Placement<T>>, Option<&'p Placement<T>>);
+/// All that a name may mean in these cases.
+fn choose<T: Clone>(hits: &[Hit<'_, T>], cases: &[Case]) -> Vec<T> {
+    in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect()
+}
 
 fn within<T>(place: &mut Option<Placement<T>>, outer: T) {
     if let Some(place) = place {
@@ -428,7 +487,14 @@ fn direction<T>(verb: Verb, link: Link, argument: &Argument<'_, T>) -> Role {
 
 fn by_verb(verb: Verb) -> Role {
     match verb {
-        Verb::GoTo | Verb::Move | Verb::Put | Verb::Bring | Verb::Clear => Role::Whither,
+        Verb::GoTo
+        | Verb::Move
+        | Verb::Put
+        | Verb::Bring
+        | Verb::Clear
+        | Verb::Return
+        | Verb::PutBack
+        | Verb::Leave => Role::Whither,
         _ => Role::Where,
     }
 }
@@ -445,8 +511,11 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::SwitchOn => ("что включить", "what to switch on"),
         Verb::SwitchOff => ("что выключить", "what to switch off"),
         Verb::Find => ("что найти", "what to find"),
-        Verb::GoTo | Verb::Move | Verb::Get => ("куда ехать", "where to go"),
-        Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Stop => {
+        Verb::PutBack => ("что вернуть на место", "what to put back"),
+        Verb::GoTo | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
+            ("куда ехать", "where to go")
+        }
+        Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Wait | Verb::Unable | Verb::Stop => {
             ("что сделать", "what to do")
         }
     }

@@ -127,6 +127,7 @@ pub(super) enum Reference<'s, T> {
     Unknown,
     Me,
     Pronoun,
+    Them,
 }
 
 #[derive(Debug, Clone)]
@@ -195,7 +196,7 @@ fn control<'s, 't, T: Clone + Eq + Hash>(
         Meaning::And => Item::And,
         Meaning::Not => Item::Not(words),
         Meaning::Filler => Item::Filler,
-        Meaning::All | Meaning::Link(_) | Meaning::Me | Meaning::Pronoun => {
+        Meaning::All | Meaning::Link(_) | Meaning::Me | Meaning::Pronoun | Meaning::Them => {
             return Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Alt)));
         }
     };
@@ -244,6 +245,7 @@ fn personal<'s, 't, T: Clone + Eq + Hash>(
     match meaning {
         Meaning::Me => Ok((rest, Reference::Me)),
         Meaning::Pronoun => Ok((rest, Reference::Pronoun)),
+        Meaning::Them => Ok((rest, Reference::Them)),
         _ => Err(nom::Err::Error(nom::error::Error::new(input, ErrorKind::Tag))),
     }
 }

@@ -19,13 +19,20 @@
 
 mod assemble;
 mod grammar;
+mod verbs;
 mod vocabulary;
+
+pub(in crate::language) use verbs::{
+    Sort, clauses, gathered, is_known, link_before, without_verbs,
+};
+pub use verbs::{has_verb, likely_verb};
 
 use std::hash::Hash;
 
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
+use super::question::Unanswered;
 use super::words::{FormIndex, Language, alternatives};
 use crate::units::{Source, capitalized};
 
@@ -67,8 +74,16 @@ pub enum Command<T> {
         to: Placement<T>,
         via: Option<T>,
     },
+    /// «Проедь через дверь»: to its other side.
+    GoThrough(T),
+    /// Out of a room; without one, out of that in which the robot is.
+    Leave(Option<T>),
     /// «Подъедь ко мне»
     ComeHere,
+    /// «Вернись»: to where the robot was when it was sent away.
+    ComeBack,
+    /// It stays where it is.
+    Wait,
     /// To the person who asks, unless a place is given.
     Bring {
         what: Thing<T>,
@@ -81,6 +96,8 @@ pub enum Command<T> {
         what: Thing<T>,
         to: Placement<T>,
     },
+    /// «Верни на место»: to where it is kept.
+    PutBack(Thing<T>),
     Open(Thing<T>),
     Close(Thing<T>),
     Lock(Thing<T>),
@@ -130,6 +147,24 @@ pub enum Misheard {
         #[label("к этому слову")]
         at: SourceSpan,
     },
+    /// What is asked of robots often, and this one cannot do.
+    #[error("этого я не умею: «{word}»")]
+    #[diagnostic(code(language::unable), help("{}", ABLE[0]))]
+    Unable {
+        word: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// A description that several things fit, told apart as an answer tells them.
+    #[error("{}", .0.text)]
+    #[diagnostic(code(language::ambiguous), help("скажите, что из этого имелось в виду"))]
+    WhichOf(Box<Unanswered>),
+    /// A description that nothing on the map fits.
+    #[error("{}", .0.text)]
+    #[diagnostic(code(language::none_such), help("назовите то, что на карте есть"))]
+    NoneSuch(Box<Unanswered>),
     /// A reference that several things of the map answer to.
     #[error("«{reference}» – это {}?", alternatives(&guillemets(candidates), Language::Russian))]
     #[diagnostic(code(language::ambiguous), help("назовите одно из них полностью"))]
@@ -156,10 +191,19 @@ pub enum Misheard {
     },
 }
 
+/// What the robot can do, in Russian and in English.
+const ABLE: [&str; 2] = [
+    "я езжу, нахожу, беру и кладу вещи, открываю и запираю двери, включаю и выключаю приборы, прибираю и зову оператора",
+    "I drive, find, take and put things, open and lock doors, switch devices, tidy up and call the operator",
+];
+
 impl Misheard {
     /// The answer to the person, in the language of the sentence.
     #[must_use]
     pub fn say(&self, language: Language) -> String {
+        if let Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) = self {
+            return unanswered.text.clone();
+        }
         if language == Language::Russian {
             let help = self.help().map(|help| help.to_string()).unwrap_or_default();
             return sentences(&self.to_string(), &help);
@@ -172,6 +216,10 @@ impl Misheard {
                 format!("The command is too long: {length} characters. Split it.")
             }
             Self::NotUnderstood { word, .. } => format!("I do not understand the word \"{word}\"."),
+            Self::Unable { word, .. } => {
+                sentences(&format!("I cannot do that: \"{word}\""), ABLE[1])
+            }
+            Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) => unanswered.text.clone(),
             Self::Incomplete { english, .. } => format!("You did not say {english}."),
             Self::Ambiguous { reference, candidates, .. } => {
                 format!(
@@ -189,14 +237,10 @@ impl Misheard {
 /// Understands commands about the things of one index.
 pub struct Listener<'i, T> {
     index: &'i FormIndex<T>,
-    last: Option<T>,
-    narrow: Option<&'i Narrow<T>>,
+    last: Vec<T>,
+    meant: Vec<T>,
     any: Option<&'i Any<'i, T>>,
 }
-
-/// Of several things that a word may mean, those that may be meant: where the thing is said to be, and whither it is
-/// said to lead or to go.
-pub type Narrow<T> = dyn Fn(&[T], Option<&Placement<T>>, Option<&Placement<T>>) -> Vec<T>;
 
 /// Of several things any of which will do, the one to take: the nearest, say.
 pub type Any<'a, T> = dyn Fn(&[T]) -> Option<T> + 'a;
@@ -207,19 +251,19 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 
     #[must_use]
     pub fn new(index: &'i FormIndex<T>) -> Self {
-        Self { index, last: None, narrow: None, any: None }
+        Self { index, last: Vec::new(), meant: Vec::new(), any: None }
     }
 
-    /// The thing that «её» or "it" means when the sentence itself has named none.
+    /// What "them" means when the sentence itself has named nothing; «её» is the last of it.
     #[must_use]
-    pub fn remembering(self, last: Option<T>) -> Self {
+    pub fn remembering(self, last: Vec<T>) -> Self {
         Self { last, ..self }
     }
 
-    /// Lets the caller's knowledge of the map choose: of all books, those on the table that was named.
+    /// What is known to be meant by names of the sentence that several things bear, in the order of the sentence.
     #[must_use]
-    pub fn narrowing(self, narrow: &'i Narrow<T>) -> Self {
-        Self { narrow: Some(narrow), ..self }
+    pub fn knowing(self, meant: Vec<T>) -> Self {
+        Self { meant, ..self }
     }
 
     /// Lets the caller choose where any of several things will do: «Найди чашку» is done when one is found, while
@@ -245,55 +289,22 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 /// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
 #[must_use]
 pub fn is_command(text: &str) -> bool {
-    let keys: Vec<String> = super::words::word_ranges(text)
-        .into_iter()
-        .take(12)
-        .map(|range| crate::units::name_key(&text[range]))
-        .collect();
-    let mut at = 0;
-    while at < keys.len() {
-        let words = keys[at..].iter().map(String::as_str);
-        match vocabulary::longest(&words) {
-            Some((taken, vocabulary::Meaning::Filler | vocabulary::Meaning::Me)) => at += taken,
-            Some((_, vocabulary::Meaning::Verb(verb))) => {
-                return verb != vocabulary::Verb::Report;
-            }
-            _ => return false,
-        }
-    }
-    false
+    let text = verbs::gathered(text);
+    verbs::first(&text).is_some()
 }
 
-/// The text with the verbs that begin its clauses blanked out, every other word where it was: in "Open the lab door"
-/// the first word orders, in "Close the open door" the third describes.
+/// Whether a text begins with a verb that orders, though words of a question begin so too: "Find the cup",
+/// "Hang the umbrella on the rack". What ends in a question mark asks.
 #[must_use]
-pub(in crate::language) fn without_verbs(text: &str) -> String {
-    let words = super::words::word_ranges(text);
-    let keys: Vec<String> =
-        words.iter().map(|range| crate::units::name_key(&text[range.clone()])).collect();
-    let mut blanked = text.to_owned();
-    let (mut at, mut begins) = (0, true);
-    while at < keys.len() {
-        use vocabulary::Meaning;
-        let rest = keys[at..].iter().map(String::as_str);
-        let (taken, meaning) = match vocabulary::longest(&rest) {
-            Some((taken, meaning)) => (taken, Some(meaning)),
-            None => (1, None),
-        };
-        if begins && matches!(meaning, Some(Meaning::Verb(_))) {
-            let span = words[at].start..words[at + taken - 1].end;
-            blanked.replace_range(span.clone(), &" ".repeat(span.len()));
-        }
-        at += taken;
-        let comma =
-            at < words.len() && text[words[at - 1].end..words[at].start].contains([',', ';', '.']);
-        begins = match meaning {
-            Some(Meaning::And) => true,
-            Some(Meaning::Filler | Meaning::Me) => begins || comma,
-            _ => comma,
-        };
+pub fn is_order(text: &str) -> bool {
+    use vocabulary::Verb;
+    let gathered = verbs::gathered(text);
+    let verb = verbs::first(&gathered).map(|(_, verb)| verb);
+    match verb {
+        None | Some(Verb::Need | Verb::Report) => false,
+        Some(Verb::Find) => true,
+        Some(_) => !text.trim_end().ends_with('?'),
     }
-    blanked
 }
 
 fn sentences(first: &str, second: &str) -> String {
@@ -608,27 +619,9 @@ mod tests {
     }
 
     #[test]
-    fn what_the_map_knows_narrows_the_choice() {
-        let index = index();
-        let white_is_in_the_kitchen =
-            |cups: &[&'static str], at: Option<&Placement<_>>, _: Option<&Placement<_>>| match at {
-                Some(place) if place.anchor == "Кухня" => {
-                    cups.iter().copied().filter(|cup| *cup == "Белая чашка").collect()
-                }
-                _ => cups.to_vec(),
-            };
-        let listener = Listener::new(&index).narrowing(&white_is_in_the_kitchen);
-        let heard = listener.hear("Принеси чашку с кухни").unwrap();
-        assert!(
-            matches!(&heard[..], [Command::Bring { what, to: None }] if what.id == "Белая чашка")
-        );
-        assert!(matches!(listener.hear("Принеси чашку"), Err(Misheard::Ambiguous { .. })));
-    }
-
-    #[test]
     fn a_pronoun_is_what_was_spoken_of_last() {
         let index = index();
-        let listener = Listener::new(&index).remembering(Some("Книга"));
+        let listener = Listener::new(&index).remembering(vec!["Книга"]);
         assert!(
             matches!(&listener.hear("Принеси её").unwrap()[..], [Command::Bring { what, .. }] if what.id == "Книга")
         );

@@ -22,6 +22,8 @@ pub(super) enum Meaning {
     Me,
     /// «её», "it"
     Pronoun,
+    /// «их», "them"
+    Them,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -49,6 +51,15 @@ pub(super) enum Verb {
     CallOperator,
     Report,
     Stop,
+    /// «вернись»: to the place that is named, else to where the robot came from.
+    Return,
+    /// «верни на место»
+    PutBack,
+    /// «выйди»: out of the room in which the robot is.
+    Leave,
+    Wait,
+    /// What people ask of robots and this one cannot do.
+    Unable,
 }
 
 /// A preposition: how the thing after it lies to the rest.
@@ -80,70 +91,112 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         подъехать|заедь|заезжай|иди|идите|идти|пойди|пойдите|пойти|сходи|сходите|подойди|подойдите|подойти|зайди|зайдите|зайти|пройди|пройдите|\
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
         поднимись|поднимитесь|подняться|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
-        take the elevator|take the lift|use the elevator|use the lift|ride the elevator|ride the lift|go up|go down|вернись|вернитесь|вернуться|возвращайся|направляйся|следуй|go|go back|drive|navigate|come|return|head|walk|proceed|enter",
+        take the elevator|take the lift|use the elevator|use the lift|ride the elevator|ride the lift|go up|go down|направляйся|направляйтесь|\
+        встань|встаньте|стань|подкати|подкатись|прокатись|доедь|доезжай|дойди|доберись|сгоняй|загляни|заскочи|приезжай|приедь|приди|проедь|проезжай|проследуй|\
+        go|go over|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|approach|going",
+    ),
+    (
+        Meaning::Verb(Verb::Return),
+        "верни|верните|вернуть|вернись|вернитесь|вернуться|возвращайся|возвращайтесь|вернись обратно|вернись назад|come back|go back|get back|head back|drive back|return",
+    ),
+    (
+        Meaning::Verb(Verb::PutBack),
+        "верни на место|верните на место|вернуть на место|положи на место|положите на место|поставь на место|поставьте на место|убери на место|\
+        уберите на место|отнеси на место|put back|take back|place back|return to its place",
+    ),
+    (
+        Meaning::Verb(Verb::Leave),
+        "выйди|выйдите|выйти|выезжай|выезжайте|выедь|уходи|уходите|уйди|уйдите|уезжай|уезжайте|leave|exit|get out|get out of|get out of here|go out|go out of|go away|drive out|drive out of",
+    ),
+    (
+        Meaning::Verb(Verb::Wait),
+        "подожди|подождите|подождать|жди|ждите|обожди|побудь|постой|wait|hold on|stay|stand by",
+    ),
+    (
+        Meaning::Verb(Verb::Unable),
+        "следуй|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
+        спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
+        почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
+        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|\
+        repair|fix|buy|order|wake up|play|photograph|say|speak|slice|eat|boil|make",
     ),
     (
         Meaning::Verb(Verb::Move),
         "перемести|переместите|переместить|передвинь|передвиньте|передвинуть|подвинь|подвиньте|сдвинь|сдвиньте|перетащи|перетащите|move|shift",
     ),
-    (Meaning::Verb(Verb::Get), "get"),
+    (Meaning::Verb(Verb::Get), "get|go get|go and get|go fetch|getting"),
     (
         Meaning::Verb(Verb::Bring),
         "принеси|принесите|принёс|принесла|привёз|достал|подал|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\
-        подать|дай|дайте|дать|достань|достаньте|bring|fetch|get me|give|deliver|hand|carry|pass",
+        подать|дай|дайте|дать|достань|достаньте|притащи|притащите|принесите ка|подкинь|передай|передайте|тащи|неси ка|bring|bring over|bring back|fetch|go fetch me|get me|give|deliver|hand|hand over|carry|pass|serve|grab me|bringing|bringing me|fetching|handing me|passing me|giving me",
     ),
-    (Meaning::Verb(Verb::Need), "нужен|нужна|нужно|нужны|хочу|хотел бы|хотела бы|need|want"),
+    (
+        Meaning::Verb(Verb::Need),
+        "нужен|нужна|нужно|нужны|хочу|хотел бы|хотела бы|хочется|need|want|would like|d like",
+    ),
     (
         Meaning::Verb(Verb::Take),
-        "возьми|возьмите|взял|взять|бери|забери|заберите|забрать|подними|поднимите|поднять|схвати|захвати|take|pick up|pick|grab|grasp|lift",
+        "возьми|возьмите|взял|взять|бери|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
     ),
     (
         Meaning::Verb(Verb::Put),
         "положи|положите|положил|поставил|отнёс|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
-        отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переложи|верни|верните|вернуть|\
-        put|place|put down|set|lay|put back|hang",
+        отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переставьте|переложи|переложите|\
+        брось|бросьте|кинь|киньте|опусти|опустите|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|оставь|оставьте|\
+        put|place|put down|set|set down|lay|lay down|hang|drop|drop off|insert|putting|placing",
     ),
-    (Meaning::Verb(Verb::Clear), "убери|уберите|убрать|put away|clear"),
+    (
+        Meaning::Verb(Verb::Clear),
+        "убери|уберите|убрать|убирай|спрячь|спрячьте|put away|clear|clear up|clear away|stow|hide",
+    ),
     (
         Meaning::Verb(Verb::Open),
-        "открой|открыл|откройте|открыть|открывай|отвори|отворите|распахни|open",
+        "открой|открыл|откройте|открыть|открывай|открывайте|opening|отвори|отворите|распахни|распахните|приоткрой|приоткройте|open|open up",
     ),
     (
         Meaning::Verb(Verb::Close),
-        "закрой|закрыл|закройте|закрыть|закрывай|прикрой|прикройте|затвори|захлопни|close|shut",
+        "закрой|закрыл|закройте|закрыть|закрывай|закрывайте|closing|shutting|прикрой|прикройте|затвори|затворите|захлопни|захлопните|close|shut|close up",
     ),
-    (Meaning::Verb(Verb::Lock), "запри|запер|заприте|запереть|замкни|lock"),
-    (Meaning::Verb(Verb::Unlock), "отопри|отоприте|отпереть|отомкни|разблокируй|unlock"),
+    (
+        Meaning::Verb(Verb::Lock),
+        "запри|запер|заприте|запереть|запирай|замкни|замкните|lock|lock up",
+    ),
+    (
+        Meaning::Verb(Verb::Unlock),
+        "отопри|отоприте|отпереть|отпирай|отомкни|отомкните|разблокируй|разблокируйте|unlock",
+    ),
     (
         Meaning::Verb(Verb::SwitchOn),
-        "включи|включил|включите|включить|зажги|зажгите|зажечь|turn on|switch on",
+        "включи|включил|включите|включить|включай|зажги|зажгите|зажечь|вруби|врубите|запусти|запустите|turn on|switch on|power on|power up|start|activate|turning on|switching on",
     ),
     (
         Meaning::Verb(Verb::SwitchOff),
-        "выключи|выключил|выключите|выключить|отключи|отключите|погаси|погасите|потуши|туши|turn off|switch off",
+        "выключи|выключил|выключите|выключить|отключи|отключите|погаси|погасите|погасить|потуши|потушите|потушить|туши|выключай|гаси|выруби|вырубите|отключить|turn off|switch off|power off|power down|shut off|shut down|deactivate|turn out|turning off|switching off",
     ),
     (
         Meaning::Verb(Verb::Find),
-        "найди|нашёл|найдите|найти|отыщи|отыщите|поищи|поищите|разыщи|ищи|find|look for|search for|locate",
+        "найди|нашёл|найдите|найти|отыщи|отыщите|поищи|поищите|разыщи|разыщите|ищи|ищите|высмотри|find|find me|look for|search for|locate|seek|go find|hunt for|finding|looking for",
     ),
     (
         Meaning::Verb(Verb::Tidy),
-        "приберись|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|tidy|tidy up|clean|clean up|clean out",
+        "приберись|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|убраться|приберите|разбери завалы|разложи всё по местам|tidy|tidy up|clean|clean up|clean out|straighten up|neaten",
     ),
     (
         Meaning::Verb(Verb::CallOperator),
         "позови оператора|позовите оператора|вызови оператора|вызовите оператора|позвать оператора|вызвать оператора|\
-        позвони оператору|call operator|call the operator|call an operator|ask the operator",
+        позвони оператору|свяжись с оператором|кликни оператора|крикни оператора|call operator|call the operator|call an operator|ask the operator|\
+        get the operator|fetch the operator|call for the operator|summon the operator|call for help|позови на помощь|зови оператора",
     ),
     (
         Meaning::Verb(Verb::Stop),
         "стоп|стой|стойте|остановись|остановитесь|остановиться|хватит|прекрати|прекратите|отмена|отмени|отмени задание|\
-        stop|halt|cancel|abort|freeze",
+        забудь|забудьте|забей|неважно|не важно|не надо|не нужно|передумал|передумала|я передумал|я передумала|отставить|\
+        stop|halt|cancel|abort|freeze|never mind|nevermind|forget it|forget about it|stop it|cancel that|don t bother",
     ),
     (
         Meaning::Verb(Verb::Report),
-        "доложи|доложите|доложить|доложи обстановку|доложи о состоянии|доложи где ты|отчитайся|сообщи где ты|сообщи где ты находишься|\
-        сообщи своё положение|сообщи положение|сообщи местоположение|где ты|где ты находишься|где ты сейчас|report|report your position|report position|where are you|\
+        "доложи|доложите|доложить|доложи где находишься|доложи своё положение|доложи положение|доложи местоположение|доложи где ты находишься|доложи обстановку|доложи о состоянии|доложи где ты|отчитайся|сообщи где ты|сообщи где ты находишься|\
+        сообщи своё положение|сообщи положение|сообщи местоположение|где ты|где ты находишься|где ты сейчас|report|report your position|report position|report your location|report where you are|report back|where are you|\
         tell me where you are",
     ),
     (link(Relation::In, Role::WhereOrWhither), "в|во|внутрь"),
@@ -169,24 +222,30 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (link(Relation::At, Role::Via), "через|сквозь|through|via"),
     (
         Meaning::Filler,
-        "пожалуйста|плиз|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
+        "пожалуйста|плиз|пж|plz|pls|find out|спасибо|заранее спасибо|thanks|thank you|будь так любезен|будь так любезна|будьте так любезны|будь любезен|будь любезна|будьте любезны|будьте так добры|\
+        сначала|сперва|для начала|first|first of all|firstly|next|finally|наконец|после|заодно|давай|давайте|а ну|пора|слушай|эй|так|обратно|назад|back|back again|\
+        поближе|ближе|closer|поскорее|побыстрее|живо|немедленно|аккуратно|тихо|немного|чуть|просто|ещё|тоже|also|too|just|right now|immediately|gently|straight|away|over|\
+        can you please|could you kindly|would you mind|would you kindly|be so kind as to|be a dear and|be so kind|ok|okay|alright|so|let s|we|us|i d like you to|i would like you to|i want you to|i need you to|\
+        хочу чтобы ты|хотел бы чтобы ты|хотелось бы|для нас|нужно чтобы ты|попрошу|попрошу тебя|сможешь|сможете|сумеешь|могла бы ты|ты можешь|ты можете|\
+        здесь|любой|любую|любое|какую нибудь|any|some|one|one of the|какое нибудь|каких нибудь|одного|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
         могли бы вы|не мог бы ты|не могли бы вы|не можешь|не можете|ты не мог бы|ты|вы|бы|ли|надо|необходимо|чтобы|чтобы ты|я|мы|нам|быстро|быстрее|скорее|срочно|осторожно|сейчас|теперь|\
-        тут|там|сюда|туда|вот|ка|же|ну|ладно|хорошо|привет|здравствуй|здравствуйте|робот|рб|рб 2|этот|эту|это|эти|тот|ту|те|мой|мою|моё|мои|свой|свою|своё|для меня|\
-        какой нибудь|какую нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
-        a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|here|there|for me|kindly|i|d like|d like you to|like|you",
+        тут|там|туда|вот|ка|же|ну|ладно|хорошо|привет|здравствуй|здравствуйте|робот|рб|рб 2|этот|эту|это|эти|тот|ту|те|мой|мою|моё|мои|свой|свою|своё|для меня|\
+        какой нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
+        a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
     ),
     (Meaning::WithKey, "на ключ|на замок|with the key|with a key"),
     (
         Meaning::And,
-        "и|а затем|затем|потом|после этого|а потом|и потом|и затем|then|and|and then|after that",
+        "и|а|а затем|затем|потом|после этого|после чего|а потом|и потом|и затем|дальше|далее|then|and|and then|after that|afterwards|and after that|followed by",
     ),
     (
         Meaning::All,
         "все|всю|всё|весь|всех|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
-    (Meaning::Me, "мне|меня|ко мне|до меня|me|to me"),
-    (Meaning::Pronoun, "его|её|их|него|неё|них|ней|ним|ему|it|them|him|her"),
+    (Meaning::Me, "мне|меня|ко мне|до меня|сюда|me|to me|here|over here"),
+    (Meaning::Pronoun, "его|её|него|неё|ней|ним|ему|нему|нём|ей|ею|it|him|her"),
+    (Meaning::Them, "их|них|им|ими|ними|them|both of them|all of them"),
 ];
 
 /// The meaning of the longest phrase at the beginning of these words (in [`name_key`](crate::units::name_key) form),

@@ -8,71 +8,12 @@ use super::speech;
 use super::values::Property;
 use super::vocabulary::Pronoun;
 use super::{Doubt, Unanswered};
-use crate::language::words::{Gender, Number, alternatives, enumerate};
+use crate::language::words::russian::{self, Preposition};
+use crate::language::words::{Case, Gender, Number, alternatives, enumerate};
+use crate::map::Entity;
+use crate::units::AreaId;
 
 impl Knowledge<'_> {
-    /// Places of descriptions in a command, with the names that they come to.
-    pub(super) fn settled(
-        &self,
-        items: &[super::grammar::Item],
-    ) -> Vec<(std::ops::Range<usize>, String)> {
-        use super::grammar::Item;
-        use crate::language::words::Case;
-        let mut names = Vec::new();
-        for (at, item) in items.iter().enumerate() {
-            let (phrases, rel) = match item {
-                Item::Noun(phrase) => (std::slice::from_ref(phrase), None),
-                Item::Place { rel, nouns, .. } => (&nouns[..], Some(*rel)),
-                _ => continue,
-            };
-            for phrase in phrases.iter().filter(|p| p.pronoun.is_none() && p.person.is_none()) {
-                let described = !phrase.noun.filters.is_empty()
-                    || !phrase.noun.restrictions.is_empty()
-                    || phrase.noun.rank.is_some();
-                let Ok(mut found) = self.find(&phrase.noun, true) else { continue };
-                let after = items[at + 1..].iter().map_while(|next| match next {
-                    Item::Place { rel, nouns, .. } => Some((*rel, nouns)),
-                    _ => None,
-                });
-                let mut narrowed = described;
-                for (rel, nouns) in after {
-                    if found.len() < 2 {
-                        break;
-                    }
-                    let Some(anchors) = nouns.first().and_then(|n| self.find(&n.noun, true).ok())
-                    else {
-                        continue;
-                    };
-                    let fits = |t: &Thing| {
-                        anchors.iter().any(|a| match rel {
-                            Rel::From => self.holds(Rel::On, *t, *a) || self.holds(Rel::In, *t, *a),
-                            rel => self.holds(rel, *t, *a),
-                        })
-                    };
-                    let fewer: Vec<Thing> = found.iter().copied().filter(fits).collect();
-                    if !fewer.is_empty() {
-                        narrowed = true;
-                        found = fewer;
-                    }
-                }
-                let ([only], true) = (&found[..], narrowed) else { continue };
-                let case = match rel {
-                    None => Case::Accusative,
-                    Some(Rel::From | Rel::NextTo | Rel::LeftOf | Rel::RightOf | Rel::Near) => {
-                        Case::Genitive
-                    }
-                    Some(Rel::To) => Case::Dative,
-                    Some(Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above) => {
-                        Case::Instrumental
-                    }
-                    Some(_) => Case::Accusative,
-                };
-                names.push((phrase.words.clone(), self.form(*only, case)));
-            }
-        }
-        names
-    }
-
     /// What a pronoun means: the last thing spoken of that agrees with it.
     pub(super) fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
         let last = &self.memory.last;
@@ -158,6 +99,9 @@ impl Knowledge<'_> {
                     (true, false, true) => format!("{place} ничего нет"),
                     (true, false, false) => format!("{place} нет {none}"),
                     (false, true, _) => format!("there is no such thing on the map: {none}"),
+                    (false, false, _) if noun.head.named.len() == 1 => {
+                        format!("{none} is not {place}")
+                    }
                     (false, false, _) => format!("there are no {none} {place}"),
                 }
             }
@@ -213,11 +157,22 @@ impl Knowledge<'_> {
         {
             marks.push(self.value_of(&Property::Colour, value, thing));
         }
+        if let Some(gate) = self.gate(thing) {
+            let case = if gate.areas.len() == 1 { Case::Genitive } else { Case::Instrumental };
+            let room = |a: &AreaId| self.form(Thing::Entity(Entity::Area(*a)), case);
+            let rooms = enumerate(&gate.areas.iter().map(room).collect::<Vec<_>>(), self.language);
+            return Some(match (self.is_russian(), gate.areas.len()) {
+                (true, 1) => format!("из {rooms}"),
+                (true, _) => format!("между {rooms}"),
+                (false, 1) => format!("of {rooms}"),
+                (false, _) => format!("between {rooms}"),
+            });
+        }
         let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
         if let Some(own) = support(thing)
             && candidates.iter().any(|t| support(*t) != Some(own))
         {
-            let own = Thing::Entity(crate::map::Entity::Replica(own));
+            let own = Thing::Entity(Entity::Replica(own));
             let inside = self.tuple(Rel::In, thing, own).is_some();
             marks.push(self.place(if inside { Rel::In } else { Rel::On }, &[own]));
         } else if let Some(own) = self.area_of(thing)
@@ -226,8 +181,37 @@ impl Knowledge<'_> {
         {
             marks.extend(self.in_room(thing));
         }
+        if marks.is_empty() {
+            marks.extend(self.bearing(thing, candidates));
+        }
+        if let ([a, b], true) = (candidates, marks.is_empty()) {
+            let far = |t: &Thing| self.distance(*t, Thing::Robot);
+            if let (Some(a_far), Some(b_far)) = (far(a), far(b)) {
+                let nearer = (a_far <= b_far) == (thing == *a);
+                marks.push(match nearer {
+                    true => self.pick("ближе ко мне", "nearer to me").to_owned(),
+                    false => self.pick("дальше от меня", "farther from me").to_owned(),
+                });
+            }
+        }
         (!marks.is_empty())
             .then(|| enumerate(&marks, self.language).replace(" и ", ", ").replace(" and ", ", "))
+    }
+}
+
+impl Knowledge<'_> {
+    /// What stands on this thing and on no other candidate: «с Лекарством», "with the medicine".
+    fn bearing(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
+        let borne = self.related(Rel::On, thing);
+        let own = borne.first().filter(|_| borne.len() <= 3)?;
+        let others = candidates.iter().filter(|t| **t != thing);
+        if others.into_iter().any(|t| self.related(Rel::On, *t).contains(own)) {
+            return None;
+        }
+        Some(match self.is_russian() {
+            true => russian::with(Preposition::S, Case::Instrumental, self.named(*own).phrase()),
+            false => format!("with {}", self.named(*own).english()),
+        })
     }
 }
 

@@ -18,6 +18,7 @@ mod grammar;
 mod knowledge;
 mod lexicon;
 mod query;
+mod settle;
 mod several;
 mod speech;
 mod storeys;
@@ -31,6 +32,7 @@ pub use query::{
     Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Quantity, Query, Rel,
     Restriction, Thing, Use,
 };
+pub use settle::{Settled, Strict};
 pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::report::Detail;
@@ -110,6 +112,10 @@ pub struct Memory {
     query: Option<Query>,
     /// A question that waits for the person to say which thing was meant.
     pending: Option<Pending>,
+    /// A command that waits for the same.
+    waiting: Option<settle::Waiting>,
+    /// Where the robot was before it was last sent away.
+    left: Option<Thing>,
 }
 
 #[derive(Debug, Clone)]
@@ -125,6 +131,17 @@ impl Memory {
     #[must_use]
     pub fn last_thing(&self) -> Option<Thing> {
         self.spoken.first().copied()
+    }
+
+    /// Where the robot was before it was last sent away.
+    #[must_use]
+    pub fn place_left(&self) -> Option<Thing> {
+        self.left
+    }
+
+    /// Notes where the robot is while it is sent away.
+    pub fn leave(&mut self, place: Thing) {
+        self.left = Some(place);
     }
 
     /// Remembers what an answer was about.
@@ -145,11 +162,26 @@ impl Memory {
         self.spoken.truncate(50);
     }
 
-    /// Notes a thing that a command named.
-    pub fn mention(&mut self, thing: Thing) {
-        self.last = vec![thing];
-        self.spoken.retain(|t| *t != thing);
-        self.spoken.insert(0, thing);
+    /// Notes the things that a command named.
+    pub fn mention(&mut self, things: &[Thing]) {
+        self.last = things.to_vec();
+        for thing in things {
+            self.spoken.retain(|t| t != thing);
+            self.spoken.insert(0, *thing);
+        }
+    }
+
+    /// What "them" means in a command, the one that "it" means at the end.
+    #[must_use]
+    pub fn last_things(&self) -> Vec<Thing> {
+        let Some(first) = self.spoken.first() else { return self.last.clone() };
+        let mut things = match self.last.contains(first) {
+            true => self.last.clone(),
+            false => Vec::new(),
+        };
+        things.retain(|t| t != first);
+        things.push(*first);
+        things
     }
 }
 
@@ -296,6 +328,10 @@ impl Doubt {
     }
 }
 
+/// Why the things of a command are not known.
+#[derive(Debug, Clone)]
+pub struct Misread(pub Box<Unanswered>);
+
 /// A doubt with its words.
 #[derive(Debug, Clone)]
 pub struct Unanswered {
@@ -395,31 +431,6 @@ impl Asker<'_> {
     #[must_use]
     pub fn proof(&self, fact: &Fact, language: Language) -> Vec<String> {
         self.knowledge(language, &Memory::default()).proof_lines(fact)
-    }
-
-    /// A command with its descriptions replaced by names, where what was said leaves one thing only:
-    /// «Принеси красную чашку со стола» is «Принеси Чашку-2 со Стола-1». What stays ambiguous stays as it was said.
-    #[must_use]
-    pub fn settle(&self, text: &str, memory: &Memory) -> String {
-        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
-            return text.to_owned();
-        }
-        let text = &self.plain(text);
-        // "Open the lab door" orders; it does not speak of the open one.
-        let described = crate::language::command::without_verbs(text);
-        let sentence = Sentence::new(&described, &self.mind.lexicon);
-        let knowledge = self.knowledge(sentence.language, memory);
-        let mut settled = text.clone().into_owned();
-        // From the end, so that the places before stay where they are.
-        for (words, name) in knowledge.settled(&sentence.items()).into_iter().rev() {
-            let (Some(first), Some(last)) =
-                (sentence.words.get(words.start), sentence.words.get(words.end.saturating_sub(1)))
-            else {
-                continue;
-            };
-            settled.replace_range(first.start..last.end, &name);
-        }
-        settled
     }
 
     /// A text in words that the map knows: "upstairs" is a storey, «столик» a table.

@@ -9,7 +9,7 @@ use crate::map::World;
 use crate::units::{MapId, name_key};
 
 /// A word, whether it means the storey above, and whether it says whither.
-const WORDS: [(&str, bool, bool); 10] = [
+const WORDS: [(&str, bool, bool); 18] = [
     ("наверху", true, false),
     ("наверх", true, true),
     ("вверх", true, true),
@@ -19,6 +19,14 @@ const WORDS: [(&str, bool, bool); 10] = [
     ("downstairs", false, false),
     ("этажом выше", true, false),
     ("этажом ниже", false, false),
+    ("на этаж выше", true, true),
+    ("на этаж ниже", false, true),
+    ("to the floor above", true, true),
+    ("to the floor below", false, true),
+    ("to the upper floor", true, true),
+    ("to the lower floor", false, true),
+    ("one floor up", true, true),
+    ("one floor down", false, true),
     ("the floor above", true, false),
 ];
 

@@ -105,6 +105,8 @@ pub(super) struct Phrase {
     pub(super) person: Option<Mark>,
     /// May it be the subject of a Russian sentence.
     pub(super) nominative: bool,
+    /// What the form of its head may be.
+    pub(super) cases: Vec<Readings>,
     /// As a nominative it can only be a plural: «лампы».
     only_plural_nominative: bool,
 }
@@ -277,7 +279,15 @@ impl<'t> Sentence<'t> {
         let only_plural_nominative = false;
         Ok((
             rest,
-            Phrase { noun, words, pronoun, person, nominative: true, only_plural_nominative },
+            Phrase {
+                noun,
+                words,
+                pronoun,
+                person,
+                nominative: true,
+                cases: Vec::new(),
+                only_plural_nominative,
+            },
         ))
     }
 
@@ -345,7 +355,10 @@ impl<'t> Sentence<'t> {
             noun.restrictions.push(Restriction { rel, anchors: vec![owner], negated: false });
         }
         let (pronoun, person) = (None, None);
-        Ok((rest, Phrase { noun, words, pronoun, person, nominative, only_plural_nominative }))
+        let cases = head.map(|found| found.readings.clone()).unwrap_or_default();
+        let phrase =
+            Phrase { noun, words, pronoun, person, nominative, cases, only_plural_nominative };
+        Ok((rest, phrase))
     }
 
     fn modifier<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Modifier> {

@@ -1,0 +1,316 @@
+//! From commands to goals: what is to hold when each is done, in the order in which they were given.
+
+use std::collections::BTreeSet;
+
+use crate::language::command::Command;
+use crate::map::{Entity, World};
+use crate::robot::{Belief, GoalFact, facts_of_map};
+use crate::semantics::{Relations, lifts, predicate, storey_name};
+use crate::units::{AreaId, DoorId};
+
+use super::memory::Now;
+use super::task::OPERATOR;
+use super::{Engine, Error, RequestError};
+
+/// Commands of one kind that are planned together, at most: «Принеси книгу и чашку». More are done one by one, since
+/// the best order of many is not worth the wait.
+const TOGETHER: usize = 3;
+
+impl Engine {
+    /// What is to hold, one goal after the other. `here` is the place where the commands were given.
+    pub(super) fn goals_of(
+        &self,
+        commands: &[Command<Entity>],
+        here: &str,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let mut goals: Vec<Vec<GoalFact>> = Vec::new();
+        let mut joined: Vec<&Command<Entity>> = Vec::new();
+        for (n, command) in commands.iter().enumerate() {
+            // "Fetch the book and put it on the shelf": it is not handed over in between.
+            if let (Command::Bring { what, to: None }, Some(Command::Put { what: next, .. })) =
+                (command, commands.get(n + 1))
+                && what.id == next.id
+            {
+                continue;
+            }
+            let wanted = self.goals_of_one(command, here, now, relations, belief)?;
+            let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
+            match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
+                (true, [facts]) => {
+                    if let Some(goal) = goals.last_mut() {
+                        goal.extend(facts.iter().cloned());
+                    }
+                    joined.push(command);
+                }
+                _ => {
+                    joined = vec![command];
+                    goals.extend(wanted);
+                }
+            }
+        }
+        goals.retain(|goal| !goal.is_empty());
+        Ok(goals)
+    }
+
+    fn goals_of_one(
+        &self,
+        command: &Command<Entity>,
+        here: &str,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let world = self.world()?;
+        let name = |e: Entity| world.name(e).to_owned();
+        let one = |fact: GoalFact| vec![vec![fact]];
+        Ok(match command {
+            Command::GoTo { to, via } => {
+                let goal = vec![self.being_at(to.anchor, now, relations)?];
+                match via {
+                    Some(Entity::Door(door)) => {
+                        let mut goals = self.through(*door, now, relations)?;
+                        goals.push(goal);
+                        goals
+                    }
+                    // «через кухню»
+                    Some(place) => vec![vec![self.being_at(*place, now, relations)?], goal],
+                    None => vec![goal],
+                }
+            }
+            Command::GoThrough(Entity::Door(door)) => self.through(*door, now, relations)?,
+            Command::GoThrough(place) => one(self.being_at(*place, now, relations)?),
+            Command::Leave(place) => {
+                let here = self.around()?.floor(now.map)?.locate(now.pose.at);
+                let here = here.map(|(area, ..)| Entity::Area(area));
+                match place {
+                    Some(left) if matches!(left, Entity::Area(_)) && Some(*left) != here => {
+                        Vec::new()
+                    }
+                    _ => one(self.outside(now, relations)?),
+                }
+            }
+            Command::ComeHere | Command::ComeBack => {
+                one(fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()]))
+            }
+            Command::Bring { what, to: None } => {
+                self.portable(what.id)?;
+                one(fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()]))
+            }
+            Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
+                vec![self.delivered(what.id, to, now, relations)?]
+            }
+            Command::Take { what } => {
+                self.portable(what.id)?;
+                one(fact(predicate::ROBOT_HOLDS, vec![name(what.id)]))
+            }
+            Command::PutBack(what) => match what.id {
+                Entity::Replica(id) if world.has_trait(id, "portable") => {
+                    let Some(home) = self.home_of(&name(what.id), now, relations)? else {
+                        return Ok(Vec::new());
+                    };
+                    belief.homes.push((name(what.id), home));
+                    one(fact(predicate::IN_ITS_PLACE, vec![name(what.id)]))
+                }
+                place => self.tidied(Some(place), now, relations, belief)?,
+            },
+            Command::Find(what) => match what.id {
+                Entity::Replica(_) => one(fact(predicate::FOUND, vec![name(what.id)])),
+                place => one(self.being_at(place, now, relations)?),
+            },
+            Command::Open(door) => vec![self.door_facts(predicate::DOOR_OPEN, door.id)?],
+            Command::Close(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
+            Command::Lock(door) => vec![self.door_facts(predicate::DOOR_LOCKED, door.id)?],
+            Command::Unlock(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
+            Command::SwitchOn(device) => one(self.switched(predicate::DEVICE_ON, device.id)?),
+            Command::SwitchOff(device) => one(self.switched(predicate::DEVICE_OFF, device.id)?),
+            Command::CallOperator => one(fact(predicate::CALLED, vec![OPERATOR.to_owned()])),
+            Command::Tidy(within) => self.tidied(*within, now, relations, belief)?,
+            // Each action ends with a report as it is.
+            Command::Wait | Command::Report => Vec::new(),
+            Command::Stop => {
+                return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
+            }
+        })
+    }
+
+    /// What is to be tidied, each thing a goal of its own.
+    fn tidied(
+        &self,
+        within: Option<Entity>,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let mut goals = Vec::new();
+        for (thing, home) in self.misplaced(within, now, relations)? {
+            goals.push(vec![fact(predicate::IN_ITS_PLACE, vec![thing.clone()])]);
+            belief.homes.push((thing, home));
+        }
+        Ok(goals)
+    }
+
+    fn switched(&self, predicate: &str, entity: Entity) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let name = world.name(entity).to_owned();
+        if !matches!(entity, Entity::Replica(id) if world.has_trait(id, "device")) {
+            return Err(RequestError::NotADevice { name }.into());
+        }
+        Ok(fact(predicate, vec![name]))
+    }
+
+    fn being_at(
+        &self,
+        entity: Entity,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let name = world.name(entity).to_owned();
+        let predicate = match entity {
+            Entity::Area(_) => predicate::ROBOT_IN,
+            // A door with a room on one side only is none to the planner.
+            Entity::Door(door) => {
+                if !relations.joins().iter().any(|join| join.door == Some(door)) {
+                    return Err(RequestError::NotAPlace { name }.into());
+                }
+                predicate::ROBOT_AT_DOOR
+            }
+            Entity::Place(_) => {
+                // A place where the robot does not fit, or in no room, is none to the planner.
+                let known = facts_of_map(&now.world, relations)
+                    .into_iter()
+                    .any(|f| f.predicate == predicate::PLACE_IN && f.arguments[0].name == name);
+                if !known {
+                    return Err(RequestError::NotAPlace { name }.into());
+                }
+                predicate::ROBOT_AT_PLACE
+            }
+            Entity::Replica(_) => return self.being_near(entity, &now.world, relations),
+            // On a storey is in any room of it.
+            Entity::Map(map) => {
+                return Ok(fact(predicate::ROBOT_ON_STOREY, vec![storey_name(world, map)]));
+            }
+        };
+        Ok(fact(predicate, vec![name]))
+    }
+
+    /// At the place from which a thing is reached: the one that serves it or what it stands on.
+    fn being_near(
+        &self,
+        entity: Entity,
+        now: &World,
+        relations: &Relations,
+    ) -> Result<GoalFact, Error> {
+        let name = self.world()?.name(entity);
+        let facts = facts_of_map(now, relations);
+        let about = |predicate: &str, at: usize, wanted: &str, give: usize| {
+            facts
+                .iter()
+                .find(|f| f.predicate == predicate && f.arguments[at].name == wanted)
+                .map(|f| f.arguments[give].name.clone())
+        };
+        let support = about(predicate::THING_ON, 0, name, 1);
+        let place = about(predicate::THING_AT_PLACE, 0, name, 1)
+            .or_else(|| about(predicate::PLACE_BY, 1, support.as_deref().unwrap_or(name), 0))
+            .ok_or_else(|| RequestError::NotAPlace { name: name.to_owned() })?;
+        Ok(fact(predicate::ROBOT_AT_PLACE, vec![place]))
+    }
+
+    /// At a door, and then on its other side.
+    fn through(
+        &self,
+        door: DoorId,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let world = self.world()?;
+        let name = world.name(Entity::Door(door)).to_owned();
+        let here = self.around()?.floor(now.map)?.locate(now.pose.at).map(|(area, ..)| area);
+        let joins = relations.joins();
+        let mut sides: BTreeSet<AreaId> = BTreeSet::new();
+        for join in joins.iter().filter(|j| j.door == Some(door)) {
+            sides.extend([join.from, join.to]);
+        }
+        if sides.is_empty() {
+            return Err(RequestError::NotADoor { name }.into());
+        }
+        let at_door = vec![fact(predicate::ROBOT_AT_DOOR, vec![name])];
+        let in_area = |area: &AreaId| {
+            vec![fact(predicate::ROBOT_IN, vec![world.name(Entity::Area(*area)).to_owned()])]
+        };
+        let beyond = sides.iter().find(|side| Some(**side) != here);
+        Ok(match (here.filter(|here| sides.contains(here)), beyond) {
+            (Some(_), Some(beyond)) => vec![at_door, in_area(beyond)],
+            _ => vec![at_door],
+        })
+    }
+
+    /// In the room next to this one to which the way is the shortest.
+    fn outside(&self, now: &Now, relations: &Relations) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let here = self.around()?.floor(now.map)?.locate(now.pose.at);
+        let (here, ..) = here.ok_or(RequestError::RobotNowhere)?;
+        let beside: BTreeSet<AreaId> =
+            relations.joins().iter().filter(|j| j.from == here).map(|j| j.to).collect();
+        let far = |area: AreaId| (self.way_to(Entity::Area(area), now), area);
+        let next =
+            beside.into_iter().map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let name = world.name(Entity::Area(here)).to_owned();
+        let (_, next) = next.ok_or(RequestError::NotAPlace { name })?;
+        Ok(fact(predicate::ROBOT_IN, vec![world.name(Entity::Area(next)).to_owned()]))
+    }
+
+    /// A state of a door, said for every pair of Areas that it joins.
+    fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let Entity::Door(door) = entity else {
+            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
+        };
+        let relations = self.relations()?;
+        let joins = relations.joins();
+        // A lift opens its door by itself when it has come.
+        let lift = lifts(world, relations).into_iter().find_map(|lift| {
+            let join = lift.doors.iter().find(|join| join.door == Some(door))?;
+            Some(vec![lift.name, join.opening.clone()])
+        });
+        if let Some(args) = lift.filter(|_| predicate == predicate::DOOR_OPEN) {
+            return Ok(vec![fact(predicate::CABIN_AT, args)]);
+        }
+        let facts: Vec<GoalFact> = joins
+            .iter()
+            .filter(|j| j.door == Some(door))
+            .map(|j| {
+                let args = [Entity::Door(door), Entity::Area(j.from), Entity::Area(j.to)];
+                fact(predicate, args.map(|e| world.name(e).to_owned()).into())
+            })
+            .collect();
+        if facts.is_empty() {
+            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
+        }
+        Ok(facts)
+    }
+}
+
+fn fact(predicate: &str, args: Vec<String>) -> GoalFact {
+    GoalFact { predicate: predicate.to_owned(), args }
+}
+
+/// Whether two commands one after the other ask for the same to be done to different things: then their order is
+/// the planner's to choose.
+fn are_done_together(first: &Command<Entity>, second: &Command<Entity>) -> bool {
+    use Command::{Bring, Close, Lock, Open, Put, SwitchOff, SwitchOn, Unlock};
+    match (first, second) {
+        (Bring { what: a, .. }, Bring { what: b, .. })
+        | (Put { what: a, .. }, Put { what: b, .. }) => a.id != b.id,
+        (Open(_), Open(_))
+        | (Close(_), Close(_))
+        | (Lock(_), Lock(_))
+        | (Unlock(_), Unlock(_))
+        | (SwitchOn(_), SwitchOn(_))
+        | (SwitchOff(_), SwitchOff(_)) => true,
+        _ => false,
+    }
+}

@@ -1,0 +1,414 @@
+//! The verbs of a text: where its clauses begin, and what each asks to do with what it names.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use super::vocabulary::{Meaning, Verb, longest, verbs};
+use crate::language::words::word_ranges;
+use crate::units::name_key;
+
+/// What a verb does with the things that are named with it, for who finds out which things are meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::language) enum Sort {
+    /// The robot goes to what is named.
+    Go,
+    /// Something is fetched; "on" and "in" tell where it is.
+    Carry,
+    /// Something is set down; "on" and "in" tell whither.
+    Put,
+    Door,
+    Switch,
+    Find,
+    /// The robot leaves what is named, or leaves something somewhere.
+    Leave,
+    Other,
+}
+
+impl Sort {
+    fn of(verb: Verb) -> Self {
+        match verb {
+            Verb::GoTo => Self::Go,
+            Verb::Leave => Self::Leave,
+            Verb::Bring | Verb::Get | Verb::Need | Verb::Take => Self::Carry,
+            Verb::Put | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => Self::Put,
+            Verb::Open | Verb::Close | Verb::Lock | Verb::Unlock => Self::Door,
+            Verb::SwitchOn | Verb::SwitchOff => Self::Switch,
+            Verb::Find => Self::Find,
+            Verb::Tidy
+            | Verb::CallOperator
+            | Verb::Report
+            | Verb::Stop
+            | Verb::Wait
+            | Verb::Unable => Self::Other,
+        }
+    }
+}
+
+/// English verbs whose second half may stand behind what they are done to: "turn the lamp on".
+const SPLIT: &[(&str, &[&str])] = &[
+    ("turn", &["on", "off", "out"]),
+    ("switch", &["on", "off"]),
+    ("power", &["on", "off", "up", "down"]),
+    ("pick", &["up"]),
+    ("lift", &["up"]),
+    ("put", &["down", "back", "away"]),
+    ("place", &["back"]),
+    ("take", &["back", "out"]),
+    ("bring", &["back"]),
+    ("set", &["down"]),
+    ("lay", &["down"]),
+    ("throw", &["away", "out"]),
+    ("clear", &["up", "away"]),
+    ("clean", &["up"]),
+    ("tidy", &["up"]),
+    ("lock", &["up"]),
+    ("shut", &["off", "down"]),
+];
+
+fn keys_of(text: &str, words: &[Range<usize>]) -> Vec<String> {
+    words.iter().map(|range| name_key(&text[range.clone()])).collect()
+}
+
+/// The meaning of the longest phrase at a word.
+fn meaning_at(keys: &[String], at: usize) -> Option<(usize, Meaning)> {
+    longest(&keys[at..].iter().map(String::as_str))
+}
+
+fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -> bool {
+    let Some(word) = words.get(at) else { return true };
+    let gap = &text[words[at - 1].end..word.start];
+    gap.contains([',', ';', '.', '!', '?'])
+        || meaning_at(keys, at).is_some_and(|m| m.1 == Meaning::And)
+}
+
+/// The text as the grammars read it: relative clauses as mere places («книгу, которая лежит на столе» is «книгу на
+/// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
+#[must_use]
+pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
+    let text = match without_relatives(text) {
+        Cow::Borrowed(text) => repeated(text),
+        Cow::Owned(text) => Cow::Owned(repeated(&text).into_owned()),
+    };
+    match text {
+        Cow::Borrowed(text) => joined(text),
+        Cow::Owned(text) => Cow::Owned(joined(&text).into_owned()),
+    }
+}
+
+/// Words of a relative clause that say no more than the preposition after them.
+const RELATIVE: [&str; 48] = [
+    "которая лежит",
+    "который лежит",
+    "которое лежит",
+    "которую положили",
+    "которые лежат",
+    "которая стоит",
+    "который стоит",
+    "которое стоит",
+    "которые стоят",
+    "которая находится",
+    "который находится",
+    "которое находится",
+    "которые находятся",
+    "которая висит",
+    "который висит",
+    "что лежит",
+    "что лежат",
+    "что стоит",
+    "что стоят",
+    "что находится",
+    "что висит",
+    "которая ведет",
+    "ведущую",
+    "ведущая",
+    "ведущие",
+    "лежащую",
+    "лежащий",
+    "лежащее",
+    "лежащие",
+    "стоящую",
+    "стоящий",
+    "стоящее",
+    "стоящие",
+    "that is",
+    "that s",
+    "that are",
+    "which is",
+    "which are",
+    "that lies",
+    "that stands",
+    "that leads",
+    "which leads",
+    "leading",
+    "that is lying",
+    "that is standing",
+    "lying",
+    "standing",
+    "located",
+];
+
+fn without_relatives(text: &str) -> Cow<'_, str> {
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words);
+    let mut gone: Vec<Range<usize>> = Vec::new();
+    for at in 1..keys.len() {
+        for length in (1..=3).rev() {
+            let Some(said) = keys.get(at..at + length) else { continue };
+            let before_place = matches!(
+                keys.get(at + length).and_then(|_| meaning_at(&keys, at + length)),
+                Some((_, Meaning::Link(_)))
+            );
+            if before_place && RELATIVE.contains(&said.join(" ").as_str()) {
+                gone.push(words[at - 1].end..words[at + length - 1].end);
+                break;
+            }
+        }
+    }
+    if gone.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let mut left = text.to_owned();
+    for range in gone.into_iter().rev() {
+        left.replace_range(range, "");
+    }
+    Cow::Owned(left)
+}
+
+/// «Подъедь к столу, потом к окну»: the verb once more before each place that only follows in time.
+fn repeated(text: &str) -> Cow<'_, str> {
+    const THEN: [&str; 8] =
+        ["потом", "затем", "а потом", "и потом", "а затем", "then", "and then", "after that"];
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words);
+    let mut put: Vec<(usize, String)> = Vec::new();
+    let mut verb: Option<Range<usize>> = None;
+    let mut at = 0;
+    while at < keys.len() {
+        let (taken, meaning) = match meaning_at(&keys, at) {
+            Some((taken, meaning)) => (taken, Some(meaning)),
+            None => (1, None),
+        };
+        match meaning {
+            Some(Meaning::Verb(found)) if Sort::of(found) == Sort::Go => {
+                verb = Some(words[at].start..words[at + taken - 1].end);
+            }
+            Some(Meaning::Verb(_)) => verb = None,
+            Some(Meaning::And) if THEN.contains(&keys[at..at + taken].join(" ").as_str()) => {
+                let next =
+                    (at + taken < keys.len()).then(|| meaning_at(&keys, at + taken)).flatten();
+                if let (Some(verb), Some((_, Meaning::Link(_)))) = (&verb, next) {
+                    put.push((words[at + taken].start, format!("{} ", &text[verb.clone()])));
+                }
+            }
+            _ => {}
+        }
+        at += taken;
+    }
+    if put.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let mut repeated = text.to_owned();
+    for (at, verb) in put.into_iter().rev() {
+        repeated.insert_str(at, &verb);
+    }
+    Cow::Owned(repeated)
+}
+
+/// The halves of verbs together: "turn the lamp on" is "turn on the lamp".
+fn joined(text: &str) -> Cow<'_, str> {
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words);
+    let mut moved: Vec<(usize, usize)> = Vec::new();
+    for (at, key) in keys.iter().enumerate() {
+        let Some((_, halves)) = SPLIT.iter().find(|(verb, _)| verb == key) else { continue };
+        let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
+        let mut last = end.unwrap_or(words.len());
+        // "… on, please", "… off now"
+        while last > at + 2 && matches!(keys[last - 1].as_str(), "please" | "now" | "again") {
+            last -= 1;
+        }
+        if last > at + 2 && halves.contains(&keys[last - 1].as_str()) {
+            moved.push((at, last - 1));
+        }
+    }
+    if moved.is_empty() {
+        return Cow::Borrowed(text);
+    }
+    let mut gathered = text.to_owned();
+    for (verb, half) in moved.into_iter().rev() {
+        let word = text[words[half].clone()].to_owned();
+        gathered.replace_range(words[half - 1].end..words[half].end, "");
+        gathered.insert_str(words[verb].end, &format!(" {word}"));
+    }
+    Cow::Owned(gathered)
+}
+
+/// A verb of a text.
+struct Found {
+    verb: Verb,
+    /// Bytes of the verb, and of what joins its clause to the one before.
+    at: Range<usize>,
+    joined: Range<usize>,
+}
+
+/// The verbs that begin the clauses of a text, with their places in it; else the first verb anywhere.
+fn found(text: &str) -> Vec<Found> {
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words);
+    let mut found = Vec::new();
+    let mut anywhere = None;
+    let (mut at, mut begins) = (0, true);
+    let mut joint: Option<usize> = None;
+    while at < keys.len() {
+        let (taken, meaning) = match meaning_at(&keys, at) {
+            Some((taken, meaning)) => (taken, Some(meaning)),
+            None => (1, None),
+        };
+        if let Some(Meaning::Verb(verb)) = meaning {
+            let span = words[at].start..words[at + taken - 1].end;
+            let joined = joint.unwrap_or(span.start)..span.end;
+            if begins {
+                found.push(Found { verb, at: span, joined });
+            } else {
+                anywhere.get_or_insert(Found { verb, at: span.clone(), joined: span });
+            }
+        }
+        joint = match meaning {
+            Some(Meaning::And) => joint.or(Some(words[at].start)),
+            Some(Meaning::Filler) => joint,
+            _ => None,
+        };
+        at += taken;
+        let comma = at < words.len()
+            && text[words[at - 1].end..words[at].start].contains([',', ';', '.', '!', ':']);
+        begins = match meaning {
+            Some(Meaning::And) => true,
+            // «мне нужно, чтобы ты принёс»: what is needed is told by the next verb, or by a noun.
+            Some(Meaning::Verb(Verb::Need)) => true,
+            Some(Meaning::Filler | Meaning::Me) => begins || comma,
+            _ => comma,
+        };
+    }
+    if found.is_empty() {
+        found.extend(anywhere);
+    }
+    found
+}
+
+/// The clauses of a text: where each verb begins, and of which sort it is.
+#[must_use]
+pub(in crate::language) fn clauses(text: &str) -> Vec<(usize, Sort)> {
+    found(text).into_iter().map(|f| (f.at.start, Sort::of(f.verb))).collect()
+}
+
+/// Whether a text has a verb of command anywhere.
+#[must_use]
+pub fn has_verb(text: &str) -> bool {
+    found(text).iter().any(|f| !matches!(f.verb, Verb::Need | Verb::Report))
+}
+
+/// The verb with which a text begins, small words aside.
+pub(super) fn first(text: &str) -> Option<(Range<usize>, Verb)> {
+    let words = word_ranges(text);
+    let words = &words[..words.len().min(14)];
+    let keys = keys_of(text, words);
+    let mut at = 0;
+    while at < keys.len() {
+        match meaning_at(&keys, at)? {
+            (taken, Meaning::Filler | Meaning::Me | Meaning::And) => at += taken,
+            (taken, Meaning::Verb(verb)) => {
+                return Some((words[at].start..words[at + taken - 1].end, verb));
+            }
+            _ => return None,
+        }
+    }
+    None
+}
+
+/// The text with the verbs that begin its clauses blanked out, and a semicolon for each, every other word where it was:
+/// in "Open the lab door" the first word orders, in "Close the open door" the third describes.
+#[must_use]
+pub(in crate::language) fn without_verbs(text: &str) -> String {
+    let mut blanked = text.to_owned();
+    for Found { joined, .. } in found(text) {
+        let blank = format!(";{}", " ".repeat(joined.len().saturating_sub(1)));
+        blanked.replace_range(joined, &blank);
+    }
+    blanked
+}
+
+/// Whether a word means something in a command by itself.
+#[must_use]
+pub(in crate::language) fn is_known(keys: &[String], at: usize) -> bool {
+    meaning_at(keys, at).is_some()
+}
+
+/// How many words before one are a preposition of commands.
+#[must_use]
+pub(in crate::language) fn link_before(keys: &[String], at: usize) -> usize {
+    let is_link = |from: usize| matches!(meaning_at(keys, from), Some((taken, Meaning::Link(_))) if from + taken == at);
+    (1..=3.min(at)).rev().find(|n| is_link(at - n)).unwrap_or(0)
+}
+
+/// A mistyped verb at the beginning of a text: where it stands, and the verb that was meant, if it is plain.
+#[must_use]
+pub fn likely_verb(text: &str) -> Option<(Range<usize>, &'static str)> {
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words);
+    let mut at = 0;
+    while let Some((taken, Meaning::Filler | Meaning::Me)) =
+        (at < keys.len()).then(|| meaning_at(&keys, at)).flatten()
+    {
+        at += taken;
+    }
+    let key = keys.get(at)?;
+    let length = key.chars().count();
+    let allowed = if length >= 7 { 2 } else { 1 };
+    if length < 4 || meaning_at(&keys, at).is_some() {
+        return None;
+    }
+    let off = |verb: &&str| strsim::damerau_levenshtein(&name_key(verb), key);
+    let nearest = verbs().filter(|verb| !verb.contains(' ')).min_by_key(off)?;
+    (off(&nearest) <= allowed).then(|| (words[at].clone(), nearest))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn halves_of_a_verb_come_together() {
+        for (text, joined) in [
+            ("Turn the TV on", "Turn on the TV"),
+            ("turn the lamp on the desk off, please", "turn off the lamp on the desk, please"),
+            ("Switch all lights off and come back", "Switch off all lights and come back"),
+            ("put the book on the shelf", "put the book on the shelf"),
+            ("Put it down.", "Put down it."),
+            ("turn on the lamp", "turn on the lamp"),
+            ("Принеси книгу, которая лежит на столе", "Принеси книгу на столе"),
+            ("Подъедь к столу, потом к окну", "Подъедь к столу, потом Подъедь к окну"),
+            ("the door that leads to the hall", "the door to the hall"),
+        ] {
+            assert_eq!(gathered(text), joined);
+        }
+    }
+
+    #[test]
+    fn a_mistyped_verb_is_guessed_where_it_is_plain() {
+        assert_eq!(likely_verb("Паезжай на кухню").map(|(_, v)| v), Some("поезжай"));
+        assert_eq!(likely_verb("please brnig the cup").map(|(_, v)| v), Some("bring"));
+        assert_eq!(likely_verb("Где чашка?"), None);
+        assert_eq!(likely_verb("принеси чашку"), None);
+    }
+
+    #[test]
+    fn every_clause_begins_with_its_verb() {
+        let sorts = |text| clauses(text).into_iter().map(|(_, sort)| sort).collect::<Vec<_>>();
+        assert_eq!(sorts("Возьми книгу и открой дверь"), [Sort::Carry, Sort::Door]);
+        assert_eq!(
+            sorts("Could you please go there, then close the open door"),
+            [Sort::Go, Sort::Door]
+        );
+        assert_eq!(sorts("лекарство мне принеси"), [Sort::Carry]);
+    }
+}
