@@ -9,6 +9,7 @@ use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::language::names::english_name;
+use crate::language::words::english;
 use crate::map::Entity;
 use crate::strips::{Broken, Replayed, RuleFaults};
 use crate::units::capitalized;
@@ -97,7 +98,7 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> Str
     };
     let mut text = match lang {
         Lang::Ru => format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
-        Lang::En => format!("Plan: {} steps, {actions} actions; {proof}.", steps.len()),
+        Lang::En => format!("Plan: {}; {proof}.", english_size(steps.len(), actions)),
     };
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {
@@ -111,6 +112,12 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> Str
         text.push_str(&format!("\n{head}\n     {}", solved.assumptions.join("\n     ")));
     }
     text
+}
+
+/// "1 step, 2 actions"
+fn english_size(steps: usize, actions: usize) -> String {
+    let count = |number: usize, noun| english::count(number as u64, noun);
+    format!("{}, {}", count(steps, "step"), count(actions, "action"))
 }
 
 /// A plan carried out: every step that could be, and where it breaks.
@@ -129,7 +136,7 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
             format!("План верен: шагов {steps}, действий {actions}, стоимость {cost}.")
         }
         (None, Lang::En) => {
-            format!("The plan works: {steps} steps, {actions} actions, cost {cost}.")
+            format!("The plan works: {}, cost {cost}.", english_size(steps, actions))
         }
         (Some(Broken { step: Some(step), faults }), Lang::Ru) => {
             format!("План обрывается на шаге {step}:{}", reasons(faults))
