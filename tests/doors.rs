@@ -77,10 +77,10 @@ fn what_a_leaf_sweeps_is_where_it_is_at_some_opening() {
             let doorway = plan.doorways_of(door).next().expect("it joins the rooms");
             let model = &b.world.doors[&door];
             let at = |opening: f64| {
-                doorway.leaf_obstacles(model, DoorState { status: DoorStatus::Open, opening })
+                doorway.leaves(model).obstacles(DoorState { status: DoorStatus::Open, opening })
             };
             for (from, to) in [(0.0, 100.0), (30.0, 70.0), (55.0, 10.0)] {
-                let swept = doorway.swept_between(model, (from, to));
+                let swept = doorway.leaves(model).swept((from, to));
                 let steps: Vec<Vec<Polygon>> =
                     (0..=240).map(|k| at(from + (to - from) * f64::from(k) / 240.0)).collect();
                 let is_swept = |q: Point| swept.iter().any(|s| s.contains(q, 0.05));
@@ -155,9 +155,10 @@ fn a_hinged_leaf_keeps_its_size_and_stays_within_its_sweep() {
     let (doorway, model) = (plan.doorways_of(door).next().unwrap(), &b.world.doors[&door]);
     for opening in [10.0, 45.0, 80.0, 100.0] {
         for (leaf, sweep) in doorway
-            .leaves(model, DoorState { status: DoorStatus::Open, opening })
+            .leaves(model)
+            .at(DoorState { status: DoorStatus::Open, opening })
             .iter()
-            .zip(doorway.swept(model))
+            .zip(doorway.leaves(model).swept((0.0, 100.0)))
         {
             assert!((leaf.signed_area() - 90.0 * 4.0).abs() < 1e-6);
             let tip = leaf.corners.iter().filter(|&&c| sweep.contains(c, 1e-6)).count();
@@ -193,4 +194,84 @@ fn the_wardrobes_open_door_stands_in_the_way() {
     let plan = build(&b);
     let leaf = plan.fragment(hall).unwrap().obstacle_at(p(152., 200.)).map(|o| o.blocker);
     assert_eq!(leaf, Some(Blocker::ReplicaLeaf { replica: wardrobe, door, leaf: 0 }));
+}
+
+/// What a leaf strikes is found by trying every leaf pose between: it stops at the first that meets a thing.
+#[test]
+fn a_leaf_stops_where_the_first_of_many_poses_meets_a_thing() {
+    let mut struck = 0;
+    for leaves in DOORS {
+        let (b, door) = of_kind(leaves, 14.0, 100.0);
+        let plan = build(&b);
+        let doorway = plan.doorways_of(door).next().expect("it joins the rooms");
+        let hung = doorway.leaves(&b.world.doors[&door]);
+        let (t0, t1) = doorway.span();
+        for k in 0..60 {
+            let (i, j) = (f64::from(k % 12), f64::from(k / 12));
+            // From the depth of the wall well into the room towards which it opens.
+            let s = [-110.0 + 25.0 * j, doorway.gap + 110.0 - 25.0 * j][doorway.opens_to];
+            let at = doorway.at(t0 - 10.0 + (t1 - t0 + 20.0) * i / 11.0, s);
+            let thing = Polygon::new(
+                [(-3.0, -2.0), (3.0, -2.0), (0.0, 4.0)].map(|(x, y)| at + Vector::new(x, y)).into(),
+            );
+            let strike = hung.strikes((0.0, 100.0), [((), &thing)]);
+            let meets = |opening: f64| {
+                let poses = hung.obstacles(DoorState { status: DoorStatus::Open, opening });
+                let near = |p: &Polygon, q: &Polygon| p.corners.iter().any(|&c| q.contains(c, 0.0));
+                let crosses = |p: &Polygon| {
+                    let steps = (0..=40).map(|n| f64::from(n) / 40.0);
+                    p.edges()
+                        .any(|(u, v)| steps.clone().any(|t| thing.contains(u + (v - u) * t, 0.0)))
+                };
+                poses.iter().any(|p| near(&thing, p) || crosses(p))
+            };
+            let first = (1..=400).map(|k| f64::from(k) / 4.0).find(|&o| meets(o));
+            match (strike, first) {
+                (Some(strike), Some(first)) => {
+                    struck += 1;
+                    assert!(
+                        (strike.opening - first).abs() < 1.5,
+                        "{leaves:?} {k}: {strike:?} {first}"
+                    );
+                }
+                (None, None) => {}
+                // Only a thing that is grazed may be told either way.
+                (strike, first) => {
+                    let swept = hung.swept((0.0, 100.0));
+                    let off = swept.iter().map(|s| s.border_distance(at)).fold(9.0, f64::min);
+                    assert!(off < 6.0, "{leaves:?} {k}: {strike:?} {first:?}");
+                }
+            }
+        }
+    }
+    assert!(struck > 80, "{struck}");
+}
+
+#[test]
+fn a_door_does_not_open_through_a_thing_and_the_thing_is_named() {
+    for (kind, height, stops) in [
+        (DoorKind::Hinged, 80.0, true),
+        (DoorKind::Hinged, 1.0, false),
+        (DoorKind::Sliding, 80.0, false),
+    ] {
+        let (mut b, one, two, door) = two_rooms(10.0, kind, DoorState::CLOSED);
+        let doorway = build(&b).doorways_of(door).next().expect("it joins the rooms").clone();
+        let into = [one, two][doorway.opens_to];
+        let at = doorway.before(doorway.opens_to, 40.0);
+        let frame = build(&b).scene().areas[&into].frame;
+        let local = frame.invert(at);
+        let chair = b.put(into, local.x - 10.0, local.y - 10.0, 20.0, 20.0, 0.0, height);
+        let stand = Pose { at: doorway.before(1 - doorway.opens_to, 80.0), heading: Deg::ZERO };
+        let mut robot = orthoframe::robot::Simulator::new(b.world.clone(), MapId(1), stand);
+        use orthoframe::robot::{Drive, Obstruction, Refusal};
+        let opened = robot.set_door(door, DoorState::OPEN);
+        if stops {
+            let by = Some(Obstruction::Replica(chair));
+            let is_jam = matches!(opened, Err(Refusal::DoorJammed { by: b, opening: 1..=60, .. }) if b == by);
+            assert!(is_jam, "{opened:?}");
+            assert_eq!(robot.truth().doors[&door].state, DoorState::CLOSED);
+        } else {
+            assert_eq!(opened, Ok(()));
+        }
+    }
 }

@@ -60,7 +60,7 @@ pub(crate) fn check_route(plan: &FloorPlan, world: &World, route: &Route) {
             }
             for doorway in plan.doorways() {
                 if let Some(door) = doorway.door.map(|d| &world.doors[&d]) {
-                    for leaf in doorway.leaves(door, plan.door_state(world, door.id)) {
+                    for leaf in doorway.leaves(door).at(plan.door_state(world, door.id)) {
                         if door.kind == DoorKind::Hinged {
                             assert!(leaf.border_distance(q) > radius - 0.006, "leaf at {q:?}");
                         }
@@ -258,7 +258,7 @@ fn one_stands_before_a_door_clear_of_its_leaf() {
         let pose = plan.stand_before(&b.world, door, area).unwrap();
         assert!((pose.heading - Deg::of(ahead)).signed().abs() < 40.0, "{pose:?}");
         let doorway = plan.doorways_of(door).next().unwrap();
-        for swept in doorway.swept(&b.world.doors[&door]) {
+        for swept in doorway.leaves(&b.world.doors[&door]).swept((0.0, 100.0)) {
             assert!(!swept.contains(pose.at, 0.0) && swept.border_distance(pose.at) > 24.99);
         }
         assert!(plan.fragment(area).unwrap().fits(pose.at));

@@ -130,7 +130,7 @@ fn edges(world: &World, map: MapId) -> Vec<(Point, Point)> {
     }
     for doorway in doorways(world, &scene, map) {
         let Some(door) = doorway.door.map(|id| &world.doors[&id]) else { continue };
-        for leaf in doorway.leaf_obstacles(door, door.state) {
+        for leaf in doorway.leaves(door).obstacles(door.state) {
             edges.extend(leaf.edges().collect::<Vec<_>>());
         }
     }

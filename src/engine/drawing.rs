@@ -146,8 +146,12 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
         let Some(door) = doorway.door.and_then(|id| world.doors.get(&id)) else {
             return Vec::new();
         };
-        let leaves = doorway.leaves(door, door.state);
-        let swept = if door.kind == DoorKind::Hinged { doorway.swept(door) } else { Vec::new() };
+        let leaves = doorway.leaves(door).at(door.state);
+        let swept = if door.kind == DoorKind::Hinged {
+            doorway.leaves(door).swept((0.0, 100.0))
+        } else {
+            Vec::new()
+        };
         let mut swept = swept.into_iter();
         let status = door.state.status;
         leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next(), status }).collect()
@@ -168,7 +172,7 @@ fn leaf_bodies(world: &World, floor: &FloorPlan) -> Vec<LeafBody> {
         let bottom = room.map_or(0.0, |p| p.bottom);
         let top = bottom + if door.height.get() > 0.0 { door.height.get() } else { USUAL };
         let body = |base| LeafBody { base, bottom, top, status: door.state.status };
-        doorway.leaves(door, door.state).into_iter().map(body).collect()
+        doorway.leaves(door).at(door.state).into_iter().map(body).collect()
     };
     floor.doorways().iter().chain(&outer_doors(world, floor, None)).flat_map(bodies).collect()
 }

@@ -42,11 +42,21 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         },
         Surprise::Refused { refusal, .. } => match *refusal {
             Refusal::Locked(door) => told("{} заперта", "{} is locked", Obstruction::Door(door)),
-            Refusal::DoorJammed(door) => told(
-                "{} не открывается: створке мешает робот",
-                "{} does not open: the robot is in the way of its leaf",
-                Obstruction::Door(door),
-            ),
+            Refusal::DoorJammed { door, by, opening } => {
+                let how = match opening {
+                    0 => language.pick("не открывается", "does not open").to_owned(),
+                    _ => language.pick(
+                        format!("не движется дальше {opening} %"),
+                        format!("does not move past {opening}%"),
+                    ),
+                };
+                let by = by.map_or_else(|| language.pick("робот", "the robot").to_owned(), thing);
+                let door = thing(Obstruction::Door(door));
+                language.pick(
+                    format!("{door} {how}: створке мешает {by}"),
+                    format!("{door} {how}: {by} is in the way of its leaf"),
+                )
+            }
             Refusal::OutOfReach(id) => {
                 told("до «{}» не дотянуться", "{} is out of reach", Obstruction::Replica(id))
             }

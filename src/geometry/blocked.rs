@@ -12,7 +12,8 @@ use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
 use super::dead_zone::Surroundings;
-use super::doors::{Doorway, opening_of};
+use super::doors::Doorway;
+use super::leaf::opening_of;
 use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;

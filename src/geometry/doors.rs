@@ -13,19 +13,15 @@
 //!              first Area
 //! ```
 //!
-//! A hinged leaf turns about the corner of its jamb on the face towards which it opens; closed, it lies within
-//! the wall. A sliding leaf runs along the doorway's line into its pocket.
+//! How the leaves of its door stand in it is told by [`super::leaf`].
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
-use crate::map::{
-    Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo, Permeability,
-    SideRef, World,
-};
+use crate::map::{Door, DoorMount, DoorState, OpensTo, Permeability, SideRef, World};
 use crate::units::{AreaId, DoorId, MapId, Point, Vector};
 
 use super::buckets::Buckets;
+use super::leaf::{Bay, Leaves};
 use super::scene::{PlacedArea, Scene};
 use super::{Bounds, Polygon, nearest_on_segment};
 
@@ -131,242 +127,17 @@ impl Doorway {
             .counter_clockwise()
     }
 
-    /// What the leaves occupy.
+    /// A door's leaves as they hang in this doorway.
     #[must_use]
-    pub fn leaves(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
-        let bay = self.bay();
-        leaves(door)
-            .map(|(leaf, share)| bay.leaf(door, leaf, share, self.opens_to, state))
-            .collect()
-    }
-
-    /// What the leaves occupy outside of their pockets in the wall: the obstacles that they are.
-    #[must_use]
-    pub fn leaf_obstacles(&self, door: &Door, state: DoorState) -> Vec<Polygon> {
-        self.bay().obstacles(door, self.opens_to, state)
-    }
-
-    /// All that a leaf passes over between closed and fully open.
-    #[must_use]
-    pub fn swept(&self, door: &Door) -> Vec<Polygon> {
-        self.swept_between(door, (0.0, 100.0))
-    }
-
-    /// All that a leaf passes over, outside of its pocket, between two openings in per cent.
-    #[must_use]
-    pub fn swept_between(&self, door: &Door, openings: (f64, f64)) -> Vec<Polygon> {
-        let bay = self.bay();
-        leaves(door)
-            .filter_map(|(leaf, share)| bay.swept(door, leaf, share, self.opens_to, openings))
-            .collect()
+    pub fn leaves<'d>(&self, door: &'d Door) -> Leaves<'d> {
+        let bay = Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap };
+        Leaves { door, bay, opens_to: self.opens_to }
     }
 
     /// The widest gap that the leaves leave between each other and the jambs, in cm; the width for a passage.
     #[must_use]
     pub fn clear_width(&self, door: Option<&Door>, state: DoorState) -> f64 {
-        door.map_or(self.width(), |door| clear_width(door, state, self.width(), self.gap))
-    }
-
-    fn bay(&self) -> Bay {
-        Bay { origin: self.origin, along: self.along, span: self.span, gap: self.gap }
-    }
-}
-
-/// The widest gap that a door's leaves leave between each other and the jambs of an opening `width` wide in a wall
-/// `gap` thick, in cm: what a disc of that diameter passes.
-#[must_use]
-pub fn clear_width(door: &Door, state: DoorState, width: f64, gap: f64) -> f64 {
-    if door.kind == DoorKind::Passage {
-        return width;
-    }
-    if opening_of(state) <= 0.0 {
-        return 0.0;
-    }
-    let bay = Bay { origin: Point::origin(), along: Vector::x(), span: (0.0, width), gap };
-    let jamb = |t: f64| Polygon::new(vec![bay.at(t, 0.0), bay.at(t, gap)]);
-    let solids: Vec<Polygon> = std::iter::once(jamb(0.0))
-        .chain(bay.obstacles(door, 0, state))
-        .chain([jamb(width)])
-        .collect();
-    let gaps = solids.windows(2).map(|pair| distance(&pair[0], &pair[1]));
-    gaps.fold(0.0, f64::max).min(width)
-}
-
-/// How far leaves stand open, in per cent.
-#[must_use]
-pub fn opening_of(state: DoorState) -> f64 {
-    if state.status == DoorStatus::Open { state.opening } else { 0.0 }
-}
-
-/// Leaves of a door fixed to a side of an Object's placed Orthoframe: a wardrobe's. They open outwards or inwards
-/// of the Object; `a` to `b` is the side, counter-clockwise round the Object.
-#[must_use]
-pub fn object_leaves(
-    door: &Door,
-    mount: &DoorMount,
-    a: Point,
-    b: Point,
-    state: DoorState,
-) -> Vec<Polygon> {
-    let Some(along) = (b - a).try_normalize(0.0) else { return Vec::new() };
-    let bay = Bay { origin: a, along, span: (0.0, (b - a).norm()), gap: 0.0 };
-    let opens_to = usize::from(mount.opens == OpensTo::Outside);
-    leaves(door).map(|(leaf, share)| bay.leaf(door, leaf, share, opens_to, state)).collect()
-}
-
-/// Every leaf with the stretch of the width that it closes, as shares from the right.
-fn leaves(door: &Door) -> impl Iterator<Item = (&DoorLeaf, (f64, f64))> {
-    door.leaves.iter().scan(0.0, |from, leaf| {
-        let share = (*from, *from + leaf.share);
-        *from = share.1;
-        Some((leaf, share))
-    })
-}
-
-/// The hole in the wall that leaves close.
-struct Bay {
-    origin: Point,
-    along: Vector,
-    span: (f64, f64),
-    gap: f64,
-}
-
-impl Bay {
-    fn at(&self, t: f64, s: f64) -> Point {
-        self.origin + self.along * t + Vector::new(self.along.y, -self.along.x) * s
-    }
-
-    fn stretch(&self, share: (f64, f64)) -> (f64, f64) {
-        let width = self.span.1 - self.span.0;
-        (self.span.0 + width * share.0, self.span.0 + width * share.1)
-    }
-
-    fn leaf(
-        &self,
-        door: &Door,
-        leaf: &DoorLeaf,
-        share: (f64, f64),
-        opens_to: usize,
-        state: DoorState,
-    ) -> Polygon {
-        let opening = opening_of(state) / 100.0;
-        match door.kind {
-            DoorKind::Hinged => {
-                let swing = self.swing(leaf, share, opens_to);
-                swing.leaf_at((leaf.max_open * opening).to_radians(), leaf.thickness.get())
-            }
-            DoorKind::Sliding | DoorKind::Passage => {
-                self.slid(leaf, share, leaf.max_open / 100.0 * opening)
-            }
-        }
-        .counter_clockwise()
-    }
-
-    fn swing(&self, leaf: &DoorLeaf, share: (f64, f64), opens_to: usize) -> Swing {
-        let (right, left) = self.stretch(share);
-        let out = Vector::new(self.along.y, -self.along.x);
-        let (face, opens) = if opens_to == 0 { (0.0, -out) } else { (self.gap, out) };
-        let (t, closed) = match leaf.hinge {
-            HingeSide::Right => (right, self.along),
-            HingeSide::Left => (left, -self.along),
-        };
-        Swing { hinge: self.at(t, face), closed, opens, length: left - right }
-    }
-
-    /// A sliding leaf, `shift` of its length withdrawn.
-    fn slid(&self, leaf: &DoorLeaf, share: (f64, f64), shift: f64) -> Polygon {
-        let (right, left) = self.stretch(share);
-        let way = (left - right) * shift * if leaf.hinge == HingeSide::Right { -1.0 } else { 1.0 };
-        let (t0, t1) = (right + way, left + way);
-        let (s0, s1) = (
-            self.gap / 2.0 - leaf.thickness.get() / 2.0,
-            self.gap / 2.0 + leaf.thickness.get() / 2.0,
-        );
-        Polygon::new(vec![self.at(t0, s0), self.at(t0, s1), self.at(t1, s1), self.at(t1, s0)])
-    }
-
-    /// The leaves outside of their pockets.
-    fn obstacles(&self, door: &Door, opens_to: usize, state: DoorState) -> Vec<Polygon> {
-        let placed =
-            leaves(door).map(|(leaf, share)| self.leaf(door, leaf, share, opens_to, state));
-        match door.kind {
-            DoorKind::Hinged | DoorKind::Passage => placed.collect(),
-            DoorKind::Sliding => placed.filter_map(|leaf| self.between_jambs(&leaf)).collect(),
-        }
-    }
-
-    fn between_jambs(&self, leaf: &Polygon) -> Option<Polygon> {
-        let out = Vector::new(self.along.y, -self.along.x);
-        let corners = leaf.corners.iter().map(|&p| {
-            let v = p - self.origin;
-            self.at(v.dot(&self.along).clamp(self.span.0, self.span.1), v.dot(&out))
-        });
-        let cut = Polygon::new(corners.collect());
-        (cut.signed_area().abs() > 1e-6).then_some(cut)
-    }
-
-    /// A leaf's way between two openings in per cent: a sector of a circle, or the stretch that it slides over.
-    fn swept(
-        &self,
-        door: &Door,
-        leaf: &DoorLeaf,
-        share: (f64, f64),
-        opens_to: usize,
-        (from, to): (f64, f64),
-    ) -> Option<Polygon> {
-        let (least, most) = (from.min(to) / 100.0, from.max(to) / 100.0);
-        match door.kind {
-            DoorKind::Hinged => {
-                let angle = |opening: f64| (leaf.max_open * opening).to_radians();
-                let swing = self.swing(leaf, share, opens_to);
-                Some(swing.sector(angle(least), angle(most), leaf.thickness.get()))
-            }
-            DoorKind::Sliding | DoorKind::Passage => {
-                let at = |opening: f64| self.slid(leaf, share, leaf.max_open / 100.0 * opening);
-                let ends = [at(least), at(most)];
-                // Both are the same rectangle, moved along the doorway: corners 0 and 1 lie to the right.
-                let [right, left] = if leaf.hinge == HingeSide::Right { [1, 0] } else { [0, 1] };
-                let (right, left) = (&ends[right].corners, &ends[left].corners);
-                self.between_jambs(&Polygon::new(vec![right[0], right[1], left[2], left[3]]))
-            }
-        }
-        .map(Polygon::counter_clockwise)
-    }
-}
-
-/// A leaf on its hinge.
-struct Swing {
-    hinge: Point,
-    /// From the hinge along the closed leaf.
-    closed: Vector,
-    opens: Vector,
-    length: f64,
-}
-
-impl Swing {
-    fn leaf_at(&self, angle: f64, thickness: f64) -> Polygon {
-        let (sin, cos) = angle.sin_cos();
-        let along = self.closed * cos + self.opens * sin;
-        // The leaf's body lies behind the face that shuts flush with the wall.
-        let back = (self.closed * sin - self.opens * cos) * thickness;
-        let tip = self.hinge + along * self.length;
-        Polygon::new(vec![self.hinge, tip, tip + back, self.hinge + back])
-    }
-
-    /// The leaf's way between two angles, its arc by tangents from outside.
-    fn sector(&self, from: f64, to: f64, thickness: f64) -> Polygon {
-        let reach = self.length.hypot(thickness);
-        // The back of the leaf trails behind its face; in a shut one it lies in the wall.
-        let from = (from - (thickness / self.length.max(1e-9)).atan()).max(0.0);
-        let steps = ((to - from) / (PI / 12.0)).ceil().max(1.0);
-        let half = (to - from) / steps / 2.0;
-        let ray = |a: f64, r: f64| self.hinge + (self.closed * a.cos() + self.opens * a.sin()) * r;
-        let mut corners = vec![self.hinge, ray(from, reach)];
-        corners.extend(
-            (0..steps as usize).map(|k| ray(from + half * (2 * k + 1) as f64, reach / half.cos())),
-        );
-        corners.push(ray(to, reach));
-        Polygon::new(corners)
+        door.map_or(self.width(), |door| self.leaves(door).clear_width(state))
     }
 }
 

@@ -6,8 +6,9 @@
 use crate::map::{DoorStatus, Permeability, RobotProfile};
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
-use super::doors::{Doorway, object_leaves};
+use super::doors::Doorway;
 use super::floor::Site;
+use super::leaf::Leaves;
 use super::scene::{PlacedArea, PlacedReplica, Prism};
 use super::storey::{Side, Storey, THIN, sides, strip};
 use super::{Bounds, Polygon};
@@ -121,7 +122,8 @@ fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obsta
         if top <= site.robot.step.get() || bottom >= site.robot.height.get() {
             continue;
         }
-        for (leaf, polygon) in object_leaves(door, mount, a, b, state).into_iter().enumerate() {
+        let leaves = Leaves::of_object(door, mount, a, b).map(|leaves| leaves.at(state));
+        for (leaf, polygon) in leaves.into_iter().flatten().enumerate() {
             let blocker = Blocker::ReplicaLeaf { replica: replica.id, door: mount.door, leaf };
             found.push(Obstacle { blocker, polygon, bottom, top });
         }
@@ -155,7 +157,7 @@ pub(super) fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
     let mut found = Vec::new();
     for doorway in near {
         let Some(door) = doorway.door.and_then(|d| site.world.doors.get(&d)) else { continue };
-        let leaves = doorway.leaf_obstacles(door, site.state(door.id));
+        let leaves = doorway.leaves(door).obstacles(site.state(door.id));
         found.extend(leaves.into_iter().enumerate().map(|(leaf, polygon)| Obstacle {
             blocker: Blocker::DoorLeaf { door: door.id, leaf },
             polygon,

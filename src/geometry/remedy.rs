@@ -11,7 +11,7 @@ use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::blocked::{Barrier, NoRoute};
-use super::doors::opening_of;
+use super::leaf::opening_of;
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Target};

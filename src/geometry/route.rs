@@ -330,7 +330,9 @@ impl FloorPlan {
         let door = doorway.door.and_then(|d| world.doors.get(&d));
         let swings_here =
             door.is_some_and(|d| d.kind == DoorKind::Hinged) && doorway.opens_to == side;
-        let swept = door.filter(|_| swings_here).map_or_else(Vec::new, |d| doorway.swept(d));
+        let swept = door
+            .filter(|_| swings_here)
+            .map_or_else(Vec::new, |d| doorway.leaves(d).swept((0.0, 100.0)));
         let is_clear = |p: Point| {
             swept.iter().all(|s| !s.contains(p, 0.0) && s.border_distance(p) >= reach - 1e-6)
         };

@@ -73,7 +73,7 @@ impl FloorPlan {
                 continue;
             }
             for (leaf, polygon) in
-                doorway.leaf_obstacles(door, self.door_state(world, door.id)).iter().enumerate()
+                doorway.leaves(door).obstacles(self.door_state(world, door.id)).iter().enumerate()
             {
                 let blocker = Blocker::DoorLeaf { door: door.id, leaf };
                 found.extend(polygon.edges().map(|e| (SeenFace { blocker, side: None }, e)));

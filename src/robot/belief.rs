@@ -210,6 +210,14 @@ impl Belief {
         self.sought.entry(thing.to_owned()).or_default().insert(area)
     }
 
+    /// Notes that from within this Area no way leads to a place or through a door; whether it was news.
+    pub(super) fn no_way_to(&mut self, name: String) -> bool {
+        let refuted = (self.area, name);
+        let news = !self.unreachable.contains(&refuted);
+        self.unreachable.push(refuted);
+        news
+    }
+
     pub(super) fn switch(&mut self, device: ReplicaId, on: bool) {
         if let Some(replica) = self.world.replicas.get_mut(&device) {
             switch(&mut replica.properties, on);

@@ -24,8 +24,9 @@ pub struct Bump {
 pub enum Refusal {
     /// The door is locked.
     Locked(DoorId),
-    /// A leaf would strike something.
-    DoorJammed(DoorId),
+    /// A leaf strikes something on its way; none is the vehicle itself. `opening` is how far the door stands open then,
+    /// in per cent.
+    DoorJammed { door: DoorId, by: Option<Obstruction>, opening: u8 },
     /// Farther than the arm reaches.
     OutOfReach(ReplicaId),
     /// The thing is not where it was expected.
@@ -43,7 +44,10 @@ impl Refusal {
     #[must_use]
     pub fn about(self) -> Option<Obstruction> {
         match self {
-            Self::Locked(door) | Self::DoorJammed(door) => Some(Obstruction::Door(door)),
+            Self::DoorJammed { by: Some(thing), .. } => Some(thing),
+            Self::Locked(door) | Self::DoorJammed { door, by: None, .. } => {
+                Some(Obstruction::Door(door))
+            }
             Self::OutOfReach(thing) | Self::NotThere(thing) => Some(Obstruction::Replica(thing)),
             Self::HandFull(_) | Self::NotHeld(_) | Self::NoRoom(_) => None,
         }

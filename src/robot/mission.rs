@@ -468,18 +468,20 @@ impl<'r> Mission<'r> {
     /// Changes the belief; false when the surprise says nothing that was not believed already.
     fn learn(&mut self, surprise: &Surprise) -> bool {
         match surprise {
+            // Where the thing stands may be known; that the door does not open for it was not.
+            Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {
+                self.name_this_point();
+                let name = self.belief.world.name(Entity::Door(*door)).to_owned();
+                let moved = seen.is_some_and(|seen| self.belief.learn(seen));
+                self.belief.no_way_to(name) || moved
+            }
             Surprise::Blocked { seen: Some(seen), .. }
             | Surprise::Refused { seen: Some(seen), .. } => {
                 // The robot stopped somewhere on its way; from here on that is its place.
                 self.name_this_point();
                 self.belief.learn(*seen)
             }
-            Surprise::NoWay { to, .. } => {
-                let refuted = (self.belief.area, to.clone());
-                let news = !self.belief.unreachable.contains(&refuted);
-                self.belief.unreachable.push(refuted);
-                news
-            }
+            Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
             Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
             _ => false,
         }

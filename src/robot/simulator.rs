@@ -11,7 +11,7 @@ use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
 use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of};
-use crate::map::{DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
+use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
@@ -133,7 +133,55 @@ impl Simulator {
     }
 
     fn leaves(&self, doorway: &Doorway, door: DoorId, state: DoorState) -> Vec<Polygon> {
-        doorway.leaf_obstacles(&self.truth.doors[&door], state)
+        doorway.leaves(&self.truth.doors[&door]).obstacles(state)
+    }
+
+    /// What stops the leaves of a door on their way to another state.
+    fn jam(&self, door: DoorId, model: &Door, state: DoorState) -> Option<Refusal> {
+        let openings = (opening_of(model.state), opening_of(state));
+        let (at, radius) = (self.pose.at, self.profile.radius.get() - SKIN);
+        let scene = Scene::of(&self.truth, self.map);
+        self.doorways.iter().filter(|d| d.door == Some(door)).find_map(|doorway| {
+            let leaves = doorway.leaves(model);
+            let mut ways = leaves.swept(openings).into_iter().chain(leaves.obstacles(state));
+            if ways.any(|way| way.contains(at, radius)) {
+                let opening = openings.0 as u8;
+                return Some(Refusal::DoorJammed { door, by: None, opening });
+            }
+            let solids = self.solids_before(doorway, model, &scene);
+            let strike = leaves.strikes(openings, solids.iter().map(|(of, body)| (*of, body)))?;
+            let (by, opening) = (Some(strike.against), strike.opening as u8);
+            Some(Refusal::DoorJammed { door, by, opening })
+        })
+    }
+
+    /// What stands about a doorway at the height of its leaves: things, and leaves of other doors.
+    fn solids_before(
+        &self,
+        doorway: &Doorway,
+        model: &Door,
+        scene: &Scene,
+    ) -> Vec<(Obstruction, Polygon)> {
+        let room = scene.areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
+        let floor = room.map_or(0.0, |prism| prism.bottom);
+        let height = if model.height.get() > 0.0 { model.height.get() } else { f64::INFINITY };
+        let near = Bounds::of([doorway.middle()]).grown(2.0 * doorway.width() + doorway.gap);
+        let things = scene.replicas.values().flat_map(|r| {
+            let in_the_way = |p: &&Prism| {
+                p.bounds.meets(&near) && p.top > floor + UNDER_LEAF && p.bottom < floor + height
+            };
+            let of = Obstruction::Replica(r.id);
+            r.prisms.iter().filter(in_the_way).map(move |p| (of, p.polygon.clone()))
+        });
+        let others = self.doorways.iter().filter(|d| d.door != doorway.door);
+        let leaves = others.flat_map(|d| {
+            let door = d.door.filter(|id| self.truth.doors.contains_key(id));
+            let leaves = door.map(|id| (id, self.leaves(d, id, self.truth.doors[&id].state)));
+            leaves.into_iter().flat_map(|(id, all)| {
+                all.into_iter().map(move |leaf| (Obstruction::Door(id), leaf))
+            })
+        });
+        things.chain(leaves.filter(|(_, leaf)| leaf.bounds().meets(&near))).collect()
     }
 
     fn is_in_the_way(&self, prism: &Prism) -> bool {
@@ -289,27 +337,16 @@ impl Drive for Simulator {
         Ok(())
     }
 
-    /// The leaves stop against a robot that stands anywhere on their way.
+    /// The leaves stop against a robot or a thing that stands anywhere on their way.
     fn set_door(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal> {
         let Some(model) = self.truth.doors.get(&door) else {
-            return Err(Refusal::DoorJammed(door));
+            return Err(Refusal::DoorJammed { door, by: None, opening: 0 });
         };
         if model.state.status == DoorStatus::Locked && state.status == DoorStatus::Open {
             return Err(Refusal::Locked(door));
         }
-        let openings = (opening_of(model.state), opening_of(state));
-        let (at, radius) = (self.pose.at, self.profile.radius.get() - SKIN);
-        let jammed = self
-            .doorways
-            .iter()
-            .filter(|d| d.door == Some(door))
-            .flat_map(|d| {
-                let way = d.swept_between(model, openings);
-                way.into_iter().chain(d.leaf_obstacles(model, state))
-            })
-            .any(|way| way.contains(at, radius));
-        if jammed {
-            return Err(Refusal::DoorJammed(door));
+        if let Some(jam) = self.jam(door, model, state) {
+            return Err(jam);
         }
         self.truth.doors.get_mut(&door).expect("found above").state = state;
         self.rebuild();
@@ -408,6 +445,8 @@ impl Drive for Simulator {
     }
 }
 
+/// A leaf passes over what is no higher, such as a mat, cm.
+const UNDER_LEAF: f64 = 2.0;
 /// Seconds until a lift comes when it is called.
 const LIFT_WAIT: f64 = 20.0;
 /// Seconds that a lift takes to shut its doors, start and stop.
