@@ -135,6 +135,72 @@ fn told(scenario: Result<Scenario, RuleFaults>) -> String {
     }
 }
 
+/// The golden cases without a plan: with what is said to help there is one.
+#[test]
+fn what_is_said_to_help_helps() {
+    let folder = project("tests/golden/planning");
+    let cases = std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
+    let mut helped = 0;
+    for case in
+        cases.filter(|case| case.file_name().unwrap().to_string_lossy().contains("no_plan_"))
+    {
+        let file = case.join("scenario.strips");
+        let scenario = Scenario::read(&file).unwrap();
+        let task = scenario.ground().unwrap();
+        let Outcome::NoPlan { reason: NoPlanReason::Unreachable(goals), .. } =
+            solve(&task, &Limits::default())
+        else {
+            panic!("{}: there is a plan", case.display());
+        };
+        let goals = goals.iter().map(|&goal| task.fact(goal));
+        let obstacles = explain_unreachable(&scenario.domain, &scenario.problem, goals).unwrap();
+        let text = std::fs::read_to_string(&file)
+            .unwrap()
+            .replace("../../../../rules", &project("rules").display().to_string());
+        for help in obstacles.iter().flat_map(|obstacle| &obstacle.help) {
+            let text = with_help(&text, help);
+            let again = Scenario::parse(&Source::new("помощь", &text)).unwrap();
+            let outcome = solve(&again.ground().unwrap(), &Limits::default());
+            assert!(matches!(outcome, Outcome::Plan(_)), "{text}");
+            helped += 1;
+        }
+    }
+    assert!(helped >= 6);
+}
+
+/// The scenario with facts that are said to help; what is left open is one new object of each type, which, where it
+/// is to be carried, lies where the robot can reach it.
+fn with_help(scenario: &str, help: &[String]) -> String {
+    let mut facts = String::new();
+    let mut objects = String::new();
+    for fact in help {
+        let (predicate, args) = fact.split_once("_(").unwrap();
+        let args: Vec<String> = args
+            .trim_end_matches(')')
+            .split(", ")
+            .map(|arg| match arg.strip_suffix(" ?") {
+                Some("помещение") => "Комната-В".to_owned(),
+                Some(kind) => {
+                    objects += &format!("Новый-{kind} — {kind}\n");
+                    format!("Новый-{kind}")
+                }
+                None => arg.to_owned(),
+            })
+            .collect();
+        facts += &format!("{predicate}_({})\n", args.join(", "));
+    }
+    // A new door is one of the room that the robot is in, and a new thing stands beside it.
+    for (object, fact) in [
+        ("Новый-дверь", "ДВЕРЬ_НАХОДИТСЯ-В_(Новый-дверь, Комната-В)"),
+        ("Новый-объект", "ПОЗИЦИЯ_НАХОДИТСЯ-У_(Точка-С, Новый-объект)"),
+    ] {
+        if facts.contains(object) {
+            facts += &format!("{fact}\n");
+        }
+    }
+    format!("{scenario}\nОбъекты:\n{objects}\nПредположения:\n{facts}")
+}
+
 #[test]
 fn a_plan_text_breaks_where_it_is_wrong() {
     let scenario = Scenario::read(&project("rules/scenarios/medicine-walk.strips")).unwrap();

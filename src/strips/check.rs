@@ -405,6 +405,7 @@ impl Checker<'_> {
                 .or_else(|| Some("объявите его в разделе «Предикаты»".to_owned()));
             let error = |at| RuleError::UnknownPredicate { name: name.text.clone(), help, at };
             self.faults.push(name.fault(error));
+            let _ = self.terms(action, scope, atom);
             return None;
         };
         let signature = self.domain.predicates[predicate.index()].clone();
@@ -416,12 +417,12 @@ impl Checker<'_> {
                 help: self.signature(predicate),
                 at,
             }));
+            let _ = self.terms(action, scope, atom);
             return None;
         }
-        let mut args = Vec::new();
+        let args = self.terms(action, scope, atom)?;
         for (place, (term, wanted)) in atom.args.iter().zip(&signature.args).enumerate() {
-            let meaning = self.term(action, scope, term)?;
-            let have = match &meaning {
+            let have = match &args[place] {
                 SchemaTerm::Parameter(_) => scope[&term.name.key()].1.clone(),
                 SchemaTerm::Constant(name) => self.constant_kinds(name),
             };
@@ -441,9 +442,20 @@ impl Checker<'_> {
                     at,
                 }));
             }
-            args.push(meaning);
         }
         Some(SchemaAtom { predicate, args })
+    }
+
+    /// All terms, or the faults of each that means nothing.
+    fn terms(
+        &mut self,
+        action: &ActionText,
+        scope: &Scope,
+        atom: &Atom,
+    ) -> Option<Vec<SchemaTerm>> {
+        let terms: Vec<Option<SchemaTerm>> =
+            atom.args.iter().map(|term| self.term(action, scope, term)).collect();
+        terms.into_iter().collect()
     }
 
     fn term(&mut self, action: &ActionText, scope: &Scope, term: &Term) -> Option<SchemaTerm> {

@@ -1,18 +1,17 @@
 //! Why a goal is out of reach, and what would bring it nearer (SPEC P6).
 //!
-//! From the goal the rules are walked backward: an action that would give the fact, with all its preconditions
-//! reachable but one (two, where one is not enough), shifts the question to the precondition that is missing. The
-//! cheapest such chain that ends in something no action gives is the explanation. Objects are preferred that
-//! the facts already bring together: a door that stands between these two rooms, locked, rather than any door.
+//! What is lacking is found by [`super::lack`]; here it is told: from the goal backward, action by action, to what
+//! nobody stated and no action brings about; what else would do as well; and which other ways turn in a circle.
 
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap, HashSet};
+use std::collections::{BTreeSet, HashSet};
 use std::fmt;
 
-use super::domain::{Domain, PredicateId, SchemaAtom, SchemaTerm};
+use super::attain::Attainable;
+use super::domain::Domain;
 use super::error::RuleFaults;
-use super::ground::{Binding, Reachability};
-use super::problem::{GroundAtom, Problem, Resolved, ThingId};
+use super::ground::Reachability;
+use super::lack::{By, Lacks, Wanted, fits};
+use super::problem::{Problem, ThingId};
 use super::task::Fact;
 use crate::units::{Language, name_key};
 
@@ -20,8 +19,15 @@ use crate::units::{Language, name_key};
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Obstacle {
     pub goal: String,
-    /// From the goal backward; what the last one names is given by no action. Each would help.
+    /// From the goal backward.
     pub missing: Vec<Missing>,
+    /// Other ways to what stands before the last, that need it themselves.
+    pub circles: Vec<Missing>,
+    /// Sets of facts of which each would do; the first is what the last of `missing` comes to. None where the
+    /// missing facts only need each other.
+    pub help: Vec<Vec<String>>,
+    /// Whether every single need of the goal could be met, if not together with the others.
+    pub is_met_singly: bool,
 }
 
 /// A fact that an action needs and that cannot be had.
@@ -37,33 +43,75 @@ pub struct Missing {
 }
 
 impl Obstacle {
-    /// The goal, and below it what is missing.
+    /// The goal, below it what is missing, and what would help.
     #[must_use]
     pub fn in_words(&self, language: Language) -> String {
         let goal = &self.goal;
         let mut text = language
             .pick(format!("цель {goal} недостижима"), format!("the goal {goal} is out of reach"));
-        if self.missing.is_empty() {
-            text += language
-                .pick(": ни одно действие не даёт этого факта", ": no action brings it about");
-        }
-        for Missing { fact, action, now, has_action } in &self.missing {
-            text += &language.pick(
-                format!("\n  для этого ({action}) нужно {fact}"),
-                format!("\n  for this ({action}) it takes {fact}"),
-            );
-            if !now.is_empty() {
-                text += language.pick("; сейчас ", "; now it is ");
-                text += &now.join(", ");
-            }
-            if !has_action {
-                text += language.pick(
-                    "; это не так, и ни одно действие этого не даёт",
-                    "; it is not so, and no action brings it about",
+        if self.is_met_singly {
+            return text
+                + language.pick(
+                    ": всё, что для неё нужно, достижимо порознь, но не вместе",
+                    ": all that it takes can be had one by one, but not together",
                 );
+        }
+        if self.missing.is_empty() {
+            return text
+                + language
+                    .pick(": ни одно действие не даёт этого факта", ": no action brings it about");
+        }
+        for (number, missing) in self.missing.iter().enumerate() {
+            text += &missing.in_words(language);
+            if number + 1 == self.missing.len() {
+                text += missing.end_in_words(language, self.help.is_empty());
             }
+        }
+        for Missing { fact, action, .. } in &self.circles {
+            text += &language.pick(
+                format!("\n  а {action} не поможет: {fact} само требует этого же"),
+                format!("\n  while {action} is no help: {fact} takes the same itself"),
+            );
+        }
+        if !self.help.is_empty() {
+            let and = language.pick(" и ", " and ");
+            let sets: Vec<String> = self.help.iter().map(|facts| facts.join(and)).collect();
+            text += language.pick("\nПомогло бы: ", "\nIt would help to have: ");
+            text += &sets.join(language.pick(", или ", ", or "));
         }
         text
+    }
+}
+
+impl Missing {
+    fn in_words(&self, language: Language) -> String {
+        let Self { fact, action, now, .. } = self;
+        let mut text = language.pick(
+            format!("\n  для этого ({action}) нужно {fact}"),
+            format!("\n  for this ({action}) it takes {fact}"),
+        );
+        if !now.is_empty() {
+            text += language.pick("; сейчас ", "; now it is ");
+            text += &now.join(", ");
+        }
+        text
+    }
+
+    fn end_in_words(&self, language: Language, is_circle: bool) -> &'static str {
+        match (is_circle, self.has_action) {
+            (true, _) => language.pick(
+                "; а для этого – то, что уже названо: круг замкнут",
+                "; and that takes what was named before: it turns in a circle",
+            ),
+            (false, true) => language.pick(
+                "; это не так, и взяться этому здесь неоткуда",
+                "; it is not so, and nothing here leads to it",
+            ),
+            (false, false) => language.pick(
+                "; это не так, и ни одно действие этого не даёт",
+                "; it is not so, and no action brings it about",
+            ),
+        }
     }
 }
 
@@ -85,236 +133,169 @@ pub fn explain_unreachable<'a>(
 ) -> Result<Vec<Obstacle>, RuleFaults> {
     let resolved = problem.resolve(domain)?;
     let reached = Reachability::run(domain, &resolved)?;
-    let explainer = Explainer { domain, resolved: &resolved, reached: &reached };
-    Ok(goals.into_iter().map(|goal| explainer.obstacle(goal)).collect())
-}
-
-/// An atom whose open places are any object.
-type OpenAtom = (PredicateId, Vec<Option<ThingId>>);
-
-struct Explainer<'a> {
-    domain: &'a Domain,
-    resolved: &'a Resolved,
-    reached: &'a Reachability<'a>,
-}
-
-/// A node of the search: an atom that is missing, and how it came to be asked for.
-struct Node {
-    atom: OpenAtom,
-    parent: Option<usize>,
-    schema: usize,
-}
-
-/// Nobody reads an explanation that took longer to find.
-const MOST_NODES: usize = 2_000;
-const MOST_BINDINGS: usize = 500;
-
-impl Explainer<'_> {
-    fn obstacle(&self, goal: &Fact) -> Obstacle {
-        let shown = goal.to_string();
-        let Some(atom) = self.atom(goal).filter(|_| !goal.negated) else {
-            return Obstacle { goal: shown, missing: Vec::new() };
+    let attainable = Attainable::of(domain, &resolved, &reached);
+    let obstacle = |goal: &Fact| {
+        let thing = |name| resolved.index.get(&name_key(name)).copied().map(Some);
+        let wanted = domain.predicate(&goal.predicate).and_then(|predicate| {
+            let args = goal.args.iter().map(|name| thing(name)).collect::<Option<_>>()?;
+            Some(Wanted { predicate, args, negated: goal.negated })
+        });
+        let none = Obstacle {
+            goal: goal.to_string(),
+            missing: Vec::new(),
+            circles: Vec::new(),
+            help: Vec::new(),
+            is_met_singly: false,
         };
-        Obstacle { goal: shown, missing: self.chain(&atom) }
-    }
-
-    fn atom(&self, fact: &Fact) -> Option<GroundAtom> {
-        let thing = |name| self.resolved.index.get(&name_key(name)).copied();
-        Some(GroundAtom {
-            predicate: self.domain.predicate(&fact.predicate)?,
-            args: fact.args.iter().map(|name| thing(name)).collect::<Option<_>>()?,
-        })
-    }
-
-    /// The cheapest chain of missing facts from the goal to one that no action gives.
-    fn chain(&self, goal: &GroundAtom) -> Vec<Missing> {
-        let start = (goal.predicate, goal.args.iter().copied().map(Some).collect());
-        let mut nodes = vec![Node { atom: start, parent: None, schema: 0 }];
-        let mut queue = BinaryHeap::from([Reverse((0, 0))]);
-        let mut seen: HashSet<OpenAtom> = HashSet::new();
-        let mut deepest = 0;
-        while let Some(Reverse((cost, number))) = queue.pop() {
-            if nodes.len() > MOST_NODES {
-                break;
-            }
-            if !seen.insert(nodes[number].atom.clone()) {
-                continue;
-            }
-            deepest = number;
-            let reasons = self.reasons(&nodes[number].atom);
-            if reasons.is_empty() && number != 0 {
-                return self.told(&nodes, number);
-            }
-            for ((schema, atom), price) in reasons {
-                queue.push(Reverse((cost + price, nodes.len())));
-                nodes.push(Node { atom, parent: Some(number), schema });
-            }
+        let Some(wanted) = wanted else { return none };
+        if attainable.can_be(&wanted) {
+            return Obstacle { is_met_singly: true, ..none };
         }
-        self.told(&nodes, deepest)
-    }
+        let lacks = Lacks::new(domain, &resolved, &reached, &attainable, wanted);
+        let chain = Chain::of(&lacks);
+        Obstacle {
+            missing: chain.links.iter().map(|&(way, fact)| told(&lacks, way, fact)).collect(),
+            circles: chain.circles(&lacks),
+            help: chain.help(&lacks),
+            ..none
+        }
+    };
+    Ok(goals.into_iter().map(obstacle).collect())
+}
 
-    /// Missing preconditions of actions that would give `atom`, with a price each.
-    fn reasons(&self, (predicate, args): &OpenAtom) -> BTreeMap<(usize, OpenAtom), u32> {
-        let mut reasons: BTreeMap<(usize, OpenAtom), u32> = BTreeMap::new();
-        for (number, schema) in self.domain.schemas.iter().enumerate() {
-            for effect in schema.add_effects.iter().filter(|effect| effect.predicate == *predicate)
-            {
-                let mut binding: Binding = vec![None; schema.parameters.len()];
-                if !self.bind(number, &mut binding, &effect.args, args) {
-                    continue;
-                }
-                let places: Vec<usize> = (0..schema.preconditions.len()).collect();
-                let single: Vec<Vec<usize>> = places.iter().map(|&at| vec![at]).collect();
-                let double =
-                    places.iter().flat_map(|&a| places[..a].iter().map(move |&b| vec![a, b]));
-                for omitted in [single, double.collect()] {
-                    let found = self.without(number, &binding, &omitted);
-                    let any = !found.is_empty();
-                    for (atoms, price) in found {
-                        for atom in atoms {
-                            let price = price + u32::from(!self.belong_together(&atom)) * 3;
-                            let known = reasons.entry((number, atom)).or_insert(price);
-                            *known = price.min(*known);
-                        }
-                    }
-                    if any {
-                        break;
+/// Alternatives beyond these are not read.
+const MOST_ALTERNATIVES: usize = 3;
+
+/// The way from the goal to what is lacking.
+struct Chain {
+    /// Ways, and what is followed of that which they miss.
+    links: Vec<(usize, usize)>,
+}
+
+impl Chain {
+    fn of(lacks: &Lacks<'_>) -> Self {
+        let (mut links, mut fact, mut seen) = (Vec::new(), 0, HashSet::new());
+        while seen.insert(fact) {
+            let way = match lacks.best(fact) {
+                Some(By::Statement) => break,
+                Some(By::Way(way)) => way,
+                // Nothing stated would help: any way shows the circle.
+                None => {
+                    match lacks.ways_to(fact).min_by_key(|&way| lacks.ways[way].missing.len()) {
+                        Some(way) => way,
+                        None => break,
                     }
                 }
-            }
+            };
+            fact = followed(lacks, &lacks.ways[way].missing);
+            links.push((way, fact));
         }
-        reasons
+        Self { links }
     }
 
-    fn bind(
-        &self,
-        schema: usize,
-        binding: &mut Binding,
-        terms: &[SchemaTerm],
-        args: &[Option<ThingId>],
-    ) -> bool {
-        terms.iter().zip(args).all(|(term, arg)| match (term, arg) {
-            (_, None) => true,
-            (SchemaTerm::Constant(name), Some(thing)) => {
-                self.resolved.index[&name_key(name)] == *thing
-            }
-            (SchemaTerm::Parameter(parameter), Some(thing)) => {
-                let parameter = *parameter as usize;
-                binding[parameter].is_none_or(|bound| bound == *thing) && {
-                    binding[parameter] = Some(*thing);
-                    self.reached.may_stand(schema, parameter, *thing)
-                }
-            }
-        })
-    }
-
-    /// Ways to satisfy all preconditions but the omitted ones, which are then what is missing.
-    fn without(
-        &self,
-        schema: usize,
-        head: &Binding,
-        omitted: &[Vec<usize>],
-    ) -> Vec<(Vec<OpenAtom>, u32)> {
-        let rule = &self.domain.schemas[schema];
-        let mut found = Vec::new();
-        for left_out in omitted {
-            let open: Vec<usize> =
-                (0..rule.preconditions.len()).filter(|at| !left_out.contains(at)).collect();
-            let mut bindings = Vec::new();
-            self.reached.bindings(schema, head.clone(), &open, MOST_BINDINGS, &mut bindings);
-            for binding in bindings {
-                let (mut missing, mut price) = (Vec::new(), 1 + 10 * (left_out.len() as u32 - 1));
-                for &at in left_out {
-                    let (atom, extra) = self.missing(&rule.preconditions[at], head, &binding);
-                    price += extra;
-                    missing.push(atom);
-                }
-                if missing.iter().all(|atom| !self.holds_somewhere(atom)) {
-                    found.push((missing, price));
-                }
-            }
-        }
-        found
-    }
-
-    /// An omitted precondition as what is missing, and what it costs to believe so.
-    ///
-    /// A predicate that no action changes is the world's make. If it holds of no object at all in the places
-    /// that the action leaves open, that is a true lack ("no key fits this door"); if it holds of another
-    /// object there, it was only the wrong choice of object.
-    fn missing(&self, atom: &SchemaAtom, head: &Binding, binding: &Binding) -> (OpenAtom, u32) {
-        const WRONG_CHOICE: u32 = 50;
-        let under = |binding: &Binding| -> OpenAtom {
-            let value = |term| self.reached.value(binding, term);
-            (atom.predicate, atom.args.iter().map(value).collect())
+    /// Each set of statements that would do, the cheapest first.
+    fn help(&self, lacks: &Lacks<'_>) -> Vec<Vec<String>> {
+        let shown = |facts: BTreeSet<usize>| -> Vec<String> {
+            facts.into_iter().map(|fact| lacks.shown(&lacks.facts[fact])).collect()
         };
-        if self.domain.is_changed_by_actions(atom.predicate) {
-            return (under(binding), 0);
+        let first: Vec<String> = shown(lacks.stated(0).collect());
+        let Some((last, _)) = self.links.last().filter(|_| !first.is_empty()) else {
+            return Vec::new();
+        };
+        let mut help = vec![first];
+        let is_stated = |way: usize| match lacks.ways[way].missing[..] {
+            [fact] => lacks.best(fact) == Some(By::Statement),
+            _ => false,
+        };
+        // Where one statement is all it takes, others that give the same fact do as well.
+        if lacks.stated(0).count() == 1 && is_stated(*last) {
+            for way in lacks.ways_to(lacks.ways[*last].gives).filter(|&way| is_stated(way)) {
+                let facts = shown(lacks.ways[way].missing.iter().copied().collect());
+                if !help.contains(&facts) && help.len() < MOST_ALTERNATIVES {
+                    help.push(facts);
+                }
+            }
         }
-        let open = under(head);
-        if self.holds_somewhere(&open) { (under(binding), WRONG_CHOICE) } else { (open, 0) }
+        help
     }
 
-    fn holds_somewhere(&self, (predicate, args): &OpenAtom) -> bool {
-        self.reached.atoms.iter().any(|atom| {
-            atom.predicate == *predicate
-                && atom
-                    .args
-                    .iter()
-                    .zip(args)
-                    .all(|(have, want)| want.is_none_or(|want| want == *have))
-        })
+    /// Other ways to what the last one would give that need just that themselves, as a key does that lies behind
+    /// the door which it opens.
+    fn circles(&self, lacks: &Lacks<'_>) -> Vec<Missing> {
+        let Some(&(taken, _)) = self.links.last() else { return Vec::new() };
+        let gives = lacks.ways[taken].gives;
+        let mut circles: Vec<Missing> = Vec::new();
+        for way in lacks.ways_to(gives).filter(|&way| way != taken && gives != 0) {
+            let needing = lacks.ways[way].missing.iter().copied();
+            let mut needing = needing.filter(|&fact| lacks.leads_through(fact, gives));
+            if let Some(fact) = needing.find(|&fact| lacks.is_of_known_objects(way, fact)) {
+                let circle = told(lacks, way, fact);
+                if !circles.contains(&circle) && circles.len() < MOST_ALTERNATIVES {
+                    circles.push(circle);
+                }
+            }
+        }
+        circles
     }
+}
 
-    /// Whether some initial fact of another predicate is about the same objects.
-    fn belong_together(&self, atom: &OpenAtom) -> bool {
-        atom.1.len() < 2 || !self.facts_about(atom).is_empty()
+/// Of what a way misses, that on which most hangs, and the nearest such.
+fn followed(lacks: &Lacks<'_>, missing: &[usize]) -> usize {
+    let all: BTreeSet<usize> = missing.iter().flat_map(|&fact| lacks.stated(fact)).collect();
+    let uncovered = |fact: usize| all.len() - lacks.stated(fact).count();
+    let is_derived = |fact: usize| lacks.best(fact) != Some(By::Statement);
+    let by = |&&fact: &&usize| (lacks.best(fact).is_some(), uncovered(fact), is_derived(fact));
+    *missing.iter().min_by_key(by).expect("a way misses something")
+}
+
+fn told(lacks: &Lacks<'_>, way: usize, fact: usize) -> Missing {
+    let wanted = &lacks.facts[fact];
+    Missing {
+        fact: lacks.shown(wanted),
+        action: lacks.domain.schemas[lacks.ways[way].schema].name.clone(),
+        now: lacks.said_of_the_same(wanted),
+        has_action: lacks.reached.changing[wanted.predicate.index()] && !wanted.negated,
     }
+}
 
-    fn facts_about(&self, (predicate, args): &OpenAtom) -> Vec<&GroundAtom> {
-        let wanted: BTreeSet<ThingId> = args.iter().flatten().copied().collect();
-        if wanted.len() < 2 {
+impl Lacks<'_> {
+    /// Initial facts of other predicates about the same two or more objects.
+    fn said_of_the_same(&self, wanted: &Wanted) -> Vec<String> {
+        let objects: BTreeSet<ThingId> = wanted.args.iter().flatten().copied().collect();
+        if objects.len() < 2 || wanted.negated {
             return Vec::new();
         }
-        let about = |atom: &&GroundAtom| {
-            atom.predicate != *predicate
-                && atom.args.len() == args.len()
-                && atom
-                    .args
-                    .iter()
-                    .zip(args)
-                    .all(|(have, want)| want.is_none_or(|want| want == *have))
-        };
-        self.resolved.facts.iter().map(|(atom, _)| atom).filter(about).collect()
+        let facts = self.resolved.facts.iter().map(|(atom, _)| atom).filter(|atom| {
+            atom.predicate != wanted.predicate
+                && atom.args.len() == wanted.args.len()
+                && fits(&atom.args, &wanted.args)
+        });
+        let shown = facts.map(|atom| Wanted {
+            predicate: atom.predicate,
+            args: atom.args.iter().copied().map(Some).collect(),
+            negated: false,
+        });
+        shown.map(|wanted| self.shown(&wanted)).collect()
     }
 
-    fn told(&self, nodes: &[Node], last: usize) -> Vec<Missing> {
-        let mut missing = Vec::new();
-        let mut at = last;
-        while let Some(parent) = nodes[at].parent {
-            let atom = &nodes[at].atom;
-            missing.push(Missing {
-                fact: self.shown(atom),
-                action: self.domain.schemas[nodes[at].schema].name.clone(),
-                now: self
-                    .facts_about(atom)
-                    .into_iter()
-                    .map(|fact| {
-                        self.shown(&(fact.predicate, fact.args.iter().copied().map(Some).collect()))
-                    })
-                    .collect(),
-                has_action: self.domain.is_changed_by_actions(atom.0),
-            });
-            at = parent;
-        }
-        missing.reverse();
-        missing
+    /// Whether a way speaks of objects that the facts already bring together, as a key and the door that it fits.
+    fn is_of_known_objects(&self, way: usize, fact: usize) -> bool {
+        let gives = &self.facts[self.ways[way].gives];
+        let (of_fact, of_given) = (&self.facts[fact].args, &gives.args);
+        let together = |a: &ThingId, b: &ThingId| {
+            let facts = self.resolved.facts.iter();
+            facts.map(|(atom, _)| &atom.args).any(|args| args.contains(a) && args.contains(b))
+        };
+        of_fact.iter().flatten().any(|a| {
+            !of_given.contains(&Some(*a)) && of_given.iter().flatten().any(|b| together(a, b))
+        })
     }
 
     /// An open place as the rule language writes a variable: `КЛЮЧ_ПОДХОДИТ-К_(предмет ?, Дверь-ZY)`.
-    fn shown(&self, (predicate, args): &OpenAtom) -> String {
-        let predicate = &self.domain.predicates[predicate.index()];
-        let args: Vec<String> = args
+    fn shown(&self, wanted: &Wanted) -> String {
+        let predicate = &self.domain.predicates[wanted.predicate.index()];
+        let args: Vec<String> = wanted
+            .args
             .iter()
             .zip(&predicate.args)
             .map(|(arg, kinds)| match arg {
@@ -323,6 +304,7 @@ impl Explainer<'_> {
                 None => format!("{} ?", self.domain.kind_names(kinds)),
             })
             .collect();
-        format!("{}_({})", predicate.name, args.join(", "))
+        let not = if wanted.negated { "НЕ " } else { "" };
+        format!("{not}{}_({})", predicate.name, args.join(", "))
     }
 }

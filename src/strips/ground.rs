@@ -86,7 +86,7 @@ pub(super) type Binding = Vec<Option<ThingId>>;
 pub(super) struct Reachability<'a> {
     domain: &'a Domain,
     resolved: &'a Resolved,
-    changing: Vec<bool>,
+    pub(super) changing: Vec<bool>,
     relations: Vec<Relation>,
     /// Objects that may stand for each parameter of each schema.
     candidates: Vec<Vec<Vec<ThingId>>>,
@@ -231,7 +231,7 @@ impl<'a> Reachability<'a> {
         }
     }
 
-    fn unify(
+    pub(super) fn unify(
         &self,
         schema: usize,
         binding: &mut Binding,
@@ -257,32 +257,25 @@ impl<'a> Reachability<'a> {
         self.may_stand[schema][parameter][thing.index()]
     }
 
-    /// Choices of objects that satisfy the open preconditions among all that is reachable, at most `most`.
-    pub(super) fn bindings(
-        &self,
-        schema: usize,
-        binding: Binding,
-        open: &[usize],
-        most: usize,
-        found: &mut Vec<Binding>,
-    ) {
-        let rule = &self.domain.schemas[schema];
-        if found.len() >= most || !self.comparisons_hold(rule, &binding) {
-            return;
-        }
-        let Some((at, tuples)) = self.most_constrained(rule, &binding, open) else {
-            found.push(binding);
-            return;
+    /// Reached tuples of a predicate that have the given objects in their places.
+    pub(super) fn matching<'b>(
+        &'b self,
+        predicate: PredicateId,
+        args: &'b [Option<ThingId>],
+    ) -> impl Iterator<Item = &'b [ThingId]> {
+        let relation = &self.relations[predicate.index()];
+        let with = |(place, arg): (usize, &Option<ThingId>)| {
+            let thing = (*arg)?;
+            Some(relation.by_arg.get(place)?.get(&thing).map_or(&[][..], Vec::as_slice))
         };
-        let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
-        let precondition = &rule.preconditions[at];
-        for tuple in tuples {
-            let tuple = &self.relations[precondition.predicate.index()].tuples[tuple as usize];
-            let mut binding = binding.clone();
-            if self.unify(schema, &mut binding, precondition, tuple) {
-                self.bindings(schema, binding, &rest, most, found);
-            }
-        }
+        let fewest = args.iter().enumerate().filter_map(with).min_by_key(|numbers| numbers.len());
+        let numbers: Box<dyn Iterator<Item = u32> + 'b> = match fewest {
+            Some(numbers) => Box::new(numbers.iter().copied()),
+            None => Box::new(0..relation.tuples.len() as u32),
+        };
+        numbers.map(|number| relation.tuples[number as usize].as_slice()).filter(move |tuple| {
+            tuple.iter().zip(args).all(|(have, want)| want.is_none_or(|want| want == *have))
+        })
     }
 
     pub(super) fn value(&self, binding: &Binding, term: &SchemaTerm) -> Option<ThingId> {
@@ -385,7 +378,7 @@ impl<'a> Reachability<'a> {
         }
     }
 
-    fn comparisons_hold(&self, rule: &Schema, binding: &Binding) -> bool {
+    pub(super) fn comparisons_hold(&self, rule: &Schema, binding: &Binding) -> bool {
         let compare = |pairs: &[(SchemaTerm, SchemaTerm)], equal: bool| {
             pairs.iter().all(|(left, right)| {
                 match (self.value(binding, left), self.value(binding, right)) {

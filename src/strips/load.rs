@@ -112,12 +112,27 @@ impl Scenario {
         let problem = Problem::of(&document, &mut faults);
         problem.check(&domain, &mut faults);
         if !faults.is_empty() {
+            in_order_of_texts(&mut faults);
             faults.truncate(MOST_FAULTS);
             return Err(RuleFaults(faults));
         }
         let map = document.map.as_ref().map(|name| beside(name, Path::new(name.at.source.name())));
         Ok(Self { domain, problem, map, warnings })
     }
+}
+
+/// Text by text as they were first spoken of, and from the head of each to its end.
+fn in_order_of_texts(faults: &mut [RuleFault]) {
+    let mut texts: Vec<String> = Vec::new();
+    for (name, ..) in faults.iter().filter_map(RuleFault::position) {
+        if !texts.iter().any(|known| known == name) {
+            texts.push(name.to_owned());
+        }
+    }
+    faults.sort_by_cached_key(|fault| {
+        let (name, line, column) = fault.position()?;
+        Some((texts.iter().position(|known| known == name), line, column))
+    });
 }
 
 impl Domain {

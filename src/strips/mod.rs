@@ -22,12 +22,14 @@
 //! # Ok::<(), orthoframe::strips::RuleFaults>(())
 //! ```
 
+mod attain;
 mod bystander;
 mod check;
 mod domain;
 mod error;
 mod explain;
 mod ground;
+mod lack;
 mod load;
 mod pddl;
 mod plan_text;

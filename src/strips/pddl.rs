@@ -283,12 +283,15 @@ impl Reader<'_> {
                 items[1..].iter().for_each(|p| self.condition(p, false, into))
             }
             Some("not") if items.len() == 2 => self.condition(&items[1], !negated, into),
-            Some("=") if items.len() == 3 => {
+            Some("=") if matches!(items, [_, Expression::Word(..), Expression::Word(..)]) => {
                 if let (Some(left), Some(right)) = (self.term(&items[1]), self.term(&items[2])) {
                     into.push(Condition::Equal { pair: Box::new((left, right)), negated });
                 }
             }
-            Some(what @ ("and" | "or" | "imply" | "forall" | "exists" | "when" | "preference")) => {
+            Some(
+                what @ ("and" | "or" | "imply" | "forall" | "exists" | "when" | "preference" | "="
+                | "<" | "<=" | ">" | ">="),
+            ) => {
                 self.unsupported(what, part.span());
             }
             Some(_) => {

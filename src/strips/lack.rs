@@ -1,0 +1,450 @@
+//! The search for what is lacking: from a goal that is out of reach backward to facts that nobody stated.
+//!
+//! An action that would give what is missing misses preconditions of its own; so a graph arises of facts that are
+//! missing and of actions between them. Objects are chosen as far as something ties them to those already chosen: the
+//! door that stands between these two rooms, locked, the thing that bars it, rather than any door and any thing.
+//! Where nothing does, the place stays open: no key at all fits this door.
+//!
+//! Every fact of the graph could be stated instead of brought about, at a price that says how far-fetched that is.
+//! The cheapest way to the goal is found after D. E. Knuth (1977); the price of a way counts every statement once,
+//! as E. Keyder and H. Geffner (2008) count actions.
+
+use std::cmp::Reverse;
+use std::collections::{BTreeSet, BinaryHeap, HashMap};
+
+use super::attain::Attainable;
+use super::domain::{Domain, PredicateId, Schema, SchemaAtom, SchemaTerm};
+use super::ground::{Binding, Reachability};
+use super::problem::{GroundAtom, Resolved, ThingId};
+
+/// An atom, or its absence; open places are any object.
+#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+pub(super) struct Wanted {
+    pub(super) predicate: PredicateId,
+    pub(super) args: Vec<Option<ThingId>>,
+    pub(super) negated: bool,
+}
+
+/// An action that would give `gives`, were it not for what it misses.
+#[derive(Debug)]
+pub(super) struct Way {
+    pub(super) schema: usize,
+    pub(super) gives: usize,
+    pub(super) missing: Vec<usize>,
+}
+
+/// The cheapest way to have a fact: what must be stated, and the actions on the way.
+#[derive(Debug, Clone, Default)]
+struct Label {
+    stated: BTreeSet<usize>,
+    ways: BTreeSet<usize>,
+}
+
+/// How a missing fact would come about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum By {
+    Statement,
+    Way(usize),
+}
+
+/// Nobody reads an explanation that took longer to find.
+const MOST_FACTS: usize = 3_000;
+const MOST_WAYS: usize = 300;
+/// An action that lacks more than this is not what is meant.
+const MOST_MISSING: usize = 5;
+
+pub(super) struct Lacks<'a> {
+    pub(super) domain: &'a Domain,
+    pub(super) resolved: &'a Resolved,
+    pub(super) reached: &'a Reachability<'a>,
+    pub(super) attainable: &'a Attainable<'a>,
+    /// Predicates that actions exchange for each other over the same objects, as a door's being open and shut.
+    states: Vec<usize>,
+    /// Predicates whose facts give way to each other, as those of where the robot is.
+    moving: Vec<bool>,
+    pub(super) facts: Vec<Wanted>,
+    index: HashMap<Wanted, usize>,
+    pub(super) ways: Vec<Way>,
+    labels: Vec<Option<(Label, By)>>,
+}
+
+impl<'a> Lacks<'a> {
+    pub(super) fn new(
+        domain: &'a Domain,
+        resolved: &'a Resolved,
+        reached: &'a Reachability<'a>,
+        attainable: &'a Attainable<'a>,
+        goal: Wanted,
+    ) -> Self {
+        let states = states(domain);
+        let mut lacks = Self {
+            domain,
+            resolved,
+            reached,
+            attainable,
+            states,
+            moving: moving(domain),
+            facts: vec![goal.clone()],
+            index: HashMap::from([(goal, 0)]),
+            ways: Vec::new(),
+            labels: Vec::new(),
+        };
+        let mut next = 0;
+        while next < lacks.facts.len() && lacks.facts.len() < MOST_FACTS {
+            lacks.expand(next);
+            next += 1;
+        }
+        lacks.weigh();
+        lacks
+    }
+
+    /// How the fact would best come about; none when it cannot.
+    pub(super) fn best(&self, fact: usize) -> Option<By> {
+        self.labels[fact].as_ref().map(|&(_, by)| by)
+    }
+
+    /// What must be stated for the fact to come about.
+    pub(super) fn stated(&self, fact: usize) -> impl Iterator<Item = usize> {
+        self.labels[fact].iter().flat_map(|(label, _)| label.stated.iter().copied())
+    }
+
+    /// Whether the best way to `fact` leads through `other`.
+    pub(super) fn leads_through(&self, fact: usize, other: usize) -> bool {
+        self.labels[fact]
+            .as_ref()
+            .is_some_and(|(label, _)| label.ways.iter().any(|&way| self.ways[way].gives == other))
+    }
+
+    pub(super) fn ways_to(&self, fact: usize) -> impl Iterator<Item = usize> {
+        (0..self.ways.len()).filter(move |&way| self.ways[way].gives == fact)
+    }
+
+    // The graph.
+
+    fn expand(&mut self, fact: usize) {
+        let wanted = self.facts[fact].clone();
+        let domain = self.domain;
+        for (number, schema) in domain.schemas.iter().enumerate() {
+            let effects = if wanted.negated { &schema.del_effects } else { &schema.add_effects };
+            for effect in effects.iter().filter(|effect| effect.predicate == wanted.predicate) {
+                let Some(binding) = self.bound(number, &effect.args, &wanted.args) else {
+                    continue;
+                };
+                let open: Vec<usize> = (0..schema.preconditions.len()).collect();
+                let mut found = Vec::new();
+                self.complete(number, binding, &open, Vec::new(), &mut found);
+                for missing in found {
+                    let missing = missing.into_iter().map(|wanted| self.number(wanted)).collect();
+                    let way = Way { schema: number, gives: fact, missing };
+                    if !way.missing.contains(&fact) {
+                        self.ways.push(way);
+                    }
+                }
+            }
+        }
+    }
+
+    fn number(&mut self, wanted: Wanted) -> usize {
+        let next = self.facts.len();
+        let number = *self.index.entry(wanted.clone()).or_insert(next);
+        if number == next {
+            self.facts.push(wanted);
+        }
+        number
+    }
+
+    /// The action's parameters where its effect is what is wanted.
+    fn bound(
+        &self,
+        schema: usize,
+        terms: &[SchemaTerm],
+        args: &[Option<ThingId>],
+    ) -> Option<Binding> {
+        let mut binding: Binding = vec![None; self.domain.schemas[schema].parameters.len()];
+        for (term, arg) in terms.iter().zip(args) {
+            let Some(thing) = *arg else { continue };
+            match term {
+                SchemaTerm::Constant(_) if self.reached.value(&binding, term) == Some(thing) => {}
+                SchemaTerm::Constant(_) => return None,
+                SchemaTerm::Parameter(parameter) => {
+                    let place = &mut binding[*parameter as usize];
+                    let fits = place.is_none_or(|bound| bound == thing);
+                    if !fits || !self.reached.may_stand(schema, *parameter as usize, thing) {
+                        return None;
+                    }
+                    *place = Some(thing);
+                }
+            }
+        }
+        Some(binding)
+    }
+
+    /// Chooses the objects that are still open, precondition by precondition, the most closely tied first; what no
+    /// object satisfies is missing.
+    fn complete(
+        &self,
+        schema: usize,
+        binding: Binding,
+        open: &[usize],
+        missing: Vec<Wanted>,
+        found: &mut Vec<Vec<Wanted>>,
+    ) {
+        let rule = &self.domain.schemas[schema];
+        let too_many = found.len() >= MOST_WAYS || missing.len() > MOST_MISSING;
+        if too_many || !self.reached.comparisons_hold(rule, &binding) {
+            return;
+        }
+        let tied = open.iter().copied().filter_map(|at| {
+            let wanted = self.under(&rule.preconditions[at], &binding);
+            let bound = wanted.args.iter().flatten().count();
+            if bound == wanted.args.len() {
+                return Some((0, at, wanted));
+            }
+            if bound == 0 {
+                return None;
+            }
+            let count = self.holding(&wanted).take(MOST_WAYS).count();
+            Some((1 + count, at, wanted))
+        });
+        let Some((_, at, wanted)) = tied.min_by_key(|&(count, at, _)| (count, at)) else {
+            found.extend(self.finished(rule, &binding, open, missing));
+            return;
+        };
+        let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
+        let atom = &rule.preconditions[at];
+        let chosen = |tuple: &[ThingId]| {
+            let mut binding = binding.clone();
+            self.reached.unify(schema, &mut binding, atom, tuple).then_some(binding)
+        };
+        let mut is_chosen = false;
+        for binding in self.holding(&wanted).filter_map(chosen) {
+            is_chosen = true;
+            self.complete(schema, binding, &rest, missing.clone(), found);
+        }
+        for binding in self.otherwise(&wanted).filter_map(|atom| chosen(&atom.args)) {
+            let now_wanted = self.under(atom, &binding);
+            if closed(&now_wanted).is_some_and(|atom| !self.attainable.holds(&atom)) {
+                is_chosen = true;
+                let missing = with(missing.clone(), now_wanted);
+                self.complete(schema, binding, &rest, missing, found);
+            }
+        }
+        if !is_chosen {
+            let missing = with(missing, wanted.clone());
+            self.complete(schema, binding.clone(), &rest, missing, found);
+        }
+    }
+
+    /// What is missing once nothing ties further objects: preconditions of which nothing is chosen count only where
+    /// no object at all satisfies them and they do not speak of what another missing fact leaves open.
+    fn finished(
+        &self,
+        rule: &Schema,
+        binding: &Binding,
+        open: &[usize],
+        mut missing: Vec<Wanted>,
+    ) -> Option<Vec<Wanted>> {
+        if missing.iter().any(|wanted| wanted.args.iter().any(Option::is_none)) {
+            // Nobody stands at a place of which nobody knows where it is.
+            let is_static = |wanted: &Wanted| !self.reached.changing[wanted.predicate.index()];
+            let stands = |&at: &usize| self.moving[rule.preconditions[at].predicate.index()];
+            if missing.iter().any(is_static) && open.iter().any(stands) {
+                return None;
+            }
+        } else {
+            for &at in open {
+                let wanted = self.under(&rule.preconditions[at], binding);
+                if self.holding(&wanted).next().is_none() {
+                    missing.push(wanted);
+                }
+            }
+        }
+        for atom in &rule.negative_preconditions {
+            let wanted = Wanted { negated: true, ..self.under(atom, binding) };
+            if closed(&wanted).is_some_and(|atom| !self.attainable.may_be_absent(&atom)) {
+                missing.push(wanted);
+            }
+        }
+        (!missing.is_empty()).then_some(missing)
+    }
+
+    fn under(&self, atom: &SchemaAtom, binding: &Binding) -> Wanted {
+        let args = atom.args.iter().map(|term| self.reached.value(binding, term)).collect();
+        Wanted { predicate: atom.predicate, args, negated: false }
+    }
+
+    fn holding<'b>(&'b self, wanted: &'b Wanted) -> impl Iterator<Item = &'b [ThingId]> {
+        self.reached.matching(wanted.predicate, &wanted.args).filter(|tuple| {
+            let atom = GroundAtom { predicate: wanted.predicate, args: tuple.to_vec() };
+            self.attainable.holds(&atom)
+        })
+    }
+
+    /// Initial facts that say of such objects what excludes the wanted: the door is locked.
+    fn otherwise(&self, wanted: &Wanted) -> impl Iterator<Item = &'a GroundAtom> {
+        let of_same_state = |predicate: PredicateId| {
+            predicate != wanted.predicate
+                && self.states[predicate.index()] == self.states[wanted.predicate.index()]
+        };
+        let facts = self.resolved.facts.iter().map(|(atom, _)| atom);
+        facts.filter(move |atom| of_same_state(atom.predicate) && fits(&atom.args, &wanted.args))
+    }
+
+    // The prices.
+
+    fn weigh(&mut self) {
+        let prices: Vec<Option<u32>> = (0..self.facts.len()).map(|fact| self.price(fact)).collect();
+        let mut users: Vec<Vec<usize>> = vec![Vec::new(); self.facts.len()];
+        let mut open: Vec<usize> = Vec::new();
+        for (number, way) in self.ways.iter().enumerate() {
+            let distinct: BTreeSet<usize> = way.missing.iter().copied().collect();
+            open.push(distinct.len());
+            distinct.into_iter().for_each(|fact| users[fact].push(number));
+        }
+        self.labels = vec![None; self.facts.len()];
+        let cost = |label: &Label| {
+            let stated: u32 = label.stated.iter().filter_map(|&fact| prices[fact]).sum();
+            stated + label.ways.len() as u32
+        };
+        // What was met first is preferred among equals: the order of the rule file.
+        let mut queue = BinaryHeap::new();
+        for (fact, price) in prices.iter().enumerate() {
+            queue.extend(price.map(|price| Reverse((price, fact, None))));
+        }
+        while let Some(Reverse((_, fact, way))) = queue.pop() {
+            if self.labels[fact].is_some() {
+                continue;
+            }
+            let label = match way {
+                None => Label { stated: BTreeSet::from([fact]), ways: BTreeSet::new() },
+                Some(way) => self.label(way),
+            };
+            self.labels[fact] = Some((label, way.map_or(By::Statement, By::Way)));
+            for &user in &users[fact] {
+                open[user] -= 1;
+                if open[user] == 0 {
+                    queue.push(Reverse((
+                        cost(&self.label(user)),
+                        self.ways[user].gives,
+                        Some(user),
+                    )));
+                }
+            }
+        }
+    }
+
+    fn label(&self, way: usize) -> Label {
+        let mut label = Label { stated: BTreeSet::new(), ways: BTreeSet::from([way]) };
+        for &fact in &self.ways[way].missing {
+            let (below, _) = self.labels[fact].as_ref().expect("a way is weighed after its facts");
+            label.stated.extend(&below.stated);
+            label.ways.extend(&below.ways);
+        }
+        label
+    }
+
+    /// How far-fetched it is that the fact should simply have been stated; none where it is absurd.
+    ///
+    /// The world's make is stated and never brought about. Of what actions change, that is likely stated of which
+    /// nothing is known, as of doors that lead to a room; what is now otherwise, stands elsewhere or is only ever
+    /// attained is not. A fact that speaks of known objects is nearer than one of any object.
+    fn price(&self, number: usize) -> Option<u32> {
+        let wanted = &self.facts[number];
+        let open = wanted.args.iter().filter(|arg| arg.is_none()).count();
+        let is_unspoken = !wanted.negated
+            && !self.resolved.facts.iter().any(|(atom, _)| atom.predicate == wanted.predicate);
+        let makes = match (self.reached.changing[wanted.predicate.index()], wanted.negated) {
+            _ if number == 0 => return None,
+            (false, false) => 10,
+            (false, true) => 40,
+            (true, true) => 60,
+            (true, false) if self.is_otherwise(wanted) => return None,
+            (true, false) if open == wanted.args.len() && open > 0 => 300,
+            (true, false) if self.is_only_attained(wanted.predicate) => 200,
+            (true, false) if open == 0 && self.ways_to(number).next().is_some() => {
+                let place = wanted.predicate;
+                let is_unknown = wanted.args.is_empty()
+                    || self.moving[place.index()] && !self.is_attained_of_any(place);
+                if is_unknown { 30 } else { 130 }
+            }
+            (true, false) => 30,
+        };
+        Some(makes + 10 * open as u32 + 40 * u32::from(is_unspoken))
+    }
+
+    fn is_attained_of_any(&self, predicate: PredicateId) -> bool {
+        let args = vec![None; self.domain.predicates[predicate.index()].args.len()];
+        self.holding(&Wanted { predicate, args, negated: false }).next().is_some()
+    }
+
+    /// Whether the initial facts say something that excludes the wanted.
+    fn is_otherwise(&self, wanted: &Wanted) -> bool {
+        let stands_elsewhere = || {
+            self.domain.schemas.iter().enumerate().any(|(number, schema)| {
+                let adds = schema.add_effects.iter().filter(|a| a.predicate == wanted.predicate);
+                adds.filter_map(|add| self.bound(number, &add.args, &wanted.args)).any(|binding| {
+                    let gone = schema.del_effects.iter().map(|atom| self.under(atom, &binding));
+                    gone.into_iter().any(|gone| {
+                        let is_moved = gone.predicate == wanted.predicate;
+                        let is_about = gone.args.iter().any(Option::is_some);
+                        let stated = || self.resolved.facts.iter().map(|(atom, _)| atom);
+                        let is_so = |predicate, args: &[Option<ThingId>]| {
+                            stated().any(|a| a.predicate == predicate && fits(&a.args, args))
+                        };
+                        (is_moved || is_about) && is_so(gone.predicate, &gone.args)
+                    })
+                })
+            })
+        };
+        self.otherwise(wanted).next().is_some() || stands_elsewhere()
+    }
+
+    /// Whether the facts of a predicate are neither stated nor ever taken away: what was searched, who was called.
+    fn is_only_attained(&self, predicate: PredicateId) -> bool {
+        let schemas = &self.domain.schemas;
+        let deleted = schemas.iter().flat_map(|schema| &schema.del_effects);
+        !deleted.into_iter().any(|atom| atom.predicate == predicate)
+            && !self.resolved.facts.iter().any(|(atom, _)| atom.predicate == predicate)
+    }
+}
+
+fn with(mut missing: Vec<Wanted>, wanted: Wanted) -> Vec<Wanted> {
+    if !missing.contains(&wanted) {
+        missing.push(wanted);
+    }
+    missing
+}
+
+pub(super) fn fits(have: &[ThingId], wanted: &[Option<ThingId>]) -> bool {
+    have.iter().zip(wanted).all(|(have, want)| want.is_none_or(|want| want == *have))
+}
+
+pub(super) fn closed(wanted: &Wanted) -> Option<GroundAtom> {
+    let args = wanted.args.iter().copied().collect::<Option<_>>()?;
+    Some(GroundAtom { predicate: wanted.predicate, args })
+}
+
+/// For each predicate the number of the state that it belongs to.
+fn states(domain: &Domain) -> Vec<usize> {
+    let mut states: Vec<usize> = (0..domain.predicates.len()).collect();
+    for schema in &domain.schemas {
+        for add in &schema.add_effects {
+            for del in schema.del_effects.iter().filter(|del| del.args == add.args) {
+                let (into, from) = (states[add.predicate.index()], states[del.predicate.index()]);
+                states.iter_mut().filter(|state| **state == from).for_each(|state| *state = into);
+            }
+        }
+    }
+    states
+}
+
+fn moving(domain: &Domain) -> Vec<bool> {
+    let mut moving = vec![false; domain.predicates.len()];
+    for schema in &domain.schemas {
+        for add in &schema.add_effects {
+            let moves = |del: &SchemaAtom| del.predicate == add.predicate && del.args != add.args;
+            moving[add.predicate.index()] |= schema.del_effects.iter().any(moves);
+        }
+    }
+    moving
+}
