@@ -28,6 +28,7 @@ mod maps;
 mod partition;
 mod passframes;
 mod planning;
+mod planning_mutants;
 mod planning_properties;
 mod position_reports;
 mod relation_truth;

@@ -12,7 +12,7 @@ use orthoframe::strips::{PlanText, Scenario};
 use orthoframe::units::Source;
 
 #[path = "../benches/planning/random.rs"]
-mod random;
+pub(crate) mod random;
 
 use random::Random;
 
@@ -37,7 +37,7 @@ enum Term {
 }
 
 #[derive(Clone)]
-struct Literal {
+pub(crate) struct Literal {
     predicate: usize,
     args: Vec<Term>,
     negated: bool,
@@ -53,18 +53,18 @@ struct Action {
     cost: u32,
 }
 
-struct Drawn {
+pub(crate) struct Drawn {
     pddl: bool,
     /// The type of each object; the first is a constant of the rules.
     objects: Vec<usize>,
     predicates: Vec<Vec<Kinds>>,
     actions: Vec<Action>,
     init: BTreeSet<(usize, Vec<usize>)>,
-    goal: Vec<Literal>,
+    pub(crate) goal: Vec<Literal>,
 }
 
 impl Drawn {
-    fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         let random = &mut Random::new(seed);
         let pddl = seed.is_multiple_of(2);
         let objects: Vec<usize> = (0..2 + random.below(3)).map(|_| random.below(5)).collect();
@@ -224,7 +224,7 @@ fn object_of(term: Term, chosen: &[usize]) -> usize {
 // ─── As text ───
 
 impl Drawn {
-    fn scenario(&self) -> Scenario {
+    pub(crate) fn scenario(&self) -> Scenario {
         let read = if self.pddl {
             let (domain, problem) = self.as_pddl();
             Scenario::parse_pddl(&Source::new("domain", domain), &Source::new("problem", problem))
@@ -363,7 +363,9 @@ impl Drawn {
 // ─── The plain search ───
 
 /// An action over chosen objects; facts as bits.
-struct Ground {
+pub(crate) struct Ground {
+    /// The action's number and its objects.
+    pub(crate) name: (usize, Vec<usize>),
     needs: u64,
     denies: u64,
     add: u64,
@@ -371,18 +373,18 @@ struct Ground {
     cost: u64,
 }
 
-struct World {
+pub(crate) struct World {
     /// What each bit says: a predicate and its objects.
     atoms: Vec<(usize, Vec<usize>)>,
-    actions: Vec<Ground>,
-    init: u64,
+    pub(crate) actions: Vec<Ground>,
+    pub(crate) init: u64,
     wanted: u64,
     unwanted: u64,
 }
 
 impl World {
     /// None when it is too large to search plainly.
-    fn of(drawn: &Drawn) -> Option<Self> {
+    pub(crate) fn of(drawn: &Drawn) -> Option<Self> {
         let mut numbers: HashMap<(usize, Vec<usize>), u32> = HashMap::new();
         let mut bits = |literals: &mut dyn Iterator<Item = (usize, Vec<usize>)>| {
             literals.fold(0_u128, |mask, atom| {
@@ -395,7 +397,7 @@ impl World {
         };
         let mut actions = Vec::new();
         let mut wide = 0;
-        for action in &drawn.actions {
+        for (number, action) in drawn.actions.iter().enumerate() {
             for chosen in choices(&action.parameters, &drawn.objects) {
                 let differs = |&(a, b, different): &(Term, Term, bool)| {
                     (object_of(a, &chosen) != object_of(b, &chosen)) == different
@@ -415,6 +417,7 @@ impl World {
                 wide |= needs | denies | add | del;
                 let word = |mask: u128| mask as u64;
                 actions.push(Ground {
+                    name: (number, chosen.clone()),
                     needs: word(needs),
                     denies: word(denies),
                     add: word(add),
@@ -444,7 +447,7 @@ impl World {
         })
     }
 
-    fn is_goal(&self, state: u64) -> bool {
+    pub(crate) fn is_goal(&self, state: u64) -> bool {
         state & self.wanted == self.wanted && state & self.unwanted == 0
     }
 
@@ -452,14 +455,20 @@ impl World {
         self.actions.iter().filter(move |a| state & a.needs == a.needs && state & a.denies == 0)
     }
 
+    /// The state after the actions of one step; none when they cannot be carried out together.
+    pub(crate) fn step(&self, state: u64, actions: &[&Ground]) -> Option<u64> {
+        let can = |a: &&Ground| state & a.needs == a.needs && state & a.denies == 0;
+        let clash = |(at, a): (usize, &&Ground)| actions[at + 1..].iter().any(|b| interfere(a, b));
+        if !actions.iter().all(can) || actions.iter().enumerate().any(clash) {
+            return None;
+        }
+        let del = actions.iter().fold(0, |all, a| all | a.del);
+        Some(actions.iter().fold(state & !del, |all, a| all | a.add))
+    }
+
     /// States after every set of actions that do not interfere; none when there are too many sets.
     fn after(&self, state: u64) -> Option<HashSet<u64>> {
         let possible: Vec<&Ground> = self.possible(state).collect();
-        let interfere = |a: &Ground, b: &Ground| {
-            let one =
-                |a: &Ground, b: &Ground| a.del & (b.needs | b.add) | a.add & (b.denies | b.del);
-            one(a, b) | one(b, a) != 0
-        };
         let mut found = HashSet::new();
         let mut open: Vec<(usize, Vec<&Ground>)> = vec![(0, Vec::new())];
         let mut sets = 0;
@@ -524,6 +533,11 @@ impl World {
         }
         None
     }
+}
+
+fn interfere(a: &Ground, b: &Ground) -> bool {
+    let one = |a: &Ground, b: &Ground| a.del & (b.needs | b.add) | a.add & (b.denies | b.del);
+    one(a, b) | one(b, a) != 0
 }
 
 /// Every choice of objects for parameters of these types.

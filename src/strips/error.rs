@@ -421,7 +421,7 @@ pub enum RuleError {
     },
 
     /// A plan that does not do what it is for.
-    #[error("план выполним, но в конце не выполнена цель {fact}")]
+    #[error("в конце не выполнена цель {fact}")]
     #[diagnostic(code(strips::plan_misses_goal))]
     PlanMissesGoal { fact: String },
 

@@ -62,12 +62,14 @@ impl PlanText {
         Self::parse(&read_source(path)?)
     }
 
-    /// Reads `step: (action object …)`; without numbers each action is a step of its own.
+    /// Reads `step: (action object …)`; without numbers each action is a step of its own. Where times are told apart
+    /// by fractions, as 0.001 and 0.002, each time is a step.
     ///
     /// # Errors
     /// All places where the text is no plan.
     pub fn parse(source: &Source) -> Result<Self, RuleFaults> {
         let mut directives = Vec::new();
+        let mut times = Vec::new();
         let mut faults = Vec::new();
         let mut time = None;
         for expression in expressions(source)? {
@@ -75,7 +77,7 @@ impl PlanText {
             match &expression {
                 Expression::Word(word, _) => match word.trim_end_matches(':').parse::<f64>() {
                     Ok(number) if (0.0..1e9).contains(&number) => {
-                        time = Some(number.floor() as u32)
+                        time = Some(number);
                     }
                     // `[1]`, the duration that some planners add.
                     _ if word.starts_with('[') => {}
@@ -90,16 +92,18 @@ impl PlanText {
                         })
                         .collect();
                     match words.as_deref() {
-                        Some([action, args @ ..]) => directives.push(Directive {
-                            step: time.take().unwrap_or(directives.len() as u32),
-                            action: action.clone(),
-                            args: args.to_vec(),
-                            at,
-                        }),
+                        Some([action, args @ ..]) => {
+                            times.push(time.take().unwrap_or(directives.len() as f64));
+                            let (action, args) = (action.clone(), args.to_vec());
+                            directives.push(Directive { step: 0, action, args, at });
+                        }
                         _ => faults.push(syntax(source, "«(действие объект …)»", "список", at)),
                     }
                 }
             }
+        }
+        for (directive, step) in directives.iter_mut().zip(steps(&times)) {
+            directive.step = step;
         }
         directives.sort_by_key(|directive| directive.step);
         if faults.is_empty() {
@@ -108,6 +112,17 @@ impl PlanText {
             Err(RuleFaults(faults))
         }
     }
+}
+
+/// The step of each time: its whole part, or its rank where whole parts would throw different times together.
+fn steps(times: &[f64]) -> Vec<u32> {
+    let mut distinct = times.to_vec();
+    distinct.sort_by(f64::total_cmp);
+    distinct.dedup();
+    let whole = |time: f64| time.floor() as u32;
+    let is_told_apart = distinct.windows(2).all(|pair| whole(pair[0]) < whole(pair[1]));
+    let rank = |time: &f64| distinct.partition_point(|earlier| earlier < time) as u32;
+    times.iter().map(|time| if is_told_apart { whole(*time) } else { rank(time) }).collect()
 }
 
 fn quoted(name: &str) -> String {

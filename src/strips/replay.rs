@@ -84,6 +84,7 @@ struct Replay<'a> {
 /// What a directive needs, adds and deletes, and what it costs.
 struct Instance {
     needs: Vec<GroundAtom>,
+    denied: Vec<GroundAtom>,
     adds: Vec<GroundAtom>,
     dels: Vec<GroundAtom>,
     cost: u32,
@@ -122,10 +123,10 @@ impl Replay<'_> {
         for (at, (first, a)) in instances.iter().enumerate() {
             for (second, b) in &instances[at + 1..] {
                 let breaks = |x: &Instance, y: &Instance| {
-                    x.dels
-                        .iter()
-                        .find(|atom| y.needs.contains(atom) || y.adds.contains(atom))
-                        .cloned()
+                    let wanted =
+                        |atom: &&GroundAtom| y.needs.contains(atom) || y.adds.contains(atom);
+                    let gone = x.dels.iter().find(wanted);
+                    gone.or_else(|| x.adds.iter().find(|atom| y.denied.contains(atom))).cloned()
                 };
                 if let Some(atom) = breaks(a, b).or_else(|| breaks(b, a)) {
                     faults.push(self.fault(RuleError::PlanInterference {
@@ -189,7 +190,7 @@ impl Replay<'_> {
         let adds = ground(&schema.add_effects);
         let mut dels = ground(&schema.del_effects);
         dels.retain(|atom| !adds.contains(atom));
-        Ok(Instance { needs, adds, dels, cost: cost(schema, self.resolved, &args) })
+        Ok(Instance { needs, denied, adds, dels, cost: cost(schema, self.resolved, &args) })
     }
 
     fn schema(&self, directive: &Directive) -> Result<&Schema, RuleFaults> {
