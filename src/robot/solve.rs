@@ -4,7 +4,7 @@ use std::cell::Cell;
 
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{
-    Domain, FactId, Obstacle, Problem, RuleFaults, Task, explain_unreachable, ground_while,
+    Clash, Domain, FactId, Obstacle, Problem, RuleFaults, Task, explain_unreachable, ground_while,
 };
 use crate::units::Language;
 
@@ -110,7 +110,7 @@ pub fn solve(
         }
         Err(limit) => (Task::default(), Outcome::LimitReached(limit)),
     };
-    told(domain, problem, task, outcome, wanted)
+    told(domain, problem, task, outcome, wanted, limits)
 }
 
 /// The shortest plan, with what was learned by planning before where that is sound, and what is learned now.
@@ -130,7 +130,7 @@ pub(super) fn solve_again(
         }
         Err(limit) => (Task::default(), (Outcome::LimitReached(limit), None)),
     };
-    Ok((told(domain, problem, task, outcome, Wanted::Shortest)?, learned))
+    Ok((told(domain, problem, task, outcome, Wanted::Shortest, limits)?, learned))
 }
 
 /// The task, or the limit that grounding ran into.
@@ -154,6 +154,7 @@ fn told(
     task: Task,
     outcome: Outcome,
     wanted: Wanted,
+    limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
     let is_shortest = wanted == Wanted::Shortest;
     let assumptions = match &outcome {
@@ -162,7 +163,7 @@ fn told(
         }
         _ => Vec::new(),
     };
-    let reason = explain(domain, problem, &task, &outcome)?;
+    let reason = explain(domain, problem, &task, &outcome, limits)?;
     Ok(Solved { task, outcome, is_shortest, assumptions, reason })
 }
 
@@ -171,13 +172,20 @@ fn explain(
     problem: &Problem,
     task: &Task,
     outcome: &Outcome,
+    limits: &Limits,
 ) -> Result<Option<Reason>, RuleFaults> {
     let fact = |id: FactId| task.fact(id).to_string();
     Ok(Some(match outcome {
         Outcome::Plan(_) => return Ok(None),
         Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } => {
             let goals = facts.iter().map(|&id| task.fact(id));
-            Reason::Unreachable(explain_unreachable(domain, problem, goals)?)
+            let mut obstacles = explain_unreachable(domain, problem, goals)?;
+            for (obstacle, &goal) in obstacles.iter_mut().zip(facts) {
+                if obstacle.is_met_singly {
+                    obstacle.clash = clash(task, goal, limits, MOST_ACTIONS_BETWEEN);
+                }
+            }
+            Reason::Unreachable(obstacles)
         }
         Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
             Reason::Exclusive(pairs.iter().map(|&(a, b)| (fact(a), fact(b))).collect())
@@ -187,4 +195,28 @@ fn explain(
         }
         Outcome::LimitReached(limit) => Reason::Limit(*limit),
     }))
+}
+
+/// How far from the goal the two facts may be that exclude each other.
+const MOST_ACTIONS_BETWEEN: usize = 3;
+/// Actions that would give one fact, of which more are not looked at.
+const MOST_GIVERS: usize = 8;
+
+/// Of the actions that would give a fact, or what they need, one two of whose needs exclude each other.
+fn clash(task: &Task, goal: FactId, limits: &Limits, between: usize) -> Option<Clash> {
+    let givers = task.operators.iter().filter(|operator| operator.add_effects.contains(&goal));
+    givers.take(MOST_GIVERS).find_map(|giver| {
+        let needs = Task { goal: giver.preconditions.clone(), ..task.clone() };
+        match graphplan::solve(&needs, limits) {
+            Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
+                let &(a, b) = pairs.first()?;
+                let needs = (task.fact(a).to_string(), task.fact(b).to_string());
+                Some(Clash { action: giver.to_string(), needs })
+            }
+            Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } if between > 0 => {
+                facts.iter().find_map(|&fact| clash(task, fact, limits, between - 1))
+            }
+            _ => None,
+        }
+    })
 }

@@ -28,6 +28,15 @@ pub struct Obstacle {
     pub help: Vec<Vec<String>>,
     /// Whether every single need of the goal could be met, if not together with the others.
     pub is_met_singly: bool,
+    /// Then the needs that do not go together, where that was found out.
+    pub clash: Option<Clash>,
+}
+
+/// An action two of whose needs exclude each other.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Clash {
+    pub action: String,
+    pub needs: (String, String),
 }
 
 /// A fact that an action needs and that cannot be had.
@@ -50,11 +59,17 @@ impl Obstacle {
         let mut text = language
             .pick(format!("цель {goal} недостижима"), format!("the goal {goal} is out of reach"));
         if self.is_met_singly {
-            return text
-                + language.pick(
-                    ": всё, что для неё нужно, достижимо порознь, но не вместе",
-                    ": all that it takes can be had one by one, but not together",
+            text += language.pick(
+                ": всё, что для неё нужно, достижимо порознь, но не вместе",
+                ": all that it takes can be had one by one, but not together",
+            );
+            if let Some(Clash { action, needs: (a, b) }) = &self.clash {
+                text += &language.pick(
+                    format!("\n  для {action} нужны {a} и {b}, а они исключают друг друга"),
+                    format!("\n  {action} takes {a} and {b}, which exclude each other"),
                 );
+            }
+            return text;
         }
         if self.missing.is_empty() {
             return text
@@ -146,6 +161,7 @@ pub fn explain_unreachable<'a>(
             circles: Vec::new(),
             help: Vec::new(),
             is_met_singly: false,
+            clash: None,
         };
         let Some(wanted) = wanted else { return none };
         if attainable.can_be(&wanted) {
@@ -204,7 +220,7 @@ impl Chain {
         };
         let mut help = vec![first];
         let is_stated = |way: usize| match lacks.ways[way].missing[..] {
-            [fact] => lacks.best(fact) == Some(By::Statement),
+            [fact] => !lacks.ways[way].is_far_fetched && lacks.best(fact) == Some(By::Statement),
             _ => false,
         };
         // Where one statement is all it takes, others that give the same fact do as well.
@@ -224,11 +240,14 @@ impl Chain {
     fn circles(&self, lacks: &Lacks<'_>) -> Vec<Missing> {
         let Some(&(taken, _)) = self.links.last() else { return Vec::new() };
         let gives = lacks.ways[taken].gives;
+        let is_new = |fact: usize| fact != 0 && self.links.iter().all(|&(_, link)| link != fact);
         let mut circles: Vec<Missing> = Vec::new();
         for way in lacks.ways_to(gives).filter(|&way| way != taken && gives != 0) {
-            let needing = lacks.ways[way].missing.iter().copied();
-            let mut needing = needing.filter(|&fact| lacks.leads_through(fact, gives));
-            if let Some(fact) = needing.find(|&fact| lacks.is_of_known_objects(way, fact)) {
+            let [fact] = lacks.ways[way].missing[..] else { continue };
+            if is_new(fact)
+                && lacks.leads_through(fact, gives)
+                && lacks.is_of_known_objects(way, fact)
+            {
                 let circle = told(lacks, way, fact);
                 if !circles.contains(&circle) && circles.len() < MOST_ALTERNATIVES {
                     circles.push(circle);

@@ -14,6 +14,7 @@ use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
 use super::attain::Attainable;
 use super::domain::{Domain, PredicateId, Schema, SchemaAtom, SchemaTerm};
+use super::exchange::{exchanged, moving, states};
 use super::ground::{Binding, Reachability};
 use super::problem::{GroundAtom, Resolved, ThingId};
 
@@ -31,6 +32,8 @@ pub(super) struct Way {
     pub(super) schema: usize,
     pub(super) gives: usize,
     pub(super) missing: Vec<usize>,
+    /// Whether the robot would have to stand where nobody stated that there is a place.
+    pub(super) is_far_fetched: bool,
 }
 
 /// The cheapest way to have a fact: what must be stated, and the actions on the way.
@@ -50,6 +53,8 @@ pub(super) enum By {
 /// Nobody reads an explanation that took longer to find.
 const MOST_FACTS: usize = 3_000;
 const MOST_WAYS: usize = 300;
+/// What a far-fetched way costs beside its statements.
+const FAR_FETCHED: u32 = 100;
 /// An action that lacks more than this is not what is meant.
 const MOST_MISSING: usize = 5;
 
@@ -60,6 +65,9 @@ pub(super) struct Lacks<'a> {
     pub(super) attainable: &'a Attainable<'a>,
     /// Predicates that actions exchange for each other over the same objects, as a door's being open and shut.
     states: Vec<usize>,
+    /// For each place of each predicate a number: two have one where actions exchange facts about the object there,
+    /// as a thing lies on a table, is held and lies on the floor.
+    exchanged: Vec<Vec<usize>>,
     /// Predicates whose facts give way to each other, as those of where the robot is.
     moving: Vec<bool>,
     pub(super) facts: Vec<Wanted>,
@@ -83,6 +91,7 @@ impl<'a> Lacks<'a> {
             reached,
             attainable,
             states,
+            exchanged: exchanged(domain),
             moving: moving(domain),
             facts: vec![goal.clone()],
             index: HashMap::from([(goal, 0)]),
@@ -133,9 +142,9 @@ impl<'a> Lacks<'a> {
                 let open: Vec<usize> = (0..schema.preconditions.len()).collect();
                 let mut found = Vec::new();
                 self.complete(number, binding, &open, Vec::new(), &mut found);
-                for missing in found {
+                for (missing, is_far_fetched) in found {
                     let missing = missing.into_iter().map(|wanted| self.number(wanted)).collect();
-                    let way = Way { schema: number, gives: fact, missing };
+                    let way = Way { schema: number, gives: fact, missing, is_far_fetched };
                     if !way.missing.contains(&fact) {
                         self.ways.push(way);
                     }
@@ -187,7 +196,7 @@ impl<'a> Lacks<'a> {
         binding: Binding,
         open: &[usize],
         missing: Vec<Wanted>,
-        found: &mut Vec<Vec<Wanted>>,
+        found: &mut Vec<(Vec<Wanted>, bool)>,
     ) {
         let rule = &self.domain.schemas[schema];
         let too_many = found.len() >= MOST_WAYS || missing.len() > MOST_MISSING;
@@ -203,8 +212,10 @@ impl<'a> Lacks<'a> {
             if bound == 0 {
                 return None;
             }
+            // What changes may be otherwise by then; the world's make is as it is.
+            let changes = usize::from(self.reached.changing[wanted.predicate.index()]);
             let count = self.holding(&wanted).take(MOST_WAYS).count();
-            Some((1 + count, at, wanted))
+            Some((1 + count + changes * MOST_WAYS, at, wanted))
         });
         let Some((_, at, wanted)) = tied.min_by_key(|&(count, at, _)| (count, at)) else {
             found.extend(self.finished(rule, &binding, open, missing));
@@ -229,28 +240,41 @@ impl<'a> Lacks<'a> {
                 self.complete(schema, binding, &rest, missing, found);
             }
         }
+        for args in self.elsewhere(&wanted) {
+            if let Some(binding) = chosen(&args) {
+                let missing = with(missing.clone(), self.under(atom, &binding));
+                self.complete(schema, binding, &rest, missing, found);
+            }
+        }
         if !is_chosen {
             let missing = with(missing, wanted.clone());
             self.complete(schema, binding.clone(), &rest, missing, found);
         }
     }
 
-    /// What is missing once nothing ties further objects: preconditions of which nothing is chosen count only where
-    /// no object at all satisfies them and they do not speak of what another missing fact leaves open.
+    /// What is missing once nothing ties further objects, and whether it is far-fetched: preconditions of which
+    /// nothing is chosen count only where no object at all satisfies them and nothing else that is missing is open.
     fn finished(
         &self,
         rule: &Schema,
         binding: &Binding,
         open: &[usize],
         mut missing: Vec<Wanted>,
-    ) -> Option<Vec<Wanted>> {
-        if missing.iter().any(|wanted| wanted.args.iter().any(Option::is_none)) {
-            // Nobody stands at a place of which nobody knows where it is.
-            let is_static = |wanted: &Wanted| !self.reached.changing[wanted.predicate.index()];
-            let stands = |&at: &usize| self.moving[rule.preconditions[at].predicate.index()];
-            if missing.iter().any(is_static) && open.iter().any(stands) {
-                return None;
-            }
+    ) -> Option<(Vec<Wanted>, bool)> {
+        let is_open = |wanted: &Wanted| wanted.args.iter().any(Option::is_none);
+        let mut is_far_fetched = false;
+        if missing.iter().any(is_open) {
+            let is_static = |atom: &&SchemaAtom| !self.reached.changing[atom.predicate.index()];
+            let lacking = (0..rule.preconditions.len()).filter(|at| !open.contains(at));
+            let lacking = lacking.map(|at| &rule.preconditions[at]).filter(is_static);
+            let places: Vec<&SchemaTerm> = lacking
+                .flat_map(|atom| &atom.args)
+                .filter(|term| self.reached.value(binding, term).is_none())
+                .collect();
+            is_far_fetched = open.iter().map(|&at| &rule.preconditions[at]).any(|atom| {
+                self.moving[atom.predicate.index()]
+                    && atom.args.iter().any(|term| places.contains(&term))
+            });
         } else {
             for &at in open {
                 let wanted = self.under(&rule.preconditions[at], binding);
@@ -265,7 +289,7 @@ impl<'a> Lacks<'a> {
                 missing.push(wanted);
             }
         }
-        (!missing.is_empty()).then_some(missing)
+        (!missing.is_empty()).then_some((missing, is_far_fetched))
     }
 
     fn under(&self, atom: &SchemaAtom, binding: &Binding) -> Wanted {
@@ -290,6 +314,40 @@ impl<'a> Lacks<'a> {
         facts.filter(move |atom| of_same_state(atom.predicate) && fits(&atom.args, &wanted.args))
     }
 
+    /// Where else what moves could be, as far as the world's make tells: the lift stands at one door and could stand at
+    /// each of its doors.
+    fn elsewhere(&self, wanted: &Wanted) -> Vec<Vec<ThingId>> {
+        let is_partly_open = wanted.args.iter().any(Option::is_none);
+        if !self.moving[wanted.predicate.index()] || !is_partly_open {
+            return Vec::new();
+        }
+        let mut found: Vec<Vec<ThingId>> = Vec::new();
+        for (number, schema) in self.domain.schemas.iter().enumerate() {
+            for add in schema.add_effects.iter().filter(|add| add.predicate == wanted.predicate) {
+                let Some(binding) = self.bound(number, &add.args, &wanted.args) else { continue };
+                let of_add = |atom: &&SchemaAtom| {
+                    !self.reached.changing[atom.predicate.index()]
+                        && atom.args.iter().all(|term| add.args.contains(term))
+                };
+                for fixed in schema.preconditions.iter().filter(of_add) {
+                    let within = self.under(fixed, &binding);
+                    for tuple in self.holding(&within).take(MOST_WAYS) {
+                        let mut binding = binding.clone();
+                        let fits = self.reached.unify(number, &mut binding, fixed, tuple);
+                        let args: Option<Vec<ThingId>> =
+                            self.under(add, &binding).args.into_iter().collect();
+                        found.extend(args.filter(|args| {
+                            let atom =
+                                GroundAtom { predicate: wanted.predicate, args: args.clone() };
+                            fits && !found.contains(args) && !self.attainable.holds(&atom)
+                        }));
+                    }
+                }
+            }
+        }
+        found
+    }
+
     // The prices.
 
     fn weigh(&mut self) {
@@ -304,7 +362,8 @@ impl<'a> Lacks<'a> {
         self.labels = vec![None; self.facts.len()];
         let cost = |label: &Label| {
             let stated: u32 = label.stated.iter().filter_map(|&fact| prices[fact]).sum();
-            stated + label.ways.len() as u32
+            let far = label.ways.iter().filter(|&&way| self.ways[way].is_far_fetched).count();
+            stated + label.ways.len() as u32 + FAR_FETCHED * far as u32
         };
         // What was met first is preferred among equals: the order of the rule file.
         let mut queue = BinaryHeap::new();
@@ -356,8 +415,8 @@ impl<'a> Lacks<'a> {
         let makes = match (self.reached.changing[wanted.predicate.index()], wanted.negated) {
             _ if number == 0 => return None,
             (false, false) => 10,
-            (false, true) => 40,
-            (true, true) => 60,
+            (false, true) => 140,
+            (true, true) => 160,
             (true, false) if self.is_otherwise(wanted) => return None,
             (true, false) if open == wanted.args.len() && open > 0 => 300,
             (true, false) if self.is_only_attained(wanted.predicate) => 200,
@@ -369,7 +428,7 @@ impl<'a> Lacks<'a> {
             }
             (true, false) => 30,
         };
-        Some(makes + 10 * open as u32 + 40 * u32::from(is_unspoken))
+        Some(makes + 10 * open as u32 + 80 * u32::from(is_unspoken))
     }
 
     fn is_attained_of_any(&self, predicate: PredicateId) -> bool {
@@ -396,7 +455,21 @@ impl<'a> Lacks<'a> {
                 })
             })
         };
-        self.otherwise(wanted).next().is_some() || stands_elsewhere()
+        self.otherwise(wanted).next().is_some() || self.is_exchanged(wanted) || stands_elsewhere()
+    }
+
+    /// Whether an initial fact holds of one of the objects until the wanted takes its place.
+    fn is_exchanged(&self, wanted: &Wanted) -> bool {
+        let places = &self.exchanged[wanted.predicate.index()];
+        let said = |(&object, state): (&Option<ThingId>, &usize)| {
+            let facts = self.resolved.facts.iter().map(|(atom, _)| atom);
+            let mut others = facts.filter(|atom| atom.predicate != wanted.predicate);
+            others.any(|atom| {
+                let places = &self.exchanged[atom.predicate.index()];
+                atom.args.iter().zip(places).any(|(&arg, own)| own == state && Some(arg) == object)
+            })
+        };
+        wanted.args.iter().zip(places).any(said)
     }
 
     /// Whether the facts of a predicate are neither stated nor ever taken away: what was searched, who was called.
@@ -422,29 +495,4 @@ pub(super) fn fits(have: &[ThingId], wanted: &[Option<ThingId>]) -> bool {
 pub(super) fn closed(wanted: &Wanted) -> Option<GroundAtom> {
     let args = wanted.args.iter().copied().collect::<Option<_>>()?;
     Some(GroundAtom { predicate: wanted.predicate, args })
-}
-
-/// For each predicate the number of the state that it belongs to.
-fn states(domain: &Domain) -> Vec<usize> {
-    let mut states: Vec<usize> = (0..domain.predicates.len()).collect();
-    for schema in &domain.schemas {
-        for add in &schema.add_effects {
-            for del in schema.del_effects.iter().filter(|del| del.args == add.args) {
-                let (into, from) = (states[add.predicate.index()], states[del.predicate.index()]);
-                states.iter_mut().filter(|state| **state == from).for_each(|state| *state = into);
-            }
-        }
-    }
-    states
-}
-
-fn moving(domain: &Domain) -> Vec<bool> {
-    let mut moving = vec![false; domain.predicates.len()];
-    for schema in &domain.schemas {
-        for add in &schema.add_effects {
-            let moves = |del: &SchemaAtom| del.predicate == add.predicate && del.args != add.args;
-            moving[add.predicate.index()] |= schema.del_effects.iter().any(moves);
-        }
-    }
-    moving
 }

@@ -27,6 +27,7 @@ mod bystander;
 mod check;
 mod domain;
 mod error;
+mod exchange;
 mod explain;
 mod ground;
 mod lack;
@@ -47,7 +48,7 @@ pub use domain::{
     SchemaCost, SchemaTerm,
 };
 pub use error::{Place, RuleError, RuleFault, RuleFaults};
-pub use explain::{Missing, Obstacle, explain_unreachable};
+pub use explain::{Clash, Missing, Obstacle, explain_unreachable};
 pub use ground::{ground, ground_while, without_price};
 pub use load::{MAX_FILE_BYTES, Scenario};
 pub use plan_text::{Directive, PlanText};
