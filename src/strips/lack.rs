@@ -63,6 +63,8 @@ pub(super) struct Lacks<'a> {
     pub(super) resolved: &'a Resolved,
     pub(super) reached: &'a Reachability<'a>,
     pub(super) attainable: &'a Attainable<'a>,
+    /// What holds at first, by predicate.
+    initial: Vec<Vec<&'a GroundAtom>>,
     /// Predicates that actions exchange for each other over the same objects, as a door's being open and shut.
     states: Vec<usize>,
     /// For each place of each predicate a number: two have one where actions exchange facts about the object there,
@@ -85,11 +87,16 @@ impl<'a> Lacks<'a> {
         goal: Wanted,
     ) -> Self {
         let states = states(domain);
+        let mut initial: Vec<Vec<&GroundAtom>> = vec![Vec::new(); domain.predicates.len()];
+        for (atom, _) in &resolved.facts {
+            initial[atom.predicate.index()].push(atom);
+        }
         let mut lacks = Self {
             domain,
             resolved,
             reached,
             attainable,
+            initial,
             states,
             exchanged: exchanged(domain),
             moving: moving(domain),
@@ -306,12 +313,11 @@ impl<'a> Lacks<'a> {
 
     /// Initial facts that say of such objects what excludes the wanted: the door is locked.
     fn otherwise(&self, wanted: &Wanted) -> impl Iterator<Item = &'a GroundAtom> {
-        let of_same_state = |predicate: PredicateId| {
-            predicate != wanted.predicate
-                && self.states[predicate.index()] == self.states[wanted.predicate.index()]
-        };
-        let facts = self.resolved.facts.iter().map(|(atom, _)| atom);
-        facts.filter(move |atom| of_same_state(atom.predicate) && fits(&atom.args, &wanted.args))
+        let own = wanted.predicate.index();
+        let others = (0..self.states.len())
+            .filter(move |&other| other != own && self.states[other] == self.states[own]);
+        let facts = others.flat_map(|other| self.initial[other].iter().copied());
+        facts.filter(move |atom| fits(&atom.args, &wanted.args))
     }
 
     /// Where else what moves could be, as far as the world's make tells: the lift stands at one door and could stand at
@@ -410,8 +416,7 @@ impl<'a> Lacks<'a> {
     fn price(&self, number: usize) -> Option<u32> {
         let wanted = &self.facts[number];
         let open = wanted.args.iter().filter(|arg| arg.is_none()).count();
-        let is_unspoken = !wanted.negated
-            && !self.resolved.facts.iter().any(|(atom, _)| atom.predicate == wanted.predicate);
+        let is_unspoken = !wanted.negated && self.initial[wanted.predicate.index()].is_empty();
         let makes = match (self.reached.changing[wanted.predicate.index()], wanted.negated) {
             _ if number == 0 => return None,
             (false, false) => 10,
@@ -446,9 +451,8 @@ impl<'a> Lacks<'a> {
                     gone.into_iter().any(|gone| {
                         let is_moved = gone.predicate == wanted.predicate;
                         let is_about = gone.args.iter().any(Option::is_some);
-                        let stated = || self.resolved.facts.iter().map(|(atom, _)| atom);
-                        let is_so = |predicate, args: &[Option<ThingId>]| {
-                            stated().any(|a| a.predicate == predicate && fits(&a.args, args))
+                        let is_so = |predicate: PredicateId, args: &[Option<ThingId>]| {
+                            self.initial[predicate.index()].iter().any(|a| fits(&a.args, args))
                         };
                         (is_moved || is_about) && is_so(gone.predicate, &gone.args)
                     })
@@ -462,9 +466,11 @@ impl<'a> Lacks<'a> {
     fn is_exchanged(&self, wanted: &Wanted) -> bool {
         let places = &self.exchanged[wanted.predicate.index()];
         let said = |(&object, state): (&Option<ThingId>, &usize)| {
-            let facts = self.resolved.facts.iter().map(|(atom, _)| atom);
-            let mut others = facts.filter(|atom| atom.predicate != wanted.predicate);
-            others.any(|atom| {
+            let others = (0..self.exchanged.len()).filter(|&other| {
+                other != wanted.predicate.index() && self.exchanged[other].contains(state)
+            });
+            let mut facts = others.flat_map(|other| &self.initial[other]);
+            facts.any(|atom| {
                 let places = &self.exchanged[atom.predicate.index()];
                 atom.args.iter().zip(places).any(|(&arg, own)| own == state && Some(arg) == object)
             })
@@ -477,7 +483,7 @@ impl<'a> Lacks<'a> {
         let schemas = &self.domain.schemas;
         let deleted = schemas.iter().flat_map(|schema| &schema.del_effects);
         !deleted.into_iter().any(|atom| atom.predicate == predicate)
-            && !self.resolved.facts.iter().any(|(atom, _)| atom.predicate == predicate)
+            && self.initial[predicate.index()].is_empty()
     }
 }
 
