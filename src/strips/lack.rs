@@ -148,7 +148,7 @@ impl<'a> Lacks<'a> {
                 };
                 let open: Vec<usize> = (0..schema.preconditions.len()).collect();
                 let mut found = Vec::new();
-                self.complete(number, binding, &open, Vec::new(), &mut found);
+                self.complete(number, &binding, &open, Vec::new(), &mut found);
                 for (missing, is_far_fetched) in found {
                     let missing = missing.into_iter().map(|wanted| self.number(wanted)).collect();
                     let way = Way { schema: number, gives: fact, missing, is_far_fetched };
@@ -200,18 +200,18 @@ impl<'a> Lacks<'a> {
     fn complete(
         &self,
         schema: usize,
-        binding: Binding,
+        binding: &Binding,
         open: &[usize],
         missing: Vec<Wanted>,
         found: &mut Vec<(Vec<Wanted>, bool)>,
     ) {
         let rule = &self.domain.schemas[schema];
         let too_many = found.len() >= MOST_WAYS || missing.len() > MOST_MISSING;
-        if too_many || !self.reached.comparisons_hold(rule, &binding) {
+        if too_many || !self.reached.comparisons_hold(rule, binding) {
             return;
         }
         let tied = open.iter().copied().filter_map(|at| {
-            let wanted = self.under(&rule.preconditions[at], &binding);
+            let wanted = self.under(&rule.preconditions[at], binding);
             let bound = wanted.args.iter().flatten().count();
             if bound == wanted.args.len() {
                 return Some((0, at, wanted));
@@ -225,7 +225,7 @@ impl<'a> Lacks<'a> {
             Some((1 + count + changes * MOST_WAYS, at, wanted))
         });
         let Some((_, at, wanted)) = tied.min_by_key(|&(count, at, _)| (count, at)) else {
-            found.extend(self.finished(rule, &binding, open, missing));
+            found.extend(self.finished(rule, binding, open, missing));
             return;
         };
         let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
@@ -237,25 +237,25 @@ impl<'a> Lacks<'a> {
         let mut is_chosen = false;
         for binding in self.holding(&wanted).filter_map(chosen) {
             is_chosen = true;
-            self.complete(schema, binding, &rest, missing.clone(), found);
+            self.complete(schema, &binding, &rest, missing.clone(), found);
         }
         for binding in self.otherwise(&wanted).filter_map(|atom| chosen(&atom.args)) {
             let now_wanted = self.under(atom, &binding);
             if closed(&now_wanted).is_some_and(|atom| !self.attainable.holds(&atom)) {
                 is_chosen = true;
                 let missing = with(missing.clone(), now_wanted);
-                self.complete(schema, binding, &rest, missing, found);
+                self.complete(schema, &binding, &rest, missing, found);
             }
         }
         for args in self.elsewhere(&wanted) {
             if let Some(binding) = chosen(&args) {
                 let missing = with(missing.clone(), self.under(atom, &binding));
-                self.complete(schema, binding, &rest, missing, found);
+                self.complete(schema, &binding, &rest, missing, found);
             }
         }
         if !is_chosen {
-            let missing = with(missing, wanted.clone());
-            self.complete(schema, binding.clone(), &rest, missing, found);
+            let missing = with(missing, wanted);
+            self.complete(schema, binding, &rest, missing, found);
         }
     }
 
@@ -316,7 +316,7 @@ impl<'a> Lacks<'a> {
         let own = wanted.predicate.index();
         let others = (0..self.states.len())
             .filter(move |&other| other != own && self.states[other] == self.states[own]);
-        let facts = others.flat_map(|other| self.initial[other].iter().copied());
+        let facts = others.flat_map(move |other| self.initial[other].iter().copied());
         facts.filter(move |atom| fits(&atom.args, &wanted.args))
     }
 
