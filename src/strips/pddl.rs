@@ -516,10 +516,10 @@ mod tests {
         )
         .unwrap_err();
         expect_test::expect![[r#"
-            problem:3:26: «or» не поддерживается
             problem:1:53: неизвестный тип «flor»
             problem:2:22: неизвестный предикат «att»
             problem:2:41: «waits»: 1-й аргумент должен быть типа «person или bag», а «ground» – типа «floor»
+            problem:3:26: «or» не поддерживается
             problem:3:49: неизвестный объект «Bob»"#]].assert_eq(&faults.join("\n"));
     }
 
