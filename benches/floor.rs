@@ -1,9 +1,9 @@
 //! Free floor and routes on generated floors, beside Recast and polyanya in the same run.
 //!
 //! `cargo bench --bench floor [-- NAME]` prints three tables: building, asking the way, rebuilding after a move.
-//! Every program does its part of a floor in a process of its own, so that memory is told apart. Times are of the
-//! processor, of all threads together; a query's is the least of five on the clock. `-- --build NAME` builds one
-//! floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
+//! Every program does its part of a floor in a process of its own, so that memory is told apart. Builds are medians,
+//! of the processor's time of all threads together and on the clock; a query is the least of five on the clock.
+//! `-- --build NAME` builds one floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 #[path = "../tests/floors.rs"]
@@ -117,7 +117,10 @@ fn ratio(above: Option<&f64>, below: Option<&f64>) -> String {
 
 fn tables(wanted: &str) {
     let mut build = String::from(
-        "| floor | build, ms | Recast, ms (without detail mesh) | times faster | polyanya, ms | Passframes | Recast's polygons | peak memory, MB (before building) | Recast's |\n|---|---|---|---|---|---|---|---|---|\n",
+        "| floor | build, ms (on the clock) | Recast, ms (on the clock; without detail mesh) | times faster | on the clock | polyanya, ms | Passframes | Recast's polygons |\n|---|---|---|---|---|---|---|---|\n",
+    );
+    let mut memory = String::from(
+        "| floor | before building, MB | peak | after | a second floor adds | Recast: before | peak | after | a second adds |\n|---|---|---|---|---|---|---|---|---|\n",
     );
     let mut query = String::from(
         "| floor | ways | median, µs | p99 | polyanya, median | p99 | Detour's mean elsewhere | our median of it | over the optimum: mean | worst | polyanya's mean |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
@@ -126,22 +129,25 @@ fn tables(wanted: &str) {
     for (name, detour) in FLOORS.into_iter().filter(|(n, _)| n.contains(wanted)) {
         let [ours, recast, polyanya, least] =
             ["ours", "recast", "polyanya", "optimum"].map(|program| Told::by(program, name));
-        let (fast, slow) = (ours.numbers.get("build"), recast.numbers.get("build"));
+        let faster = |key: &str| ratio(recast.numbers.get(key), ours.numbers.get(key));
         let _ = writeln!(
             build,
-            "| {name} | {} | {} ({}) | {} | {} | {} | {} | {} ({}) | {} ({}) |",
+            "| {name} | {} ({}) | {} ({}; {}) | {} | {} | {} | {} | {} |",
             ours.shown("build", 2),
+            ours.shown("clock", 2),
             recast.shown("build", 1),
+            recast.shown("clock", 1),
             recast.shown("bare", 1),
-            ratio(slow, fast),
+            faster("build"),
+            faster("clock"),
             polyanya.shown("build", 1),
             ours.shown("cells", 0),
             recast.shown("cells", 0),
-            ours.shown("peak", 0),
-            ours.shown("before", 0),
-            recast.shown("peak", 0),
-            recast.shown("before", 0),
         );
+        let held = |told: &Told| {
+            ["before", "peak", "after", "kept"].map(|key| told.shown(key, 0)).join(" | ")
+        };
+        let _ = writeln!(memory, "| {name} | {} | {} |", held(&ours), held(&recast));
         let (own, other) = (ours.times(), polyanya.times());
         let at =
             |times: &[f64], share: f64| times.get((times.len() as f64 * share) as usize).copied();
@@ -175,7 +181,7 @@ fn tables(wanted: &str) {
             ours.shown("rebuild worst", 2)
         );
     }
-    println!("{build}\n{query}\n{rebuild}");
+    println!("{build}\n{memory}\n{query}\n{rebuild}");
 }
 
 /// One program on one floor; tells what it found in lines of numbers.
@@ -184,16 +190,15 @@ fn alone(program: &str, name: &str) {
     let pairs = floor.pairs(QUERIES, RADIUS);
     // Small floors are built often, so that the clock can tell.
     let times = match name {
-        "room-20" | "flat-80" => 40,
-        "office-3000" => 3,
-        _ => 1,
+        "room-20" | "flat-80" => 41,
+        "office-3000" => 7,
+        _ => 3,
     };
     match program {
         "ours" => {
             let world = &floor.builder.world;
-            println!("before\t{}", held("VmRSS:"));
-            let (plan, build) = least(times, || plan(world));
-            println!("build\t{}\npeak\t{}", build * 1e3, held("VmHWM:"));
+            let plan = kept(|| plan(world));
+            median(times, "build", "clock", || self::plan(world));
             println!("cells\t{}", plan.fragments().map(|f| f.passframes().len()).sum::<usize>());
             ask(&pairs, |from, to| {
                 let found = plan.route(world, from, Target::Point(to), Method::Shortest).ok()?;
@@ -204,17 +209,16 @@ fn alone(program: &str, name: &str) {
         }
         "recast" => {
             let mesh = peers::triangles(&floor);
-            println!("before\t{}", held("VmRSS:"));
-            let (tiles, build) = least(times.min(5), || peers::recast(&mesh, RADIUS, true));
+            let tiles = kept(|| peers::recast(&mesh, RADIUS, true));
             let cells: usize = tiles.iter().map(|(polygons, _)| polygons.polygon_count()).sum();
-            println!("build\t{}\ncells\t{cells}\npeak\t{}", build * 1e3, held("VmHWM:"));
-            let (_, bare) = least(times.min(5), || peers::recast(&mesh, RADIUS, false));
-            println!("bare\t{}", bare * 1e3);
+            println!("cells\t{cells}");
+            median(times, "build", "clock", || peers::recast(&mesh, RADIUS, true));
+            median(times, "bare", "bare clock", || peers::recast(&mesh, RADIUS, false));
         }
         "polyanya" => {
             let outlines = peers::outlines(&plan(&floor.builder.world));
-            let (meshes, build) = least(1, || peers::polyanya(&outlines));
-            println!("build\t{}\npeak\t{}", build * 1e3, held("VmHWM:"));
+            let meshes = peers::polyanya(&outlines);
+            median(1, "build", "clock", || peers::polyanya(&outlines));
             ask(&pairs, |from, to| meshes.iter().find_map(|mesh| peers::way(mesh, from, to)));
         }
         _ => {
@@ -247,21 +251,34 @@ fn alone(program: &str, name: &str) {
     }
 }
 
-/// The result and the least processor time of several runs, in seconds.
-fn least<T>(times: usize, mut work: impl FnMut() -> T) -> (T, f64) {
-    let mut run = || {
-        let start = ProcessTime::now();
+/// Tells the median times of several runs under two names, in ms: of the processor, and on the clock.
+fn median<T>(times: usize, processor: &str, clock: &str, mut work: impl FnMut() -> T) {
+    let run = || {
+        let (start, began) = (ProcessTime::now(), Instant::now());
         let made = black_box(work());
-        (made, start.elapsed().as_secs_f64())
+        let spent = [start.elapsed(), began.elapsed()].map(|t| t.as_secs_f64() * 1e3);
+        drop(made);
+        spent
     };
-    let mut best = run();
-    for _ in 1..times {
-        let next = run();
-        if next.1 < best.1 {
-            best = next;
-        }
+    let runs: Vec<[f64; 2]> = std::iter::repeat_with(run).take(times).collect();
+    for (k, name) in [processor, clock].into_iter().enumerate() {
+        let mut spent: Vec<f64> = runs.iter().map(|r| r[k]).collect();
+        spent.sort_by(f64::total_cmp);
+        println!("{name}\t{}", spent[times / 2]);
     }
-    best
+}
+
+/// Makes something and tells the memory that the process holds around it. What has been freed before is used again
+/// unseen, so what a second one beside the first adds is told too.
+fn kept<T>(mut make: impl FnMut() -> T) -> T {
+    println!("before\t{}", held("VmRSS:"));
+    let made = black_box(make());
+    let after = held("VmRSS:");
+    println!("after\t{after}\npeak\t{}", held("VmHWM:"));
+    let second = black_box(make());
+    println!("kept\t{}", held("VmRSS:") - after);
+    drop(second);
+    made
 }
 
 fn ask(pairs: &[(Point, Point)], way: impl Fn(Point, Point) -> Option<f64>) {

@@ -25,6 +25,8 @@ mod imports;
 mod lifts;
 mod map_editing;
 mod maps;
+mod odd_floors;
+mod odd_worlds;
 mod partition;
 mod passframes;
 mod planning;

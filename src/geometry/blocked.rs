@@ -295,7 +295,7 @@ fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
 }
 
 /// Dead zones between two pieces of one Fragment.
-fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
+pub(super) fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
     let floor = plan.floor(number);
     let mut found = Vec::new();
     for zone in &floor.dead_zones {
@@ -364,7 +364,9 @@ impl Barrier {
         let area = |id: &AreaId| world.areas.get(id).map_or("?", |a| a.name.as_str());
         let door = |id: &DoorId| world.doors.get(id).map_or("?", |d| d.name.as_str());
         let list = |blockers: &[Blocker]| {
-            let names: Vec<String> = blockers.iter().map(|b| b.name(world)).collect();
+            let mut names: Vec<String> = blockers.iter().map(|b| b.name(world)).collect();
+            // Several sides are walls, too, but one «стена» will do.
+            names.dedup();
             names.join(", ")
         };
         match self {

@@ -1,12 +1,13 @@
 //! Dead zones: floor that the robot covers from no place where it fits, what stands around it, and how narrow it is.
 
 use crate::map::Permeability;
+use crate::units::Point;
 
 use super::doors::distance_within;
 use super::floor::FragmentFloor;
 use super::grid::{Grid, Shapes};
 use super::obstacle::Blocker;
-use super::{Bounds, Polygon, Region};
+use super::{Bounds, Polygon, Region, nearest_on_segment};
 
 /// What makes a dead zone one.
 #[derive(Debug, Clone, PartialEq)]
@@ -30,23 +31,32 @@ pub(super) fn dead_zones(grid: &Grid, dead: &Shapes) -> Vec<Region> {
 /// What stands around a dead zone, for a robot that keeps `reach` from everything.
 pub(super) fn surroundings(floor: &FragmentFloor, zone: &Region, reach: f64) -> Surroundings {
     let at = zone.outer.bounds();
-    let mut near: Vec<(Blocker, Polygon, Bounds)> = Vec::new();
-    let mut consider = |blocker: Blocker, polygon: &Polygon| {
+    let beside = |blocker: Blocker, polygon: &Polygon| {
         let bounds = polygon.bounds().grown(TOUCH);
-        if bounds.meets(&at) && distance_within(polygon, &zone.outer, TOUCH).is_some() {
-            near.push((blocker, polygon.clone(), bounds));
-        }
+        let stands = bounds.meets(&at) && distance_within(polygon, &zone.outer, TOUCH).is_some();
+        stands.then(|| (blocker, polygon.clone(), bounds))
     };
-    floor.obstacles.iter().for_each(|o| consider(o.blocker, &o.polygon));
+    let things = floor.obstacles.iter();
+    let mut near: Vec<(Blocker, Polygon, Bounds)> =
+        things.filter_map(|o| beside(o.blocker, &o.polygon)).collect();
+    let mut jambs = floor.walls.clone();
     for side in floor.edging.sides.iter().filter(|s| s.permeability != Permeability::Permeable) {
         let blocker = Blocker::Wall { area: floor.area, item: side.item, side: side.side };
-        consider(blocker, &Polygon::new(vec![side.start, side.end]));
+        near.extend(beside(blocker, &Polygon::new(vec![side.start, side.end])));
+        let is_off = |q: Point| (nearest_on_segment(q, side.start, side.end) - q).norm() > TOUCH;
+        jambs.retain(|&(a, b)| is_off(a) || is_off(b));
     }
+    // What is left of the walls belongs to no side: in a doorway.
+    let sides = near.len();
+    near.extend(
+        jambs.into_iter().filter_map(|(a, b)| beside(jamb(floor), &Polygon::new(vec![a, b]))),
+    );
     let mut gap: Option<f64> = None;
     for (k, (a, p, own)) in near.iter().enumerate() {
         for (b, q, other) in &near[k + 1..] {
             let widest = gap.unwrap_or(2.0 * reach);
-            if a == b || !own.grown(widest).meets(other) {
+            let is_same = a == b && k < sides;
+            if is_same || !own.grown(widest).meets(other) {
                 continue;
             }
             if let Some(d) = distance_within(p, q, widest)
@@ -61,6 +71,11 @@ pub(super) fn surroundings(floor: &FragmentFloor, zone: &Region, reach: f64) -> 
     owners.sort_unstable();
     owners.dedup();
     Surroundings { owners, gap }
+}
+
+/// Jambs have no side of their own: they belong to the wall.
+pub(super) fn jamb(floor: &FragmentFloor) -> Blocker {
+    Blocker::Wall { area: floor.area, item: 0, side: 0 }
 }
 
 /// Things within this distance of a zone stand around it, in cm.

@@ -6,6 +6,7 @@
 use crate::map::{BaseVector, Permeability};
 use crate::units::Point;
 
+use super::dead_zone::jamb;
 use super::floor::{FragmentFloor, Site};
 use super::obstacle::{Blocker, Obstacle};
 use super::passframe::Beyond;
@@ -88,16 +89,23 @@ impl Edging {
         };
         let of_thing = |o: &Obstacle| {
             let edges = o.polygon.edges().enumerate();
-            edges.map(|(side, edge)| face(edge, o.blocker, side)).collect::<Vec<_>>()
+            let sides = edges.map(|(number, edge)| match o.side {
+                None => face(edge, o.blocker, number),
+                Some(side) => face(edge, o.blocker, side),
+            });
+            let mut sides: Vec<Face> = sides.collect();
+            if o.side.is_some() {
+                // Behind a strip is the thing itself, or what its other sides look at.
+                sides.remove(2);
+            }
+            sides
         };
         let of_side = |s: &Side| {
             let blocker = Blocker::Wall { area: floor.area, item: s.item, side: s.side };
             face((s.start, s.end), blocker, s.side)
         };
         let of_wall = |&(start, end): &(Point, Point)| {
-            // Jambs have no side of their own: they belong to the wall.
-            let blocker = Blocker::Wall { area: floor.area, item: 0, side: 0 };
-            let beyond = Beyond::Face { blocker, side: None };
+            let beyond = Beyond::Face { blocker: jamb(floor), side: None };
             let permeability = Permeability::Impermeable;
             Face { start, end, beyond, permeability, names: Vec::new() }
         };

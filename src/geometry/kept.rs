@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon, Region};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 2");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 3");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -223,7 +223,7 @@ kept_structs! {
     Grid { origin, scale }
     Region { outer, holes }
     Bounds { min, max }
-    Obstacle { blocker, polygon, bottom, top }
+    Obstacle { blocker, polygon, side, bottom, top }
     Side { item, side, start, end, permeability }
     Face { start, end, beyond, permeability, names }
     Mark { blocker, side, permeability, names }

@@ -206,6 +206,7 @@ impl Mesh {
 
     /// The part of segment `a`-`b` within a cell, as fractions of its length.
     pub(super) fn clip(&self, cell: u32, a: Point, b: Point) -> Option<(f64, f64)> {
+        const TOUCH: f64 = 1e-4;
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         for i in 0..self.ring(cell).len() {
             let (u, v) = self.edge(cell, i);
@@ -217,7 +218,6 @@ impl Mesh {
             }
             let length = along.norm();
             let (da, db) = (da / length, db / length);
-            const TOUCH: f64 = 1e-4;
             if da < -TOUCH && db < -TOUCH {
                 return None;
             }
@@ -228,6 +228,16 @@ impl Mesh {
                 } else if db < -TOUCH {
                     to = to.min(t);
                 }
+            }
+        }
+        // A needle's sides are within touch of their own line all along it: only its ends end it.
+        let ends = Bounds::of(self.ring(cell).iter().map(|&v| self.vertices[v as usize]));
+        let along = b - a;
+        for axis in 0..2 {
+            if along[axis].abs() > TOUCH {
+                let at = |edge: f64| (edge - a[axis]) / along[axis];
+                let (s, t) = (at(ends.min[axis] - TOUCH), at(ends.max[axis] + TOUCH));
+                (from, to) = (from.max(s.min(t)), to.min(s.max(t)));
             }
         }
         (from <= to).then_some((from, to))

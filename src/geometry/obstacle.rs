@@ -33,14 +33,16 @@ pub enum Blocker {
 pub struct Obstacle {
     pub blocker: Blocker,
     pub polygon: Polygon,
+    /// The side of its Orthoframe that it is a strip of; none of a whole base, whose edges are the sides.
+    pub side: Option<usize>,
     /// Above the floor, in cm.
     pub bottom: f64,
     pub top: f64,
 }
 
-/// The floor that a prism takes from the robot above a floor at `floor`; none when it stands aside of the
-/// robot's height.
-fn footprint(prism: &Prism, floor: f64, robot: &RobotProfile) -> Vec<Polygon> {
+/// The floor that a prism takes from the robot above a floor at `floor`, by side where it is thin; none when it
+/// stands aside of the robot's height.
+fn footprint(prism: &Prism, floor: f64, robot: &RobotProfile) -> Vec<(Option<usize>, Polygon)> {
     let (step, height) = (robot.step.get().max(0.0), robot.height.get());
     let (bottom, top) = (prism.bottom - floor, prism.top - floor);
     let is_flat = top <= bottom;
@@ -64,9 +66,10 @@ fn footprint(prism: &Prism, floor: f64, robot: &RobotProfile) -> Vec<Polygon> {
     }
     let extent = polygon.bounds().max - polygon.bounds().min;
     if polygon.signed_area().abs() <= 2.0 * THIN * extent.norm() {
-        return polygon.edges().map(|(a, b)| strip(a, b)).collect();
+        let strips = polygon.edges().enumerate();
+        return strips.map(|(side, (a, b))| (Some(side), strip(a, b))).collect();
     }
-    vec![polygon.counter_clockwise()]
+    vec![(None, polygon.counter_clockwise())]
 }
 
 /// The obstacles that the replicas are, as far as they meet one of the boxes.
@@ -83,10 +86,11 @@ pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds])
         });
         let floor = storey.level + under;
         for prism in &replica.prisms {
-            for polygon in footprint(prism, floor, site.robot) {
+            for (side, polygon) in footprint(prism, floor, site.robot) {
                 found.push(Obstacle {
                     blocker: Blocker::Replica { replica: id, item: prism.item },
                     polygon,
+                    side,
                     bottom: prism.bottom - floor,
                     top: prism.top - floor,
                 });
@@ -125,7 +129,7 @@ fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obsta
         let leaves = Leaves::of_object(door, mount, a, b).map(|leaves| leaves.at(state));
         for (leaf, polygon) in leaves.into_iter().flatten().enumerate() {
             let blocker = Blocker::ReplicaLeaf { replica: replica.id, door: mount.door, leaf };
-            found.push(Obstacle { blocker, polygon, bottom, top });
+            found.push(Obstacle { blocker, polygon, side: None, bottom, top });
         }
     }
     found
@@ -161,6 +165,7 @@ pub(super) fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
         found.extend(leaves.into_iter().enumerate().map(|(leaf, polygon)| Obstacle {
             blocker: Blocker::DoorLeaf { door: door.id, leaf },
             polygon,
+            side: None,
             bottom: 0.0,
             top: door.height.get(),
         }));

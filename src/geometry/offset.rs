@@ -146,6 +146,9 @@ pub(super) fn grow(grid: &Grid, centres: &[Region], radius: f64, floor: &[Region
 /// The widest turn of the disc that one straight line closes, in radians: it leaves out 13 % of the radius.
 const MOUTH_STEP: f64 = PI / 3.0 + 1e-6;
 
+/// The sine of a turn that is none, or straight back.
+const STRAIGHT: f64 = 1e-9;
+
 /// Corners nearer than this, in cm, are one.
 const TOUCH: f64 = 0.05;
 
@@ -226,7 +229,10 @@ fn offset_curve(
     };
     // How much of its edges a turn to the left can cut off.
     let cut = |(sine, cosine): (f64, f64)| {
-        if sine <= 0.0 {
+        if sine.abs() < STRAIGHT && cosine < 0.0 {
+            // Straight back the moved edges' lines do not meet.
+            f64::INFINITY
+        } else if sine <= 0.0 {
             0.0
         } else if cosine >= 0.0 {
             distance.abs() * sine
@@ -241,7 +247,7 @@ fn offset_curve(
         let (before, after) = ((i + n - 1) % n, (i + 1) % n);
         let start = left_of(edges[before].1) * distance;
         let end = left_of(edges[i].1) * distance;
-        if sine.abs() < 1e-9 && cosine > 0.0 {
+        if sine.abs() < STRAIGHT && cosine > 0.0 {
             curve.push(grid.node(corners[i] + start));
             continue;
         }
@@ -363,6 +369,17 @@ mod tests {
         for &p in &hole.corners {
             assert!(pillar.border_distance(p) > 30.0 - 1e-5);
         }
+    }
+
+    #[test]
+    fn a_slit_without_width_shrinks_to_nothing() {
+        // From the middle of a wall into the room and straight back: the turn's sine is zero.
+        let corners = [(0.0, 0.0), (400.0, 0.0), (400.0, 300.0), (0.0, 300.0), (0.0, 150.0)];
+        let slit = [(-40.0, 150.0), (0.0, 150.0)];
+        let corners = corners.into_iter().chain(slit).map(|(x, y)| Point::new(x, y));
+        let shapes = shrunk(&[region(Polygon::new(corners.collect()), &[])], 30.0);
+        let area: f64 = grid().regions(&shapes).iter().map(Region::area).sum();
+        assert!((area - 340.0 * 240.0).abs() < 1e-6, "{area}");
     }
 
     /// Corners of two pillars, on a slant for which no tangent of the plain arc stands square: the disc passes

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
-use super::blocked::{Barrier, NoRoute};
+use super::blocked::{Barrier, NoRoute, gaps};
 use super::leaf::opening_of;
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
@@ -41,8 +41,8 @@ pub enum Remedy {
 
 /// Nobody pushes furniture further than this for a robot, in cm.
 const FURTHEST: f64 = 120.0;
-/// Pushes are told apart by this, in cm.
-const STEP: f64 = 2.0;
+/// Pushes are told apart by this, in cm: what is said is rounded to it.
+const STEP: f64 = 1.0;
 
 impl FloorPlan {
     /// The smallest change that opens a way where [`FloorPlan::route`] found none: doors that only need opening
@@ -66,7 +66,7 @@ impl FloorPlan {
         }
         let mut best: Option<(f64, Remedy)> = None;
         let things = movable(world, no);
-        for &replica in &things {
+        for replica in opened.beside(world, no, &things) {
             let limit = best.as_ref().map_or(FURTHEST, |b| b.0 - STEP);
             if let Some((way, by)) = opened.shortest_push(world, from, target, replica, limit) {
                 best = Some((way, Remedy::Move { replica, by, open: doors.clone() }));
@@ -132,6 +132,32 @@ impl FloorPlan {
         doors.collect()
     }
 
+    /// What may be pushed: the things in the way, and what stands at the other gaps of the same Fragments, since a
+    /// row of things has several and any will do; at the widest gaps first, where the least push is to be hoped for.
+    fn beside(&self, world: &World, no: &NoRoute, things: &BTreeSet<ReplicaId>) -> Vec<ReplicaId> {
+        let areas = no.barriers().iter().filter_map(|b| match b {
+            Barrier::Gap { area, .. } | Barrier::Enclosed { area, .. } => Some(*area),
+            _ => None,
+        });
+        let areas: BTreeSet<AreaId> = areas.collect();
+        let numbers = areas.into_iter().filter_map(|area| self.number(area));
+        let mut gaps: Vec<Barrier> =
+            numbers.flat_map(|n| gaps(self, n as u32)).map(|(.., gap)| gap).collect();
+        let width = |b: &Barrier| match b {
+            Barrier::Gap { width, .. } => *width,
+            _ => 0.0,
+        };
+        gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
+        let others = gaps.iter().flat_map(|gap| may_move(world, blockers_of(gap)));
+        let mut found: Vec<ReplicaId> = Vec::new();
+        for id in others.chain(things.iter().copied()) {
+            if !found.contains(&id) {
+                found.push(id);
+            }
+        }
+        found
+    }
+
     /// The first door among those in the way that opens it when it is shut, and the thing that it belongs to.
     fn shut(
         &self,
@@ -194,7 +220,8 @@ impl FloorPlan {
         Some(gone)
     }
 
-    /// The shortest push of one thing that opens the way, in sixteen directions.
+    /// The shortest push of one thing that opens the way, in sixteen directions from its Area's own axes: along the
+    /// walls, and between. Tried at every second step first, as most pushes that are too short are tried in vain.
     fn shortest_push(
         &self,
         world: &World,
@@ -207,23 +234,24 @@ impl FloorPlan {
         let home = self.scene().areas.get(&area)?.frame;
         let mut trial = world.clone();
         let mut plan = self.clone();
-        for k in 1..=((limit / STEP).floor().max(0.0) as usize) {
-            for turn in 0..16 {
-                let angle = f64::from(turn) * PI / 8.0;
-                let by = Vector::new(angle.cos(), angle.sin()) * (STEP * k as f64);
-                let moved = trial.replicas.get_mut(&replica)?;
+        let steps = (limit / STEP).floor().max(0.0) as usize;
+        let mut opens = |step: usize| {
+            (0..16).find_map(|turn| {
+                let angle = home.angle.radians() + f64::from(turn) * PI / 8.0;
+                let by = Vector::new(angle.cos(), angle.sin()) * (STEP * step as f64);
                 let own = &world.replicas[&replica].frame;
-                moved.frame = pushed(own, &home, by);
+                trial.replicas.get_mut(&replica)?.frame = pushed(own, &home, by);
                 if !self.has_room(&trial, replica, area) {
-                    continue;
+                    return None;
                 }
                 plan.rebuild(&trial, &[replica]);
-                if plan.route(&trial, from, target, Method::Shortest).is_ok() {
-                    return Some((STEP * k as f64, by));
-                }
-            }
-        }
-        None
+                let way = plan.route(&trial, from, target, Method::Shortest);
+                way.is_ok().then_some((STEP * step as f64, by))
+            })
+        };
+        let coarse = (1..=steps).filter(|step| step % 2 == 0 || *step == steps);
+        let (step, found) = coarse.map(|step| (step, opens(step))).find(|(_, f)| f.is_some())?;
+        if step > 1 { opens(step - 1).or(found) } else { found }
     }
 
     /// Whether a thing, as it stands in `trial`, is on its Area's floor and in nothing else.
@@ -256,22 +284,30 @@ fn pushed(own: &Frame, home: &Frame, by: Vector) -> Frame {
 
 /// What stands in the way, as far as it is known by name.
 fn blockers(no: &NoRoute) -> impl Iterator<Item = Blocker> + '_ {
-    no.barriers().iter().flat_map(|b| match b {
-        Barrier::Gap { between, .. } => between.clone(),
-        Barrier::Enclosed { by, .. } => by.clone(),
-        _ => Vec::new(),
-    })
+    no.barriers().iter().flat_map(blockers_of)
 }
 
-/// The things in the way that may be moved at all.
+fn blockers_of(barrier: &Barrier) -> impl Iterator<Item = Blocker> + '_ {
+    let named = match barrier {
+        Barrier::Gap { between, .. } => &between[..],
+        Barrier::Enclosed { by, .. } => &by[..],
+        _ => &[],
+    };
+    named.iter().copied()
+}
+
+/// The things among what stands in the way that may be moved at all.
+fn may_move<'a>(
+    world: &'a World,
+    blockers: impl Iterator<Item = Blocker> + 'a,
+) -> impl Iterator<Item = ReplicaId> + 'a {
+    let things = blockers.filter_map(|b| match b {
+        Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => Some(replica),
+        _ => None,
+    });
+    things.filter(|id| world.replicas.get(id).is_some_and(|r| r.move_prob > 0))
+}
+
 fn movable(world: &World, no: &NoRoute) -> BTreeSet<ReplicaId> {
-    blockers(no)
-        .filter_map(|b| match b {
-            Blocker::Replica { replica, .. } | Blocker::ReplicaLeaf { replica, .. } => {
-                Some(replica)
-            }
-            _ => None,
-        })
-        .filter(|id| world.replicas.get(id).is_some_and(|r| r.move_prob > 0))
-        .collect()
+    may_move(world, blockers(no)).collect()
 }

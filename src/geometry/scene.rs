@@ -40,7 +40,15 @@ pub struct Prism {
     pub roof_permeability: Permeability,
 }
 
-/// No leaf of a wardrobe and no rim of a cup sticks out further than this, in cm.
+impl Prism {
+    /// A box around its roof.
+    fn roof_bounds(&self) -> Bounds {
+        let centre = self.polygon.centroid();
+        Bounds::of(self.polygon.corners.iter().map(|c| centre + (c - centre) * self.roof_scale))
+    }
+}
+
+/// No leaf of a wardrobe sticks out further than this, in cm.
 const STICKS_OUT: f64 = 150.0;
 
 /// An Area as it stands in its Map.
@@ -141,12 +149,12 @@ impl PlacedReplica {
         let bounds = prisms.iter().fold(Bounds::EMPTY, |b, f| b.union(&f.bounds));
         let bottom = prisms.iter().map(|f| f.bottom).fold(f64::INFINITY, f64::min);
         let top = prisms.iter().map(|f| f.top).fold(f64::NEG_INFINITY, f64::max);
-        let is_plain = |p: &Prism| {
-            p.roof_scale <= 1.0
-                && p.sides.iter().all(|s| s.permeability != Permeability::Conditional)
-        };
-        let more = if prisms.iter().all(is_plain) { 0.0 } else { STICKS_OUT };
-        let reach = bounds.grown(more);
+        // A Uniframe is as wide as its roof where that is wider than its base.
+        let widest = prisms.iter().filter(|p| p.roof_scale > 1.0).map(Prism::roof_bounds);
+        let widest = widest.fold(bounds, |b, roof| b.union(&roof));
+        let mut sides = prisms.iter().flat_map(|p| &p.sides);
+        let has_leaves = sides.any(|s| s.permeability == Permeability::Conditional);
+        let reach = widest.grown(if has_leaves { STICKS_OUT } else { 0.0 });
         Self { id, area: replica.area, frame, prisms, bounds, reach, has_doors, bottom, top }
     }
 }

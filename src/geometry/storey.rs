@@ -85,6 +85,7 @@ impl Storey {
             .map(|&i| Obstacle {
                 blocker: Blocker::Floor { area: placed.id, item: i },
                 polygon: placed.prisms[i].polygon.clone(),
+                side: None,
                 bottom: placed.prisms[i].bottom - level,
                 top: placed.prisms[i].top - level,
             })
@@ -181,7 +182,7 @@ fn shared(a: &Side, b: &Side) -> Option<(Point, Point)> {
     (to - from > TOUCH).then(|| (a.start + along * from, a.start + along * to))
 }
 
-/// A segment with the least thickness that the floor can show.
+/// A segment with the least thickness that the floor can show; its first edge lies to the right of it.
 pub(super) fn strip(a: Point, b: Point) -> Polygon {
     let across = match (b - a).try_normalize(0.0) {
         Some(v) => Vector::new(-v.y, v.x) * THIN,
