@@ -44,6 +44,9 @@ const FURTHEST: f64 = 120.0;
 /// Pushes are told apart by this, in cm: what is said is rounded to it.
 const STEP: f64 = 1.0;
 
+/// So many things are tried besides those named in the way.
+const WORTH_TRYING: usize = 6;
+
 impl FloorPlan {
     /// The smallest change that opens a way where [`FloorPlan::route`] found none: doors that only need opening
     /// before things that need pushing, and the shortest push of the things that may move.
@@ -150,11 +153,13 @@ impl FloorPlan {
         gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
         let others = gaps.iter().flat_map(|gap| may_move(world, blockers_of(gap)));
         let mut found: Vec<ReplicaId> = Vec::new();
-        for id in others.chain(things.iter().copied()) {
-            if !found.contains(&id) {
+        for id in others {
+            if found.len() < WORTH_TRYING && !found.contains(&id) {
                 found.push(id);
             }
         }
+        let named = things.iter().filter(|id| !found.contains(id)).copied().collect::<Vec<_>>();
+        found.extend(named);
         found
     }
 
