@@ -3,10 +3,10 @@
 use std::path::Path;
 
 use crate::engine::{Engine, PlanAnswer, check_map, check_plan_alone, plan_alone};
-use crate::graphplan::Outcome;
+use crate::graphplan::{Limits, Outcome, Plan};
 use crate::strips::{PlanText, RuleFault, Scenario};
 
-use super::args::{Common, PlanArgs};
+use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
 use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
@@ -16,7 +16,8 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     if let Some(plan) = &args.check {
         return check(common, scenario, engine.as_ref(), plan);
     }
-    let (limits, wanted) = (args.limits(), args.wanted());
+    let wanted = args.wanted();
+    let limits = Limits { tell: Some(interim(common.lang)), ..args.limits() };
     let PlanAnswer { solved, warnings } = match &engine {
         Some(engine) => engine.plan(scenario, &limits, wanted)?,
         None => plan_alone(scenario, &limits, wanted)?,
@@ -32,6 +33,20 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         say(&text::plan(&solved, common.lang))?;
     }
     Ok(if matches!(solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })
+}
+
+/// A plan found soon is told of at once, and so is every shorter one made of it; the last is the answer.
+fn interim(lang: Lang) -> fn(&Plan) {
+    match lang {
+        Lang::Ru => |plan| {
+            let (steps, actions) = (plan.steps.len(), plan.action_count());
+            note(&format!("Найден план: шагов {steps}, действий {actions}; ищется короче."));
+        },
+        Lang::En => |plan| {
+            let size = text::english_size(plan.steps.len(), plan.action_count());
+            note(&format!("A plan is found: {size}; a shorter one is sought."));
+        },
+    }
 }
 
 /// The scenario, and who knows its map: the store that was named; else the map that the scenario names; else the

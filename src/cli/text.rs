@@ -115,7 +115,7 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> Str
 }
 
 /// "1 step, 2 actions"
-fn english_size(steps: usize, actions: usize) -> String {
+pub(super) fn english_size(steps: usize, actions: usize) -> String {
     let count = |number: usize, noun| english::count(number as u64, noun);
     format!("{}, {}", count(steps, "step"), count(actions, "action"))
 }

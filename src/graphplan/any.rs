@@ -3,8 +3,8 @@
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
 //! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
-//! strategy"); where it gets stuck, best-first search takes over, which counts landmarks besides, and it misses
-//! nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
+//! strategy"); where it gets stuck, [search by width](super::novelty) goes next, and then best-first search, which counts
+//! landmarks besides; both miss nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -12,6 +12,7 @@ use std::collections::{BinaryHeap, HashMap, HashSet, VecDeque};
 
 use super::bits;
 use super::landmarks::{Attained, Landmarks};
+use super::novelty::{self, Searched};
 use super::plan::Plan;
 use super::relaxed::{Estimate, Relaxed, State, holds};
 use super::{Limit, Limits};
@@ -36,15 +37,16 @@ pub(super) enum Effort {
 /// States looked at with small effort.
 const FEW_STATES: u64 = 20_000;
 
+/// States looked at by width, with small effort and with all.
+const FEW_STATES_BY_WIDTH: usize = 50_000;
+const MANY_STATES_BY_WIDTH: usize = 2_000_000;
+
 pub(super) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
     let mut forward = Forward { task, limits, relaxed: Relaxed::new(task), evaluated: 0, effort };
-    let operators = match forward.climb()? {
-        Some(operators) => operators,
-        None => match forward.best_first()? {
-            Some(operators) => operators,
-            None if forward.is_over() => return Ok(Found::Open),
-            None => return Ok(Found::Exhausted),
-        },
+    let operators = match forward.sequence()? {
+        Searched::Path(operators) => operators,
+        Searched::Exhausted => return Ok(Found::Exhausted),
+        Searched::Open => return Ok(Found::Open),
     };
     let mut steps: Vec<Vec<OperatorId>> = operators.into_iter().map(|id| vec![id]).collect();
     drop_needless(task, &mut steps);
@@ -60,6 +62,38 @@ struct Forward<'a> {
 }
 
 impl Forward<'_> {
+    /// Hill climbing, then width, then relaxed plans and landmarks.
+    fn sequence(&mut self) -> Result<Searched, Limit> {
+        if self.effort == Effort::Small
+            && let Some((operators, _)) = self.climb(self.initial())?
+        {
+            return Ok(Searched::Path(operators));
+        }
+        let landmarks = Landmarks::of(self.task);
+        if self.effort == Effort::Small
+            && let Some(landmarks) = &landmarks
+            && let Some(operators) = self.climb_in_order(landmarks.goals_in_order())?
+        {
+            return Ok(Searched::Path(operators));
+        }
+        let states = match self.effort {
+            Effort::Small => FEW_STATES_BY_WIDTH,
+            Effort::All => MANY_STATES_BY_WIDTH,
+        };
+        // What is looked at by width leaves room for what comes after it.
+        let limits = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
+        let relaxed = &mut self.relaxed;
+        match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &limits) {
+            Ok(Searched::Open) | Err(Limit::Memory) => {}
+            other => return other,
+        }
+        match self.best_first(landmarks.as_ref())? {
+            Some(operators) => Ok(Searched::Path(operators)),
+            None if self.is_over() => Ok(Searched::Open),
+            None => Ok(Searched::Exhausted),
+        }
+    }
+
     fn is_over(&self) -> bool {
         self.effort == Effort::Small && self.evaluated >= FEW_STATES
     }
@@ -152,10 +186,10 @@ impl Forward<'_> {
 
     /// From each state on to any nearer one: that at the end of the relaxed plan, or one found breadth first through
     /// helpful operators.
-    fn climb(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
+    fn climb(&mut self, from: State) -> Result<Option<(Vec<OperatorId>, State)>, Limit> {
         /// A plateau wider than this is better left to best-first search.
         const WIDEST: usize = 1_000;
-        let mut state = self.initial();
+        let mut state = from;
         let mut plan = Vec::new();
         let Some(mut here) = self.estimate(&state, 0)? else { return Ok(None) };
         while here.distance > 0 {
@@ -194,6 +228,22 @@ impl Forward<'_> {
             plan.extend(nearer.1);
             (state, here) = (nearer.0, nearer.2);
         }
+        Ok(Some((plan, state)))
+    }
+
+    /// One goal after the other, none of which is undone for one that comes later (J. Koehler, J. Hoffmann, 2000, the
+    /// goal agenda). A goal attained may be given up for a while, but holds again before the next has its turn.
+    fn climb_in_order(&mut self, goals: &[FactId]) -> Result<Option<Vec<OperatorId>>, Limit> {
+        let mut state = self.initial();
+        let mut plan = Vec::new();
+        for turn in 1..=goals.len() {
+            self.relaxed.aim_at(&goals[..turn]);
+            let climbed = self.climb(state);
+            self.relaxed.aim_at(&self.task.goal);
+            let Some((path, end)) = climbed? else { return Ok(None) };
+            plan.extend(path);
+            state = end;
+        }
         Ok(Some(plan))
     }
 
@@ -208,12 +258,14 @@ impl Forward<'_> {
     /// Two measures take turns: the length of a relaxed plan, and the landmarks ahead; with each, helpful operators
     /// have a queue of their own that goes first while progress is made (S. Richter, M. Westphal, 2010). The end of
     /// the relaxed plan counts as helpful. A successor is made when its turn comes: most never come to it.
-    fn best_first(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
-        let landmarks = Landmarks::of(self.task);
+    fn best_first(
+        &mut self,
+        landmarks: Option<&Landmarks>,
+    ) -> Result<Option<Vec<OperatorId>>, Limit> {
         let mut seen = Seen::default();
         let mut queues = Queues::new(if landmarks.is_some() { 2 } else { 1 });
         let initial = self.initial();
-        let attained = landmarks.as_ref().map(|all| all.initially(&initial)).unwrap_or_default();
+        let attained = landmarks.map(|all| all.initially(&initial)).unwrap_or_default();
         let mut next = Some((initial, attained, None, Box::default()));
         loop {
             if let Some((state, attained, from, by)) = next.take()
@@ -224,9 +276,8 @@ impl Forward<'_> {
                     if estimate.distance == 0 {
                         return Ok(Some(seen.path(number)));
                     }
-                    let ahead = landmarks
-                        .as_ref()
-                        .map(|all| all.ahead(&seen.attained[number as usize], &state));
+                    let ahead =
+                        landmarks.map(|all| all.ahead(&seen.attained[number as usize], &state));
                     let values = [estimate.distance, ahead.unwrap_or_default()];
                     queues.push(values, number, self.successors(&estimate.helpful));
                     seen.relaxed_plans.insert(number, estimate.relaxed_plan);
@@ -247,7 +298,7 @@ impl Forward<'_> {
             let mut attained = seen.attained[from as usize].clone();
             for &id in &path {
                 self.carry_out(&mut state, id);
-                if let Some(landmarks) = &landmarks {
+                if let Some(landmarks) = landmarks {
                     attained = landmarks.advance(&attained, &state);
                 }
             }

@@ -293,9 +293,7 @@ impl PlanningGraph {
             if self.fact_level(a) > level + 1 {
                 continue;
             }
-            if number % 256 == 0 {
-                limits.check(0)?;
-            }
+            limits.check(0)?;
             let is_new = self.fact_level(a) == level + 1;
             let row = old.row(a);
             let barred = OnceCell::new();

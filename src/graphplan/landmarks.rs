@@ -6,7 +6,7 @@
 //! need comes before it, and of two goals that one whose attainment would undo the other. A tower built on the wrong
 //! base therefore counts for nothing, where a relaxed plan would praise it.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
 
 use super::bits::{has, members, put, unite, words};
 use super::relaxed::{State, holds};
@@ -27,6 +27,8 @@ pub(super) struct Landmarks {
     before: Vec<Vec<u32>>,
     /// Landmarks that directly need one.
     needed_by: Vec<Vec<u32>>,
+    /// The goals, none before another that it would be undone for.
+    in_order: Vec<FactId>,
 }
 
 impl Landmarks {
@@ -63,12 +65,20 @@ impl Landmarks {
         let goals: Vec<u32> = task.goal.iter().filter_map(|goal| number[goal.index()]).collect();
         let mut is_goal = vec![false; facts.len()];
         goals.iter().for_each(|&goal| is_goal[goal as usize] = true);
-        let mut landmarks = Self { facts, is_goal, before: needs, needed_by };
+        let mut landmarks = Self { facts, is_goal, before: needs, needed_by, in_order: Vec::new() };
         let direct = landmarks.before.clone();
-        for (later, earlier) in landmarks.undoing(&ways, &goals, &direct) {
+        let undoing = landmarks.undoing(&ways, &goals, &direct);
+        landmarks.in_order =
+            in_order(&goals, &undoing).map(|goal| landmarks.facts[goal as usize]).collect();
+        for (later, earlier) in undoing {
             landmarks.before[later as usize].push(earlier);
         }
         Some(landmarks)
+    }
+
+    /// The goals, none before another that it would be undone for.
+    pub(super) fn goals_in_order(&self) -> &[FactId] {
+        &self.in_order
     }
 
     /// Pairs of goals of which the first would be undone for the second; no cycles.
@@ -147,6 +157,25 @@ impl Landmarks {
         };
         self.facts.iter().enumerate().filter(|&(n, &fact)| is_ahead(n, fact)).count() as u32
     }
+}
+
+/// Goals by the longest chain of pairs that ends with them; the pairs have no cycles.
+fn in_order(goals: &[u32], pairs: &[(u32, u32)]) -> impl Iterator<Item = u32> + use<> {
+    let mut rank: BTreeMap<u32, usize> = goals.iter().map(|&goal| (goal, 0)).collect();
+    loop {
+        let before = rank.clone();
+        for (later, earlier) in pairs {
+            let least = rank[earlier] + 1;
+            rank.entry(*later).and_modify(|rank| *rank = least.max(*rank));
+        }
+        if rank == before {
+            break;
+        }
+    }
+    let mut ordered: Vec<(usize, u32)> =
+        rank.into_iter().map(|(goal, rank)| (rank, goal)).collect();
+    ordered.sort_unstable();
+    ordered.into_iter().map(|(_, goal)| goal)
 }
 
 /// Whether one node of a graph is reached from another.
@@ -329,5 +358,14 @@ mod tests {
         let number = landmarks.facts.iter().position(|&fact| fact == on_b).unwrap();
         assert!(holds(&state, on_b) && !has(&landmarks.initially(&state), number));
         assert!(landmarks.ahead(&landmarks.initially(&state), &state) > 0);
+    }
+
+    #[test]
+    fn a_tower_is_built_from_its_base() {
+        let task = towers();
+        let landmarks = Landmarks::of(&task).unwrap();
+        let order: Vec<String> =
+            landmarks.goals_in_order().iter().map(|&fact| task.fact(fact).to_string()).collect();
+        assert_eq!(order, ["НА_(Б, В)", "НА_(А, Б)"]);
     }
 }

@@ -25,10 +25,12 @@ mod counting;
 mod cuts;
 mod extract;
 mod fewest;
+mod first_use;
 mod graph;
 mod landmarks;
 mod needed;
 mod no_good;
+mod novelty;
 mod pairs;
 mod plan;
 mod relaxed;
@@ -94,6 +96,8 @@ pub struct Limits {
     pub fewer_actions: u64,
     /// Pieces of a plan found soon that may be planned anew to shorten it.
     pub shorten: u64,
+    /// Who is told of a plan found soon, and of every one with fewer steps that it is shortened to.
+    pub tell: Option<fn(&Plan)>,
 }
 
 impl Default for Limits {
@@ -105,6 +109,7 @@ impl Default for Limits {
             parallel_steps: 10_000,
             fewer_actions: 1 << 10,
             shorten: 300,
+            tell: None,
         }
     }
 }
@@ -119,6 +124,12 @@ impl Limits {
             return Err(Limit::Time);
         }
         if bytes > self.memory_bytes { Err(Limit::Memory) } else { Ok(()) }
+    }
+
+    fn tell_of(&self, plan: &Plan) {
+        if let Some(tell) = self.tell {
+            tell(plan);
+        }
     }
 }
 
@@ -185,13 +196,17 @@ fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
 /// [`Limits::shorten`], but not proven to be the shortest; that there is no plan is proven all the same.
 #[must_use]
 pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
-    /// Turns of the graph's extraction at one level, when forward search is stuck.
+    /// Turns of the graph's extraction at a level, when forward search is stuck.
     const FEW_TURNS: u32 = 3;
     /// A graph that takes more than this part of the memory, or more steps, is left alone.
     const FEW_OF_MEMORY: usize = 16;
     const FEW_STEPS: usize = 50;
+    let shortened = |plan| {
+        limits.tell_of(&plan);
+        Outcome::Plan(shorten::shorten(task, plan, limits))
+    };
     let found = |found| match found {
-        any::Found::Plan(plan) => Some(Outcome::Plan(shorten::shorten(task, plan, limits))),
+        any::Found::Plan(plan) => Some(shortened(plan)),
         // The planning graph tells why.
         any::Found::Exhausted => Some(solve(task, limits)),
         any::Found::Open => None,
@@ -200,14 +215,16 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
             return Ok(outcome);
         }
-        // Where forward search loses its way, the graph may see at once that there is none; if it is small.
-        let turn = Turn { turns: Some(FEW_TURNS), ..Turn::default() };
+        // Where forward search loses its way, the graph may see at once that there is none, or the solver that there
+        // is one; if it is small.
+        let turn = Turn { turns: Some(FEW_TURNS), goes_on: true, ..Turn::default() };
         let brief = Limits {
             memory_bytes: limits.memory_bytes / FEW_OF_MEMORY,
             parallel_steps: limits.parallel_steps.min(FEW_STEPS),
             ..*limits
         };
         match with_stack(|| search(task, &brief, turn, None)) {
+            Ok((Some(Outcome::Plan(plan)), _)) => return Ok(shortened(plan)),
             Ok((Some(outcome), _)) => return Ok(outcome),
             Err(Limit::Time) => return Err(Limit::Time),
             Ok((None, _)) | Err(Limit::Memory | Limit::Steps) => {}
@@ -250,11 +267,13 @@ struct Turn {
     conflicts: u64,
     /// Turns at one level before giving up, if ever.
     turns: Option<u32>,
+    /// A level given up is left for one farther on, where more plans lie: the first found need not be the shortest.
+    goes_on: bool,
 }
 
 impl Default for Turn {
     fn default() -> Self {
-        Self { choices: 1 << 13, conflicts: 1 << 9, turns: None }
+        Self { choices: 1 << 13, conflicts: 1 << 9, turns: None, goes_on: false }
     }
 }
 
@@ -270,7 +289,7 @@ fn search(
     if let Some(inherited) = inherited {
         extractor.search.inherit(inherited.no_goods());
     }
-    let too_few = inherited.map_or(0, Inherited::fewest_steps);
+    let mut too_few = inherited.map_or(0, Inherited::fewest_steps);
     let outcome = loop {
         limits.check(graph.bytes() + extractor.bytes())?;
         if graph.is_possible(&task.goal) {
@@ -283,6 +302,7 @@ fn search(
                         break Some(Outcome::Plan(plan));
                     }
                     Extraction::None => {}
+                    Extraction::Open if turn.goes_on => too_few = graph.top() + graph.top() / 4 + 1,
                     Extraction::Open => break None,
                     Extraction::Never(goals) => {
                         let leveled_off_at =

@@ -38,6 +38,7 @@ pub(super) struct Relaxed<'a> {
     /// How many facts an operator needs, and how many of them are yet missing.
     needs: Vec<u32>,
     missing: Vec<u32>,
+    goal: Vec<FactId>,
     is_goal: Vec<bool>,
     /// The layer at which a fact appears, and the operator that brings it.
     layer: Vec<u32>,
@@ -71,9 +72,7 @@ impl<'a> Relaxed<'a> {
         }
         let needs: Vec<u32> =
             task.operators.iter().map(|operator| operator.preconditions.len() as u32).collect();
-        let mut is_goal = vec![false; task.facts.len()];
-        task.goal.iter().for_each(|goal| is_goal[goal.index()] = true);
-        Self {
+        let mut relaxed = Self {
             task,
             needed_by,
             starts,
@@ -83,11 +82,21 @@ impl<'a> Relaxed<'a> {
             without_needs: (0..needs.len() as u32).filter(|&n| needs[n as usize] == 0).collect(),
             missing: needs.clone(),
             needs,
-            is_goal,
+            goal: Vec::new(),
+            is_goal: vec![false; task.facts.len()],
             layer: vec![NOT_YET; task.facts.len()],
             bringer: vec![NOT_YET; task.facts.len()],
             applicable: Vec::new(),
-        }
+        };
+        relaxed.aim_at(&task.goal);
+        relaxed
+    }
+
+    /// From now on distances are those to these facts.
+    pub(super) fn aim_at(&mut self, goal: &[FactId]) {
+        self.goal.iter().for_each(|fact| self.is_goal[fact.index()] = false);
+        self.goal = goal.to_vec();
+        self.goal.iter().for_each(|fact| self.is_goal[fact.index()] = true);
     }
 
     /// None when the goal is out of reach even without delete effects.
@@ -99,7 +108,7 @@ impl<'a> Relaxed<'a> {
     fn spread(&mut self, state: &State) -> bool {
         self.layer.fill(NOT_YET);
         self.missing.copy_from_slice(&self.needs);
-        let mut open = self.task.goal.iter().filter(|goal| !holds(state, **goal)).count();
+        let mut open = self.goal.iter().filter(|goal| !holds(state, **goal)).count();
         let mut queue: Vec<u32> = Vec::new();
         for fact in bits::members(state) {
             self.layer[fact] = 0;
@@ -148,7 +157,7 @@ impl<'a> Relaxed<'a> {
 
     fn relaxed_plan(&self, state: &State) -> Estimate {
         let mut wanted: Vec<FactId> =
-            self.task.goal.iter().copied().filter(|&goal| !holds(state, goal)).collect();
+            self.goal.iter().copied().filter(|&goal| !holds(state, goal)).collect();
         let mut asked: HashSet<FactId> = wanted.iter().copied().collect();
         // Operators by the layer at which they become possible.
         let mut chosen: BTreeSet<(u32, u32)> = BTreeSet::new();

@@ -7,6 +7,7 @@
 //! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
 
 use super::counting::Counter;
+use super::first_use::FirstUse;
 use super::graph::{ActionId, PlanningGraph};
 use super::plan::Plan;
 use super::solver::{Answer, Literal, Solver};
@@ -26,6 +27,8 @@ pub(super) struct Encoding<'a> {
     relevant_from: Vec<u32>,
     /// What is said of the length looked at; withdrawn with the next.
     horizon: Option<(usize, Literal)>,
+    /// Interchangeable objects and their order, once there is a level.
+    first_use: Option<FirstUse>,
     /// What is still to be done at each level, once that is worth counting.
     counter: Option<Counter>,
     /// Whether it was asked if counting is worth it.
@@ -75,6 +78,7 @@ impl<'a> Encoding<'a> {
             users,
             relevant_from: relevance(task),
             horizon: None,
+            first_use: None,
             counter: None,
             asked_to_count: false,
         }
@@ -247,6 +251,8 @@ impl<'a> Encoding<'a> {
             self.solver.add_clause(&clause);
             self.add_interference(fact, step, &variables);
         }
+        let first_use = self.first_use.get_or_insert_with(|| FirstUse::of(self.task));
+        first_use.add_step(&mut self.solver, &variables);
         self.operators.push(variables);
     }
 

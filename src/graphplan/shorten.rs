@@ -13,7 +13,7 @@ use crate::strips::{FactId, OperatorId, Task};
 const WIDTHS: [usize; 5] = [3, 5, 8, 12, 18];
 
 /// What one piece may take: it is a small task, or better left alone.
-const TURN: Turn = Turn { choices: 1 << 12, conflicts: 1 << 8, turns: Some(3) };
+const TURN: Turn = Turn { choices: 1 << 12, conflicts: 1 << 8, turns: Some(3), goes_on: false };
 
 /// A plan of fewer steps, or as many with fewer actions, after at most `limits.shorten` pieces were looked at.
 pub(super) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
@@ -27,6 +27,9 @@ pub(super) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
             left -= 1;
             match replaced(task, &plan, from, width, limits) {
                 Some(shorter) => {
+                    if shorter.steps.len() < plan.steps.len() {
+                        limits.tell_of(&shorter);
+                    }
                     plan = shorter;
                     better = true;
                 }
@@ -86,4 +89,32 @@ fn needed_by(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
         }
     }
     task.fact_ids().filter(|fact| needed[fact.index()]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::cell::RefCell;
+
+    use super::super::tests::random_task;
+    use super::super::{Outcome, solve_any};
+    use super::*;
+
+    thread_local! {
+        static TOLD: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
+    }
+
+    #[test]
+    fn the_first_plan_and_every_shorter_one_are_told_of() {
+        let tell: fn(&Plan) = |plan| TOLD.with_borrow_mut(|told| told.push(plan.steps.len()));
+        let mut shortened = 0;
+        for seed in 1..=1000 {
+            let limits = Limits { tell: Some(tell), ..Limits::default() };
+            let Outcome::Plan(plan) = solve_any(&random_task(seed), &limits) else { continue };
+            let told = TOLD.take();
+            assert!(told.is_sorted_by(|longer, shorter| longer > shorter), "{seed}: {told:?}");
+            assert_eq!(told.last(), Some(&plan.steps.len()), "seed {seed}");
+            shortened += usize::from(told.len() > 1);
+        }
+        assert!(shortened > 0);
+    }
 }

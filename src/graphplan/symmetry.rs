@@ -7,7 +7,7 @@
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::strips::{Fact, FactId, Operator, Task};
+use crate::strips::{Fact, FactId, Operator, OperatorId, Task};
 
 /// For each fact, the object of it that may be exchanged, and the fact's image for the first of its kin.
 #[derive(Debug)]
@@ -28,7 +28,7 @@ impl Symmetry {
         let index = Index::new(task);
         let mut roles = vec![None; task.facts.len()];
         let mut taken: HashSet<&Arc<str>> = HashSet::new();
-        let mut classes = index.classes();
+        let mut classes = index.classes(|a, b| index.interchangeable(a, b));
         classes.sort_by_key(|class| std::cmp::Reverse(class.len()));
         for class in classes {
             // A fact may speak of one exchangeable object only: images of sets are then found object by object.
@@ -58,6 +58,18 @@ impl Symmetry {
     pub(super) fn role(&self, fact: FactId) -> Option<Role> {
         self.roles[fact.index()]
     }
+}
+
+/// For each class of objects that neither initial state nor goal nor costs tell apart, for each object in the order of
+/// names, the operators that it takes part in.
+pub(super) fn users_of_alike(task: &Task) -> Vec<Vec<Vec<OperatorId>>> {
+    let index = Index::new(task);
+    let users = |object: &Arc<str>| -> Vec<OperatorId> {
+        let numbers = index.operators_of.get(object).into_iter().flatten();
+        numbers.map(|&number| OperatorId(number as u32)).collect()
+    };
+    let classes = index.classes(|a, b| index.interchangeable(a, b) && index.serve_alike(a, b));
+    classes.into_iter().map(|class| class.into_iter().map(users).collect()).collect()
 }
 
 type Key = (Arc<str>, Vec<Arc<str>>, bool);
@@ -128,7 +140,7 @@ impl<'a> Index<'a> {
     }
 
     /// Classes of two or more interchangeable objects, each in the order of names.
-    fn classes(&self) -> Vec<Vec<&'a Arc<str>>> {
+    fn classes(&self, are_alike: impl Fn(&Arc<str>, &Arc<str>) -> bool) -> Vec<Vec<&'a Arc<str>>> {
         // Objects that could be alike at all: as many facts, at first and in all, and as many operators.
         let mut alike: BTreeMap<(usize, usize, usize), Vec<&Arc<str>>> = BTreeMap::new();
         for &object in self.numbers.keys() {
@@ -141,9 +153,7 @@ impl<'a> Index<'a> {
         for objects in alike.into_values() {
             let before = classes.len();
             for object in objects {
-                let home = classes[before..]
-                    .iter_mut()
-                    .find(|class| self.interchangeable(class[0], object));
+                let home = classes[before..].iter_mut().find(|class| are_alike(class[0], object));
                 match home {
                     Some(class) => class.push(object),
                     None => classes.push(vec![object]),
@@ -166,6 +176,20 @@ impl<'a> Index<'a> {
             self.swapped_fact(fact, a, b)
                 .is_some_and(|image| self.initially[image.index()] == self.initially[fact.index()])
         }) && operators.into_iter().all(|&number| self.operator_maps(number, a, b))
+    }
+
+    /// Whether the goal is the same after a swap, and what operators cost.
+    fn serve_alike(&self, a: &Arc<str>, b: &Arc<str>) -> bool {
+        let goal = &self.task.goal;
+        let operators =
+            [a, b].into_iter().filter_map(|object| self.operators_of.get(object)).flatten();
+        goal.iter()
+            .all(|&fact| self.swapped_fact(fact, a, b).is_some_and(|image| goal.contains(&image)))
+            && operators.into_iter().all(|&number| {
+                let operator = &self.task.operators[number];
+                let image = self.operators.get(&swapped(operator_key(operator), a, b));
+                image.is_some_and(|&image| self.task.operators[image].cost == operator.cost)
+            })
     }
 
     fn operator_maps(&self, number: usize, a: &Arc<str>, b: &Arc<str>) -> bool {
@@ -226,6 +250,14 @@ mod tests {
     fn objects_alike_share_an_image() {
         // The goal speaks of one object only; what can be reached does not depend on it.
         assert_eq!(images(&task()), [0, 1, 0, 1, 0, 1]);
+    }
+
+    #[test]
+    fn what_the_goal_tells_apart_is_not_used_in_order() {
+        assert_eq!(users_of_alike(&task()), [[vec![OperatorId(1)], vec![OperatorId(2)]]]);
+        let mut task = task();
+        task.operators[2].cost = 2;
+        assert!(users_of_alike(&task).is_empty());
     }
 
     #[test]

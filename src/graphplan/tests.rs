@@ -24,7 +24,7 @@ impl Random {
     }
 }
 
-fn random_task(seed: u64) -> Task {
+pub(super) fn random_task(seed: u64) -> Task {
     let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
     let fact_count = 4 + random.below(6);
     let facts = (0..fact_count)
@@ -103,7 +103,7 @@ fn steps_from(task: &Task, state: u64) -> Vec<(u64, u64)> {
 }
 
 /// Fewest parallel steps by trying every set of operators in every state.
-fn fewest_steps(task: &Task) -> Option<usize> {
+pub(super) fn fewest_steps(task: &Task) -> Option<usize> {
     let goal = mask(&task.goal);
     let mut seen = HashSet::from([mask(&task.init)]);
     let mut layer: Vec<u64> = seen.iter().copied().collect();
