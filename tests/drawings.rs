@@ -59,6 +59,37 @@ fn a_room_of_its_own_leaves_the_others_out() {
     assert!(svg.contains("Диван-1") && !svg.contains("Кровать-1"));
 }
 
+/// The lowest point of the ways of doors' leaves, which are drawn in dashes.
+fn lowest_dash(svg: &str) -> f64 {
+    let paths = svg.split("<path ").skip(1).filter_map(|rest| rest.split("/>").next());
+    let dashed = paths.filter(|tag| tag.contains("stroke-dasharray"));
+    let lowest = dashed.filter_map(|tag| {
+        let data = tag.split("d=\"").nth(1)?.split('"').next()?;
+        let numbers = data.split(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-'));
+        let numbers: Vec<f64> = numbers.filter_map(|n| n.parse().ok()).collect();
+        numbers.chunks(2).filter_map(|pair| pair.get(1)).copied().reduce(f64::max)
+    });
+    lowest.fold(0.0, f64::max)
+}
+
+/// The front door of the flat opens outwards, below the plan: the legend stands lower still.
+#[test]
+fn the_legend_keeps_clear_of_the_doors() {
+    let engine = engine();
+    let (map, _) = engine.sheet_named(None).unwrap();
+    for all in [false, true] {
+        let drawing = Drawing { floor: all, network: all, ..Drawing::default() };
+        let svg = engine.draw(map, &drawing).unwrap();
+        let swing = lowest_dash(&svg);
+        let shown = texts(&svg);
+        let words = ["мебель", "подвижное", "место", "заперто"];
+        for word in words {
+            let (_, _, y, size) = shown.iter().find(|t| t.0 == word).expect(word);
+            assert!(y - size > swing, "{word} stands at {y}, the door reaches to {swing}");
+        }
+    }
+}
+
 #[test]
 fn english_letters_where_the_map_has_them() {
     let engine = engine();

@@ -1,6 +1,6 @@
 //! What is seen from a pose (M12): scans and visible stretches against the obvious slow way.
 
-use orthoframe::geometry::*;
+use orthoframe::geometry::{Face, *};
 use orthoframe::map::*;
 use orthoframe::units::*;
 
@@ -179,4 +179,239 @@ fn visible_stretches_are_seen_by_a_dense_scan_too() {
 
 fn nalgebra_vector(direction: f64) -> Vector {
     Vector::new(direction.cos(), direction.sin())
+}
+
+/// A flat piece that can stop a ray, and whose it is.
+struct Pane {
+    face: Face,
+    corners: [[f64; 3]; 3],
+}
+
+/// Every solid face in triangles: walls, floors, sides, roofs and bases of what stands there.
+fn panes(plan: &FloorPlan) -> Vec<Pane> {
+    let mut panes = Vec::new();
+    let mut quad = |face: Face, q: [[f64; 3]; 4]| {
+        panes.push(Pane { face, corners: [q[0], q[1], q[2]] });
+        panes.push(Pane { face, corners: [q[0], q[2], q[3]] });
+    };
+    let at = |p: Point, z: f64| [p.x, p.y, z];
+    let mut levels = Vec::new();
+    for (id, area) in &plan.scene().areas {
+        for (item, prism) in area.prisms.iter().enumerate() {
+            for (side, ((a, b), s)) in prism.polygon.edges().zip(&prism.sides).enumerate() {
+                if s.permeability == Permeability::Impermeable {
+                    let blocker = Blocker::Wall { area: *id, item, side };
+                    let face = Face { blocker, kind: FaceKind::Side(side) };
+                    let (z, top) = (prism.bottom, prism.top);
+                    quad(face, [at(a, z), at(b, z), at(b, top), at(a, top)]);
+                }
+            }
+            let blocker = Blocker::Floor { area: *id, item };
+            let face = Face { blocker, kind: FaceKind::Base };
+            levels.push((face, prism.polygon.clone(), prism.bottom));
+        }
+    }
+    for (id, replica) in &plan.scene().replicas {
+        for prism in &replica.prisms {
+            let blocker = Blocker::Replica { replica: *id, item: prism.item };
+            let centre = prism.polygon.centroid();
+            let roof = |p: Point| centre + (p - centre) * prism.roof_scale;
+            for (side, (a, b)) in prism.polygon.edges().enumerate() {
+                let face = Face { blocker, kind: FaceKind::Side(side) };
+                let (z, top) = (prism.bottom, prism.top);
+                quad(face, [at(a, z), at(b, z), at(roof(b), top), at(roof(a), top)]);
+            }
+            let top = Polygon::new(prism.polygon.corners.iter().map(|&p| roof(p)).collect());
+            levels.push((
+                Face { blocker, kind: FaceKind::Base },
+                prism.polygon.clone(),
+                prism.bottom,
+            ));
+            levels.push((Face { blocker, kind: FaceKind::Roof }, top, prism.top));
+        }
+    }
+    // A level face as a fan about a corner is good enough where it is star-shaped; else it is cut small.
+    for (face, polygon, z) in levels {
+        for [a, b, c] in triangles(&polygon) {
+            panes.push(Pane { face, corners: [at(a, z), at(b, z), at(c, z)] });
+        }
+    }
+    panes
+}
+
+/// Ears cut from a polygon, the slow way.
+fn triangles(polygon: &Polygon) -> Vec<[Point; 3]> {
+    let mut rest = polygon.clone().counter_clockwise().corners;
+    let turn = |a: Point, b: Point, c: Point| (b - a).perp(&(c - a));
+    let mut ears = Vec::new();
+    while rest.len() >= 3 {
+        let n = rest.len();
+        let ear = (0..n).find(|&i| {
+            let [a, b, c] = [rest[(i + n - 1) % n], rest[i], rest[(i + 1) % n]];
+            let holds =
+                |p: &Point| turn(a, b, *p) > 1e-9 && turn(b, c, *p) > 1e-9 && turn(c, a, *p) > 1e-9;
+            turn(a, b, c) >= 0.0 && !rest.iter().any(holds)
+        });
+        let i = ear.unwrap_or(0);
+        ears.push([rest[(i + n - 1) % n], rest[i], rest[(i + 1) % n]]);
+        rest.remove(i);
+    }
+    ears
+}
+
+/// What a ray meets first, and how far off; after Möller and Trumbore.
+fn slow_ray(panes: &[Pane], from: [f64; 3], way: [f64; 3]) -> Option<(f64, Face)> {
+    let sub = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+    let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    };
+    let hits = panes.iter().filter_map(|pane| {
+        let [a, b, c] = pane.corners;
+        let (u, v) = (sub(b, a), sub(c, a));
+        let p = cross(way, v);
+        let det = dot(u, p);
+        if det.abs() < 1e-12 {
+            return None;
+        }
+        let t = sub(from, a);
+        let q = cross(t, u);
+        let (s, r) = (dot(t, p) / det, dot(way, q) / det);
+        let far = dot(v, q) / det;
+        (s >= 0.0 && r >= 0.0 && s + r <= 1.0 && far > 1e-9).then_some((far, pane.face))
+    });
+    hits.min_by(|a, b| a.0.total_cmp(&b.0))
+}
+
+fn direction(azimuth: f64, rise: f64) -> [f64; 3] {
+    [azimuth.cos() * rise.cos(), azimuth.sin() * rise.cos(), rise.sin()]
+}
+
+/// Rays in all directions of the field of view meet what is said to be seen, and nothing that is said to be seen is hidden.
+#[test]
+fn faces_in_view_are_those_that_dense_rays_meet() {
+    let (mut met, mut seen_middles) = (0, 0);
+    for seed in 0..10 {
+        let (b, area) = ugly(seed);
+        let plan = build(&b);
+        let Some(at) = plan.rest_in(area) else { continue };
+        let panes = panes(&plan);
+        let (field, range) = [(360.0, 2000.0), (90.0, 2000.0), (240.0, 300.0)][seed as usize % 3];
+        let pose = Pose { at, heading: Deg::of(seed as f64 * 31.0) };
+        let eye = Eye { pose, height: [45.0, 120.0, 170.0][seed as usize % 3], field, range };
+        let from = [at.x, at.y, eye.height];
+        let seen = plan.faces(&b.world, &eye).in_view(&eye);
+        for (i, j) in (0..150).flat_map(|i| (0..24).map(move |j| (i, j))) {
+            let share = (f64::from(i) + 0.5) / 150.0 - 0.5;
+            let azimuth = pose.heading.radians() + share * field.to_radians() * 0.999;
+            let rise = (f64::from(j) - 11.3) * 0.12;
+            let way = direction(azimuth, rise);
+            let Some((far, face)) = slow_ray(&panes, from, way) else { continue };
+            // Next to an edge it is a matter of rounding which face is met.
+            let about = [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)];
+            let mut near =
+                about.iter().map(|(x, y)| slow_ray(&panes, from, direction(azimuth + x, rise + y)));
+            let is_sharp =
+                near.all(|n| n.is_some_and(|(f, g)| g == face && (f - far).abs() < 0.05 * far));
+            if !is_sharp || (far / range - 1.0).abs() < 2e-3 {
+                continue;
+            }
+            let p = nalgebra::Point3::new(
+                from[0] + way[0] * far,
+                from[1] + way[1] * far,
+                from[2] + way[2] * far,
+            );
+            // Faces of one plane may both be called seen; none may be called hidden that is met first.
+            let found = seen.iter().any(|f| f.face == face && f.contains(p, 0.02));
+            assert_eq!(found, far < range, "seed {seed}: {face:?} at {p:?}, {far} cm off");
+            met += usize::from(found);
+        }
+        for view in &seen {
+            assert!(view.area <= view.whole * (1.0 + 1e-6), "{view:?}");
+            for outline in view.outlines() {
+                let sum: nalgebra::Vector3<f64> = outline.iter().map(|p| p.coords).sum();
+                let middle = nalgebra::Point3::from(sum / outline.len() as f64);
+                if !view.contains(middle, 0.0) {
+                    continue;
+                }
+                let to = middle - nalgebra::Point3::new(from[0], from[1], from[2]);
+                let far =
+                    slow_ray(&panes, from, (to / to.norm()).into()).map_or(f64::INFINITY, |h| h.0);
+                assert!(far > to.norm() - 0.1, "seed {seed}: {:?} is behind {far}", view.face);
+                seen_middles += 1;
+            }
+        }
+    }
+    assert!(met > 12_000 && seen_middles > 150, "{met} {seen_middles}");
+}
+
+#[test]
+fn in_space_tops_are_seen_from_above_and_what_is_low_hides_behind_what_is_high() {
+    // A high box, a low one behind it, a low one before it, and a cup on the low one before.
+    let (mut b, _) = room(&[
+        [200., 120., 20., 60., 0.],
+        [300., 140., 20., 20., 0.],
+        [120., 130., 40., 40., 0.],
+        [135., 145., 8., 8., 0.],
+    ]);
+    let ids: Vec<ReplicaId> = b.world.replicas.keys().copied().collect();
+    let heights = [150.0, 40.0, 50.0, 10.0];
+    for (id, height) in ids.iter().zip(heights) {
+        let object = b.world.replicas[id].object;
+        let block = b.world.objects[&object].items[0].orthoframe;
+        b.world.orthoframes.get_mut(&block).expect("its block").height = Cm::of(height);
+    }
+    let cup = b.world.replicas.get_mut(&ids[3]).expect("just put");
+    cup.frame.z = Cm::of(50.0);
+    let plan = build(&b);
+    let kinds = |eye: &Eye, id: ReplicaId| -> Vec<FaceKind> {
+        let views = plan.faces(&b.world, eye).in_view(eye);
+        let of = |v: &&FaceInView| matches!(v.face.blocker, Blocker::Replica { replica, .. } if replica == id);
+        views.iter().filter(of).map(|v| v.face.kind).collect()
+    };
+    let pose = Pose { at: p(50., 150.), heading: Deg::ZERO };
+    let eye = |height: f64| Eye { pose, height, field: 120.0, range: 1000.0 };
+    let has = |eye: &Eye, id, kind| kinds(eye, id).contains(&kind);
+    assert!(has(&eye(120.0), ids[2], FaceKind::Roof), "from above one sees the top");
+    assert!(!has(&eye(30.0), ids[2], FaceKind::Roof), "from below one does not");
+    assert!(!kinds(&eye(120.0), ids[3]).is_empty(), "the cup stands on it");
+    assert!(!has(&eye(120.0), ids[3], FaceKind::Base));
+    assert!(kinds(&eye(120.0), ids[1]).is_empty(), "the high box hides the low one");
+    assert!(!kinds(&eye(200.0), ids[0]).is_empty());
+    let turned = Eye { pose: Pose { heading: Deg::of(180.0), ..pose }, ..eye(120.0) };
+    assert!(ids.iter().all(|&id| kinds(&turned, id).is_empty()), "all of it is behind");
+    let short = Eye { range: 90.0, ..eye(120.0) };
+    assert!(kinds(&short, ids[0]).is_empty() && !kinds(&short, ids[2]).is_empty());
+}
+
+#[test]
+fn from_within_a_thing_or_outside_of_the_building_there_is_an_answer_too() {
+    let (b, _) = room(&[[150., 120., 60., 60., 0.]]);
+    let plan = build(&b);
+    let id = *b.world.replicas.keys().next().expect("it has a box");
+    let within = Pose { at: p(180., 150.), heading: Deg::ZERO };
+    for field in [0.0, 1.0, 180.0, 359.9, 360.0, 1e9, -5.0] {
+        let eye = Eye { pose: within, height: 20.0, field, range: 1000.0 };
+        let seen = plan.faces(&b.world, &eye).in_view(&eye);
+        let own = |f: &FaceInView| matches!(f.face.blocker, Blocker::Replica { replica, .. } if replica == id);
+        assert!(seen.iter().all(own), "from within a box one sees the box alone: {field}");
+        assert_eq!(seen.is_empty(), field <= 0.0, "{field}");
+        assert_eq!(plan.sight(&b.world, 20.0).scan(within, field, 0, 500.0).len(), 0);
+        for beam in plan.sight(&b.world, 20.0).scan(within, field, 9, 500.0) {
+            assert!(beam.distance <= 43.0, "{beam:?}");
+        }
+    }
+    for at in [p(-5000.0, 3.0), p(0.0, 0.0), p(400.0, 300.0), p(1e7, -1e7)] {
+        let pose = Pose { at, heading: Deg::of(45.0) };
+        for range in [0.0, 1.0, 1e6] {
+            let eye = Eye { pose, height: 100.0, field: 360.0, range };
+            let seen = plan.faces(&b.world, &eye).in_view(&eye);
+            assert!(
+                seen.iter().all(|f| f.area > 0.0 && f.distance <= range + 1e-6),
+                "{at} {range}"
+            );
+            assert_eq!(plan.sight(&b.world, 100.0).scan(pose, 360.0, 721, range).len(), 721);
+            let _ = plan.sight(&b.world, 100.0).visible(pose, 360.0, range);
+        }
+    }
 }

@@ -6,14 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::engine::{
-    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, no_way_in_words, parse_pose,
+    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, face_in_words, no_way_in_words,
+    parse_pose, ride_in_words,
 };
-use crate::units::MapId;
+use crate::units::{MapId, Point};
 
-use super::args::{Common, CorridorArgs};
+use super::args::{Common, CorridorArgs, Lang};
 use super::commands::{note, open};
 use super::fault::Failure;
-use super::{Answer, say};
+use super::text::decimal;
+use super::{Answer, json, say};
 
 #[derive(Debug, Args)]
 pub(super) struct DrawArgs {
@@ -84,9 +86,72 @@ struct ViewArgs {
     /// From above, what is in view marked on the plan
     #[arg(long)]
     plan: bool,
+    /// List the faces that are in view instead, the largest first
+    #[arg(long, conflicts_with = "plan")]
+    faces: bool,
 }
 
 pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
+    let form = Form::of(args)?;
+    if let What::View(view) = &args.what
+        && view.faces
+    {
+        return tell_faces(common, view);
+    }
+    let sheets = sheets(common, &args.what)?;
+    let Some(path) = &args.out else {
+        let [sheet] = &sheets[..] else {
+            return match sheets.len() {
+                0 => Ok(Answer::No),
+                count => Err(RequestError::ManySheets { count }.into()),
+            };
+        };
+        if form == Form::Svg {
+            return say(sheet);
+        }
+        let picture = picture(sheet, args.width)?;
+        let mut out = std::io::stdout().lock();
+        out.write_all(&picture).and_then(|()| out.flush()).map_err(|e| Failure::output(&e))?;
+        return Ok(Answer::Yes);
+    };
+    let written = put(&sheets, form, path, args.width)?;
+    if written.len() > 1 {
+        written.iter().for_each(|path| note(&path.display().to_string()));
+    }
+    Ok(if written.is_empty() { Answer::No } else { Answer::Yes })
+}
+
+/// What a drawing is written as.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Form {
+    Svg,
+    Png,
+}
+
+impl Form {
+    fn of(args: &DrawArgs) -> Result<Self, Failure> {
+        if args.png {
+            return Ok(Self::Png);
+        }
+        args.out.as_deref().map_or(Ok(Self::Svg), Self::of_file)
+    }
+
+    /// By the file's ending: SVG where it has none.
+    fn of_file(path: &Path) -> Result<Self, Failure> {
+        let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        match ending.as_deref() {
+            None | Some("svg") => Ok(Self::Svg),
+            Some("png") => Ok(Self::Png),
+            Some(other) => Err(RequestError::DrawingFormat { ending: other.to_owned() }.into()),
+        }
+    }
+}
+
+/// A map with the legs of a way over it, by number.
+type Storey = (MapId, Vec<(usize, Vec<Point>)>);
+
+/// The sheets of a drawing, one for each storey of a way; none where there is no way.
+fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
     let language = common.lang.language();
     let plain = Drawing { language, ..Drawing::default() };
     let plan = |name: &Option<String>, sheet: Drawing| -> Result<String, Failure> {
@@ -94,7 +159,7 @@ pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
         let (map, only) = engine.sheet_named(name.as_deref())?;
         Ok(engine.draw(map, &Drawing { only, ..sheet })?)
     };
-    let svg = match &args.what {
+    let sheet = match what {
         What::Map { name } => plan(name, plain)?,
         What::Floor { name } => plan(name, Drawing { floor: true, ..plain })?,
         What::Network { name } => plan(name, Drawing { floor: true, network: true, ..plain })?,
@@ -104,42 +169,57 @@ pub(super) fn run(common: &Common, args: &DrawArgs) -> Result<Answer, Failure> {
         What::Route { task: Some(task), .. } => {
             let engine = open(common)?;
             let answer = engine.perform(task, &mut |_| {})?;
-            driven(common, &engine, &answer, answer.map)?
+            return driven(common, &engine, &answer);
         }
         What::Route { from, to, .. } => {
-            let engine = open(common)?;
             let end = |name: &Option<String>| name.clone().unwrap_or_default();
-            let answer = engine.route(&end(from), &end(to), Method::Shortest)?;
-            match answer.route {
-                Ok(route) => {
-                    let legs = vec![(1, route.points)];
-                    engine.draw(answer.map, &Drawing { legs, ..plain })?
-                }
-                Err(why) => {
-                    note(&no_way_in_words(engine.world()?, &why, language));
-                    return Ok(Answer::No);
-                }
-            }
+            return journey(common, &end(from), &end(to));
         }
     };
-    if args.png && args.out.is_none() {
-        let picture = picture(&svg, args.width)?;
-        let mut out = std::io::stdout().lock();
-        out.write_all(&picture).and_then(|()| out.flush()).map_err(|e| Failure::output(&e))?;
-        return Ok(Answer::Yes);
-    }
-    match &args.out {
-        Some(path) if args.png => {
-            write(path, &picture(&svg, args.width)?)?;
-            Ok(Answer::Yes)
-        }
-        out => put(&svg, out.as_deref(), args.width),
-    }
+    Ok(vec![sheet])
 }
 
-fn draw_view(common: &Common, args: &ViewArgs) -> Result<String, Failure> {
+/// A sheet for each storey of the shortest way; where it leads to another storey, its legs and rides are numbered and
+/// listed.
+fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure> {
     let engine = open(common)?;
     let language = common.lang.language();
+    let world = engine.world()?;
+    let journey = engine.journey(from, to, Method::Shortest)?;
+    let mut storeys: Vec<Storey> = Vec::new();
+    let mut directives = Vec::new();
+    for (k, leg) in journey.legs.iter().enumerate() {
+        let route = match &leg.route {
+            Ok(route) => route,
+            Err(why) => {
+                note(&no_way_in_words(world, why, language));
+                let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
+                let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
+                advice.iter().for_each(|advice| note(&format!("{head} {advice}.")));
+                return Ok(Vec::new());
+            }
+        };
+        let mut legs = vec![(2 * k + 1, route.points.clone())];
+        directives.push((2 * k + 1, format!("{} – {}", leg.from, leg.to)));
+        if let Some(ride) = journey.rides.get(k) {
+            legs.push((2 * k + 2, route.points.last().copied().into_iter().collect()));
+            directives.push((2 * k + 2, ride_in_words(world, ride, language)));
+        }
+        match storeys.iter_mut().find(|(map, _)| *map == leg.map) {
+            Some((_, drawn)) => drawn.extend(legs),
+            None => storeys.push((leg.map, legs)),
+        }
+    }
+    let directives = if journey.legs.len() > 1 { directives } else { Vec::new() };
+    let sheet = |(map, legs): Storey| {
+        let directives = directives.clone();
+        Ok(engine.draw(map, &Drawing { legs, directives, language, ..Drawing::default() })?)
+    };
+    storeys.into_iter().map(sheet).collect()
+}
+
+/// The lens of a view and the map that it looks at.
+fn lens(engine: &Engine, args: &ViewArgs) -> Result<(MapId, Lens), Failure> {
     let map: MapId = engine.map_named(args.map.as_deref())?;
     let pose = parse_pose(&args.at)?;
     let height = args
@@ -154,13 +234,61 @@ fn draw_view(common: &Common, args: &ViewArgs) -> Result<String, Failure> {
             return Err(RequestError::OutOfRange { what, value, low, high }.into());
         }
     }
-    let lens = Lens { pose, height, field: args.field, range: args.range };
     // A pose outside every room sees nothing worth a picture.
     engine.locate(map, pose, false)?;
+    Ok((map, Lens { pose, height, field: args.field, range: args.range }))
+}
+
+fn draw_view(common: &Common, args: &ViewArgs) -> Result<String, Failure> {
+    let engine = open(common)?;
+    let language = common.lang.language();
+    let (map, lens) = lens(&engine, args)?;
     if args.plan {
         return Ok(engine.draw(map, &Drawing { view: Some(lens), language, ..Drawing::default() })?);
     }
     Ok(engine.draw_view(map, lens, language)?)
+}
+
+/// The faces in view by name, those that look largest first.
+fn tell_faces(common: &Common, args: &ViewArgs) -> Result<Answer, Failure> {
+    let engine = open(common)?;
+    let language = common.lang.language();
+    let (map, lens) = lens(&engine, args)?;
+    let world = engine.world()?;
+    let faces = engine.faces_in_view(map, lens)?;
+    if common.json {
+        let faces: Vec<_> = faces.iter().map(|face| json::face(world, face, language)).collect();
+        return say(&serde_json::Value::from(faces).to_string());
+    }
+    let line = |face: &crate::geometry::FaceInView| {
+        let name = face_in_words(world, &face.face, language);
+        let share = (100.0 * face.area / face.whole.max(1e-9)).clamp(0.0, 100.0);
+        let away = decimal(face.distance / 100.0, common.lang.pick("м", "m"), common.lang);
+        match common.lang {
+            Lang::Ru => format!("{name} – видно {share:.0} %, {away}"),
+            Lang::En => format!("{name} – {share:.0}% in view, {away}"),
+        }
+    };
+    say(&faces.iter().map(line).collect::<Vec<_>>().join("\n"))
+}
+
+/// Writes sheets, the further ones into files of their own, numbered from 2.
+fn put(
+    sheets: &[String],
+    form: Form,
+    path: &Path,
+    width: Option<u32>,
+) -> Result<Vec<PathBuf>, Failure> {
+    let mut written = Vec::new();
+    for (k, svg) in sheets.iter().enumerate() {
+        let path = if k == 0 { path.to_owned() } else { numbered(path, k + 1) };
+        match form {
+            Form::Svg => write(&path, svg.as_bytes())?,
+            Form::Png => write(&path, &picture(svg, width)?)?,
+        }
+        written.push(path);
+    }
+    Ok(written)
 }
 
 /// Writes the map with the way driven for a task, into a folder that is made when it is not there. Each further storey
@@ -174,19 +302,7 @@ pub(super) fn put_driven(
     if let Some(dir) = path.parent() {
         std::fs::create_dir_all(dir).map_err(|e| Failure::file(dir, &e))?;
     }
-    let mut storeys = vec![answer.map];
-    for report in &answer.reports {
-        if !storeys.contains(&report.map) {
-            storeys.push(report.map);
-        }
-    }
-    let mut written = Vec::new();
-    for (k, map) in storeys.into_iter().enumerate() {
-        let path = if k == 0 { path.to_owned() } else { numbered(path, k + 1) };
-        put(&driven(common, engine, answer, map)?, Some(&path), None)?;
-        written.push(path);
-    }
-    Ok(written)
+    put(&driven(common, engine, answer)?, Form::of_file(path)?, path, None)
 }
 
 /// `plan-2.svg` beside `plan.svg`.
@@ -196,37 +312,39 @@ fn numbered(path: &Path, number: usize) -> PathBuf {
     path.with_file_name(format!("{stem}-{number}{ending}"))
 }
 
-/// One storey with Passframes and what was driven there for a task; all directives are listed below.
-fn driven(
-    common: &Common,
-    engine: &Engine,
-    answer: &TaskAnswer,
-    map: MapId,
-) -> Result<String, Failure> {
-    let driven = answer.reports.iter().filter(|r| !r.points.is_empty() && r.map == map);
-    let legs = driven.map(|r| (r.number, r.points.clone())).collect();
-    let directives = answer.reports.iter().map(|r| (r.number, r.directive.to_string())).collect();
-    let drawing = Drawing {
-        floor: true,
-        legs,
-        directives,
-        robot: Some(answer.start).filter(|_| map == answer.map),
-        language: common.lang.language(),
-        ..Drawing::default()
-    };
-    Ok(engine.draw(map, &drawing)?)
-}
-
-/// Writes a drawing, as PNG where the file's name ends so; to standard output without a file.
-fn put(svg: &str, out: Option<&Path>, width: Option<u32>) -> Result<Answer, Failure> {
-    let Some(path) = out else { return say(svg) };
-    let is_png = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    if is_png {
-        write(path, &picture(svg, width)?)?;
-    } else {
-        write(path, svg.as_bytes())?;
+/// Every storey to which a task led, with Passframes and what was driven there; all directives are listed below.
+fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<Vec<String>, Failure> {
+    let mut storeys: Vec<Storey> = vec![(answer.map, Vec::new())];
+    for report in &answer.reports {
+        let at = match storeys.iter().position(|(map, _)| *map == report.map) {
+            Some(at) => at,
+            None => {
+                storeys.push((report.map, Vec::new()));
+                storeys.len() - 1
+            }
+        };
+        let legs = &mut storeys[at].1;
+        // What is done on the spot is told where the last way ended.
+        let here = || legs.last().and_then(|(_, leg)| leg.last()).copied().into_iter().collect();
+        let way = if report.points.is_empty() { here() } else { report.points.clone() };
+        if !way.is_empty() {
+            legs.push((report.number, way));
+        }
     }
-    Ok(Answer::Yes)
+    let directives: Vec<_> =
+        answer.reports.iter().map(|r| (r.number, r.directive.to_string())).collect();
+    let sheet = |(map, legs): Storey| {
+        let drawing = Drawing {
+            floor: true,
+            legs,
+            directives: directives.clone(),
+            robot: Some(answer.start).filter(|_| map == answer.map),
+            language: common.lang.language(),
+            ..Drawing::default()
+        };
+        Ok(engine.draw(map, &drawing)?)
+    };
+    storeys.into_iter().map(sheet).collect()
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {

@@ -5,10 +5,11 @@ use serde_json::{Value, json};
 
 use crate::engine::{
     Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
-    World, deeds_in_words, directive_in_words, no_way_in_words, steps, surprise_in_words,
+    World, deeds_in_words, directive_in_words, face_in_words, no_way_in_words, steps,
+    surprise_in_words,
 };
 use crate::facts;
-use crate::geometry::{Remedy, Ride, Route};
+use crate::geometry::{FaceInView, Remedy, Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
@@ -181,6 +182,16 @@ fn remedy(world: &World, remedy: &Remedy) -> Value {
         }
     }
     view
+}
+
+/// A face in view.
+pub(super) fn face(world: &World, view: &FaceInView, language: Language) -> Value {
+    json!({
+        "face": face_in_words(world, &view.face, language),
+        "area_cm2": round(view.area),
+        "whole_cm2": round(view.whole),
+        "distance_cm": round(view.distance),
+    })
 }
 
 /// A single leg as [`route`] gives it; several as a list of those, with the rides between them.

@@ -303,7 +303,7 @@ impl Square {
 }
 
 /// Above this, in cm, a thing hangs over people's heads and is drawn in dashes.
-const OVERHEAD: f64 = 180.0;
+pub(super) const OVERHEAD: f64 = 180.0;
 
 /// Draws the things of a plan, low ones first, so that what stands on a table is seen; `pen` scales the lines.
 pub(super) fn draw<'a>(
@@ -322,7 +322,7 @@ pub(super) fn draw<'a>(
     for (i, (placed, prism)) in prisms.iter().enumerate() {
         let replica = &world.replicas[&placed.id];
         let style = if placed.bottom >= OVERHEAD {
-            Style::line("#8a7a5c", 0.9).dashed(5.0, 3.0)
+            HANGING
         } else {
             furniture_style(prism, replica.move_prob > 0)
         };
@@ -341,6 +341,7 @@ pub(super) fn draw<'a>(
 }
 
 const SIGN: Style = Style::line("#8a7a5c", 0.8).faint(0.9);
+pub(super) const HANGING: Style = Style::line("#8a7a5c", 0.9).dashed(5.0, 3.0);
 pub(super) const FIXED: Style = Style::fill("#e0cba6").outlined("#8a7a5c", 0.9);
 pub(super) const MOVABLE: Style = Style::fill("#cfd6c4").outlined("#8a7a5c", 0.9);
 

@@ -14,6 +14,8 @@ const SWATCH: f64 = 24.0;
 pub(super) enum Entry {
     /// A colour and what it means.
     Swatch(Style, String),
+    /// A small round mark and what it means.
+    Dot(Style, String),
     /// A line of its own.
     Line(String),
 }
@@ -22,6 +24,7 @@ pub(super) enum Entry {
 pub(super) struct Legend {
     entries: Vec<(Point, Entry)>,
     height: f64,
+    right: f64,
     pen: f64,
 }
 
@@ -36,10 +39,10 @@ impl Legend {
     ) -> Self {
         let (mut x, mut y) = (0.0, 0.0);
         let mut placed = Vec::new();
-        let mut rows = 1.0;
+        let (mut rows, mut right) = (1.0, at.x);
         for entry in entries {
             match &entry {
-                Entry::Swatch(_, text) => {
+                Entry::Swatch(_, text) | Entry::Dot(_, text) => {
                     let wide = (SWATCH + 26.0 + text_width(text, LETTER, false)) * pen;
                     if x > 0.0 && x + wide > width {
                         x = 0.0;
@@ -48,20 +51,27 @@ impl Legend {
                     }
                     placed.push((at + Vector::new(x, -y), entry));
                     x += wide;
+                    right = right.max(at.x + x);
                 }
-                Entry::Line(_) => {
+                Entry::Line(text) => {
                     rows += 1.0;
+                    right = right.max(line_start.x + text_width(text, LETTER, false) * pen);
                     y = (rows - 1.0) * ROW * pen + 8.0 * pen;
                     placed.push((line_start + Vector::new(0.0, -y), entry));
                 }
             }
         }
-        Self { entries: placed, height: (rows * ROW + 22.0) * pen, pen }
+        Self { entries: placed, height: (rows * ROW + 22.0) * pen, right, pen }
     }
 
     /// Of everything below the plan, cm on the sheet.
     pub(super) fn height(&self) -> f64 {
         self.height
+    }
+
+    /// How far it reaches, cm on the sheet.
+    pub(super) fn right(&self) -> f64 {
+        self.right
     }
 
     pub(super) fn draw(&self, canvas: &mut Canvas) {
@@ -75,6 +85,11 @@ impl Legend {
                     let swatch = Bounds { min: at - Vector::new(0.0, 6.0) * pen, max };
                     canvas.rectangle(swatch, style.thick(pen), 2.0 * pen);
                     canvas.text(at + Vector::new(SWATCH + 8.0, 1.0) * pen, text, lettering);
+                }
+                Entry::Dot(style, text) => {
+                    let middle = at + Vector::new(SWATCH / 2.0, 1.0) * pen;
+                    canvas.circle(middle, 4.5 * pen, style.thick(pen));
+                    canvas.text(at + Vector::new(SWATCH + 4.0, 1.0) * pen, text, lettering);
                 }
                 Entry::Line(text) => canvas.text(*at, text, lettering),
             }

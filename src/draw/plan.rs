@@ -1,13 +1,15 @@
 //! The plan of a Map or of one Fragment (figs. 6, 9-12): rooms, windows, doors as architects draw them, furniture, free
 //! floor, Passframes and their network, a route with its directives.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, Language, Point, Pose, Vector};
+use crate::units::{AreaId, Language, Point, Pose, ReplicaId, Vector};
 
-use super::canvas::{Canvas, Lettering, Style};
+use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
 use super::furniture;
 use super::labels::{Labels, around};
@@ -40,10 +42,9 @@ impl NetworkLayer {
         use crate::geometry::Beyond;
         let mut layer = Self::default();
         let middle = |(a, b): (Point, Point)| nalgebra::center(&a, &b);
-        let mut by_doorway: std::collections::BTreeMap<usize, Vec<(Point, Point)>> =
-            Default::default();
+        let mut by_doorway: BTreeMap<usize, Vec<(Point, Point)>> = BTreeMap::new();
         for fragment in floor.fragments().filter(|f| only.is_none_or(|a| a == f.area)) {
-            let centre: std::collections::BTreeMap<_, _> =
+            let centre: BTreeMap<_, _> =
                 fragment.passframes().iter().map(|p| (p.id, p.polygon.centroid())).collect();
             for frame in fragment.passframes() {
                 let from = centre[&frame.id];
@@ -83,11 +84,11 @@ pub struct RouteLayer {
     pub start: Option<Pose>,
 }
 
-/// A door leaf where it stands, and the floor that it passes over when it shuts.
+/// A door leaf where it stands, and the way of its tip from shut to open, on to the hinge.
 #[derive(Debug, Clone)]
 pub struct DoorGlyph {
     pub leaf: Polygon,
-    pub swept: Option<Polygon>,
+    pub arc: Vec<Point>,
     pub status: DoorStatus,
 }
 
@@ -131,6 +132,10 @@ const SEEN: Style = Style::line("#e07b00", 3.4);
 const LARGE: f64 = 1.5;
 const INK: &str = "#2b2a27";
 const PLACE: &str = "#b3261e";
+const DOORWAY: &str = "#b3261e";
+const ROBOT: Style = Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85);
+/// From so many things on it a table is crowded: the small ones then bear their names only where these fit on them.
+const CROWD: usize = 7;
 
 impl PlanDrawing<'_> {
     fn areas(&self) -> impl Iterator<Item = &PlacedArea> + '_ {
@@ -152,18 +157,19 @@ impl PlanDrawing<'_> {
         let longest = (extent.max.x - extent.min.x).max(extent.max.y - extent.min.y);
         // Letters and lines grow with the building, but slower, so that a hospital's rooms keep their names.
         let pen = (longest / 1000.0).max(0.35).sqrt();
-        let legend = self.legend(extent, pen);
-        // A leaf that swings out of the room is shown whole.
-        let leaves = self
-            .doors
-            .iter()
-            .filter(|_| self.only.is_some())
-            .flat_map(|d| [Some(&d.leaf), d.swept.as_ref()]);
-        let whole = leaves.flatten().fold(extent, |b, leaf| b.union(&leaf.bounds()));
+        // A leaf that swings out of the rooms is shown whole, and what stands below the plan keeps clear of it.
+        let doors: Vec<&DoorGlyph> =
+            self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())).collect();
+        let leaves = doors.iter().flat_map(|d| d.leaf.corners.iter().chain(&d.arc));
+        let whole = extent.union(&Bounds::of(leaves.copied()));
+        let legend = self.legend(whole, pen);
         let mut sheet = whole.grown(34.0 * pen);
-        sheet.min.y = sheet.min.y.min(extent.min.y - 34.0 * pen);
         sheet.min.y -= legend.height() + 22.0 * pen;
-        sheet.max.x = sheet.max.x.max(sheet.min.x + 640.0 * pen);
+        sheet.max.x = sheet.max.x.max(sheet.min.x + 640.0 * pen).max(legend.right() + 20.0 * pen);
+        let heading = self.heading();
+        if heading.is_some() {
+            sheet.max.y += 30.0 * pen;
+        }
         let width = sheet.max.x - sheet.min.x;
         let mut canvas = Canvas::new(sheet).wide((width / pen).clamp(760.0, 4000.0));
         for area in self.areas() {
@@ -171,26 +177,28 @@ impl PlanDrawing<'_> {
         }
         self.floor(&mut canvas, pen);
         furniture::draw(&mut canvas, self.world, self.things(), pen);
-        for area in self.areas() {
-            rooms::walls(&mut canvas, self.world, area, pen);
-        }
-        for door in self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())) {
+        rooms::walls(&mut canvas, self.world, self.areas(), pen);
+        for door in doors {
             draw_door(&mut canvas, door, pen);
         }
         self.network(&mut canvas, pen);
         self.view(&mut canvas, pen);
         self.route(&mut canvas, pen);
         let names = Bounds {
-            min: Point::new(sheet.min.x + 4.0 * pen, whole.min.y.min(extent.min.y) - 30.0 * pen),
-            max: sheet.max - Vector::new(4.0, 4.0) * pen,
+            min: Point::new(sheet.min.x + 4.0 * pen, whole.min.y - 30.0 * pen),
+            max: Point::new(sheet.max.x - 4.0 * pen, whole.max.y + 30.0 * pen),
         };
         self.labels(&mut canvas, names, pen);
-        scale_bar(
-            &mut canvas,
-            Point::new(extent.min.x, extent.min.y - 42.0 * pen),
-            pen,
-            self.language,
-        );
+        if let Some(heading) = heading {
+            let lettering = Lettering {
+                anchor: Anchor::Start,
+                halo: false,
+                ..Lettering::bold(18.0 * pen, INK)
+            };
+            canvas.text(Point::new(whole.min.x, whole.max.y + 44.0 * pen), heading, lettering);
+        }
+        let below = Point::new(whole.min.x, whole.min.y - 42.0 * pen);
+        scale_bar(&mut canvas, below, pen, self.language);
         legend.draw(&mut canvas);
         canvas.into_svg(&self.title())
     }
@@ -201,6 +209,13 @@ impl PlanDrawing<'_> {
             Some(area) => self.named(&area.name, &area.name_en).to_owned(),
             None => self.named(&map.name, &map.name_en).to_owned(),
         }
+    }
+
+    /// Which of several storeys this is.
+    fn heading(&self) -> Option<&str> {
+        let map = &self.world.maps[&self.scene.map];
+        let is_one_of_many = self.only.is_none() && self.world.maps.len() > 1;
+        is_one_of_many.then(|| self.named(&map.name, &map.name_en))
     }
 
     fn named<'n>(&self, russian: &'n str, english: &'n str) -> &'n str {
@@ -221,11 +236,11 @@ impl PlanDrawing<'_> {
             canvas.polyline(edge, NETWORK.thick(pen));
         }
         for [from, at, to] in &self.network.doors {
-            canvas.polyline(&[*from, *at, *to], Style::line("#b3261e", 1.6).thick(pen));
+            canvas.polyline(&[*from, *at, *to], Style::line(DOORWAY, 1.6).thick(pen));
             let r = 4.5 * pen;
             let corners =
                 [(r, 0.0), (0.0, r), (-r, 0.0), (0.0, -r)].map(|(x, y)| at + Vector::new(x, y));
-            canvas.polygon(&Polygon::new(corners.into()), Style::fill("#b3261e"), None);
+            canvas.polygon(&Polygon::new(corners.into()), Style::fill(DOORWAY), None);
         }
         for vertex in &self.network.vertices {
             canvas.circle(*vertex, 3.2 * pen, VERTEX);
@@ -246,7 +261,8 @@ impl PlanDrawing<'_> {
     }
 
     fn route(&self, canvas: &mut Canvas, pen: f64) {
-        for (_, leg) in &self.route.legs {
+        // What is done without driving is a leg of one point.
+        for (_, leg) in self.route.legs.iter().filter(|(_, leg)| leg.len() > 1) {
             canvas.polyline(leg, ROUTE.thick(pen));
         }
         match (self.route.start, self.route.legs.first().and_then(|(_, leg)| leg.first())) {
@@ -331,6 +347,7 @@ impl PlanDrawing<'_> {
                 Lettering::bold(20.0 * pen, INK),
             );
         }
+        let crowded = if pen < LARGE { self.crowded() } else { BTreeSet::new() };
         let mut things: Vec<_> = self.things().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
         things.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
@@ -340,10 +357,39 @@ impl PlanDrawing<'_> {
             // On the sheet of a large building names beside small things would hide the things.
             let lettering = Lettering::plain(8.5 * pen, "#5b5647");
             let home = self.scene.areas.get(&thing.area).filter(|_| pen < LARGE);
+            let home = home.filter(|_| !crowded.contains(&thing.id));
             let rooms: Vec<&Polygon> =
                 home.iter().flat_map(|a| &a.prisms).map(|p| &p.polygon).collect();
             labels.on_thing(canvas, thing.bounds, name, lettering, Some(&rooms));
         }
+    }
+
+    /// What stands in a crowd on or in another thing.
+    fn crowded(&self) -> BTreeSet<ReplicaId> {
+        /// What is no higher, such as a carpet, holds nothing, cm.
+        const FLAT: f64 = 10.0;
+        let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
+        let mut crowds: BTreeMap<ReplicaId, Vec<ReplicaId>> = BTreeMap::new();
+        for area in self.areas() {
+            let things: Vec<&PlacedReplica> = self.scene.replicas_in(area.id).collect();
+            let holders: Vec<_> = things.iter().filter(|t| t.top - t.bottom > FLAT).collect();
+            for thing in &things {
+                let middle = nalgebra::center(&thing.bounds.min, &thing.bounds.max);
+                let holds = |h: &&&&PlacedReplica| {
+                    h.id != thing.id
+                        && h.bounds.contains(middle)
+                        && size(&h.bounds) > 1.5 * size(&thing.bounds)
+                };
+                let holder = holders
+                    .iter()
+                    .filter(holds)
+                    .min_by(|a, b| size(&a.bounds).total_cmp(&size(&b.bounds)));
+                if let Some(holder) = holder {
+                    crowds.entry(holder.id).or_default().push(thing.id);
+                }
+            }
+        }
+        crowds.into_values().filter(|crowd| crowd.len() >= CROWD).flatten().collect()
     }
 
     /// «23,5 м²»
@@ -352,26 +398,40 @@ impl PlanDrawing<'_> {
         self.language.pick(format!("{} м²", metres.replace('.', ",")), format!("{metres} m²"))
     }
 
-    fn legend(&self, extent: Bounds, pen: f64) -> Legend {
+    fn legend(&self, above: Bounds, pen: f64) -> Legend {
         let mut entries = Vec::new();
+        let said = |russian: &str, english: &str| self.language.pick(russian, english).to_owned();
+        if !self.places.is_empty() {
+            entries.push(Entry::Dot(Style::fill(PLACE), said("место", "place")));
+        }
+        if !self.network.vertices.is_empty() {
+            entries.push(Entry::Dot(VERTEX, said("сеть Пассфреймов", "Passframe network")));
+        }
+        if !self.network.doors.is_empty() {
+            entries.push(Entry::Dot(Style::fill(DOORWAY), said("проём", "doorway")));
+        }
+        if self.route.start.is_some() || self.view.eye.is_some() {
+            entries.push(Entry::Dot(ROBOT, said("робот", "robot")));
+        }
         let mut entry = |style: Style, russian: &str, english: &str| {
-            entries.push(Entry::Swatch(style, self.language.pick(russian, english).to_owned()));
+            entries.push(Entry::Swatch(style, said(russian, english)));
         };
         let movable = |r: &PlacedReplica| self.world.replicas[&r.id].move_prob > 0;
-        if self.things().any(|r| !movable(r)) {
+        let overhead = |r: &PlacedReplica| r.bottom >= furniture::OVERHEAD;
+        if self.things().any(|r| !movable(r) && !overhead(r)) {
             entry(furniture::FIXED, "мебель", "furniture");
         }
-        if self.things().any(movable) {
+        if self.things().any(|r| movable(r) && !overhead(r)) {
             entry(furniture::MOVABLE, "подвижное", "movable");
+        }
+        if self.things().any(overhead) {
+            entry(furniture::HANGING, "под потолком", "overhead");
         }
         if !self.floor.passframes.is_empty() {
             entry(PASSFRAME, "Пассфреймы", "Passframes");
         }
         if !self.floor.dead_zones.is_empty() {
             entry(DEAD_ZONE, "мёртвые зоны", "dead zones");
-        }
-        if !self.network.vertices.is_empty() {
-            entry(VERTEX, "сеть Пассфреймов", "Passframe network");
         }
         if !self.route.legs.is_empty() {
             entry(Style::fill("#1f5fbf"), "маршрут", "route");
@@ -386,17 +446,17 @@ impl PlanDrawing<'_> {
             entries.push(Entry::Line(format!("{number}. {directive}")));
         }
         let at = Point::new(
-            extent.min.x + scale_bar_width(pen).max(220.0 * pen) + 30.0 * pen,
-            extent.min.y - 42.0 * pen,
+            above.min.x + scale_bar_width(pen).max(220.0 * pen) + 30.0 * pen,
+            above.min.y - 42.0 * pen,
         );
-        let line_start = Point::new(extent.min.x, at.y);
-        Legend::new(entries, at, line_start, (extent.max.x - at.x).max(350.0 * pen), pen)
+        let line_start = Point::new(above.min.x, at.y);
+        Legend::new(entries, at, line_start, (above.max.x - at.x).max(350.0 * pen), pen)
     }
 }
 
 fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
-    if let Some(swept) = &door.swept {
-        canvas.polygon(swept, SWING.thick(pen), None);
+    if !door.arc.is_empty() {
+        canvas.polyline(&door.arc, SWING.thick(pen));
     }
     let style = if door.status == DoorStatus::Locked { LOCKED } else { LEAF };
     canvas.polygon(&door.leaf, style.thick(pen), None);
@@ -411,7 +471,7 @@ fn robot_reach(profile: &RobotProfile, pen: f64) -> f64 {
 fn robot(canvas: &mut Canvas, pose: Pose, profile: &RobotProfile, pen: f64) {
     let (sin, cos) = pose.heading.sin_cos();
     let at = |p: Point| pose.at + Vector::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos);
-    let style = Style::fill("#9cc2f2").outlined("#1f5fbf", 2.0).faint(0.85).thick(pen);
+    let style = ROBOT.thick(pen);
     let nose = robot_reach(profile, pen);
     if profile.footprint.is_empty() {
         canvas.circle(pose.at, nose, style);

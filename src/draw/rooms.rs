@@ -1,5 +1,7 @@
 //! Rooms as architects draw them: floor, walls, windows, stairs, lifts.
 
+use std::collections::BTreeSet;
+
 use crate::geometry::{PlacedArea, Polygon};
 use crate::map::{Permeability, World};
 use crate::units::{Point, Vector};
@@ -87,21 +89,48 @@ fn inside(room: &Polygon, a: Point, b: Point) -> Vec<(Point, Point)> {
         .collect()
 }
 
-pub(super) fn walls(canvas: &mut Canvas, world: &World, area: &PlacedArea, pen: f64) {
-    for prism in &area.prisms {
-        let orthoframe = &world.orthoframes[&prism.orthoframe];
-        for (((a, b), side), vector) in
-            prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
-        {
-            match side.permeability {
-                Permeability::Impermeable if world.is_window(vector) => window(canvas, a, b, pen),
-                Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
-                Permeability::Permeable | Permeability::Conditional => {
-                    canvas.segment(a, b, PASSAGE.thick(pen));
+/// Walls, windows and, in dashes, what one walks through from one room to another.
+pub(super) fn walls<'a>(
+    canvas: &mut Canvas,
+    world: &World,
+    areas: impl Iterator<Item = &'a PlacedArea>,
+    pen: f64,
+) {
+    // Two rooms that touch have each their side of one passage; drawn twice, dashes would fill each other's gaps.
+    let mut passages = BTreeSet::new();
+    let mut is_new = |a: Point, b: Point| {
+        let [u, v] = [a, b].map(|p| (p.x.round() as i64, p.y.round() as i64));
+        passages.insert((u.min(v), u.max(v)))
+    };
+    for area in areas {
+        for (item, prism) in area.prisms.iter().enumerate() {
+            let orthoframe = &world.orthoframes[&prism.orthoframe];
+            for (((a, b), side), vector) in
+                prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
+            {
+                match side.permeability {
+                    Permeability::Impermeable if world.is_window(vector) => {
+                        window(canvas, a, b, pen);
+                    }
+                    Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
+                    Permeability::Permeable | Permeability::Conditional => {
+                        if !is_within(area, item, a, b) && is_new(a, b) {
+                            canvas.segment(a, b, PASSAGE.thick(pen));
+                        }
+                    }
                 }
             }
         }
     }
+}
+
+/// Whether an open side only parts two pieces of one room.
+fn is_within(area: &PlacedArea, item: usize, a: Point, b: Point) -> bool {
+    let middle = nalgebra::center(&a, &b);
+    let mut others = area.prisms.iter().enumerate().filter(|(other, _)| *other != item);
+    others.any(|(_, prism)| {
+        prism.bounds.grown(0.1).contains(middle) && prism.polygon.contains(middle, 0.05)
+    })
 }
 
 /// A window is a pane in a gap of the wall.

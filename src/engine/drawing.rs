@@ -5,7 +5,7 @@ use crate::draw::{
     ViewLayer, object_svg,
 };
 use crate::geometry::{Doorway, FloorPlan, PlacedArea, Sight};
-use crate::map::{DoorKind, Entity, Object, World};
+use crate::map::{Entity, Object, World};
 use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, nearest_name};
 
 use super::{Engine, Error, RequestError};
@@ -147,14 +147,12 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
             return Vec::new();
         };
         let leaves = doorway.leaves(door).at(door.state);
-        let swept = if door.kind == DoorKind::Hinged {
-            doorway.leaves(door).swept((0.0, 100.0))
-        } else {
-            Vec::new()
-        };
-        let mut swept = swept.into_iter();
+        let mut arcs = doorway.leaves(door).arcs().into_iter();
         let status = door.state.status;
-        leaves.into_iter().map(|leaf| DoorGlyph { leaf, swept: swept.next(), status }).collect()
+        leaves
+            .into_iter()
+            .map(|leaf| DoorGlyph { leaf, arc: arcs.next().unwrap_or_default(), status })
+            .collect()
     };
     let between = floor.doorways().iter().filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
     between.chain(&outer_doors(world, floor, only)).flat_map(glyphs).collect()

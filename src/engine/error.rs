@@ -88,6 +88,24 @@ pub enum RequestError {
     #[error("эта сборка не умеет писать PNG")]
     #[diagnostic(code(draw::no_png), help("соберите с `--features pictures` или запишите SVG"))]
     NoPng,
+    /// A way over several storeys, and one place to draw it.
+    #[error("путь идёт по {count} этажам, у каждого свой лист")]
+    #[diagnostic(
+        code(draw::many_sheets),
+        help("назовите файл: -o way.svg; следующие листы – way-2.svg и дальше")
+    )]
+    ManySheets { count: usize },
+    /// A file that no drawing can become.
+    #[error("«.{ending}»: рисунок пишется как SVG или PNG")]
+    #[diagnostic(
+        code(draw::format),
+        help("назовите файл с концом .svg или .png, или добавьте --png")
+    )]
+    DrawingFormat { ending: String },
+    /// There is nothing of which a plan could be drawn.
+    #[error("в домейне нет ни одной карты")]
+    #[diagnostic(code(engine::no_maps), help("нарисуйте объект: ortho draw object ИМЯ"))]
+    NoMaps,
     /// The store holds no map yet.
     #[error("в хранилище «{store}» нет карты")]
     #[diagnostic(code(engine::no_map), help("импортируйте карту: ortho import maps/rb2.toml"))]
@@ -164,13 +182,18 @@ pub enum RequestError {
 
     /// Which of several maps is meant.
     #[error("в домейне несколько карт: {candidates}")]
-    #[diagnostic(code(engine::which_map), help("назовите одну: --map ИМЯ"))]
+    #[diagnostic(code(engine::which_map), help("назовите одну из них"))]
     WhichMap { candidates: String },
 
     /// A command that no goal of the rules stands for.
     #[error("«{command}»: у этой команды нет цели, которую знают правила робота")]
     #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
     NoGoal { command: String },
+
+    /// A lift was called where there is none.
+    #[error("на этом этаже нет лифта")]
+    #[diagnostic(code(engine::no_lift), help("лифты здания объявляются в разделе domain карты"))]
+    NoLift,
 
     /// Something that is to be carried and is too large or stands fast.
     #[error("«{name}» робот не носит")]
@@ -339,6 +362,7 @@ impl RequestError {
             Self::NoGoal { command } => {
                 format!("The robot's rules have no goal for this: \"{command}\".")
             }
+            Self::NoLift => "There is no lift on this floor.".to_owned(),
             Self::NotPortable { name } => format!("The robot does not carry {}.", called(name)),
             Self::NotHollow { name } => {
                 format!("Nothing can be put into {}: it has no inside.", called(name))

@@ -39,6 +39,7 @@ mod present;
 mod reading;
 mod route;
 mod rules;
+mod sight;
 mod surprises;
 mod surroundings;
 mod talk;
@@ -67,6 +68,7 @@ pub use position::Whereabout;
 pub use reading::Region;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
 pub use rules::Rules;
+pub use sight::face_in_words;
 pub use surprises::surprise_in_words;
 pub use task::{OPERATOR, Progress, Report, TaskAnswer, TaskEnding};
 pub use upkeep::{check_store, restore_store};
@@ -347,6 +349,7 @@ impl Engine {
             let mut maps = world.maps.values();
             return match (maps.next(), maps.next()) {
                 (Some(only), None) => Ok(only.id),
+                (None, _) => Err(RequestError::NoMaps.into()),
                 _ => {
                     let candidates: Vec<&str> =
                         world.maps.values().map(|m| m.name.as_str()).collect();

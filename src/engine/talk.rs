@@ -1,6 +1,6 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use crate::geometry::Method;
+use crate::geometry::{Eye, Method};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::question::{
@@ -18,10 +18,13 @@ use super::barriers::no_way_in_words;
 use super::journey::Journey;
 use super::position::describe;
 use super::route::Located;
+use super::sight::things_in_view;
 use super::{Engine, Error};
 
 /// How far the robot is taken to see, cm.
 const SIGHT: f64 = 400.0;
+/// How wide it looks, degrees: as a wide camera does.
+const FIELD: f64 = 120.0;
 
 impl Engine {
     /// Answers a question in Russian or English and remembers what it was about.
@@ -92,6 +95,24 @@ impl Engine {
         let senses = RobotSenses { engine: self };
         let asks = self.asker(&senses)?.begins_as_question(text);
         Ok((!asks && is_command(text)) || is_order(text))
+    }
+
+    /// «Скажи, где ваза, и принеси её»: the question, and the order after it.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn question_and_order<'t>(&self, text: &'t str) -> Result<Option<[&'t str; 2]>, Error> {
+        let senses = RobotSenses { engine: self };
+        if !self.asker(&senses)?.begins_as_question(text) {
+            return Ok(None);
+        }
+        for joint in [" и ", " and ", ", then ", ", затем ", ", потом "] {
+            let Some((question, order)) = text.rsplit_once(joint) else { continue };
+            if is_order(order) {
+                return Ok(Some([question.trim_end_matches(','), order]));
+            }
+        }
+        Ok(None)
     }
 
     fn asker<'a>(&'a self, senses: &'a RobotSenses<'a>) -> Result<Asker<'a>, Error> {
@@ -282,24 +303,12 @@ impl Senses for RobotSenses<'_> {
 
     fn visible(&self) -> Vec<ReplicaId> {
         let Some((map, pose)) = self.engine.robot_pose() else { return Vec::new() };
-        let Some(relations) = self.relations() else { return Vec::new() };
-        let Some(area) = relations.measurements().area_at(map, pose.at) else { return Vec::new() };
-        let (sin, cos) = pose.heading.sin_cos();
-        let mut seen: Vec<(f64, ReplicaId)> = Vec::new();
-        for &id in self.world().into_iter().flat_map(|w| w.replicas.keys()) {
-            let here = relations.area_of(id) == Some(area);
-            let Some((_, at)) = relations.centre(id).filter(|_| here) else { continue };
-            let way = at - pose.at;
-            let ahead = way.x * cos + way.y * sin;
-            let distance = way.norm();
-            // Half of what lies before it, as a wide camera sees; what stands in a cupboard is hidden.
-            let hidden = relations.support_of(id).is_some_and(|s| is_inside(relations, id, s));
-            if distance <= SIGHT && ahead >= distance * 0.5 && !hidden {
-                seen.push((distance, id));
-            }
-        }
-        seen.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        seen.into_iter().map(|(_, id)| id).collect()
+        let Ok(around) = self.engine.around() else { return Vec::new() };
+        let (Ok(world), Ok(floor)) = (around.world(), around.floor(map)) else { return Vec::new() };
+        let stands = floor.scene().area_at(pose.at);
+        let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
+        let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
+        things_in_view(world, floor, &Eye { pose, height, field: FIELD, range: SIGHT })
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {
@@ -346,13 +355,4 @@ impl Senses for RobotSenses<'_> {
         }
         past
     }
-}
-
-fn is_inside(relations: &crate::semantics::Relations, id: ReplicaId, holder: ReplicaId) -> bool {
-    use crate::semantics::Subject;
-    let symbol = |id| {
-        let subject = Subject::Entity(Entity::Replica(id));
-        crate::facts::Value::Symbol(relations.symbols().symbol(subject).clone())
-    };
-    relations.derived().contains("INSIDE", &[symbol(id), symbol(holder)]).unwrap_or(false)
 }

@@ -89,6 +89,23 @@ impl<'d> Leaves<'d> {
         self.shares().filter_map(|(leaf, share)| self.way(leaf, share, openings, 0.0)).collect()
     }
 
+    /// The way of each hinged leaf's tip from shut to fully open, and on to its hinge: what
+    /// architects draw of a door. A sliding leaf has none.
+    #[must_use]
+    pub fn arcs(&self) -> Vec<Vec<Point>> {
+        if self.door.kind != DoorKind::Hinged {
+            return Vec::new();
+        }
+        let arc = |(leaf, share): (&DoorLeaf, _)| {
+            let swing = self.bay.swing(leaf, share, self.opens_to, 0.0);
+            let most = leaf.max_open.to_radians();
+            let steps = (most / ARC).ceil().max(1.0);
+            let tip = |k: i32| swing.ray(most * f64::from(k) / steps, swing.length);
+            (0..=steps as i32).map(tip).chain([swing.hinge]).collect()
+        };
+        self.shares().map(arc).collect()
+    }
+
     /// The widest gap that the leaves leave between each other and the jambs, in cm.
     #[must_use]
     pub fn clear_width(&self, state: DoorState) -> f64 {
@@ -258,6 +275,10 @@ struct Swing {
 }
 
 impl Swing {
+    fn ray(&self, angle: f64, reach: f64) -> Point {
+        self.hinge + (self.closed * angle.cos() + self.opens * angle.sin()) * reach
+    }
+
     fn leaf_at(&self, angle: f64, thickness: f64) -> Polygon {
         let (sin, cos) = angle.sin_cos();
         let along = self.closed * cos + self.opens * sin;
@@ -274,12 +295,10 @@ impl Swing {
         let from = (from - (thickness / self.length.max(1e-9)).atan()).max(0.0);
         let steps = ((to - from) / ARC).ceil().max(1.0);
         let half = (to - from) / steps / 2.0;
-        let ray = |a: f64, r: f64| self.hinge + (self.closed * a.cos() + self.opens * a.sin()) * r;
-        let mut corners = vec![self.hinge, ray(from, reach)];
-        corners.extend(
-            (0..steps as usize).map(|k| ray(from + half * (2 * k + 1) as f64, reach / half.cos())),
-        );
-        corners.push(ray(to, reach));
+        let tangent = |k: usize| self.ray(from + half * (2 * k + 1) as f64, reach / half.cos());
+        let mut corners = vec![self.hinge, self.ray(from, reach)];
+        corners.extend((0..steps as usize).map(tangent));
+        corners.push(self.ray(to, reach));
         Polygon::new(corners)
     }
 }

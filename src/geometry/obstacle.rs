@@ -3,7 +3,7 @@
 //! **Invariant**: an obstacle lies on the Fragment's floor or in the mouth of one of its open doorways, by its box:
 //! a thing behind a wall is no obstacle.
 
-use crate::map::{DoorStatus, Permeability, RobotProfile};
+use crate::map::{DoorStatus, Permeability, RobotProfile, World};
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
 use super::doors::Doorway;
@@ -105,44 +105,59 @@ pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds])
     found
 }
 
-/// The open leaves of a replica's own doors.
+/// The open leaves of a replica's own doors, within the robot's height.
 fn own_leaves(site: &Site<'_>, replica: &PlacedReplica, floor: f64) -> Vec<Obstacle> {
+    let (step, height) = (site.robot.step.get(), site.robot.height.get());
+    open_leaves(site.world, replica)
+        .into_iter()
+        .map(|(blocker, polygon, (bottom, top))| Obstacle {
+            blocker,
+            polygon,
+            side: None,
+            bottom: bottom - floor,
+            top: top - floor,
+        })
+        .filter(|leaf| leaf.top > step && leaf.bottom < height)
+        .collect()
+}
+
+/// The open leaves of a replica's own doors, each with its base and its height in the Map's frame.
+pub(super) fn open_leaves(
+    world: &World,
+    replica: &PlacedReplica,
+) -> Vec<(Blocker, Polygon, (f64, f64))> {
     if !replica.has_doors {
         return Vec::new();
     }
-    let Some(model) = site.world.replicas.get(&replica.id) else { return Vec::new() };
-    let object = &site.world.objects[&model.object];
+    let Some(model) = world.replicas.get(&replica.id) else { return Vec::new() };
+    let object = &world.objects[&model.object];
     let mut found = Vec::new();
     for mount in &object.doors {
-        let Some(door) = site.world.doors.get(&mount.door) else { continue };
+        let Some(door) = world.doors.get(&mount.door) else { continue };
         let state = model.door_states.get(&mount.door).copied().unwrap_or(door.state);
-        let Some((prism, (a, b))) = mounted_side(site, object, replica, mount) else { continue };
+        let Some((prism, (a, b))) = mounted_side(world, object, replica, mount) else { continue };
         if state.status != DoorStatus::Open {
             continue;
         }
         let height =
             if door.height.get() > 0.0 { door.height.get() } else { prism.top - prism.bottom };
-        let (bottom, top) = (prism.bottom - floor, prism.bottom + height - floor);
-        if top <= site.robot.step.get() || bottom >= site.robot.height.get() {
-            continue;
-        }
         let leaves = Leaves::of_object(door, mount, a, b).map(|leaves| leaves.at(state));
         for (leaf, polygon) in leaves.into_iter().flatten().enumerate() {
             let blocker = Blocker::ReplicaLeaf { replica: replica.id, door: mount.door, leaf };
-            found.push(Obstacle { blocker, polygon, side: None, bottom, top });
+            found.push((blocker, polygon, (prism.bottom, prism.bottom + height)));
         }
     }
     found
 }
 
 fn mounted_side<'a>(
-    site: &Site<'_>,
+    world: &World,
     object: &crate::map::Object,
     replica: &'a PlacedReplica,
     mount: &crate::map::DoorMount,
 ) -> Option<(&'a Prism, (Point, Point))> {
     let item = object.items.iter().position(|i| i.id == mount.item)?;
-    let (side, _) = site.world.orthoframe_of(&object.items[item]).side(&mount.side)?;
+    let (side, _) = world.orthoframe_of(&object.items[item]).side(&mount.side)?;
     let prism = replica.prisms.get(item)?;
     Some((prism, prism.polygon.edges().nth(side)?))
 }

@@ -1,4 +1,5 @@
-//! What can be seen from a pose (M12): which faces of which things, and a scan such as a laser would bring.
+//! What can be seen at one height from a pose (M12): a scan such as a laser would bring, and the stretches of floor plan
+//! in view. What is seen in space is told by [`super::seen`].
 //!
 //! At the height of the eye every side of every prism is a segment of the floor plan; permeable sides and open
 //! doorways are seen through. Beams are cast with parry. The visible stretches are found by casting between the
@@ -93,13 +94,13 @@ impl FloorPlan {
     }
 
     /// Height of the floor before a doorway, in the Map's frame, in cm.
-    fn level_of(&self, doorway: &Doorway) -> f64 {
+    pub(super) fn level_of(&self, doorway: &Doorway) -> f64 {
         let room = self.scene().areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
         room.map_or(0.0, |prism| prism.bottom)
     }
 
     /// The wall over a doorway, on its side towards one of its Areas.
-    fn lintel(
+    pub(super) fn lintel(
         &self,
         world: &World,
         doorway: &Doorway,
@@ -116,7 +117,7 @@ impl FloorPlan {
     }
 
     /// The side of the Area on which a piece of wall lies.
-    fn wall_face(&self, fragment: &FragmentFloor, a: Point, b: Point) -> SeenFace {
+    pub(super) fn wall_face(&self, fragment: &FragmentFloor, a: Point, b: Point) -> SeenFace {
         let near =
             |p: Point, (u, v): (Point, Point)| (p - nearest_on_segment(p, u, v)).norm() < 0.01;
         let prisms = self.scene().areas.get(&fragment.area).map_or(&[][..], |p| &p.prisms);
@@ -140,7 +141,12 @@ fn section(prism: &Prism, height: f64) -> Vec<(Point, Point)> {
 }
 
 /// Whether a side stops a beam: walls do, doors of Objects while they are shut.
-fn is_solid(world: &World, replica: crate::units::ReplicaId, prism: &Prism, side: usize) -> bool {
+pub(super) fn is_solid(
+    world: &World,
+    replica: crate::units::ReplicaId,
+    prism: &Prism,
+    side: usize,
+) -> bool {
     match prism.sides[side].permeability {
         Permeability::Impermeable => true,
         Permeability::Permeable => false,

@@ -3,7 +3,7 @@
 use orthoframe::map::World;
 use serde_json::Value;
 
-use super::{Place, rb2};
+use super::{Place, project, rb2};
 
 #[test]
 fn a_map_is_checked_and_imported() {
@@ -167,6 +167,72 @@ fn drawings_are_svg() {
     }
     let nowhere = place.json(&["draw", "map", "--out", "no/such/folder/x.svg"], 2);
     assert_eq!(nowhere["errors"][0]["code"], "engine::file");
+}
+
+/// Each storey of a way has its sheet, headed with its name, and what is done is numbered through.
+#[test]
+fn a_way_over_storeys_is_drawn_on_a_sheet_for_each() {
+    let place = Place::empty();
+    let text = std::fs::read_to_string(project("maps/two-storeys.toml")).unwrap();
+    let open = text.replace("thickness = 4 }], state = \"closed\"", "thickness = 4 }]");
+    assert_ne!(text, open);
+    let map = place.write("open.toml", open);
+    place.run(&["import", &map]).is(0);
+    let way = ["draw", "route", "--from", "Стойка охраны", "--to", "Окно"];
+    let refused = place.json(&way, 2);
+    assert_eq!(refused["errors"][0]["code"], "draw::many_sheets");
+    place.run(&[&way[..], &["-o", "way.svg"]].concat()).is(0);
+    let task = ["draw", "route", "--task", "Поезжай на второй этаж", "-o", "task.svg"];
+    place.run(&task).is(0);
+    for name in ["way", "task"] {
+        let sheet = |file: String| std::fs::read_to_string(place.path(&file)).unwrap();
+        let (first, second) = (sheet(format!("{name}.svg")), sheet(format!("{name}-2.svg")));
+        assert!(first.contains("Первый этаж") && second.contains("Второй этаж"), "{name}");
+        assert!(first.contains("Холл-1") && !first.contains("Холл-2"), "{name}");
+        assert!(second.contains("Холл-2") && !second.contains("Склад"), "{name}");
+    }
+    let way = std::fs::read_to_string(place.path("way-2.svg")).unwrap();
+    assert!(way.contains("2. Поднимитесь на лифте"), "{way}");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused_by_name() {
+    let place = Place::with_rb2();
+    let code = |args: &[&str]| place.json(args, 2)["errors"][0]["code"].clone();
+    for (args, wanted) in [
+        (&["draw", "map", "-o", "plan.jpg"][..], "draw::format"),
+        (&["draw", "map", "Чердак"], "engine::unknown_name"),
+        (&["draw", "floor", "Диван-1"], "engine::unknown_name"),
+        (&["draw", "object", "Комната-В"], "engine::unknown_name"),
+        (&["draw", "object", ""], "engine::unknown_name"),
+        (&["draw", "view", "--at", "-900,0,0"], "engine::nowhere"),
+        (&["draw", "view", "--at", "nan,0,0"], "engine::bad_pose"),
+        (&["draw", "view", "--at", "300,150,0", "--height", "nan"], "draw::out_of_range"),
+        (&["draw", "view", "--at", "300,150,0", "--field", "0"], "draw::out_of_range"),
+        (&["draw", "view", "--at", "300,150,0", "--map", "Дача"], "engine::unknown_name"),
+        (&["draw", "map", "-o", "."], "engine::file"),
+    ] {
+        assert_eq!(code(args), wanted, "{args:?}");
+    }
+    let empty = Place::empty();
+    empty.run(&["import", project("maps/box.toml").to_str().unwrap()]).is(0);
+    assert_eq!(empty.json(&["draw", "map"], 2)["errors"][0]["code"], "engine::no_maps");
+}
+
+/// The faces in view are listed by name, tops among them, and what hides behind a wall is not.
+#[test]
+fn faces_in_view_are_listed() {
+    let place = Place::with_rb2();
+    let told = place.run(&["draw", "view", "--at", "300,150,90", "--faces"]).is(0).out;
+    assert!(told.contains("Письменный стол") && told.contains("верх"), "{told}");
+    assert!(!told.contains("Кровать-1"), "{told}");
+    let faces = place.json(&["draw", "view", "--at", "300,150,90", "--faces", "--lang", "en"], 0);
+    let faces = faces.as_array().unwrap();
+    assert!(faces.iter().any(|f| f["face"].as_str().unwrap().contains("top")), "{faces:?}");
+    for face in faces {
+        let share = face["area_cm2"].as_f64().unwrap() / face["whole_cm2"].as_f64().unwrap();
+        assert!(share > 0.0 && share < 1.0001, "{face}");
+    }
 }
 
 #[test]

@@ -1,0 +1,89 @@
+//! What is in view from a pose: faces by name, and the things that can be told.
+
+use crate::geometry::{Blocker, Eye, Face, FaceInView, FaceKind, FloorPlan};
+use crate::map::{Entity, Item, World};
+use crate::units::{Language, MapId, ReplicaId};
+
+use super::lexicon::named;
+use super::{Engine, Error, Lens};
+
+/// What looks smaller is not made out, steradians: a matchbox at six metres.
+const SPECK: f64 = 2e-5;
+
+impl Engine {
+    /// The faces that are seen through a lens, those that look largest first.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn faces_in_view(&self, map: MapId, lens: Lens) -> Result<Vec<FaceInView>, Error> {
+        let eye =
+            Eye { pose: lens.pose, height: lens.height, field: lens.field, range: lens.range };
+        Ok(self.floor(map)?.faces(self.world()?, &eye).in_view(&eye))
+    }
+}
+
+/// The things that one makes out, the nearest first.
+pub(super) fn things_in_view(world: &World, floor: &FloorPlan, eye: &Eye) -> Vec<ReplicaId> {
+    let mut seen: Vec<(ReplicaId, f64, f64)> = Vec::new();
+    for view in floor.faces(world, eye).in_view(eye) {
+        let Blocker::Replica { replica, .. } = view.face.blocker else { continue };
+        let size = view.apparent_size(eye);
+        match seen.iter_mut().find(|s| s.0 == replica) {
+            Some((_, nearest, whole)) => {
+                *nearest = nearest.min(view.distance);
+                *whole += size;
+            }
+            None => seen.push((replica, view.distance, size)),
+        }
+    }
+    seen.retain(|(_, _, size)| *size >= SPECK);
+    seen.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+    seen.into_iter().map(|(id, ..)| id).collect()
+}
+
+/// «Стол-1, Столешница: верх», "Room V: side B"; a side that has a name of its own bears it.
+#[must_use]
+pub fn face_in_words(world: &World, face: &Face, language: Language) -> String {
+    let name = |entity: Entity| match language {
+        Language::Russian => world.name(entity).to_owned(),
+        Language::English => named(world, entity).english(),
+    };
+    let of = |owner: Entity, items: &[Item], item: usize| {
+        let Some(item) = items.get(item) else { return name(owner) };
+        let orthoframe = world.orthoframe_of(item);
+        let side = match face.kind {
+            FaceKind::Roof => language.pick("верх", "top").to_owned(),
+            FaceKind::Base => language.pick("низ", "underside").to_owned(),
+            FaceKind::Side(side) => match orthoframe.base.get(side) {
+                Some(vector) if !vector.names.is_empty() => vector.names.join(", "),
+                Some(vector) => format!("{} {}", language.pick("сторона", "side"), vector.id),
+                None => String::new(),
+            },
+        };
+        let english = language == Language::English && !orthoframe.name_en.is_empty();
+        let part = if english { &orthoframe.name_en } else { &orthoframe.name };
+        match items.len() {
+            1 => format!("{}: {side}", name(owner)),
+            _ => format!("{}, {part}: {side}", name(owner)),
+        }
+    };
+    let leaf = |owner: Entity, leaf: usize| {
+        format!("{}, {} {}", name(owner), language.pick("створка", "leaf"), leaf + 1)
+    };
+    match face.blocker {
+        Blocker::Replica { replica, item } => match world.replicas.get(&replica) {
+            Some(model) => of(Entity::Replica(replica), &world.objects[&model.object].items, item),
+            None => String::new(),
+        },
+        Blocker::Wall { area, item, .. } => {
+            of(Entity::Area(area), world.areas.get(&area).map_or(&[][..], |a| &a.items), item)
+        }
+        Blocker::Floor { area, .. } => {
+            format!("{}: {}", name(Entity::Area(area)), language.pick("пол", "floor"))
+        }
+        Blocker::DoorLeaf { door, leaf: number } => leaf(Entity::Door(door), number),
+        Blocker::ReplicaLeaf { replica, leaf: number, .. } => {
+            leaf(Entity::Replica(replica), number)
+        }
+    }
+}
