@@ -214,7 +214,8 @@ impl Rule<'_, '_> {
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee
-            | Query::WhatDoYouHold => (String::new(), String::new()),
+            | Query::WhatDoYouHold
+            | Query::Courtesy(_) => (String::new(), String::new()),
         }
     }
 
@@ -341,7 +342,7 @@ impl Rule<'_, '_> {
                 | Extension::Corners
                 | Extension::Robot => unknown = true,
                 // A part is no thing of the facts; the kinds beside it say what is meant.
-                Extension::Part(_) => unknown |= noun.head.kinds.len() == 1,
+                Extension::Part(_) | Extension::Sort(_) => unknown |= noun.head.kinds.len() == 1,
             }
         }
         self.measured |= unknown;
@@ -353,6 +354,11 @@ impl Rule<'_, '_> {
     }
 
     fn filter(&mut self, term: &str, filter: &Filter) {
+        const STATES: [(DoorStatus, &str); 3] = [
+            (DoorStatus::Open, "open"),
+            (DoorStatus::Closed, "closed"),
+            (DoorStatus::Locked, "locked"),
+        ];
         let values = &self.knowledge.lexicon().values;
         // Whether anything is in or on a thing is looked at, unless the map says so of it.
         if values.entry(filter.value).is_emptiness()
@@ -362,24 +368,20 @@ impl Rule<'_, '_> {
             return;
         }
         let not = if filter.negated { "!" } else { "" };
-        let state = [
-            (DoorStatus::Open, "open"),
-            (DoorStatus::Closed, "closed"),
-            (DoorStatus::Locked, "locked"),
-        ];
-        let states: Vec<&str> = state
-            .iter()
-            .filter(|(s, _)| values.of_door(*s).is_some_and(|v| values.is(v, filter.value)))
-            .map(|(_, word)| *word)
-            .collect();
         let mut atoms: Vec<String> = Vec::new();
-        if !states.is_empty() {
-            let door = self.relation("DOOR_IS");
-            atoms.extend(states.iter().map(|word| format!("{not}{door}({term}, \"{word}\")")));
-        } else {
-            let has = self.relation("HAS");
-            for word in self.knowledge.spellings(filter.value) {
-                atoms.push(format!("{not}{has}({term}, _, \"{word}\")"));
+        for value in filter.values() {
+            let states: Vec<&str> = STATES
+                .iter()
+                .filter(|(s, _)| values.of_door(*s).is_some_and(|v| values.is(v, value)))
+                .map(|(_, word)| *word)
+                .collect();
+            if states.is_empty() {
+                let has = self.relation("HAS");
+                let spellings = self.knowledge.spellings(value).into_iter();
+                atoms.extend(spellings.map(|word| format!("{not}{has}({term}, _, \"{word}\")")));
+            } else {
+                let door = self.relation("DOOR_IS");
+                atoms.extend(states.iter().map(|word| format!("{not}{door}({term}, \"{word}\")")));
             }
         }
         match (&atoms[..], filter.negated) {

@@ -7,7 +7,9 @@ use std::ops::Range;
 
 use super::lexicon::Lexicon;
 use super::vocabulary;
-use crate::language::words::{Language, everyday, word_ranges};
+use crate::language::words::{
+    Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges,
+};
 use crate::units::name_key;
 
 /// Words that ask and are often mistyped; a letter off is still that word.
@@ -39,6 +41,11 @@ pub(super) fn plain<'t>(text: &'t str, lexicon: &Lexicon) -> Cow<'t, str> {
         if let Some((n, word)) = several_words(text, &words, at, taken, lexicon) {
             replaced.push((words[at].start..words[at + n - 1].end, word));
             at += n;
+            continue;
+        }
+        if let Some((pair, placed)) = of_room(text, &words, at, taken, lexicon) {
+            replaced.push((pair, placed));
+            at += 2;
             continue;
         }
         if let Some((pair, turned)) = turned(text, &words, at, taken, lexicon) {
@@ -117,6 +124,40 @@ fn turned(
     }
     let turned = format!("{} {}", &text[next.clone()], &text[words[at].clone()]);
     is_name(&turned, lexicon).then(|| (words[at].start..next.end, turned))
+}
+
+/// Adjectives of rooms, without their endings.
+const OF_ROOMS: [(&str, &str); 8] = [
+    ("кухонн", "кухня"),
+    ("офисн", "офис"),
+    ("коридорн", "коридор"),
+    ("лабораторн", "лаборатория"),
+    ("складск", "склад"),
+    ("туалетн", "туалет"),
+    ("библиотечн", "библиотека"),
+    ("гаражн", "гараж"),
+];
+
+/// «кухонный стол»: a table in the kitchen, where nothing is called so.
+fn of_room(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    taken: usize,
+    lexicon: &Lexicon,
+) -> Option<(Range<usize>, String)> {
+    let next = words.get(at + 1)?;
+    let key = name_key(&text[words[at].clone()]);
+    let ends =
+        |stem: &str| key.strip_prefix(stem).is_some_and(|e| (2..=3).contains(&e.chars().count()));
+    let (_, room) = OF_ROOMS.iter().find(|(stem, _)| ends(stem))?;
+    let thing = &text[next.clone()];
+    if taken > 0 || !is_name(room, lexicon) || !is_name(thing, lexicon) {
+        return None;
+    }
+    let room = NounPhrase::parse(room, &WordHints::default());
+    let place = room.form(Case::Prepositional, Number::Singular);
+    Some((words[at].start..next.end, format!("{thing} в {place}")))
 }
 
 /// Whether all of a text is the name of something or of a kind.

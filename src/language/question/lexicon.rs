@@ -10,6 +10,7 @@ use crate::language::words::{FormIndex, Language, NounPhrase, Number, WordHints,
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
 
+use super::purposes;
 use super::values::Values;
 
 /// A kind by its place in the lexicon.
@@ -46,6 +47,8 @@ pub enum Extension {
     Robot,
     /// What gives light, and the switches for it.
     Lighting,
+    /// A sort above the map's types, by its place among [`purposes::SORTS`].
+    Sort(u16),
 }
 
 /// A kind with its words.
@@ -85,7 +88,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (
         Extension::Building,
         "дом|здание|квартира|карта|жильё",
-        "house|building|flat|apartment|home|map",
+        "house|building|flat|apartment|home|map|this place|premises",
     ),
     (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),
     (Extension::Floor, "пол", "floor|ground"),
@@ -110,6 +113,8 @@ pub struct Lexicon {
     kinds: Vec<Kind>,
     /// Kinds that a head word covers beside its own: «стол» – «Письменный стол».
     narrower: HashMap<(bool, String), Vec<KindId>>,
+    /// The kinds of each sort, the sort itself first.
+    sorts: Vec<Vec<KindId>>,
     pub values: Values,
     pub windows: Vec<Window>,
 }
@@ -122,6 +127,7 @@ impl Lexicon {
             nouns: FormIndex::default(),
             kinds: Vec::new(),
             narrower: HashMap::new(),
+            sorts: Vec::new(),
             values: Values::of(world),
             windows: windows(world),
         };
@@ -164,6 +170,8 @@ impl Lexicon {
             }
         }
         lexicon.add_concepts();
+        lexicon.add_building(world);
+        lexicon.add_sorts();
         lexicon.add_parts(world);
         lexicon
     }
@@ -274,6 +282,82 @@ impl Lexicon {
         }
     }
 
+    /// The name of the whole is one for the building, where nothing else is called so.
+    fn add_building(&mut self, world: &World) {
+        let Some(first) = self.kind_of(&Extension::Building).map(|id| self.kind(id).clone()) else {
+            return;
+        };
+        for name in [&world.domain.name, &world.domain.name_en] {
+            if name.is_empty() || !self.nouns.find(name).is_empty() {
+                continue;
+            }
+            let id = self.push(Extension::Building, first.phrase.clone(), &first.english);
+            match Language::of(name) {
+                Language::English => self.nouns.insert_english(name, Meaning::Kind(id)),
+                Language::Russian => {
+                    self.nouns
+                        .insert(&NounPhrase::parse(name, &WordHints::default()), Meaning::Kind(id));
+                }
+            }
+        }
+    }
+
+    /// Sorts above the types, with the kinds of the map that belong to each.
+    fn add_sorts(&mut self) {
+        for (n, sort) in purposes::SORTS.iter().enumerate() {
+            let extension = Extension::Sort(u16::try_from(n).unwrap_or(u16::MAX));
+            let mut members: Vec<KindId> = Vec::new();
+            for word in sort.members.split('|') {
+                members.extend(self.kinds_called(word));
+            }
+            let english: Vec<&str> = sort.english.split('|').collect();
+            let russian: Vec<NounPhrase> = sort
+                .russian
+                .split('|')
+                .map(|word| NounPhrase::parse(word, &WordHints::default()))
+                .collect();
+            let own = self.push(extension, russian[0].clone(), english[0]);
+            for phrase in russian {
+                if self.nouns.find(phrase.name()).is_empty() {
+                    let id = self.push(extension, phrase.clone(), english[0]);
+                    self.nouns.insert(&phrase, Meaning::Kind(id));
+                }
+            }
+            for word in english {
+                if self.nouns.find(word).is_empty() {
+                    let first = self.kind(own).phrase.clone();
+                    let id = self.push(extension, first, word);
+                    self.nouns.insert_english(word, Meaning::Kind(id));
+                }
+            }
+            members.sort_unstable();
+            members.dedup();
+            members.insert(0, own);
+            self.sorts.push(members);
+        }
+    }
+
+    /// The kinds of things that a word means, narrower ones and those of a sort too.
+    fn kinds_called(&self, word: &str) -> Vec<KindId> {
+        let called = self.nouns.find(word).into_iter().filter_map(|hit| match hit.id {
+            Meaning::Kind(kind) => Some(*kind),
+            Meaning::Entity(_) => None,
+        });
+        let language = Language::of(word);
+        let things = |id: &KindId| {
+            matches!(
+                self.kind(*id).extension,
+                Extension::ObjectType(_) | Extension::Object(_) | Extension::Trait(_)
+            )
+        };
+        called.flat_map(|id| self.with_narrower(id, language)).filter(things).collect()
+    }
+
+    /// The kinds of a sort, the sort's own first: by its words such things are counted.
+    pub(super) fn kinds_of_sort(&self, sort: u16) -> Vec<KindId> {
+        self.sorts.get(usize::from(sort)).cloned().unwrap_or_default()
+    }
+
     /// # Panics
     /// When the id is not of this lexicon.
     #[must_use]
@@ -284,6 +368,9 @@ impl Lexicon {
     /// The kind itself and those that its word covers too.
     pub(super) fn with_narrower(&self, id: KindId, language: Language) -> Vec<KindId> {
         let kind = self.kind(id);
+        if let Extension::Sort(sort) = kind.extension {
+            return self.kinds_of_sort(sort);
+        }
         if !matches!(kind.extension, Extension::ObjectType(_) | Extension::Object(_)) {
             return vec![id];
         }

@@ -11,12 +11,14 @@ use std::borrow::Cow;
 
 mod answer;
 mod assemble;
+mod courtesy;
 mod datalog;
 mod doubts;
 mod everyday;
 mod grammar;
 mod knowledge;
 mod lexicon;
+mod purposes;
 mod query;
 mod settle;
 mod several;
@@ -26,6 +28,7 @@ mod values;
 mod vocabulary;
 mod why;
 
+pub use courtesy::Courtesy;
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
 pub use query::{
@@ -147,7 +150,7 @@ impl Memory {
     /// Remembers what an answer was about.
     pub fn learn(&mut self, answer: &Answer) {
         self.pending = None;
-        if !matches!(answer.query, Query::Why { .. }) {
+        if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.facts.clone_from(&answer.facts);
             self.query = Some(answer.query.clone());
         }
@@ -413,6 +416,9 @@ impl Asker<'_> {
         if length > Self::LONGEST {
             return Err(Doubt::TooLong { length });
         }
+        if let Some(query) = courtesy::query(text) {
+            return Ok(query);
+        }
         let text = several::without_tag(text);
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
@@ -494,7 +500,9 @@ impl Asker<'_> {
         }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
+        let knowledge = self.knowledge(sentence.language, memory);
+        let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
         let mut query = last.clone();
         if noun.head == Head::default() {
             return self.elsewhere(query, noun);
@@ -567,7 +575,7 @@ impl Asker<'_> {
     fn clarified(&self, text: &str, memory: &Memory) -> Option<Query> {
         let pending = memory.pending.as_ref()?;
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let noun = assemble::fragment(&sentence, &self.mind.lexicon)?;
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
         let knowledge = self.knowledge(pending.language, memory);
         let mut noun = noun;
         let bare = noun.head.named.is_empty() && noun.head.kinds.is_empty();

@@ -7,6 +7,7 @@ use crate::language::report::Detail;
 use crate::map::Entity;
 use crate::units::{AreaId, ReplicaId};
 
+use super::courtesy::Courtesy;
 use super::lexicon::KindId;
 use super::values::{Property, ValueId};
 
@@ -51,6 +52,9 @@ pub enum Extreme {
     Widest,
     Narrowest,
     Longest,
+    /// By the weight that the map gives.
+    Heaviest,
+    Lightest,
     LeftMost,
     RightMost,
     /// Having the most of something; the anchor of the superlative tells of what.
@@ -145,7 +149,22 @@ impl Quantity {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Filter {
     pub value: ValueId,
+    /// «красные или белые»: these do as well.
+    pub or: Vec<ValueId>,
     pub negated: bool,
+}
+
+impl Filter {
+    /// One value, had or not had.
+    #[must_use]
+    pub fn new(value: ValueId, negated: bool) -> Self {
+        Self { value, or: Vec::new(), negated }
+    }
+
+    /// All values that will do.
+    pub fn values(&self) -> impl Iterator<Item = ValueId> + '_ {
+        std::iter::once(self.value).chain(self.or.iter().copied())
+    }
 }
 
 /// A relation to other things.
@@ -310,6 +329,8 @@ pub enum Query {
     Several(Vec<Self>),
     /// What the robot is and can be asked.
     Help,
+    /// Nothing is asked: a greeting, thanks.
+    Courtesy(Courtesy),
     WhatDoYouSee,
     WhatDoYouHold,
     Describe(Noun),
@@ -410,6 +431,7 @@ impl Query {
             Self::WhereAreYou(_)
             | Self::WhereAmI
             | Self::Help
+            | Self::Courtesy(_)
             | Self::WhatDoYouSee
             | Self::WhatDoYouHold => {}
         }
@@ -447,6 +469,7 @@ impl Query {
             Self::WhereAmI => "where_am_i",
             Self::Several(_) => "several",
             Self::Help => "help",
+            Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",

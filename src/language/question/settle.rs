@@ -17,7 +17,7 @@ use super::values::ValueId;
 use super::vocabulary::Mark;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
-use crate::language::words::{Case, Language, enumerate};
+use crate::language::words::{Case, Language, NounPhrase, enumerate};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -97,7 +97,7 @@ impl Asker<'_> {
             return Ok(Settled { text: text.to_owned(), meant: Vec::new() });
         }
         let gathered = command::gathered(text);
-        let text = self.plain(&gathered).into_owned();
+        let text = self.with_kind(self.plain(&gathered).into_owned(), memory);
         // "Open the lab door" orders; it does not speak of the open one.
         let described = command::without_verbs(&text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
@@ -135,6 +135,29 @@ impl Asker<'_> {
                 Err(Misread(Box::new(unanswered)))
             }
         }
+    }
+
+    /// «Принеси ещё одну»: with the noun of what was spoken of last.
+    fn with_kind(&self, mut text: String, memory: &Memory) -> String {
+        let words = crate::language::words::word_ranges(&text);
+        let key = |n: usize| words.get(n).map(|w| crate::units::name_key(&text[w.clone()]));
+        let is = |n: usize, all: &[&str]| key(n).is_some_and(|key| all.contains(&key.as_str()));
+        let said = (0..words.len())
+            .find(|&n| is(n, &["еще"]) && is(n + 1, &["одну", "один", "одно", "одного"]));
+        let ends = |n: usize| {
+            let rest = words.get(n).map_or("", |next| &text[words[n - 1].end..next.start]);
+            n == words.len() || rest.trim() != "" || is(n, &["и", "пожалуйста", "мне"])
+        };
+        let spoken = memory.last_things().into_iter().rev().find_map(|t| t.replica());
+        let object = spoken.and_then(|id| self.world.replicas.get(&id)).map(|r| r.object);
+        let object = object.and_then(|object| self.world.objects.get(&object));
+        let kind = object.and_then(|object| self.world.types.object.get(object.object_type));
+        if let (Some(said), Some(kind)) = (said.filter(|said| ends(said + 2)), kind) {
+            let hints = crate::language::names::hints_of_type(kind);
+            let noun = NounPhrase::parse(&kind.name.to_lowercase(), &hints).case(Case::Accusative);
+            text.insert_str(words[said + 1].end, &format!(" {noun}"));
+        }
+        text
     }
 
     /// A command that waited to be told which thing was meant, with the thing that these words choose.
@@ -186,7 +209,7 @@ impl Asker<'_> {
         }
         let text = &self.plain(without_pointing(text));
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let mut noun = super::assemble::fragment(&sentence, &self.mind.lexicon)?;
+        let mut noun = super::assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
         if noun.head.named.is_empty() && noun.head.kinds.is_empty() {
             noun.head = Head { things: Some(candidates.clone()), ..Head::default() };
         }
@@ -249,6 +272,10 @@ impl Knowledge<'_> {
 struct More {
     value: Option<ValueId>,
     except: Option<Noun>,
+    /// The room of which it is said to be there.
+    there: Option<AreaId>,
+    /// The room into which the sentence sends the robot before.
+    gone_to: Option<AreaId>,
 }
 
 struct Settler<'s, 'k> {
@@ -279,6 +306,8 @@ impl Settler<'_, '_> {
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
         let mut told_place: Option<Thing> = self.knowledge.memory.last_thing();
+        // The room into which an earlier clause sends the robot.
+        let mut gone_to: Option<AreaId> = None;
         let count = clauses.len().max(1);
         for clause in 0..count {
             let sort = sort(clause);
@@ -327,13 +356,22 @@ impl Settler<'_, '_> {
                     edits.extend(spot.attached.iter().map(Edit::deletion));
                 }
             }
+            let says_there = objects.iter().any(|(_, p)| matches!(p.person, Some(Mark::There)));
+            // «Принеси оттуда» tells where it is, «принеси туда» whither.
+            let whence = |phrase: &Phrase| self.sentence.keys[phrase.words.start] == "оттуда";
+            let is_where = !matches!(sort, Sort::Go | Sort::Put | Sort::Carry)
+                || objects.iter().any(|(_, p)| p.person.is_some() && whence(p));
+            let there = told_place.filter(|_| says_there && is_where);
+            let there = there.and_then(|t| self.knowledge.area_of(t));
             let mut skipped = None;
             for (n, (at, phrase)) in objects.iter().enumerate() {
                 if skipped == Some(phrase.words.start) {
                     continue;
                 }
                 if let Some(Mark::There) = phrase.person {
-                    if let (Some(thing), None, Sort::Go | Sort::Put | Sort::Carry) =
+                    if there.is_some() {
+                        edits.push(Edit::deletion(&self.bytes(&phrase.words)));
+                    } else if let (Some(thing), None, Sort::Go | Sort::Put | Sort::Carry) =
                         (told_place, goal, sort)
                     {
                         let to = self.knowledge.pick("к ", "to ");
@@ -371,6 +409,8 @@ impl Settler<'_, '_> {
                 let more = More {
                     value: self.value_after(&items, *at, phrase).map(|(value, _)| value),
                     except: self.except_after(&items, *at).map(|except| except.noun.clone()),
+                    there,
+                    gone_to,
                 };
                 if let Some(things) = self.object(sort, phrase, &mine, more)? {
                     let name = self.knowledge.listed(&things, Case::Accusative);
@@ -401,6 +441,9 @@ impl Settler<'_, '_> {
                 self.left_standing(&own, &mut edits);
             }
             told_place = whither.or(told_place);
+            if sort == Sort::Go {
+                gone_to = whither.and_then(Thing::area).or(gone_to);
+            }
         }
         Ok(edits)
     }
@@ -655,10 +698,15 @@ impl Settler<'_, '_> {
     ) -> Result<Option<Vec<Thing>>, (Doubt, Range<usize>)> {
         let at = self.bytes(&phrase.words);
         let mut noun = phrase.noun.clone();
-        noun.filters.extend(more.value.map(|value| Filter { value, negated: false }));
+        noun.filters.extend(more.value.map(|value| Filter::new(value, false)));
         noun.except.extend(more.except);
         noun.indefinite |= self.is_any(&phrase.words);
-        if noun.head.anything && !self.spoken.is_empty() {
+        if noun.head.anything && (noun.all || noun.text.to_lowercase().contains("everything")) {
+            // "Turn off everything in the kitchen"
+            noun.plural = true;
+        } else if noun.head.anything && noun.other {
+            noun.head = Head { things: Some(self.like_spoken()), ..Head::default() };
+        } else if noun.head.anything && !self.spoken.is_empty() {
             noun.head = Head { things: Some(self.spoken.clone()), ..Head::default() };
             // "the second one", in the order in which they were told
             if let (Some(rank), None) = (noun.rank, &noun.best) {
@@ -688,6 +736,15 @@ impl Settler<'_, '_> {
         }
         let found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
         let mut found = self.tagged(&phrase.words, found);
+        if let Some(there) = more.there {
+            found.retain(|t| self.knowledge.area_of(*t) == Some(there));
+        }
+        if noun.other {
+            let given = |t: &Thing| {
+                t.replica().is_some_and(|id| self.knowledge.senses.holder(id).is_some())
+            };
+            found.retain(|t| !given(t));
+        }
         let able: Vec<Thing> = found.iter().copied().filter(|t| self.can(sort, *t)).collect();
         if !able.is_empty() {
             found = able;
@@ -709,7 +766,16 @@ impl Settler<'_, '_> {
         if several && !found.is_empty() {
             return Ok(Some(found));
         }
-        if (noun.indefinite || sort == Sort::Find)
+        // «Поезжай на кухню и возьми чашку»: the one that is there.
+        let near = |t: &&Thing| self.knowledge.area_of(**t) == more.gone_to;
+        if let (Some(_), true, [only]) = (
+            more.gone_to,
+            found.len() > 1,
+            &found.iter().filter(near).copied().collect::<Vec<_>>()[..],
+        ) {
+            found = vec![*only];
+        }
+        if (noun.indefinite || sort == Sort::Find || noun.other && self.is_one_more(&phrase.words))
             && let Some(nearest) = self.nearest(&found)
         {
             return Ok(Some(vec![nearest]));
@@ -724,6 +790,23 @@ impl Settler<'_, '_> {
             }
         }
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// Whatever is of the kind of what was spoken of last: «ещё одну», "another one".
+    fn like_spoken(&self) -> Vec<Thing> {
+        let world = self.knowledge.world;
+        let kind = |object| world.objects.get(&object).and_then(|object| object.object_type);
+        let spoken = self.spoken.iter().rev().filter_map(|t| t.replica());
+        let mut kinds = spoken.filter_map(|id| kind(world.replicas.get(&id)?.object));
+        let Some(wanted) = kinds.next() else { return Vec::new() };
+        let alike = world.replicas.values().filter(|r| kind(r.object) == Some(wanted));
+        alike.map(|r| Thing::Entity(Entity::Replica(r.id))).collect()
+    }
+
+    /// «ещё одну книгу», "another book": any that was not spoken of, where «другую» is the one that is left.
+    fn is_one_more(&self, words: &Range<usize>) -> bool {
+        let keys = &self.sentence.keys[words.clone()];
+        keys.iter().any(|key| matches!(key.as_str(), "еще" | "another"))
     }
 
     /// «любую книгу»: a question would ask about all of them.

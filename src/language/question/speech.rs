@@ -226,12 +226,17 @@ impl Knowledge<'_> {
         };
         let (mut russian_name, mut english_name) = (lower_first(base.name()), english_base);
         for filter in noun.filters.iter().rev() {
-            let entry = self.lexicon().values.entry(filter.value);
-            let adjective =
-                russian::agreeing(&entry.russian, Case::Nominative, base.number(), base.gender());
+            let entries = filter.values().map(|v| self.lexicon().values.entry(v));
             let not = if filter.negated { self.pick("не", "non-") } else { "" };
-            russian_name = format!("{not}{adjective} {russian_name}");
-            english_name = format!("{not}{} {english_name}", entry.english);
+            let (mut russian_values, mut english_values) = (Vec::new(), Vec::new());
+            for entry in entries {
+                let (number, gender) = (base.number(), base.gender());
+                let own = russian::agreeing(&entry.russian, Case::Nominative, number, gender);
+                russian_values.push(format!("{not}{own}"));
+                english_values.push(format!("{not}{}", entry.english));
+            }
+            russian_name = format!("{} {russian_name}", russian_values.join(" или "));
+            english_name = format!("{} {english_name}", english_values.join(" or "));
         }
         let phrase = match noun.filters.is_empty() {
             true => base,

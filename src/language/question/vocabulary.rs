@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 use std::sync::OnceLock;
 
+use super::purposes;
 use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
 use crate::language::report::Detail;
 use crate::units::name_key;
@@ -69,6 +70,8 @@ pub(super) enum Mark {
     LieDown,
     /// «положить», "put": where can one
     PutDown,
+    /// «почитать», "drink from": what is done with a sort of things
+    Deed(u16),
     /// "can I", «можно»
     Can,
     /// «держишь», "holding"
@@ -149,7 +152,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Anything,
-        "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто|everything",
+        "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто",
     ),
     (Mark::Whither, "куда|куда же|where to"),
     (Mark::How, "как|how|каким образом"),
@@ -239,7 +242,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -321,7 +324,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::OnlyOne,
-        "только один|только одна|только одно|лишь один|лишь одна|лишь одно|всего один|всего одна|всего одно|ровно один|ровно одна|ровно одно|only one|just one|exactly one|only a single|just a single",
+        "один ли|одна ли|одно ли|только один|только одна|только одно|лишь один|лишь одна|лишь одно|всего один|всего одна|всего одно|ровно один|ровно одна|ровно одно|only one|just one|exactly one|only a single|just a single",
     ),
     (Mark::And, "и|а также|и еще|and|as well as|and also|together with|plus"),
     (Mark::Or, "или|либо|or|or else"),
@@ -332,7 +335,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
     (
         Mark::All,
-        "все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
+        "everything|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
     ),
     (Mark::Except, "кроме|помимо|не считая|except|except for|apart from|other than|aside from"),
     (
@@ -500,6 +503,16 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::More(Extreme::RightMost),
         "further right|farther right|further to the right|farther to the right|more to the right",
     ),
+    (Mark::More(Extreme::Heaviest), "тяжелее|тяжелей|heavier"),
+    (Mark::More(Extreme::Lightest), "легче|полегче|lighter"),
+    (
+        Mark::Best(Extreme::Heaviest),
+        "самый тяжёлый|самая тяжёлая|самое тяжёлое|самые тяжёлые|самую тяжёлую|тяжелее всех|тяжелее всего|по весу|heaviest|by weight",
+    ),
+    (
+        Mark::Best(Extreme::Lightest),
+        "самый лёгкий|самая лёгкая|самое лёгкое|самые лёгкие|самую лёгкую|легче всех|легче всего|lightest",
+    ),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
     (Mark::More(Extreme::Tallest), "выше|taller|higher"),
@@ -528,7 +541,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|anybody|anyone|somebody|someone|кто нибудь|кто то|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|anybody|anyone|somebody|someone|кто нибудь|кто то|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
@@ -618,11 +631,12 @@ fn table() -> &'static HashMap<String, Phrases> {
 }
 
 fn phrases() -> impl Iterator<Item = (Mark, &'static str)> {
-    WORDS.iter().flat_map(|(mark, list)| {
+    let listed = WORDS.iter().flat_map(|(mark, list)| {
         list.split('|')
             .map(|phrase| (*mark, phrase.trim()))
             .filter(|(_, phrase)| !phrase.is_empty())
-    })
+    });
+    listed.chain(purposes::deeds().map(|(sort, deed)| (Mark::Deed(sort), deed)))
 }
 
 /// The mark of the longest phrase at the beginning of these words (in [`name_key`] form), with the number of words it

@@ -128,12 +128,13 @@ impl<'a> Parser<'a> {
                 at_head = true;
                 self.coordinated = true;
             }
+            let joint = matches!(word, "и" | "или");
             if tail
-                || word == "и"
+                || joint
                 || PREPOSITIONS.contains(&word)
                 || gap.contains(['(', '"', '«', '“']) && !at_head
             {
-                tail |= word != "и";
+                tail |= !joint;
                 self.fixed(*group);
             } else if at_head && self.is_modifier(*group, &groups[index + 1..]) {
                 self.agreeing(*group);

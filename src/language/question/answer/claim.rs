@@ -18,7 +18,7 @@ impl Knowledge<'_> {
         match claim {
             Claim::Related(restriction) => self.judge_related(thing, restriction),
             Claim::Value(filter) => {
-                let holds = self.has_value(thing, filter.value) != filter.negated;
+                let holds = self.fits(thing, filter);
                 let entry = self.lexicon().values.entry(filter.value);
                 let own = self.values(thing).into_iter().find(|(p, _, _)| *p == entry.property);
                 let fact = match (self.statuses(thing).first(), thing) {

@@ -83,6 +83,10 @@ impl Knowledge<'_> {
                 true => format!("высота {}", length(measure, self.language)),
                 false => format!("{} high", length(measure, self.language)),
             },
+            Extreme::Heaviest | Extreme::Lightest => {
+                let own = self.values(thing).into_iter().find(|(p, _, _)| *p == Property::Weight);
+                own.map(|(_, _, text)| text).unwrap_or_default()
+            }
             Extreme::LeftMost | Extreme::RightMost | Extreme::Most | Extreme::Fewest => {
                 String::new()
             }
@@ -146,6 +150,16 @@ impl Knowledge<'_> {
         Draft::new(Said::Unknown, text)
     }
 
+    /// Why two things have no order: the map tells no weight of one, or they have no common measure.
+    fn incomparable(&self, a: Thing, b: Thing, extreme: Extreme) -> Draft {
+        if !matches!(extreme, Extreme::Heaviest | Extreme::Lightest) {
+            return self.apart(&[a, b]);
+        }
+        let missing = if self.measure(extreme, a).is_none() { a } else { b };
+        let text = self.no_property(&Property::Weight, missing);
+        Draft::new(Said::Unknown, text).with(vec![a, b])
+    }
+
     fn compared(&self, thing: Thing, extreme: Extreme, to: Option<Thing>) -> Option<f64> {
         match extreme {
             Extreme::Nearest | Extreme::Farthest => {
@@ -192,7 +206,7 @@ impl Knowledge<'_> {
         }
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
-            return Ok(self.apart(&[a, b]));
+            return Ok(self.incomparable(a, b, extreme));
         };
         let less = is_less(extreme);
         let first = (x < y) == less;
@@ -246,6 +260,8 @@ impl Knowledge<'_> {
             Extreme::Widest => self.pick("шире", "wider"),
             Extreme::Narrowest => self.pick("уже", "narrower"),
             Extreme::Longest => self.pick("длиннее", "longer"),
+            Extreme::Heaviest => self.pick("тяжелее", "heavier"),
+            Extreme::Lightest => self.pick("легче", "lighter"),
             _ => self.pick("больше", "bigger"),
         }
     }
@@ -265,7 +281,7 @@ impl Knowledge<'_> {
         }
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
-            return Ok(self.apart(&[a, b]));
+            return Ok(self.incomparable(a, b, extreme));
         };
         let less = is_less(extreme);
         let yes = (x - y).abs() > 1e-9 && (x < y) == less;
@@ -441,5 +457,12 @@ impl Knowledge<'_> {
 
 /// Whether less of the measure wins.
 fn is_less(extreme: Extreme) -> bool {
-    matches!(extreme, Extreme::Nearest | Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest)
+    matches!(
+        extreme,
+        Extreme::Nearest
+            | Extreme::Smallest
+            | Extreme::Lowest
+            | Extreme::Narrowest
+            | Extreme::Lightest
+    )
 }

@@ -100,6 +100,7 @@ impl Knowledge<'_> {
             Query::WhereAmI => self.where_am_i(),
             Query::Several(queries) => return self.several(queries),
             Query::Help => self.help(),
+            Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,

@@ -6,6 +6,7 @@ use super::Draft;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::lower_first;
 use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::{Courtesy, speech};
 use crate::language::question::{Doubt, Said};
 use crate::language::report::Detail;
 use crate::language::words::{Case, Number, enumerate};
@@ -129,6 +130,25 @@ impl Knowledge<'_> {
             false => format!("I am a robot and know this map. Ask, for example: {asked}"),
         };
         Draft::new(Said::Found, text)
+    }
+
+    /// What is answered to politeness.
+    pub(super) fn courteous(&self, courtesy: Courtesy) -> Draft {
+        let text = match courtesy {
+            Courtesy::Greeting => {
+                let help = self.help();
+                let greeting = self.pick("здравствуйте!", "hello!");
+                let text = format!("{greeting} {}", speech::sentence(&help.text));
+                return Draft::new(Said::Found, text);
+            }
+            Courtesy::Thanks => self.pick("пожалуйста", "you are welcome"),
+            Courtesy::Farewell => self.pick("до свидания", "goodbye"),
+            Courtesy::HowAreYou => {
+                self.pick("спасибо, я готов отвечать", "thank you, I am ready to answer")
+            }
+            Courtesy::Assent => self.pick("рад помочь", "glad to help"),
+        };
+        Draft::new(Said::Found, text.to_owned())
     }
 
     pub(super) fn what_do_you_hold(&self) -> Draft {

@@ -4,7 +4,7 @@
 
 use super::Frame;
 use super::Spot;
-use crate::language::question::query::{Filter, Noun, Query, Rel, Restriction, Thing, Use};
+use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::Property;
 use crate::language::question::vocabulary::Mark;
 use crate::language::report::Detail;
@@ -58,6 +58,9 @@ impl Frame<'_, '_> {
                 .flat_map(Spot::restrictions)
                 .collect()
         };
+        if let Some(query) = self.deed() {
+            return Some(query);
+        }
         let asks = self.has(Mark::Where)
             || self.asks()
             || self.has(Mark::Can)
@@ -98,6 +101,36 @@ impl Frame<'_, '_> {
         Some(Query::Free(place))
     }
 
+    /// «Что можно почитать?», "Where can I wash my hands?": the things of a sort, or where they are.
+    fn deed(&self) -> Option<Query> {
+        let sort = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Deed(sort) => Some(*sort),
+            _ => None,
+        })?;
+        let asks = self.has(Mark::Where)
+            || self.asks()
+            || self.has(Mark::Anything)
+            || self.has(Mark::MadeOf)
+            || self.has(Mark::Can)
+            || self.has(Mark::Exists);
+        // «Какие книги можно почитать?» asks for books that are such things.
+        let own = self.lexicon.kinds_of_sort(sort);
+        let covered = |noun: &Noun| noun.head.kinds.iter().all(|kind| own.contains(kind));
+        let noun = match &self.nouns[..] {
+            [] => {
+                let head = Head { kinds: own, ..Head::default() };
+                Noun { head, ..Noun::default() }
+            }
+            [only] if only.noun.head.anything || covered(&only.noun) => only.noun.clone(),
+            _ => return None,
+        };
+        let noun = Noun { plural: true, indefinite: true, ..self.with_rest(noun, &[]) };
+        asks.then(|| match self.has(Mark::Where) || self.has(Mark::Whither) {
+            true => Query::Where(noun),
+            false => Query::Find(noun),
+        })
+    }
+
     /// «Какой стул свободен?», "Is any chair free?": which have nothing on them.
     fn which_free(&self) -> Option<Query> {
         let value = self.lexicon.values.meaning("пустой")?;
@@ -112,7 +145,7 @@ impl Frame<'_, '_> {
             return None;
         }
         let mut noun = self.with_rest(noun.clone(), &[]);
-        noun.filters.push(Filter { value, negated: self.negated });
+        noun.filters.push(Filter::new(value, self.negated));
         noun.plural = true;
         noun.indefinite = true;
         Some(match () {

@@ -6,6 +6,7 @@ use super::Frame;
 use super::Spot;
 use super::Subject;
 use crate::language::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
+use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -125,7 +126,7 @@ impl Frame<'_, '_> {
             claims.push(Claim::Related(restriction));
         }
         for (value, _, _) in &self.values {
-            claims.push(Claim::Value(Filter { value: *value, negated: false }));
+            claims.push(Claim::Value(Filter::new(*value, false)));
         }
         for (n, other) in self.nouns.iter().enumerate().filter(|(n, _)| *n != at) {
             let _ = n;
@@ -136,6 +137,11 @@ impl Frame<'_, '_> {
             } else {
                 claims.push(Claim::Kind(other.noun.clone()));
             }
+        }
+        // «Один ли телевизор в доме?»
+        if claims.is_empty() && subject.count.is_some() && self.nouns.len() == 1 {
+            let what = vec![Noun { plural: true, indefinite: true, ..subject }];
+            return Some(Query::Exists { what, either: false, negated: self.negated });
         }
         if claims.is_empty() {
             return None;
@@ -148,6 +154,19 @@ impl Frame<'_, '_> {
         }
         // "Is any door open?" asks whether there is an open one.
         if subject.indefinite && subject.head.named.is_empty() && subject.head.things.is_none() {
+            // "Any chairs that are not white?" asks for others.
+            let lacking = |(_, at, negated): &(ValueId, usize, bool)| {
+                *negated && at.checked_sub(1).is_some_and(|n| self.marks.contains(&(Mark::Not, n)))
+            };
+            if !self.values.is_empty()
+                && self.values.iter().all(lacking)
+                && first.at < self.values[0].1
+                && claims.iter().all(|c| matches!(c, Claim::Value(_)))
+            {
+                let mut noun = Noun { plural: true, ..subject };
+                noun.filters.extend(self.filters());
+                return Some(Query::Exists { what: vec![noun], either: false, negated: false });
+            }
             let mut noun = Noun { plural: true, ..subject.clone() };
             for claim in &claims {
                 match claim {

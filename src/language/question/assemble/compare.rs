@@ -49,11 +49,6 @@ impl Frame<'_, '_> {
         Some(Query::Find(Noun { indefinite: true, ..asked }))
     }
 
-    /// The values of the sentence that stand by themselves.
-    fn filters(&self) -> impl Iterator<Item = Filter> + '_ {
-        self.values.iter().map(|(value, _, negated)| Filter { value: *value, negated: *negated })
-    }
-
     /// «Где больше стульев, в кухне или в спальне?», "Are there more chairs than tables in the kitchen?"
     pub(super) fn more_of(&self) -> Option<Query> {
         let (extreme, at) = self.marks.iter().find_map(|(mark, at)| match mark {
@@ -85,6 +80,18 @@ impl Frame<'_, '_> {
             noun.restrictions.extend(place);
             noun
         };
+        // «Каких стульев больше, чёрных или белых?»
+        if let ([what], [(one, _, _), (other, _, _)], true) =
+            (&counted[..], &self.values[..], places.len() < 2)
+        {
+            let of = [one, other].map(|value| {
+                let mut noun = within(&what.noun, places.first());
+                noun.filters.clone_from(&what.noun.filters);
+                noun.filters.push(Filter::new(*value, false));
+                noun
+            });
+            return Some(Query::MoreOf { of, extreme, asks });
+        }
         let of = match (&counted[..], &places[..], &rooms[..]) {
             ([what], [first, second], _) | ([what], [], [first, second]) => {
                 [within(&what.noun, Some(first)), within(&what.noun, Some(second))]

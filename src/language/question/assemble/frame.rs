@@ -104,7 +104,9 @@ impl<'s, 't> Frame<'s, 't> {
                     frame.property.get_or_insert((property.clone(), at));
                 }
                 Item::Number(number) => {
-                    frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at))
+                    if !frame.counts(*number, at) {
+                        frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
+                    }
                 }
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
@@ -115,6 +117,17 @@ impl<'s, 't> Frame<'s, 't> {
             first.noun.all = true;
         }
         Ok(frame)
+    }
+
+    /// «Стульев на кухне больше трёх?»: gives a number that stands last to what is counted.
+    fn counts(&mut self, number: u64, at: usize) -> bool {
+        let Some(&(Mark::Number(quantity), before)) = self.marks.last() else { return false };
+        let counted = self.nouns.iter_mut().find(|s| s.noun.plural && s.noun.count.is_none());
+        let Some(subject) = counted.filter(|_| before + 1 == at) else { return false };
+        subject.noun.count = Some(number);
+        subject.noun.quantity = quantity;
+        subject.noun.indefinite = true;
+        true
     }
 
     /// Words that nothing knows: a name that the map lacks, or no word at all.
@@ -266,9 +279,7 @@ impl<'s, 't> Frame<'s, 't> {
         for spot in self.spots.iter().filter(|s| !without.contains(&s.at)) {
             self.attach(&mut noun, spot);
         }
-        for (value, _, negated) in &self.values {
-            noun.filters.push(Filter { value: *value, negated: *negated });
-        }
+        noun.filters.extend(self.filters());
         noun.except.extend(self.except.iter().cloned());
         if let Some(there) = &self.there {
             noun.restrictions.push(Restriction {
@@ -328,6 +339,23 @@ impl<'s, 't> Frame<'s, 't> {
             }
             _ => noun.restrictions.extend(spot.restrictions()),
         }
+    }
+
+    /// The values of the sentence that stand by themselves; of those joined by "or" one will do.
+    pub(super) fn filters(&self) -> Vec<Filter> {
+        let mut filters: Vec<Filter> = Vec::new();
+        let mut last = None;
+        for (value, at, negated) in &self.values {
+            let joined = at.checked_sub(1).is_some_and(|joint| {
+                last == joint.checked_sub(1) && self.marks.contains(&(Mark::Or, joint))
+            });
+            match filters.last_mut() {
+                Some(before) if joined => before.or.push(*value),
+                _ => filters.push(Filter::new(*value, *negated)),
+            }
+            last = Some(*at);
+        }
+        filters
     }
 
     /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.

@@ -117,9 +117,13 @@ fn each_of(
 }
 
 /// A sentence that is a description and nothing more: «красная», «та, что на столе».
-pub(super) fn fragment(sentence: &Sentence<'_>, lexicon: &Lexicon) -> Option<Noun> {
+pub(super) fn fragment(
+    sentence: &Sentence<'_>,
+    lexicon: &Lexicon,
+    referent: &Referent<'_>,
+) -> Option<Noun> {
     let items = sentence.items();
-    let frame = Frame::of(sentence, lexicon, &items, &|_| Vec::new()).ok()?;
+    let frame = Frame::of(sentence, lexicon, &items, referent).ok()?;
     let small = |mark: &Mark| {
         matches!(mark, Mark::The | Mark::A | Mark::Be | Mark::One | Mark::Best(_) | Mark::And)
     };
@@ -227,6 +231,7 @@ impl Frame<'_, '_> {
             .or_else(|| self.listed())
             .or_else(|| self.exists())
             .or_else(|| self.superlative())
+            .or_else(|| self.everything())
             .or_else(|| self.holds())
     }
 

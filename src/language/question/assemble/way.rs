@@ -6,7 +6,7 @@ use super::Frame;
 use super::Spot;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{
-    Best, Claim, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
+    Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
 };
 use crate::language::question::vocabulary::Mark;
 
@@ -186,6 +186,11 @@ impl Frame<'_, '_> {
                 let anchors = vec![other.noun.clone()];
                 noun.restrictions.push(Restriction { rel: Rel::Of, anchors, negated: false });
             }
+            // «Какая дверь ведёт на улицу?»
+            if let Some(out) = self.spots.iter().find(|s| self.is_exits(&s.nouns[0])) {
+                noun.head.kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
+                return Some(Query::Find(self.with_rest(noun, &[out.at])));
+            }
             let to_or_from = |spot: &Spot| match spot.rel {
                 Rel::In | Rel::On | Rel::To | Rel::At => Rel::To,
                 rel => rel,
@@ -194,9 +199,7 @@ impl Frame<'_, '_> {
                 let spot = Spot { rel: to_or_from(spot), ..spot.clone() };
                 noun.restrictions.extend(spot.restrictions());
             }
-            for (value, _, negated) in &self.values {
-                noun.filters.push(Filter { value: *value, negated: *negated });
-            }
+            noun.filters.extend(self.filters());
             return Some(Query::Find(noun));
         }
         // «С какими комнатами соединена Комната-В?», «С чем граничит Комната-В?», «Куда можно выйти из Комнаты-В?»

@@ -5,7 +5,7 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Head, Noun, Query, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -57,7 +57,8 @@ impl Frame<'_, '_> {
             (true, false) if self.is_doors(&other.noun) && self.has(Mark::Lead) => {
                 (Rel::Of, &other.noun)
             }
-            (true, _) => (Rel::Has, &other.noun),
+            (true, true) => (Rel::In, &other.noun),
+            (true, false) => (Rel::Has, &other.noun),
             (false, true) => (Rel::In, &other.noun),
             (false, false) => (Rel::Bears, &other.noun),
         };
@@ -154,7 +155,9 @@ impl Frame<'_, '_> {
             if let Some(asked) = asked {
                 let rooms = self.is_rooms(&asked.noun);
                 if rooms && matches!(rel, Rel::In | Rel::On) {
+                    let ands = self.marks.iter().filter(|(m, _)| *m == Mark::And).count();
                     let general = asked.noun.plural
+                        || (ands > 1 && self.nouns.len() > 2)
                         || self.negated
                         || self.has(Mark::Exists)
                         || self.has(Mark::Have)
@@ -173,7 +176,10 @@ impl Frame<'_, '_> {
             let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
             let rooms = self.is_rooms(&asked.noun);
             if rooms && !others.is_empty() && asked.at < others[0].at {
-                let having = self.has(Mark::Have) || self.has(Mark::Exists);
+                // «В какой комнате и кровать, и лампа?»
+                let ands = self.marks.iter().filter(|(m, _)| *m == Mark::And).count();
+                let both = others.len() > 1 && (ands > 1 || self.has(Mark::All));
+                let having = self.has(Mark::Have) || self.has(Mark::Exists) || both;
                 if !having
                     && !self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
                     && !self.has(Mark::And)
@@ -243,6 +249,15 @@ impl Frame<'_, '_> {
         noun.plural = true;
         let others = self.nouns.iter().filter(|s| s.noun != *rooms && !self.is_building(&s.noun));
         let others: Vec<&Subject> = others.collect();
+        // "Which rooms have a bed or a fridge?": either will do.
+        if self.has(Mark::Or) && others.len() > 1 {
+            let anchors = others
+                .iter()
+                .map(|other| Noun { indefinite: true, ..self.narrowed(other.noun.clone()) });
+            let anchors = anchors.collect();
+            noun.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: self.negated });
+            return Query::Find(noun);
+        }
         for other in others {
             let mut anchor = self.narrowed(other.noun.clone());
             anchor.indefinite = true;
@@ -254,13 +269,22 @@ impl Frame<'_, '_> {
 
     /// A noun with the values and places of the sentence.
     fn narrowed(&self, mut noun: Noun) -> Noun {
-        for (value, _, negated) in &self.values {
-            noun.filters.push(Filter { value: *value, negated: *negated });
-        }
+        noun.filters.extend(self.filters());
         for spot in &self.spots {
             self.attach(&mut noun, spot);
         }
         noun
+    }
+
+    /// "Everything in Room V except the chairs": a list, where no verb makes it a claim.
+    pub(super) fn everything(&self) -> Option<Query> {
+        let whole = self.has(Mark::All) && self.nouns.is_empty() && !self.spots.is_empty();
+        if !whole || self.has(Mark::Be) || !self.values.is_empty() {
+            return None;
+        }
+        let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
+        noun.head.anything = true;
+        Some(Query::Find(self.with_rest(noun, &[])))
     }
 
     pub(super) fn listed(&self) -> Option<Query> {

@@ -72,6 +72,8 @@ pub(super) struct Sentence<'t> {
     tokens: Vec<Token>,
     nouns: Vec<Found>,
     properties: Vec<Property>,
+    /// The property of each value that was said.
+    value_sorts: Vec<(ValueId, Property)>,
 }
 
 /// One part of a question.
@@ -201,6 +203,13 @@ impl<'t> Sentence<'t> {
             |i| self.unknown(i),
         ))
         .parse(input)
+    }
+
+    /// Whether two values are of one property, so that no thing has both.
+    fn are_alike(&self, one: ValueId, other: ValueId) -> bool {
+        let property =
+            |id: ValueId| self.value_sorts.iter().find(|(v, _)| *v == id).map(|(_, p)| p);
+        property(one).is_some() && property(one) == property(other)
     }
 
     fn mark<'a>(&self, input: Tokens<'a>, wanted: impl Fn(Mark) -> bool) -> Parsed<'a, Mark> {
@@ -345,7 +354,13 @@ impl<'t> Sentence<'t> {
                 Modifier::All => noun.all = true,
                 Modifier::Other => noun.other = true,
                 Modifier::Number(count) => noun.count = Some(count),
-                Modifier::Value(value, negated) => noun.filters.push(Filter { value, negated }),
+                Modifier::Value(value, negated) => {
+                    noun.filters.push(Filter::new(value, negated));
+                }
+                Modifier::OrValue(value) => match noun.filters.last_mut() {
+                    Some(filter) => filter.or.push(value),
+                    None => noun.filters.push(Filter::new(value, false)),
+                },
                 Modifier::Best(extreme) => noun.best = Some(Best { extreme, anchor: None }),
                 Modifier::Rank(rank) => noun.rank = Some(rank),
             }
@@ -373,6 +388,20 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
             Tok::Number(count) => Modifier::Number(count),
             Tok::Value(value) => Modifier::Value(value, false),
+            // «красные или белые чашки», "black and white chairs": either will do.
+            Tok::Mark(Mark::Or | Mark::And) => {
+                let before = self.tokens.iter().rev().find(|t| t.to <= first.from);
+                let (Some(Tok::Value(one)), [Token { kind: Tok::Value(other), .. }, after @ ..]) =
+                    (before.map(|t| t.kind), rest.0)
+                else {
+                    return fail(input);
+                };
+                let either = first.kind == Tok::Mark(Mark::Or) || self.are_alike(one, *other);
+                return match either {
+                    true => Ok((Tokens(after), Modifier::OrValue(*other))),
+                    false => Ok((Tokens(after), Modifier::Value(*other, false))),
+                };
+            }
             Tok::Mark(Mark::Not) => {
                 // «не чёрные стулья»
                 return match rest.0 {
@@ -497,6 +526,8 @@ enum Modifier {
     Other,
     Number(u64),
     Value(ValueId, bool),
+    /// «… или белые»: another value that will do.
+    OrValue(ValueId),
     Best(Extreme),
     Rank(u64),
     Quantity(Quantity),

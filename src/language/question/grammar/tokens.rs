@@ -21,12 +21,19 @@ impl<'t> Sentence<'t> {
             tokens: Vec::new(),
             nouns: Vec::new(),
             properties: Vec::new(),
+            value_sorts: Vec::new(),
         };
         let mut at = 0;
         while at < sentence.keys.len() {
             at = sentence.token(at, lexicon);
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
+        for token in &sentence.tokens {
+            if let Tok::Value(value) = token.kind {
+                let property = lexicon.values.entry(value).property.clone();
+                sentence.value_sorts.push((value, property));
+            }
+        }
         sentence
     }
 
@@ -138,8 +145,16 @@ impl<'t> Sentence<'t> {
             }
             key => number_of(key)?,
         };
-        // «больше 3» of «Комната больше 3»: what is counted follows.
-        self.keys.get(at + taken + 1)?;
+        // «Комната больше 3» counts nothing: several things follow, or stand before («стульев больше трёх»).
+        let counts = |t: &Token| {
+            matches!(t.kind, Tok::Noun(n) if {
+                let found = &self.nouns[n as usize];
+                !found.is_area && found.readings.iter().all(|r| !r.is_singular())
+            })
+        };
+        if self.keys.len() <= at + taken + 1 && !self.tokens.iter().any(counts) {
+            return None;
+        }
         let (from, cut, to) = (at as u32, (at + taken) as u32, (at + taken + 1) as u32);
         self.tokens.push(Token { from, to: cut, kind: Tok::Mark(Mark::Number(quantity)) });
         self.tokens.push(Token { from: cut, to, kind: Tok::Number(number) });

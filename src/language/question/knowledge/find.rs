@@ -76,9 +76,11 @@ impl Knowledge<'_> {
             Extension::Exits => {
                 self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
             }
-            Extension::Floor | Extension::Walls | Extension::Corners | Extension::Part(_) => {
-                Vec::new()
-            }
+            Extension::Floor
+            | Extension::Walls
+            | Extension::Corners
+            | Extension::Part(_)
+            | Extension::Sort(_) => Vec::new(),
         }
     }
 
@@ -124,7 +126,10 @@ impl Knowledge<'_> {
             found.retain(|t| !self.memory.spoken.contains(t));
         }
         for restriction in &noun.restrictions {
-            let related = self.related_to(restriction, loose)?;
+            let related = match self.related_to(restriction, loose) {
+                Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
+                Ok(related) => related,
+            };
             // "What is in the kitchen" asks for things, "what is next to the kitchen" may ask for rooms.
             if noun.head.anything
                 && !restriction.negated
@@ -139,7 +144,7 @@ impl Knowledge<'_> {
             found.retain(|t| related.contains(t) != restriction.negated);
         }
         for filter in &noun.filters {
-            found.retain(|t| self.has_value(*t, filter.value) != filter.negated);
+            found.retain(|t| self.fits(*t, filter));
         }
         for except in &noun.except {
             let without = self.find(except, true)?;
@@ -157,6 +162,23 @@ impl Knowledge<'_> {
             (None, Some(_)) => Err(Doubt::NotUnderstood { words: noun.text.clone() }),
             (None, None) => Ok(found),
         }
+    }
+
+    /// «Стул у окна»: of several windows the one is meant that has a chair, where only one chair is at any. None
+    /// where that tells nothing.
+    fn told_together(
+        &self,
+        noun: &Noun,
+        restriction: &Restriction,
+        found: &[Thing],
+    ) -> Option<HashSet<Thing>> {
+        let one = !noun.plural && !noun.all && !noun.indefinite && !noun.head.kinds.is_empty();
+        if !one || restriction.negated || noun.head.things.is_some() {
+            return None;
+        }
+        let related = self.related_to(restriction, true).ok()?;
+        let mut fitting = found.iter().filter(|t| related.contains(t));
+        (fitting.next().is_some() && fitting.next().is_none()).then_some(related)
     }
 
     /// The storey of this number, counted from the lowest that is not under the ground.
@@ -333,7 +355,11 @@ impl Knowledge<'_> {
             extreme => {
                 let up = matches!(
                     extreme,
-                    Extreme::Biggest | Extreme::Tallest | Extreme::Widest | Extreme::Longest
+                    Extreme::Biggest
+                        | Extreme::Tallest
+                        | Extreme::Widest
+                        | Extreme::Longest
+                        | Extreme::Heaviest
                 );
                 let sign = if up { -1.0 } else { 1.0 };
                 found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()

@@ -4,6 +4,7 @@
 
 use super::Knowledge;
 use crate::language::question::query::{Extreme, Thing};
+use crate::language::question::values::Property;
 use crate::map::Entity;
 use crate::units::{AreaId, MapId, Point};
 
@@ -92,6 +93,10 @@ impl Knowledge<'_> {
         extreme: Extreme,
         thing: Thing,
     ) -> Option<f64> {
+        if matches!(extreme, Extreme::Heaviest | Extreme::Lightest) {
+            let told = self.values(thing).into_iter().find(|(p, _, _)| *p == Property::Weight)?;
+            return kilograms(&told.2);
+        }
         let extent = match thing {
             Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
             Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
@@ -114,5 +119,32 @@ impl Knowledge<'_> {
             Extreme::Widest | Extreme::Longest => extent.width.max(extent.depth),
             _ => return None,
         })
+    }
+}
+
+/// A weight as maps write it: «12 кг», "800 g"; a bare number is of kilograms.
+fn kilograms(text: &str) -> Option<f64> {
+    let text = text.trim().replace(',', ".");
+    let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
+    let number: f64 = text[..end].parse().ok()?;
+    Some(match text[end..].trim().to_lowercase().as_str() {
+        "г" | "гр" | "g" => number / 1000.0,
+        "т" | "t" => number * 1000.0,
+        "" | "кг" | "kg" => number,
+        _ => return None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn weights_are_read_with_their_units() {
+        assert_eq!(kilograms("12 кг"), Some(12.0));
+        assert_eq!(kilograms("0,5"), Some(0.5));
+        assert_eq!(kilograms("800 g"), Some(0.8));
+        assert_eq!(kilograms("a lot"), None);
+        assert_eq!(kilograms("3 мешка"), None);
     }
 }

@@ -3,7 +3,7 @@
 //! Invariant: what a thing itself says goes before what its object says.
 
 use super::Knowledge;
-use crate::language::question::query::{Rel, Thing};
+use crate::language::question::query::{Filter, Rel, Thing};
 use crate::language::question::values::{Property, ValueId};
 use crate::map::{DoorKind, DoorStatus, Entity};
 use crate::units::DoorId;
@@ -88,6 +88,11 @@ impl Knowledge<'_> {
             "занятый" => self.bears_anything(thing),
             _ => false,
         }
+    }
+
+    /// Whether a thing has one of a filter's values, or none where that is asked.
+    pub(in crate::language::question) fn fits(&self, thing: Thing, filter: &Filter) -> bool {
+        filter.values().any(|value| self.has_value(thing, value)) != filter.negated
     }
 
     /// Whether something is on or in a thing.
