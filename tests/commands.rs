@@ -487,3 +487,92 @@ fn a_room_to_which_nothing_leads_is_named() {
         assert_eq!(lab.unconnected_in_words(&answer, Language::English), told, "{command}");
     }
 }
+
+/// «Принеси чашку.» – «А теперь поставь её на стол.»: the person gives back what was handed over.
+#[test]
+fn what_was_handed_over_is_taken_back() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    perform_and_remember(&mut engine, "Принеси красную чашку");
+    let put = perform_and_remember(&mut engine, "Поставь красную чашку на обеденный стол");
+    assert!(matches!(put.ending, TaskEnding::Done), "{:?}", put.ending);
+    assert_eq!(support(&world_now(&engine), "Чашка-2").as_deref(), Some("Обеденный стол"));
+    perform_and_remember(&mut engine, "Bring me the red cup");
+    let back = perform_and_remember(&mut engine, "Верни красную чашку на место");
+    assert!(matches!(back.ending, TaskEnding::Done), "{:?}", back.ending);
+    assert_eq!(support(&world_now(&engine), "Чашка-2"), support(&rb2(), "Чашка-2"));
+}
+
+/// The place beside what lay on the floor goes with it, and the robot goes on from there.
+#[test]
+fn what_was_picked_up_from_the_floor_is_carried_on() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let done = perform(&engine, "Возьми зонт и положи его на кровать, а потом вернись сюда");
+    assert!(matches!(done.ending, TaskEnding::Done), "{:?}", done.ending);
+}
+
+/// A box can be carried, and things can be put into it; then it is not carried.
+#[test]
+fn things_are_put_into_a_box() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    let put = perform_and_remember(&mut engine, "Положи Книгу-4 в коробку");
+    assert!(matches!(put.ending, TaskEnding::Done), "{:?}", put.ending);
+    assert_eq!(support(&world_now(&engine), "Книга-4").as_deref(), Some("Коробка-1"));
+    let again = perform(&engine, "Положи Книгу-4 в коробку");
+    assert!(matches!(again.ending, TaskEnding::AlreadyTrue), "{:?}", again.ending);
+}
+
+/// «Ещё одну» is another of what was spoken of, «там» where the robot is sent.
+#[test]
+fn another_one_and_there() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let mut memory = Memory::default();
+    let mut names = |text: &str| {
+        let commands = engine.understand_in(text, &mut memory).unwrap();
+        let world = engine.world().unwrap();
+        let name = |command: &Command<Entity>| match command {
+            Command::Bring { what, .. } | Command::SwitchOff(what) | Command::Take { what } => {
+                Some(world.name(what.id).to_owned())
+            }
+            _ => None,
+        };
+        commands.iter().filter_map(name).collect::<Vec<_>>()
+    };
+    let first = names("Принеси любую книгу со стеллажа");
+    let second = names("Принеси ещё одну");
+    assert!(second[0].starts_with("Книга") && second != first, "{first:?} {second:?}");
+    assert_eq!(names("Поезжай в спальню и погаси там лампу"), ["Лампа-2"]);
+    assert_eq!(names("Поезжай в Комнату-В и возьми чашку"), ["Чашка-1"]);
+}
+
+/// Forms of verbs that no list has, politeness inside a phrase, and what is not to be done.
+#[test]
+fn verbs_are_known_in_all_their_forms() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    for text in
+        ["Не мог бы ты сгонять на кухню?", "Позови, пожалуйста, оператора", "Собери все чашки"]
+    {
+        assert!(engine.is_command(text).unwrap(), "{text}");
+        assert!(engine.understand(text).is_ok(), "{text}: {:?}", engine.understand(text));
+    }
+    for (text, said) in [
+        ("Не открывай Дверь-КY", "запретов я не запоминаю"),
+        ("Please do not open Door KY", "запретов я не запоминаю"),
+    ] {
+        assert!(engine.is_command(text).unwrap(), "{text}");
+        assert_eq!(engine.understand(text).unwrap_err().to_string(), said, "{text}");
+    }
+}
+
+/// Several things are gathered one after the other: there is one hand.
+#[test]
+fn gathered_things_are_brought_one_by_one() {
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = stored(&dir);
+    let put = perform_and_remember(&mut engine, "Собери все чашки и поставь их на обеденный стол");
+    assert!(matches!(put.ending, TaskEnding::Done), "{:?}", put.ending);
+    for cup in ["Чашка-1", "Чашка-2"] {
+        assert_eq!(support(&world_now(&engine), cup).as_deref(), Some("Обеденный стол"));
+    }
+}

@@ -28,8 +28,14 @@ use super::{Answer, demo, say};
 pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     let engine = open(common)?;
     let keeps = !common.read_only && common.as_of.is_none();
-    let mut dialogue =
-        Dialogue { engine, memory: Memory::default(), offered: None, json: common.json, keeps };
+    let mut dialogue = Dialogue {
+        engine,
+        memory: Memory::default(),
+        offered: None,
+        refusal: None,
+        json: common.json,
+        keeps,
+    };
     if std::io::stdin().is_terminal() {
         return on_terminal(common, &mut dialogue);
     }
@@ -63,6 +69,13 @@ fn on_terminal(common: &Common, dialogue: &mut Dialogue) -> Result<Answer, Failu
                 }
             }
             Err(ReadlineError::Eof | ReadlineError::Interrupted) => break,
+            // What was typed is no UTF-8: another line may be.
+            Err(ReadlineError::Io(e)) if e.kind() == std::io::ErrorKind::InvalidData => {
+                say(common.lang.pick(
+                    "Эта строка записана не в UTF-8, прочесть её нельзя.",
+                    "This line is no UTF-8 and cannot be read.",
+                ))?;
+            }
             Err(e) => return Err(terminal(&e)),
         }
     }
@@ -75,6 +88,8 @@ struct Dialogue {
     memory: Memory,
     /// A line with its verb put right, until the person says that it was meant.
     offered: Option<String>,
+    /// Why the last line was not carried out, until another one is answered.
+    refusal: Option<String>,
     json: bool,
     /// A store that is only read keeps nothing.
     keeps: bool,
@@ -93,6 +108,13 @@ impl Dialogue {
             _ => {}
         }
         let offered = self.offered.take();
+        if let Some(reason) = self.refusal.take().filter(|_| is_why(line)) {
+            let text = match Language::of(line) {
+                Language::Russian => format!("Вот причина: {reason}"),
+                Language::English => format!("The reason: {reason}"),
+            };
+            return self.put("found", &text).map(|()| true);
+        }
         if let Some(answer) = courtesy(line) {
             return self.put("found", answer).map(|()| true);
         }
@@ -105,6 +127,12 @@ impl Dialogue {
         // «Где пульт? Принеси его.»: a question and a command.
         let parts = sentences(line);
         if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
+            for part in parts {
+                self.hear_one(part, shows)?;
+            }
+            return Ok(true);
+        }
+        if let Some(parts) = self.engine.question_and_order(line)? {
             for part in parts {
                 self.hear_one(part, shows)?;
             }
@@ -167,7 +195,11 @@ impl Dialogue {
         let lang = if language == Language::Russian { Lang::Ru } else { Lang::En };
         let commands = match self.engine.understand_in(line, &mut self.memory) {
             Ok(commands) => commands,
-            Err(Error::Misheard(misheard)) => return self.put("misheard", &misheard.say(language)),
+            Err(Error::Misheard(misheard)) => {
+                let text = misheard.say(language);
+                self.refusal = Some(text.clone());
+                return self.put("misheard", &text);
+            }
             Err(other) => return self.refuse(&other, language),
         };
         match &commands[..] {
@@ -207,8 +239,10 @@ impl Dialogue {
         }
     }
 
-    fn refuse(&self, error: &Error, language: Language) -> Result<(), Failure> {
-        self.put("refused", &error.say(self.engine.world()?, language))
+    fn refuse(&mut self, error: &Error, language: Language) -> Result<(), Failure> {
+        let text = error.say(self.engine.world()?, language);
+        self.refusal = Some(text.clone());
+        self.put("refused", &text)
     }
 
     fn remember(&mut self, answer: &TaskAnswer) -> Result<(), Failure> {
@@ -255,6 +289,11 @@ fn courtesy(line: &str) -> Option<&'static str> {
     }
     said(&["thanks", "thank you", "thanks a lot", "many thanks", "thank you very much", "cheers"])
         .then_some("You are welcome.")
+}
+
+fn is_why(line: &str) -> bool {
+    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric()));
+    matches!(key.as_str(), "почему" | "а почему" | "почему нет" | "почему же" | "why" | "why not")
 }
 
 fn is_yes(line: &str) -> bool {

@@ -53,10 +53,7 @@ impl Advice {
     #[must_use]
     pub fn in_words(&self, world: &World, language: Language) -> String {
         let russian = language == Language::Russian;
-        let of = |entity: Entity, case: Case| {
-            let name = named(world, entity);
-            if russian { name.phrase().case(case) } else { name.english() }
-        };
+        let of = |entity: Entity, case: Case| named(world, entity).form(case, language);
         let pick = |ru: &str, en: &str| if russian { ru.to_owned() } else { en.to_owned() };
         let opening = |doors: &[DoorId]| {
             let verb = |door: &DoorId| match world.doors.get(door).map(|d| d.state) {
@@ -124,8 +121,8 @@ impl Advice {
             Landmark::Window if !russian => "the window".to_owned(),
             Landmark::Window if case == Case::Dative => "окну".to_owned(),
             Landmark::Window => "окна".to_owned(),
-            Landmark::Door(id) => spoken(world, Entity::Door(id), case, russian),
-            Landmark::Thing(id) => spoken(world, Entity::Replica(id), case, russian),
+            Landmark::Door(id) => named(world, Entity::Door(id)).form(case, language),
+            Landmark::Thing(id) => named(world, Entity::Replica(id)).form(case, language),
         };
         match whither {
             Whither::Towards(to) if russian => format!("к {}", name(to, Case::Dative)),
@@ -138,11 +135,6 @@ impl Advice {
             Whither::Angle(degrees) => format!("at {degrees:.0}° on the map"),
         }
     }
-}
-
-fn spoken(world: &World, entity: Entity, case: Case, russian: bool) -> String {
-    let name = named(world, entity);
-    if russian { name.phrase().case(case) } else { name.english() }
 }
 
 /// What lies in the direction of a push, seen from the thing that is pushed.

@@ -37,10 +37,7 @@ pub fn no_way_in_words(world: &World, no: &NoRoute, language: Language) -> Strin
 fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
     let russian = language == Language::Russian;
     let of = |entity: Entity| named(world, entity);
-    let form = |name: &Named, case: Case| match russian {
-        true => name.phrase().case(case),
-        false => name.english(),
-    };
+    let form = |name: &Named, case: Case| name.form(case, language);
     let room = |id: AreaId, case| form(&of(Entity::Area(id)), case);
     let door = |id: DoorId| of(Entity::Door(id));
     let pair = |areas: &[AreaId; 2]| {

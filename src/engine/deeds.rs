@@ -17,8 +17,7 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
     let name = |name: &str| {
         let thing = world.find(name).into_iter().find(|e| matches!(e, Entity::Replica(_)));
         match thing.map(|e| named(world, e)) {
-            Some(thing) if is_russian => thing.phrase().case(Case::Accusative),
-            Some(thing) => thing.english(),
+            Some(thing) => thing.form(Case::Accusative, language),
             None => name.to_owned(),
         }
     };
@@ -160,8 +159,7 @@ impl Words<'_> {
     fn name(&self, name: &str, case: Case) -> String {
         let known = name.strip_prefix(PLACE_BESIDE).unwrap_or(name);
         match (self.world.find(known).first(), self.language) {
-            (Some(&entity), Language::Russian) => named(self.world, entity).phrase().case(case),
-            (Some(&entity), Language::English) => named(self.world, entity).english(),
+            (Some(&entity), language) => named(self.world, entity).form(case, language),
             (None, Language::English) if name == STARTING_POINT || name == ROBOT_PLACE => {
                 "its starting place".to_owned()
             }

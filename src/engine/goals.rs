@@ -36,6 +36,9 @@ impl Engine {
             {
                 continue;
             }
+            if is_only_gathered(commands, n) {
+                continue;
+            }
             let wanted = self.goals_of_one(command, here, now, relations, belief)?;
             let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
             match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
@@ -126,6 +129,7 @@ impl Engine {
             Command::Unlock(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
             Command::SwitchOn(device) => one(self.switched(predicate::DEVICE_ON, device.id)?),
             Command::SwitchOff(device) => one(self.switched(predicate::DEVICE_OFF, device.id)?),
+            Command::CallLift => one(self.cabin_here(now, relations)?),
             Command::CallOperator => one(fact(predicate::CALLED, vec![OPERATOR.to_owned()])),
             Command::Tidy(within) => self.tidied(*within, now, relations, belief)?,
             // Each action ends with a report as it is.
@@ -263,14 +267,39 @@ impl Engine {
         Ok(fact(predicate::ROBOT_IN, vec![world.name(Entity::Area(next)).to_owned()]))
     }
 
+    /// The cabin of the lift to which the way is the shortest stands at this storey.
+    fn cabin_here(&self, now: &Now, relations: &Relations) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let lifts = lifts(world, relations);
+        let here = lifts.iter().flat_map(|lift| lift.doors.iter().map(move |join| (lift, join)));
+        let here = here.filter_map(|(lift, join)| Some((lift, join, join.door?)));
+        let here = here.filter(|(_, join, _)| {
+            world.placement(join.from).is_some_and(|(map, _)| map == now.map)
+        });
+        let far = |door: DoorId| self.way_to(Entity::Door(door), now);
+        let nearest = here.min_by(|a, b| far(a.2).total_cmp(&far(b.2)));
+        let (lift, join, _) = nearest.ok_or(RequestError::NoLift)?;
+        Ok(fact(predicate::CABIN_AT, vec![lift.name.clone(), join.opening.clone()]))
+    }
+
     /// A state of a door, said for every pair of Areas that it joins.
     fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
         let world = self.world()?;
-        let Entity::Door(door) = entity else {
-            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
-        };
         let relations = self.relations()?;
         let joins = relations.joins();
+        let door = match entity {
+            Entity::Door(door) => Some(door),
+            // «Отопри лабораторию»: its door, if it has only one.
+            Entity::Area(area) => {
+                let leafed = |d: &DoorId| world.doors.get(d).is_some_and(|d| !d.leaves.is_empty());
+                let own = joins.iter().filter(|j| j.from == area).filter_map(|j| j.door);
+                let doors: BTreeSet<DoorId> = own.filter(leafed).collect();
+                doors.first().copied().filter(|_| doors.len() == 1)
+            }
+            _ => None,
+        };
+        let door =
+            door.ok_or_else(|| RequestError::NotADoor { name: world.name(entity).to_owned() })?;
         // A lift opens its door by itself when it has come.
         let lift = lifts(world, relations).into_iter().find_map(|lift| {
             let join = lift.doors.iter().find(|join| join.door == Some(door))?;
@@ -296,6 +325,22 @@ impl Engine {
 
 fn fact(predicate: &str, args: Vec<String>) -> GoalFact {
     GoalFact { predicate: predicate.to_owned(), args }
+}
+
+/// «Собери все чашки и поставь их на стол»: several things, of which the hand holds one, are taken as each is brought to
+/// where it is to go.
+fn is_only_gathered(commands: &[Command<Entity>], at: usize) -> bool {
+    let taken = |n: usize| match commands.get(n) {
+        Some(Command::Take { what }) => Some(what.id),
+        _ => None,
+    };
+    let Some(id) = taken(at) else { return false };
+    let several = taken(at + 1).is_some() || at.checked_sub(1).and_then(taken).is_some();
+    let goes_on = |command: &Command<Entity>| match command {
+        Command::Put { what, .. } | Command::Bring { what, .. } => what.id == id,
+        _ => false,
+    };
+    several && commands[at + 1..].iter().any(goes_on)
 }
 
 /// Whether two commands one after the other ask for the same to be done to different things: then their order is

@@ -191,6 +191,11 @@ impl Belief {
         for (thing, person) in &self.handed_over {
             let args = [(thing.name.as_str(), "предмет"), (person.as_str(), "человек")];
             all.push(fact(predicate::HANDED_OVER, &args));
+            // The person gives it back to who asks for it there.
+            if let Some(person) = self.people.iter().find(|p| p.name == *person) {
+                let args = [(thing.name.as_str(), "предмет"), (person.place.as_str(), "место")];
+                all.push(fact(predicate::THING_AT_PLACE, &args));
+            }
         }
         all
     }

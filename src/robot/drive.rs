@@ -1,7 +1,7 @@
 //! [`Drive`]: all that a mission asks of a vehicle (X3).
 
 use crate::geometry::Ride;
-use crate::map::DoorState;
+use crate::map::{DoorState, Replica};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 /// What stands in the way.
@@ -124,6 +124,12 @@ pub trait Drive {
     /// # Errors
     /// [`Refusal`]; the hand is then as it was.
     fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal>;
+
+    /// Takes back what a person who stands by was given.
+    ///
+    /// # Errors
+    /// [`Refusal`]; the hand is then as it was.
+    fn take_back(&mut self, thing: Replica) -> Result<(), Refusal>;
 
     /// Switches a device on or off.
     ///

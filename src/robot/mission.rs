@@ -3,7 +3,7 @@
 use crate::geometry::{Method, NoRoute, Ride, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
-use crate::semantics::planning::{InitialFact, PlaceSource, PlanPlace};
+use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
 use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
@@ -271,11 +271,7 @@ impl<'r> Mission<'r> {
                 self.cabin_stands_at(lift, door, opening);
             }
             Deed::Ride { lift, to, door } => self.ride(lift, to, door, drive)?,
-            Deed::Take(name) => {
-                let thing = self.replica(name)?;
-                drive.take(thing).map_err(|r| refused(r, drive))?;
-                self.belief.pick_up(thing);
-            }
+            Deed::Take(name) => self.take(name, drive, leg)?,
             Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), drive)?,
             Deed::HandOver { thing, person } => {
                 let held = self.held(thing)?;
@@ -285,7 +281,7 @@ impl<'r> Mission<'r> {
             }
             Deed::Switch { device, on } => {
                 let id = self.replica(device)?;
-                drive.switch(id, *on).map_err(|r| refused(r, drive))?;
+                self.within_reach(id, drive, leg, |drive| drive.switch(id, *on))?;
                 self.belief.switch(id, *on);
             }
             Deed::LookRound => drive.look_round(),
@@ -293,6 +289,48 @@ impl<'r> Mission<'r> {
             Deed::Call(person) => drive.call(person),
         }
         Ok(())
+    }
+
+    /// Takes a thing from where it is, or from the person who was given it.
+    fn take(&mut self, name: &str, drive: &mut dyn Drive, leg: &mut Leg) -> Result<(), Surprise> {
+        let given = self.belief.handed_over.iter().position(|(thing, _)| thing.name == *name);
+        if let Some(at) = given {
+            let thing = self.belief.handed_over[at].0.clone();
+            drive.take_back(thing).map_err(|r| refused(r, drive))?;
+            self.belief.held = Some(self.belief.handed_over.remove(at).0);
+            return Ok(());
+        }
+        let thing = self.replica(name)?;
+        self.within_reach(thing, drive, leg, |drive| drive.take(thing))?;
+        self.belief.pick_up(thing);
+        // The place beside what lay on the floor goes with it; the robot still stands there.
+        if let Station::Place(place) = &self.belief.station
+            && place.strip_prefix(PLACE_BESIDE) == Some(name)
+        {
+            self.belief.pose = drive.pose().1;
+            self.name_this_point();
+        }
+        Ok(())
+    }
+
+    /// Does something to a thing. Where the arm is too short from the place that serves what the thing stands on, a bed
+    /// say, the robot first goes to where the thing itself is nearest.
+    fn within_reach(
+        &mut self,
+        thing: ReplicaId,
+        drive: &mut dyn Drive,
+        leg: &mut Leg,
+        mut act: impl FnMut(&mut dyn Drive) -> Result<(), Refusal>,
+    ) -> Result<(), Surprise> {
+        let Err(refusal) = act(drive) else { return Ok(()) };
+        if let Refusal::OutOfReach(_) = refusal {
+            let name = self.belief.world.name(Entity::Replica(thing)).to_owned();
+            let nearer = self.go(&name, Target::Replica(thing), &[self.belief.area], drive, leg);
+            if nearer.is_ok() {
+                return act(drive).map_err(|r| refused(r, drive));
+            }
+        }
+        Err(refused(refusal, drive))
     }
 
     fn go(

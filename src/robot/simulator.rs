@@ -395,6 +395,15 @@ impl Drive for Simulator {
         self.let_go(thing).map(|_| ())
     }
 
+    fn take_back(&mut self, thing: Replica) -> Result<(), Refusal> {
+        if let Some(held) = &self.held {
+            return Err(Refusal::HandFull(held.id));
+        }
+        self.held = Some(thing);
+        self.advance(GRASP_TIME, self.pose);
+        Ok(())
+    }
+
     fn switch(&mut self, device: ReplicaId, on: bool) -> Result<(), Refusal> {
         if !self.reaches(device)? {
             return Err(Refusal::OutOfReach(device));

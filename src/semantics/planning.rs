@@ -252,6 +252,12 @@ impl Writer<'_> {
                 }
             } else if self.world.has_trait(id, "portable") {
                 self.portable(id, &name, &chain, root, area);
+                if self.is_container(id) {
+                    for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area))
+                    {
+                        self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, ITEM)]);
+                    }
+                }
             } else {
                 for place in self.places_of(root, self.relations.area_of(root).unwrap_or(area)) {
                     self.fact(predicate::PLACE_BY, &[(&place, PLACE), (&name, OBJECT)]);
@@ -282,11 +288,15 @@ impl Writer<'_> {
         if self.relations.bears_something(id) {
             return;
         }
-        // On a plate on the table is on the table: the plate itself may be carried away.
-        match chain.iter().find(|&&s| !self.world.has_trait(s, "portable")) {
+        // On a plate on the table is on the table: the plate itself may be carried away. In a box is in the box, which
+        // is not carried while it holds something.
+        let bears =
+            |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_container(**s);
+        match chain.iter().find(bears) {
             Some(&support) => {
                 let on = self.relations.symbols().replica(support).to_string();
-                self.fact(predicate::THING_ON, &[(name, ITEM), (&on, OBJECT)]);
+                let kind = if self.world.has_trait(support, "portable") { ITEM } else { OBJECT };
+                self.fact(predicate::THING_ON, &[(name, ITEM), (&on, kind)]);
             }
             None => {
                 for place in self.places_of(root, area) {
@@ -296,12 +306,17 @@ impl Writer<'_> {
         }
     }
 
+    fn is_container(&self, id: ReplicaId) -> bool {
+        self.world.has_trait(id, "container")
+    }
+
     /// What a thing stands on or lies in, from below it down to what stands on the floor or hangs by itself.
     fn supports(&self, id: ReplicaId) -> Vec<ReplicaId> {
         let mut chain = Vec::new();
         let mut at = id;
-        while !self.on_floor(at)
-            && let Some(next) = self.relations.support_of(at)
+        while let Some(next) = self.relations.support_of(at)
+            // The bottom of a box on the floor is nearly the floor.
+            && (!self.on_floor(at) || self.is_container(next))
             && next != id
             && !chain.contains(&next)
         {

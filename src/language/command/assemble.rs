@@ -33,9 +33,8 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
         return Ok(vec![Command::Stop]);
     }
     if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
-        return Err(
-            reader.not_understood(words, "скажите, что сделать, а не чего не делать".into())
-        );
+        let (_, at) = reader.shown(words);
+        return Err(Misheard::Forbidden { text: reader.source(), at });
     }
     let mut commands = Vec::new();
     for clause in clauses(&items) {
@@ -178,6 +177,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         match verb {
             Verb::CallOperator => return Ok(vec![Command::CallOperator]),
+            Verb::CallLift => return Ok(vec![Command::CallLift]),
             Verb::Report => return Ok(vec![Command::Report]),
             Verb::Stop => return Ok(vec![Command::Stop]),
             Verb::Leave => {
@@ -268,6 +268,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::Get
                 | Verb::Tidy
                 | Verb::CallOperator
+                | Verb::CallLift
                 | Verb::Report
                 | Verb::Return
                 | Verb::Leave
@@ -293,6 +294,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             if matches!(argument.reference, Reference::Me) {
                 roles.to_me = true;
                 continue;
+            }
+            if link.relation == Relation::Between {
+                return Err(
+                    self.unable(&(argument.words.start.saturating_sub(1)..argument.words.end))
+                );
             }
             let anchor = match self.resolve(argument, cases_after(link)) {
                 // «Выйди из комнаты»: whichever it is, the robot is in it.
@@ -515,8 +521,12 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
         Verb::GoTo | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
             ("куда ехать", "where to go")
         }
-        Verb::Tidy | Verb::CallOperator | Verb::Report | Verb::Wait | Verb::Unable | Verb::Stop => {
-            ("что сделать", "what to do")
-        }
+        Verb::Tidy
+        | Verb::CallOperator
+        | Verb::CallLift
+        | Verb::Report
+        | Verb::Wait
+        | Verb::Unable
+        | Verb::Stop => ("что сделать", "what to do"),
     }
 }

@@ -47,6 +47,7 @@ pub enum Relation {
     Behind,
     InFrontOf,
     NextTo,
+    Between,
 }
 
 /// A place told by a thing or an Area: «на стол», «в Комнату-Y», «у окна в кухне».
@@ -108,6 +109,8 @@ pub enum Command<T> {
     /// Everywhere, unless a place is given.
     Tidy(Option<T>),
     CallOperator,
+    /// The nearest cabin to this storey.
+    CallLift,
     Report,
     /// Whatever the robot does now, it is to leave off.
     Stop,
@@ -130,6 +133,18 @@ pub enum Misheard {
     NotUnderstood {
         word: String,
         hint: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+    /// What is not to be done: a command says what is.
+    #[error("запретов я не запоминаю")]
+    #[diagnostic(
+        code(language::forbidden),
+        help("без задания я ничего не делаю; скажите, что сделать")
+    )]
+    Forbidden {
         #[source_code]
         text: Source,
         #[label("здесь")]
@@ -216,6 +231,10 @@ impl Misheard {
                 format!("The command is too long: {length} characters. Split it.")
             }
             Self::NotUnderstood { word, .. } => format!("I do not understand the word \"{word}\"."),
+            Self::Forbidden { .. } => {
+                "I keep no prohibitions in mind. Without a command I do nothing; say what to do."
+                    .into()
+            }
             Self::Unable { word, .. } => {
                 sentences(&format!("I cannot do that: \"{word}\""), ABLE[1])
             }
@@ -290,7 +309,7 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
 #[must_use]
 pub fn is_command(text: &str) -> bool {
     let text = verbs::gathered(text);
-    verbs::first(&text).is_some()
+    verbs::first(&text).is_some() || verbs::forbids(&text)
 }
 
 /// Whether a text begins with a verb that orders, though words of a question begin so too: "Find the cup",
@@ -301,7 +320,7 @@ pub fn is_order(text: &str) -> bool {
     let gathered = verbs::gathered(text);
     let verb = verbs::first(&gathered).map(|(_, verb)| verb);
     match verb {
-        None | Some(Verb::Need | Verb::Report) => false,
+        None | Some(Verb::Need | Verb::Report | Verb::Unable) => false,
         Some(Verb::Find) => true,
         Some(_) => !text.trim_end().ends_with('?'),
     }
@@ -599,7 +618,7 @@ mod tests {
                 Принеси 2 книги
                     language::unknown_name: На карте нет «2 книги». Есть «Книга».
                 не открывай Дверь-ВZ
-                    language::not_understood: Слово «не» непонятно. Скажите, что сделать, а не чего не делать.
+                    language::forbidden: Запретов я не запоминаю. Без задания я ничего не делаю; скажите, что сделать.
                 абракадабра
                     language::not_understood: Слово «абракадабра» непонятно. Начните с того, что сделать: «Принеси …», «Поезжай в …», «Открой …».
                 Go to Room-Q

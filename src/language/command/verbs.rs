@@ -36,6 +36,7 @@ impl Sort {
             Verb::Find => Self::Find,
             Verb::Tidy
             | Verb::CallOperator
+            | Verb::CallLift
             | Verb::Report
             | Verb::Stop
             | Verb::Wait
@@ -44,7 +45,7 @@ impl Sort {
     }
 }
 
-/// English verbs whose second half may stand behind what they are done to: "turn the lamp on".
+/// Verbs whose second half may stand behind what they are done to: "turn the lamp on".
 const SPLIT: &[(&str, &[&str])] = &[
     ("turn", &["on", "off", "out"]),
     ("switch", &["on", "off"]),
@@ -63,6 +64,18 @@ const SPLIT: &[(&str, &[&str])] = &[
     ("tidy", &["up"]),
     ("lock", &["up"]),
     ("shut", &["off", "down"]),
+    ("положи", &["обратно", "назад", "на место"]),
+    ("положите", &["обратно", "назад", "на место"]),
+    ("поставь", &["обратно", "назад", "на место"]),
+    ("поставьте", &["обратно", "назад", "на место"]),
+    ("верни", &["обратно", "назад", "на место"]),
+    ("верните", &["обратно", "назад", "на место"]),
+    ("отнеси", &["обратно", "назад", "на место"]),
+    ("отнесите", &["обратно", "назад", "на место"]),
+    ("убери", &["обратно", "назад", "на место"]),
+    ("уберите", &["обратно", "назад", "на место"]),
+    ("повесь", &["обратно", "назад", "на место"]),
+    ("повесьте", &["обратно", "назад", "на место"]),
 ];
 
 fn keys_of(text: &str, words: &[Range<usize>]) -> Vec<String> {
@@ -218,7 +231,7 @@ fn repeated(text: &str) -> Cow<'_, str> {
 fn joined(text: &str) -> Cow<'_, str> {
     let words = word_ranges(text);
     let keys = keys_of(text, &words);
-    let mut moved: Vec<(usize, usize)> = Vec::new();
+    let mut moved: Vec<(usize, Range<usize>)> = Vec::new();
     for (at, key) in keys.iter().enumerate() {
         let Some((_, halves)) = SPLIT.iter().find(|(verb, _)| verb == key) else { continue };
         let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
@@ -227,18 +240,30 @@ fn joined(text: &str) -> Cow<'_, str> {
         while last > at + 2 && matches!(keys[last - 1].as_str(), "please" | "now" | "again") {
             last -= 1;
         }
-        if last > at + 2 && halves.contains(&keys[last - 1].as_str()) {
-            moved.push((at, last - 1));
-        }
+        let half_before = |end: usize| {
+            let half = halves.iter().map(|half| end - half.split(' ').count().min(end));
+            half.filter(|&from| from > at + 1)
+                .find(|&from| halves.contains(&keys[from..end].join(" ").as_str()))
+                .map(|from| (at, from..end))
+        };
+        // "Turn the lamp on in the kitchen": a place may follow.
+        let before_place =
+            |end: &usize| matches!(meaning_at(&keys, *end), Some((_, Meaning::Link(_))));
+        // … but "put it back on the shelf" says whither.
+        let stays = |(_, half): &(usize, Range<usize>)| {
+            !matches!(keys[half.start].as_str(), "back" | "away" | "обратно" | "назад" | "на")
+        };
+        let inside = || (at + 3..last).filter(before_place).filter_map(half_before).find(stays);
+        moved.extend(half_before(last).or_else(inside));
     }
     if moved.is_empty() {
         return Cow::Borrowed(text);
     }
     let mut gathered = text.to_owned();
     for (verb, half) in moved.into_iter().rev() {
-        let word = text[words[half].clone()].to_owned();
-        gathered.replace_range(words[half - 1].end..words[half].end, "");
-        gathered.insert_str(words[verb].end, &format!(" {word}"));
+        let said = text[words[half.start].start..words[half.end - 1].end].to_owned();
+        gathered.replace_range(words[half.start - 1].end..words[half.end - 1].end, "");
+        gathered.insert_str(words[verb].end, &format!(" {said}"));
     }
     Cow::Owned(gathered)
 }
@@ -325,6 +350,25 @@ pub(super) fn first(text: &str) -> Option<(Range<usize>, Verb)> {
     None
 }
 
+/// Whether a text begins with what is not to be done: «не открывай дверь», "don't go there".
+pub(super) fn forbids(text: &str) -> bool {
+    let words = word_ranges(text);
+    let keys = keys_of(text, &words[..words.len().min(14)]);
+    let (mut at, mut forbids) = (0, false);
+    while at < keys.len() {
+        match meaning_at(&keys, at) {
+            Some((taken, Meaning::Filler | Meaning::Me | Meaning::And)) => at += taken,
+            Some((taken, Meaning::Not)) => {
+                forbids = true;
+                at += taken;
+            }
+            Some((_, Meaning::Verb(_))) => return forbids,
+            _ => return false,
+        }
+    }
+    false
+}
+
 /// The text with the verbs that begin its clauses blanked out, and a semicolon for each, every other word where it was:
 /// in "Open the lab door" the first word orders, in "Close the open door" the third describes.
 #[must_use]
@@ -384,6 +428,8 @@ mod tests {
             ("Switch all lights off and come back", "Switch off all lights and come back"),
             ("put the book on the shelf", "put the book on the shelf"),
             ("Put it down.", "Put down it."),
+            ("Switch everything off in the hall", "Switch off everything in the hall"),
+            ("Верни её на место", "Верни на место её"),
             ("turn on the lamp", "turn on the lamp"),
             ("Принеси книгу, которая лежит на столе", "Принеси книгу на столе"),
             ("Подъедь к столу, потом к окну", "Подъедь к столу, потом Подъедь к окну"),

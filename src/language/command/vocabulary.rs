@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::Relation;
+use crate::language::words::ordering_verb;
 
 /// What a word or phrase does in a command.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,6 +50,7 @@ pub(super) enum Verb {
     Find,
     Tidy,
     CallOperator,
+    CallLift,
     Report,
     Stop,
     /// «вернись»: to the place that is named, else to where the robot came from.
@@ -102,7 +104,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::PutBack),
         "верни на место|верните на место|вернуть на место|положи на место|положите на место|поставь на место|поставьте на место|убери на место|\
-        уберите на место|отнеси на место|put back|take back|place back|return to its place",
+        уберите на место|отнеси на место|положи обратно|поставь обратно|верни обратно|верни назад|отнеси обратно|убери обратно|повесь обратно|put back|take back|place back|return to its place",
     ),
     (
         Meaning::Verb(Verb::Leave),
@@ -128,7 +130,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::Bring),
         "принеси|принесите|принёс|принесла|привёз|достал|подал|принести|неси|несите|привези|привезите|привезти|доставь|доставьте|доставить|подай|подайте|\
-        подать|дай|дайте|дать|достань|достаньте|притащи|притащите|принесите ка|подкинь|передай|передайте|тащи|неси ка|bring|bring over|bring back|fetch|go fetch me|get me|give|deliver|hand|hand over|carry|pass|serve|grab me|bringing|bringing me|fetching|handing me|passing me|giving me",
+        подать|дай|дайте|дать|достань|достаньте|отдай|отдайте|отдать|притащи|притащите|принесите ка|подкинь|передай|передайте|тащи|неси ка|bring|bring over|bring back|fetch|go fetch me|get me|give|deliver|hand|hand over|carry|pass|serve|grab me|bringing|bringing me|fetching|handing me|passing me|giving me",
     ),
     (
         Meaning::Verb(Verb::Need),
@@ -136,7 +138,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Take),
-        "возьми|возьмите|взял|взять|бери|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
+        "возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
     ),
     (
         Meaning::Verb(Verb::Put),
@@ -188,6 +190,10 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         get the operator|fetch the operator|call for the operator|summon the operator|call for help|позови на помощь|зови оператора",
     ),
     (
+        Meaning::Verb(Verb::CallLift),
+        "вызови лифт|вызовите лифт|вызвать лифт|call lift|call the lift|call a lift|call the elevator|call an elevator|summon the lift",
+    ),
+    (
         Meaning::Verb(Verb::Stop),
         "стоп|стой|стойте|остановись|остановитесь|остановиться|хватит|прекрати|прекратите|отмена|отмени|отмени задание|\
         забудь|забудьте|забей|неважно|не важно|не надо|не нужно|передумал|передумала|я передумал|я передумала|отставить|\
@@ -225,14 +231,15 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "пожалуйста|плиз|пж|plz|pls|find out|спасибо|заранее спасибо|thanks|thank you|будь так любезен|будь так любезна|будьте так любезны|будь любезен|будь любезна|будьте любезны|будьте так добры|\
         сначала|сперва|для начала|first|first of all|firstly|next|finally|наконец|после|заодно|давай|давайте|а ну|пора|слушай|эй|так|обратно|назад|back|back again|\
         поближе|ближе|closer|поскорее|побыстрее|живо|немедленно|аккуратно|тихо|немного|чуть|просто|ещё|тоже|also|too|just|right now|immediately|gently|straight|away|over|\
-        can you please|could you kindly|would you mind|would you kindly|be so kind as to|be a dear and|be so kind|ok|okay|alright|so|let s|we|us|i d like you to|i would like you to|i want you to|i need you to|\
+        can you please|could you kindly|would you mind|would you kindly|be so kind as to|be so kind to|be so kind and|be a dear and|be so kind|be able to|do me a favour and|do me a favor and|behind you|behind yourself|from here|ok|okay|alright|so|let s|we|us|i d like you to|i would like you to|i want you to|i need you to|\
         хочу чтобы ты|хотел бы чтобы ты|хотелось бы|для нас|нужно чтобы ты|попрошу|попрошу тебя|сможешь|сможете|сумеешь|могла бы ты|ты можешь|ты можете|\
-        здесь|любой|любую|любое|какую нибудь|any|some|one|one of the|какое нибудь|каких нибудь|одного|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
+        будь другом|за собой|отсюда|здесь|любой|любую|любое|какую нибудь|any|some|one|one of the|какое нибудь|каких нибудь|одного|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
         могли бы вы|не мог бы ты|не могли бы вы|не можешь|не можете|ты не мог бы|ты|вы|бы|ли|надо|необходимо|чтобы|чтобы ты|я|мы|нам|быстро|быстрее|скорее|срочно|осторожно|сейчас|теперь|\
         тут|там|туда|вот|ка|же|ну|ладно|хорошо|привет|здравствуй|здравствуйте|робот|рб|рб 2|этот|эту|это|эти|тот|ту|те|мой|мою|моё|мои|свой|свою|своё|для меня|\
         какой нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
         a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
     ),
+    (link(Relation::Between, Role::WhereOrWhither), "между|between"),
     (Meaning::WithKey, "на ключ|на замок|with the key|with a key"),
     (
         Meaning::And,
@@ -268,15 +275,45 @@ pub(super) fn longest<'k>(
         table
     });
     let first = words.clone().next()?;
-    let fits = |phrase: &[String]| {
-        let mut words = words.clone();
-        phrase.iter().all(|word| words.next() == Some(word))
-    };
-    table
-        .get(first)?
-        .iter()
-        .find(|(phrase, _)| fits(phrase))
-        .map(|(phrase, meaning)| (phrase.len(), *meaning))
+    let Some(phrases) = table.get(first) else { return inflected(first).map(|verb| (1, verb)) };
+    phrases.iter().find_map(|(phrase, meaning)| Some((taken(phrase, words.clone())?, *meaning)))
+}
+
+/// How many words a phrase takes at the beginning of some: its own, and politeness between them («позови, пожалуйста,
+/// оператора»).
+fn taken<'k>(phrase: &[String], words: impl Iterator<Item = &'k str>) -> Option<usize> {
+    const BETWEEN: [&str; 8] =
+        ["пожалуйста", "плиз", "мне", "нам", "скорее", "быстрее", "please", "quickly"];
+    let mut left = phrase.iter();
+    let mut wanted = left.next()?;
+    for (n, word) in words.enumerate() {
+        if word == wanted {
+            match left.next() {
+                Some(next) => wanted = next,
+                None => return Some(n + 1),
+            }
+        } else if n == 0 || !BETWEEN.contains(&word) {
+            return None;
+        }
+    }
+    None
+}
+
+/// A Russian verb in a form that orders or asks, found by its infinitive: «сгонять» as «сгоняй», «принесёшь» as «принеси».
+fn inflected(word: &str) -> Option<Meaning> {
+    static INFINITIVES: OnceLock<HashMap<String, Meaning>> = OnceLock::new();
+    let infinitive = ordering_verb(word)?;
+    let table = INFINITIVES.get_or_init(|| {
+        let mut table: HashMap<String, Meaning> = HashMap::new();
+        for (meaning, phrase) in phrases().filter(|(_, phrase)| !phrase.contains(' ')) {
+            let able = matches!(meaning, Meaning::Verb(verb) if verb != Verb::Unable);
+            if let Some(infinitive) = able.then(|| ordering_verb(phrase)).flatten() {
+                table.entry(infinitive).or_insert(meaning);
+            }
+        }
+        table
+    });
+    table.get(&infinitive).copied()
 }
 
 /// All verbs, to offer the one that was meant.

@@ -66,6 +66,15 @@ impl Named {
         english::with_article(&self.english)
     }
 
+    /// The name within a sentence: in a case, or with its article.
+    #[must_use]
+    pub fn form(&self, case: Case, language: Language) -> String {
+        match language {
+            Language::Russian => self.russian.case(case),
+            Language::English => self.english(),
+        }
+    }
+
     /// "in the corridor", but "on the balcony".
     fn english_place(&self) -> String {
         use super::words::PlaceSense::{Inside, Upon};
@@ -121,10 +130,9 @@ impl Doorway {
     /// «к ней», «к нему», «к ним»
     fn pronoun(&self) -> &'static str {
         match (&self.name, self.opening) {
-            (Some(name), _) if name.russian.number() == Number::Plural => "ним",
-            (Some(name), _) if name.russian.gender() == Gender::Feminine => "ней",
+            (Some(name), _) => pronoun(&name.russian),
             (None, Opening::Door) => "ней",
-            _ => "нему",
+            (None, Opening::Passage) => "нему",
         }
     }
 
@@ -453,15 +461,32 @@ fn beside_in_english(beside: Beside) -> &'static str {
     }
 }
 
-/// Whether the spot has named this door already, so that «к двери» is enough.
+/// Whether the spot has named this door already, so that «к ней» is enough.
 fn is_named(spot: Option<&Spot>, door: &Doorway) -> bool {
     matches!(spot, Some(Spot::AtDoor(other)) if other == door)
+}
+
+/// As [`is_named`], of a thing.
+fn is_told(spot: Option<&Spot>, object: &Named) -> bool {
+    matches!(spot, Some(Spot::Object(_, other)) if other == object)
+}
+
+/// «к ней», «к нему», «к ним»
+fn pronoun(name: &NounPhrase) -> &'static str {
+    match (name.number(), name.gender()) {
+        (Number::Plural, _) => "ним",
+        (_, Gender::Feminine) => "ней",
+        _ => "нему",
+    }
 }
 
 fn facing_in_russian(facing: &Facing, spot: Option<&Spot>) -> String {
     match facing {
         Facing::Door(door) if is_named(spot, door) => format!("лицом к {}", door.pronoun()),
         Facing::Door(door) => format!("лицом к {}", door.russian(Case::Dative)),
+        Facing::Object(object) if is_told(spot, object) => {
+            format!("лицом к {}", pronoun(&object.russian))
+        }
         Facing::Object(object) => {
             format!("лицом {}", russian::with(Preposition::K, Case::Dative, &object.russian))
         }
@@ -474,6 +499,7 @@ fn facing_in_english(facing: &Facing, spot: Option<&Spot>) -> String {
     match facing {
         Facing::Door(door) if is_named(spot, door) => "facing it".into(),
         Facing::Door(door) => format!("facing {}", door.english()),
+        Facing::Object(object) if is_told(spot, object) => "facing it".into(),
         Facing::Object(object) => format!("facing {}", object.english()),
         Facing::Wall => "facing the wall".into(),
         Facing::Inward => "facing the middle".into(),

@@ -491,10 +491,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
 }
 
 impl<T: Clone> SaidFacing<T> {
-    /// The door that the spot has named.
+    /// The door or thing that the spot has named.
     fn it(spot: Option<&SaidSpot<T>>) -> Option<Self> {
         match spot {
             Some(SaidSpot::AtDoor(door)) => Some(Self::Door(door.clone())),
+            Some(SaidSpot::Object(_, things)) => Some(Self::Object(things.clone())),
             _ => None,
         }
     }

@@ -25,6 +25,17 @@ pub(crate) fn readings(word: &str) -> Readings {
     source::readings(word)
 }
 
+/// The infinitive of a verb in a form in which people order or ask: imperative, infinitive, second person. None for a
+/// word that may be anything else.
+pub(crate) fn ordering_verb(word: &str) -> Option<String> {
+    const ENDINGS: [char; 6] = ['й', 'и', 'ь', 'е', 'я', 'ч'];
+    // Most words are neither Russian nor end as such a verb does.
+    let may_be = word.chars().count() >= 4
+        && word.ends_with(ENDINGS)
+        && word.chars().all(|c| matches!(c, 'а'..='я' | 'ё'));
+    if may_be { source::ordering_verb(word) } else { None }
+}
+
 #[cfg(not(feature = "rumorph"))]
 mod source {
     use super::{Known, Noun, Readings};
@@ -35,6 +46,10 @@ mod source {
 
     pub(super) fn readings(_word: &str) -> Readings {
         Readings::default()
+    }
+
+    pub(super) fn ordering_verb(_word: &str) -> Option<String> {
+        None
     }
 }
 
@@ -65,6 +80,21 @@ mod source {
             }
         }
         readings
+    }
+
+    pub(super) fn ordering_verb(word: &str) -> Option<String> {
+        let dictionary = dictionary()?;
+        let mut infinitive = None;
+        for (analysis, tag) in known_analyses(dictionary, word) {
+            let orders = tag.feat("Mood") == Some("Imp")
+                || tag.feat("VerbForm") == Some("Inf")
+                || tag.feat("Person") == Some("2");
+            if tag.pos() != "VERB" || !orders {
+                return None;
+            }
+            infinitive.get_or_insert(analysis.lemma.replace('ё', "е"));
+        }
+        infinitive
     }
 
     pub(super) fn noun(word: &str, known: Known) -> Option<Noun> {

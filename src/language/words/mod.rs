@@ -30,6 +30,7 @@ mod parse;
 mod phrase;
 pub mod russian;
 
+pub(crate) use dictionary::ordering_verb;
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
 pub(crate) use letters::is_hyphen;
