@@ -146,7 +146,7 @@ impl Asker<'_> {
             .find(|&n| is(n, &["еще"]) && is(n + 1, &["одну", "один", "одно", "одного"]));
         let ends = |n: usize| {
             let rest = words.get(n).map_or("", |next| &text[words[n - 1].end..next.start]);
-            n == words.len() || rest.trim() != "" || is(n, &["и", "пожалуйста", "мне"])
+            n == words.len() || !rest.trim().is_empty() || is(n, &["и", "пожалуйста", "мне"])
         };
         let spoken = memory.last_things().into_iter().rev().find_map(|t| t.replica());
         let object = spoken.and_then(|id| self.world.replicas.get(&id)).map(|r| r.object);
@@ -701,6 +701,7 @@ impl Settler<'_, '_> {
         noun.filters.extend(more.value.map(|value| Filter::new(value, false)));
         noun.except.extend(more.except);
         noun.indefinite |= self.is_any(&phrase.words);
+        noun.other |= self.is_one_more(&phrase.words);
         if noun.head.anything && (noun.all || noun.text.to_lowercase().contains("everything")) {
             // "Turn off everything in the kitchen"
             noun.plural = true;
@@ -805,7 +806,7 @@ impl Settler<'_, '_> {
 
     /// «ещё одну книгу», "another book": any that was not spoken of, where «другую» is the one that is left.
     fn is_one_more(&self, words: &Range<usize>) -> bool {
-        let keys = &self.sentence.keys[words.clone()];
+        let keys = &self.sentence.keys[words.start.saturating_sub(2)..words.end];
         keys.iter().any(|key| matches!(key.as_str(), "еще" | "another"))
     }
 
