@@ -181,7 +181,7 @@ fn nalgebra_vector(direction: f64) -> Vector {
     Vector::new(direction.cos(), direction.sin())
 }
 
-/// A flat piece that can stop a ray, and whose it is.
+/// A flat piece that can stop a ray, and whose it is; its corners counter-clockwise as seen from where it is seen.
 struct Pane {
     face: Face,
     corners: [[f64; 3]; 3],
@@ -203,12 +203,12 @@ fn panes(plan: &FloorPlan) -> Vec<Pane> {
                     let blocker = Blocker::Wall { area: *id, item, side };
                     let face = Face { blocker, kind: FaceKind::Side(side) };
                     let (z, top) = (prism.bottom, prism.top);
-                    quad(face, [at(a, z), at(b, z), at(b, top), at(a, top)]);
+                    quad(face, [at(b, z), at(a, z), at(a, top), at(b, top)]);
                 }
             }
             let blocker = Blocker::Floor { area: *id, item };
             let face = Face { blocker, kind: FaceKind::Base };
-            levels.push((face, prism.polygon.clone(), prism.bottom));
+            levels.push((face, prism.polygon.clone(), prism.bottom, true));
         }
     }
     for (id, replica) in &plan.scene().replicas {
@@ -222,17 +222,15 @@ fn panes(plan: &FloorPlan) -> Vec<Pane> {
                 quad(face, [at(a, z), at(b, z), at(roof(b), top), at(roof(a), top)]);
             }
             let top = Polygon::new(prism.polygon.corners.iter().map(|&p| roof(p)).collect());
-            levels.push((
-                Face { blocker, kind: FaceKind::Base },
-                prism.polygon.clone(),
-                prism.bottom,
-            ));
-            levels.push((Face { blocker, kind: FaceKind::Roof }, top, prism.top));
+            let base = Face { blocker, kind: FaceKind::Base };
+            levels.push((base, prism.polygon.clone(), prism.bottom, false));
+            levels.push((Face { blocker, kind: FaceKind::Roof }, top, prism.top, true));
         }
     }
     // A level face as a fan about a corner is good enough where it is star-shaped; else it is cut small.
-    for (face, polygon, z) in levels {
+    for (face, polygon, z, up) in levels {
         for [a, b, c] in triangles(&polygon) {
+            let (b, c) = if up { (b, c) } else { (c, b) };
             panes.push(Pane { face, corners: [at(a, z), at(b, z), at(c, z)] });
         }
     }
@@ -259,7 +257,8 @@ fn triangles(polygon: &Polygon) -> Vec<[Point; 3]> {
     ears
 }
 
-/// What a ray meets first, and how far off; after Möller and Trumbore.
+/// What a ray meets first, and how far off; after Möller and Trumbore. Of the two sides of what has no thickness it meets
+/// the one that looks back at it.
 fn slow_ray(panes: &[Pane], from: [f64; 3], way: [f64; 3]) -> Option<(f64, Face)> {
     let sub = |a: [f64; 3], b: [f64; 3]| [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
     let dot = |a: [f64; 3], b: [f64; 3]| a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -278,9 +277,12 @@ fn slow_ray(panes: &[Pane], from: [f64; 3], way: [f64; 3]) -> Option<(f64, Face)
         let q = cross(t, u);
         let (s, r) = (dot(t, p) / det, dot(way, q) / det);
         let far = dot(v, q) / det;
-        (s >= 0.0 && r >= 0.0 && s + r <= 1.0 && far > 1e-9).then_some((far, pane.face))
+        (s >= 0.0 && r >= 0.0 && s + r <= 1.0 && far > 1e-9).then_some((far, det > 0.0, pane.face))
     });
-    hits.min_by(|a, b| a.0.total_cmp(&b.0))
+    let nearer = |a: &(f64, bool, Face), b: &(f64, bool, Face)| {
+        if (a.0 - b.0).abs() < 1e-6 { b.1.cmp(&a.1) } else { a.0.total_cmp(&b.0) }
+    };
+    hits.min_by(nearer).map(|(far, _, face)| (far, face))
 }
 
 fn direction(azimuth: f64, rise: f64) -> [f64; 3] {
@@ -380,7 +382,8 @@ fn in_space_tops_are_seen_from_above_and_what_is_low_hides_behind_what_is_high()
     assert!(!kinds(&eye(200.0), ids[0]).is_empty());
     let turned = Eye { pose: Pose { heading: Deg::of(180.0), ..pose }, ..eye(120.0) };
     assert!(ids.iter().all(|&id| kinds(&turned, id).is_empty()), "all of it is behind");
-    let short = Eye { range: 90.0, ..eye(120.0) };
+    // Aslant, 99 cm lie between the eye and the low top, and 150 between the eye and the high box.
+    let short = Eye { range: 110.0, ..eye(120.0) };
     assert!(kinds(&short, ids[0]).is_empty() && !kinds(&short, ids[2]).is_empty());
 }
 
@@ -401,6 +404,18 @@ fn from_within_a_thing_or_outside_of_the_building_there_is_an_answer_too() {
             assert!(beam.distance <= 43.0, "{beam:?}");
         }
     }
+    // Within the part that leans out over its base, too.
+    let (mut b, _) = room(&[[150., 120., 60., 60., 0.]]);
+    let id = *b.world.replicas.keys().next().expect("it has a box");
+    let block = b.world.objects[&b.world.replicas[&id].object].items[0].orthoframe;
+    let block = b.world.orthoframes.get_mut(&block).expect("its block");
+    (block.roof_scale, block.height) = (3.0, Cm::of(100.0));
+    let pose = Pose { at: p(230., 150.), heading: Deg::ZERO };
+    let eye = Eye { pose, height: 90.0, field: 360.0, range: 1000.0 };
+    let leaning = build(&b);
+    let seen = leaning.faces(&b.world, &eye).in_view(&eye);
+    let own = |f: &FaceInView| matches!(f.face.blocker, Blocker::Replica { replica, .. } if replica == id);
+    assert!(!seen.is_empty() && seen.iter().all(own), "{seen:?}");
     for at in [p(-5000.0, 3.0), p(0.0, 0.0), p(400.0, 300.0), p(1e7, -1e7)] {
         let pose = Pose { at, heading: Deg::of(45.0) };
         for range in [0.0, 1.0, 1e6] {

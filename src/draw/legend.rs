@@ -39,7 +39,7 @@ impl Legend {
     ) -> Self {
         let (mut x, mut y) = (0.0, 0.0);
         let mut placed = Vec::new();
-        let (mut rows, mut right) = (1.0, at.x);
+        let (mut rows, mut right) = (1.0_f64, at.x);
         for entry in entries {
             match &entry {
                 Entry::Swatch(_, text) | Entry::Dot(_, text) => {
@@ -54,7 +54,8 @@ impl Legend {
                     right = right.max(at.x + x);
                 }
                 Entry::Line(text) => {
-                    rows += 1.0;
+                    // The scale bar with its numbers is higher than one row.
+                    rows = rows.max(1.5) + 1.0;
                     right = right.max(line_start.x + text_width(text, LETTER, false) * pen);
                     y = (rows - 1.0) * ROW * pen + 8.0 * pen;
                     placed.push((line_start + Vector::new(0.0, -y), entry));

@@ -213,9 +213,7 @@ impl Faces {
         use crate::map::Permeability::Permeable;
         let blocker = Blocker::Replica { replica, item: prism.item };
         let face = |kind| Face { blocker, kind };
-        let centre = prism.polygon.centroid();
-        let scaled = |p: &Point| centre + (p - centre) * prism.roof_scale;
-        let roof = Polygon::new(prism.polygon.corners.iter().map(scaled).collect());
+        let roof = prism.roof();
         if prism.top <= prism.bottom {
             if prism.roof_permeability != Permeable {
                 self.level(face(FaceKind::Roof), &prism.polygon, prism.top, true, Backs::Hiding);

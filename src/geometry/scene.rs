@@ -43,8 +43,23 @@ pub struct Prism {
 impl Prism {
     /// A box around its roof.
     fn roof_bounds(&self) -> Bounds {
+        self.roof().bounds()
+    }
+
+    /// Its roof as seen from above.
+    pub(super) fn roof(&self) -> Polygon {
+        self.scaled(self.roof_scale)
+    }
+
+    /// Its outline at a height: a Uniframe narrows or widens towards its roof.
+    pub(super) fn section(&self, height: f64) -> Polygon {
+        let share = ((height - self.bottom) / (self.top - self.bottom)).clamp(0.0, 1.0);
+        self.scaled(1.0 + (self.roof_scale - 1.0) * share)
+    }
+
+    fn scaled(&self, scale: f64) -> Polygon {
         let centre = self.polygon.centroid();
-        Bounds::of(self.polygon.corners.iter().map(|c| centre + (c - centre) * self.roof_scale))
+        Polygon::new(self.polygon.corners.iter().map(|c| centre + (c - centre) * scale).collect())
     }
 }
 

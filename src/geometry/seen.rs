@@ -101,7 +101,8 @@ impl Faces {
     pub fn in_view(&self, eye: &Eye) -> Vec<FaceInView> {
         let at = eye.at();
         let holds = |p: &Prism| {
-            p.bottom < eye.height && eye.height < p.top && p.polygon.contains(eye.pose.at, 0.0)
+            let is_level = p.bottom < eye.height && eye.height < p.top;
+            is_level && p.section(eye.height).contains(eye.pose.at, 0.0)
         };
         let within: Vec<bool> = self.bodies.iter().map(holds).collect();
         // What turns its back to the eye casts no shadow of its own: the body's other faces do.

@@ -83,7 +83,7 @@ impl FloorPlan {
         for replica in self.scene().replicas.values() {
             for prism in replica.prisms.iter().filter(|p| p.bottom <= height && height < p.top) {
                 let blocker = Blocker::Replica { replica: replica.id, item: prism.item };
-                for (side, edge) in section(prism, height).into_iter().enumerate() {
+                for (side, edge) in prism.section(height).edges().enumerate() {
                     if is_solid(world, replica.id, prism, side) {
                         found.push((SeenFace { blocker, side: Some(side) }, edge));
                     }
@@ -129,15 +129,6 @@ impl FloorPlan {
         let blocker = Blocker::Wall { area: fragment.area, item, side: number };
         SeenFace { blocker, side: side.map(|s| s.1) }
     }
-}
-
-/// The sides of a prism at a height: a Uniframe narrows or widens towards its roof.
-fn section(prism: &Prism, height: f64) -> Vec<(Point, Point)> {
-    let share = ((height - prism.bottom) / (prism.top - prism.bottom)).clamp(0.0, 1.0);
-    let scale = 1.0 + (prism.roof_scale - 1.0) * share;
-    let centre = prism.polygon.centroid();
-    let place = |p: Point| centre + (p - centre) * scale;
-    prism.polygon.edges().map(|(a, b)| (place(a), place(b))).collect()
 }
 
 /// Whether a side stops a beam: walls do, doors of Objects while they are shut.
