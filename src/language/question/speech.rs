@@ -4,14 +4,14 @@ use crate::language::names::named;
 use crate::language::report::Named;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::words::{
-    Case, Gender, Language, NounPhrase, Number, WordHints, english, enumerate,
+    Case, Gender, Language, NounPhrase, Number, WordHints, alternatives, english, enumerate,
 };
 use crate::map::Entity;
 use crate::units::capitalized;
 
 use super::knowledge::{Frame, Knowledge};
 use super::lexicon::{Extension, lower_first};
-use super::query::{Noun, Rel, Thing};
+use super::query::{Filter, Noun, Rel, Thing};
 use super::values::{Property, ValueId};
 
 /// More than this is not listed one by one.
@@ -207,6 +207,28 @@ impl Knowledge<'_> {
         Some(self.place(Rel::In, &[Thing::Entity(Entity::Area(area))]))
     }
 
+    /// A Russian form of what a description means; of values joined by «или» each has its own: «красных или белых
+    /// чашек».
+    fn declined(&self, noun: &Noun, form: &dyn Fn(&NounPhrase) -> String) -> String {
+        let Some(at) = noun.filters.iter().position(|filter| !filter.or.is_empty()) else {
+            return form(&self.kind_phrase(noun).0);
+        };
+        let alone = |value| {
+            let mut noun = noun.clone();
+            noun.filters[at] = Filter::new(value, noun.filters[at].negated);
+            self.declined(&noun, form)
+        };
+        let forms: Vec<String> = noun.filters[at].values().map(alone).collect();
+        let words: Vec<Vec<&str>> = forms.iter().map(|f| f.split_whitespace().collect()).collect();
+        let [first, rest @ ..] = &words[..] else { return String::new() };
+        let shared =
+            |n: &usize| rest.iter().all(|w| w.len() > *n && w.ends_with(&first[first.len() - n..]));
+        let shared = (0..first.len()).rev().find(shared).unwrap_or(0);
+        let own: Vec<String> = words.iter().map(|w| w[..w.len() - shared].join(" ")).collect();
+        let tail = first[first.len() - shared..].join(" ");
+        format!("{} {tail}", alternatives(&own, self.language))
+    }
+
     /// The words for what a description means, as a phrase that declines: «чёрный стул».
     pub(super) fn kind_phrase(&self, noun: &Noun) -> (NounPhrase, String) {
         let kind = noun.head.kinds.first().map(|k| self.lexicon().counted(*k));
@@ -266,14 +288,12 @@ impl Knowledge<'_> {
 
     /// «2 чёрных стула», "2 black chairs"
     pub(super) fn counted(&self, noun: &Noun, number: usize) -> String {
-        let (phrase, english_name) = self.kind_phrase(noun);
         match self.language {
             Language::Russian => {
-                let text = russian::count(number as u64, &phrase);
-                let (digits, words) = text.split_once(' ').unwrap_or((&text, ""));
-                format!("{digits} {}", lower_first(words))
+                let words = self.declined(noun, &|phrase| phrase.counted(number as u64));
+                format!("{number} {}", lower_first(&words))
             }
-            Language::English => english::count(number as u64, &english_name),
+            Language::English => english::count(number as u64, &self.kind_phrase(noun).1),
         }
     }
 
@@ -288,10 +308,11 @@ impl Knowledge<'_> {
         if noun.head.anything {
             return self.pick("ничего", "nothing").to_owned();
         }
-        let (phrase, english_name) = self.kind_phrase(noun);
         match self.language {
-            Language::Russian => lower_first(&phrase.form(Case::Genitive, Number::Plural)),
-            Language::English => english::plural(&english_name),
+            Language::Russian => lower_first(
+                &self.declined(noun, &|phrase| phrase.form(Case::Genitive, Number::Plural)),
+            ),
+            Language::English => english::plural(&self.kind_phrase(noun).1),
         }
     }
 
@@ -317,6 +338,15 @@ impl Knowledge<'_> {
                 text = self.place(restriction.rel, &anchors);
             }
             let having = matches!(restriction.rel, Rel::Has | Rel::Bears);
+            if having && !restriction.negated && restriction.anchors.len() > 1 {
+                // "with a bed or a fridge"
+                let each = restriction.anchors.iter().map(|anchor| match self.find(anchor, true) {
+                    Ok(found) if found.len() == 1 => self.place(restriction.rel, &found),
+                    _ => self.general_place(restriction.rel, anchor),
+                });
+                parts.push(alternatives(&each.collect::<Vec<_>>(), self.language));
+                continue;
+            }
             if having
                 && let [anchor] = &restriction.anchors[..]
                 && let Some(count) = anchor.count

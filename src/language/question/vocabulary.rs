@@ -142,7 +142,7 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Where,
         "помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
-        where can i find|where do i find|where could i find|where to find|where can we find|where would i find|\
+        where can i find|where do i find|where should i look for|where do i look for|where can i look for|where must i look for|where to look for|where should we look for|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
         what s the location of|the location of|location of|местоположение|местонахождение|укажи местоположение|в каком углу",
     ),

@@ -46,9 +46,9 @@ pub fn plural(noun: &str) -> String {
     if word.is_empty() {
         return noun.to_owned();
     }
-    // "chest of drawers": the head stands before "of".
-    if let Some((head, tail)) = noun.split_once(" of ") {
-        return format!("{} of {tail}", plural(head));
+    // "chest of drawers", "thing to drink from": the head stands before.
+    if let Some(at) = [" of ", " to ", " for "].iter().filter_map(|after| noun.find(after)).min() {
+        return format!("{}{}", plural(&noun[..at]), &noun[at..]);
     }
     let lower = word.to_lowercase();
     const IRREGULAR: [(&str, &str); 14] = [

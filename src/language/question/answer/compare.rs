@@ -336,7 +336,7 @@ impl Knowledge<'_> {
         let (fewer, equal) = (extreme == Extreme::Fewest, numbers[0] == numbers[1]);
         let first = if fewer { numbers[0] <= numbers[1] } else { numbers[0] >= numbers[1] };
         let (best, other) = if first { (0, 1) } else { (1, 0) };
-        let one_kind = of[0].head == of[1].head;
+        let one_kind = of[0].head == of[1].head && of[0].filters == of[1].filters;
         let kinds = of.each_ref().map(|noun| self.none_of(noun));
         let place = |n: usize| {
             let place = self.restrictions(&of[n]);

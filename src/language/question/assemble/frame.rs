@@ -394,7 +394,12 @@ impl<'s, 't> Frame<'s, 't> {
             } else if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
                 && let Some(second) = self.nouns.get(1)
             {
-                best.anchor = Some(Box::new(second.noun.clone()));
+                // "nearest to the window of the lab"
+                let mut anchor = second.noun.clone();
+                for spot in self.spots.iter().filter(|spot| spot.at > second.at) {
+                    self.attach(&mut anchor, spot);
+                }
+                best.anchor = Some(Box::new(anchor));
             }
         }
         noun

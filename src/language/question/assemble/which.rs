@@ -5,7 +5,7 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Head, Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Best, Head, Noun, Query, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -142,6 +142,9 @@ impl Frame<'_, '_> {
             return None;
         }
         let question = self.place_of(Mark::Which).or_else(|| self.place_of(Mark::What))?;
+        if let Some(nearest) = self.nearest_to(question) {
+            return Some(nearest);
+        }
         // «на чём», «в какой комнате»: a preposition right before the word that asks; or stranded at the end.
         let before = self.links.iter().find(|(_, at)| at + 1 == question);
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
@@ -229,6 +232,23 @@ impl Frame<'_, '_> {
         let something = !self.spots.is_empty() || !self.values.is_empty() || self.there.is_some();
         let best = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::Nearer(_)));
         (something || best).then(|| Query::Find(self.with_rest(noun, &[])))
+    }
+
+    /// "What is nearest to the sofa?": the only noun is what it is near to.
+    fn nearest_to(&self, question: usize) -> Option<Query> {
+        let (extreme, best_at) = self.marks.iter().find_map(|(mark, at)| match mark {
+            Mark::BestTo(extreme) if *at > question => Some((*extreme, *at)),
+            _ => None,
+        })?;
+        let anchor = self.nouns.first().filter(|first| first.at > best_at)?;
+        let mut near = anchor.noun.clone();
+        let own = self.spots.iter().filter(|spot| spot.at > anchor.at);
+        let own: Vec<usize> =
+            own.inspect(|spot| self.attach(&mut near, spot)).map(|s| s.at).collect();
+        let mut noun = Noun { indefinite: true, ..Noun::default() };
+        noun.head.anything = true;
+        noun.best = Some(Best { extreme, anchor: Some(Box::new(near)) });
+        Some(Query::Find(self.with_rest(noun, &own)))
     }
 
     /// "What is the table on?": the noun after "what is" is the subject, not what is asked for.
