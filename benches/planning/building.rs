@@ -61,15 +61,23 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
         let hall = corridor(floor * corridors_of_floor);
         writeln!(
             facts,
-            "ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-лифта-{floor}, {hall}) ДВЕРЬ-ЛИФТА_ИЗ_В_(Дверь-лифта-{floor}, {hall}, Лифт)"
+            "ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-лифта-{floor}, {hall}) ДВЕРЬ_НАХОДИТСЯ-В_(Дверь-лифта-{floor}, Кабина-{floor})\n\
+             ЛИФТ_ИМЕЕТ-ДВЕРЬ_(Лифт, Дверь-лифта-{floor}) ЛИФТ_ИМЕЕТ-КАБИНУ_(Лифт, Кабина-{floor})"
         )
         .expect("a string takes all text");
     }
-    facts += "КАБИНА_СТОИТ-У_(Лифт, Дверь-лифта-0)\n";
+    assumptions += "ЛИФТ-РАБОТАЕТ_(Лифт) КАБИНА_СТОИТ-У_(Лифт, Дверь-лифта-0)\n";
+    for number in 0..corridors {
+        let (hall, floor) = (corridor(number), number / corridors_of_floor);
+        writeln!(facts, "ПОМЕЩЕНИЕ_НАХОДИТСЯ-НА-ЭТАЖЕ_({hall}, Этаж-{floor})")
+            .expect("a string takes all text");
+    }
     for room in 0..rooms {
+        let floor = room / ROOMS / corridors_of_floor;
         writeln!(
             facts,
-            "ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-стола-{room}, Комната-{room}) ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-окна-{room}, Комната-{room})\n\
+            "ПОМЕЩЕНИЕ_НАХОДИТСЯ-НА-ЭТАЖЕ_(Комната-{room}, Этаж-{floor})\n\
+             ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-стола-{room}, Комната-{room}) ПОЗИЦИЯ_НАХОДИТСЯ-В_(У-окна-{room}, Комната-{room})\n\
              ПОЗИЦИЯ_НАХОДИТСЯ-У_(У-стола-{room}, Стол-{room})"
         )
         .expect("a string takes all text");
@@ -81,8 +89,7 @@ pub(crate) fn building(rooms: usize, floors: usize, errand: Errand) -> Building 
             .expect("a string takes all text");
         }
     }
-    facts +=
-        "РОБОТ-НАХОДИТСЯ-В_(Комната-1) РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(У-окна-1) РУКА-СВОБОДНА_()\n";
+    facts += "РОБОТ-НАХОДИТСЯ-В_(Комната-1) РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(У-окна-1) РОБОТ-НАХОДИТСЯ-НА-ЭТАЖЕ_(Этаж-0) РУКА-СВОБОДНА_()\n";
     let (middle, last) = (rooms / 2, rooms - 2);
     let goal = match errand {
         Errand::Drive => format!("РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ_(У-окна-{last})"),
