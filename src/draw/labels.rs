@@ -169,41 +169,23 @@ impl Labels {
         self.put(canvas, text, &name);
     }
 
-    /// The name of a thing: on it where it fits, else near it on the floor of its room, clear of the walls, with a
-    /// thin line to it; anywhere near where there are no rooms at all.
+    /// The name of a thing: on it where it fits, rather beside what stands upon it than over that; else near it on the
+    /// floor of its room, clear of the walls, with a thin line to it; anywhere near where there are no rooms at all.
     pub(super) fn on_thing(
         &mut self,
         canvas: &mut Canvas,
-        thing: Bounds,
+        (thing, upon): (Bounds, &[Bounds]),
         text: &str,
         style: Lettering,
         rooms: Option<&[&Polygon]>,
     ) {
         let center = nalgebra::center(&thing.min, &thing.max);
-        for share in [1.0, 0.85, 0.72] {
-            for turn in [0.0, 90.0] {
-                let lettering = Lettering { size: style.size * share, turn, ..style };
-                let long = text_width(text, lettering.size, style.bold);
-                let tall = lettering.size * 1.1;
-                // A single letter gains nothing from being turned.
-                if turn > 0.0 && long < 1.3 * tall {
-                    continue;
-                }
-                let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
-                let spare = (thing.max - thing.min) - Vector::new(width, height);
-                if spare.x < 0.0 || spare.y < 0.0 {
-                    continue;
-                }
-                for share in [0.0, 0.5, -0.5, 0.9, -0.9] {
-                    for along in [Vector::new(0.0, share), Vector::new(share, 0.0)] {
-                        let at = center + along.component_mul(&spare) / 2.0;
-                        let frame = around(at, width, height);
-                        if self.is_free(&frame) && !self.crosses_line(&frame) {
-                            return self.put(canvas, text, &Placed { at, lettering, frame });
-                        }
-                    }
-                }
-            }
+        // To be clear of them, a name is neither turned nor made much smaller.
+        let clear = self.spot_on((thing, upon), text, style, (&[1.0, 0.85], &[0.0]));
+        let anywhere =
+            || self.spot_on((thing, &[]), text, style, (&[1.0, 0.85, 0.72], &[0.0, 90.0]));
+        if let Some(placed) = clear.or_else(anywhere) {
+            return self.put(canvas, text, &placed);
         }
         let lettering = Lettering { size: style.size * 0.85, ..style };
         let (width, height) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
@@ -236,6 +218,44 @@ impl Labels {
                 }
             }
         }
+    }
+
+    /// Where a name fits on a thing, clear of what stands upon it, in one of some sizes and turns.
+    fn spot_on(
+        &self,
+        (thing, upon): (Bounds, &[Bounds]),
+        text: &str,
+        style: Lettering,
+        (shares, turns): (&[f64], &[f64]),
+    ) -> Option<Placed> {
+        let center = nalgebra::center(&thing.min, &thing.max);
+        for share in shares {
+            for &turn in turns {
+                let lettering = Lettering { size: style.size * share, turn, ..style };
+                let long = text_width(text, lettering.size, style.bold);
+                let tall = lettering.size * 1.1;
+                // A single letter gains nothing from being turned.
+                if turn > 0.0 && long < 1.3 * tall {
+                    continue;
+                }
+                let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
+                let spare = (thing.max - thing.min) - Vector::new(width, height);
+                if spare.x < 0.0 || spare.y < 0.0 {
+                    continue;
+                }
+                for share in [0.0, 0.5, -0.5, 0.9, -0.9] {
+                    for along in [Vector::new(0.0, share), Vector::new(share, 0.0)] {
+                        let at = center + along.component_mul(&spare) / 2.0;
+                        let frame = around(at, width, height);
+                        let is_clear = !upon.iter().any(|other| other.meets(&frame));
+                        if is_clear && self.is_free(&frame) && !self.crosses_line(&frame) {
+                            return Some(Placed { at, lettering, frame });
+                        }
+                    }
+                }
+            }
+        }
+        None
     }
 
     /// A name at a point, or as near to it as there is space.

@@ -314,7 +314,13 @@ fn draw_view(
     for s in silhouettes.iter() {
         let bounds = s.outline.bounds();
         let frame = Bounds { min: bounds.min + offset, max: bounds.max + offset };
-        labels.on_thing(canvas, frame, &s.body.id, Lettering::bold(11.0 * pen, "#7a5c2e"), None);
+        labels.on_thing(
+            canvas,
+            (frame, &[]),
+            &s.body.id,
+            Lettering::bold(11.0 * pen, "#7a5c2e"),
+            None,
+        );
     }
 }
 

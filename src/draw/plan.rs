@@ -351,7 +351,9 @@ impl PlanDrawing<'_> {
         let mut things: Vec<_> = self.things().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
         things.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
-        for thing in things {
+        for (k, thing) in things.iter().enumerate() {
+            let upon = things[k + 1..].iter().map(|t| t.bounds).filter(|b| b.meets(&thing.bounds));
+            let upon: Vec<Bounds> = upon.collect();
             let replica = &self.world.replicas[&thing.id];
             let name = self.named(&replica.name, &replica.name_en);
             // On the sheet of a large building names beside small things would hide the things.
@@ -360,7 +362,7 @@ impl PlanDrawing<'_> {
             let home = home.filter(|_| !crowded.contains(&thing.id));
             let rooms: Vec<&Polygon> =
                 home.iter().flat_map(|a| &a.prisms).map(|p| &p.polygon).collect();
-            labels.on_thing(canvas, thing.bounds, name, lettering, Some(&rooms));
+            labels.on_thing(canvas, (thing.bounds, &upon), name, lettering, Some(&rooms));
         }
     }
 
