@@ -576,3 +576,15 @@ fn gathered_things_are_brought_one_by_one() {
         assert_eq!(support(&world_now(&engine), cup).as_deref(), Some("Обеденный стол"));
     }
 }
+
+#[test]
+fn told_to_report_the_robot_says_where_it_stands() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    for command in ["Доложи, где ты", "Report your position."] {
+        let answer = perform(&engine, command);
+        assert!(matches!(answer.ending, TaskEnding::AlreadyTrue), "{command}");
+        let said = answer.reported.expect(command).say(Language::Russian);
+        assert!(said.contains("в середине Комнаты-В"), "{command}: {said}");
+    }
+    assert!(perform(&engine, "Открой Дверь-ВZ").reported.is_none());
+}

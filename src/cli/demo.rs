@@ -212,7 +212,10 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
             Lang::Ru => format!("\nСделано: {spent}."),
             Lang::En => format!("\nDone: {spent}."),
         },
-        TaskEnding::AlreadyTrue => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
+        TaskEnding::AlreadyTrue => match &answer.reported {
+            Some(position) => position.say(lang.language()),
+            None => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
+        },
         TaskEnding::NoPlan(planned) => text::plan(&planned.solved, lang),
         TaskEnding::Stuck(surprise) => {
             let what = surprise_in_words(world, surprise, lang.language());

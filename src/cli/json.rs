@@ -301,6 +301,10 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         }
         TaskEnding::Done | TaskEnding::AlreadyTrue => {}
     }
+    if let Some(position) = &answer.reported {
+        view["ru"] = json!(position.say(Language::Russian));
+        view["en"] = json!(position.say(Language::English));
+    }
     view
 }
 

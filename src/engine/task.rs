@@ -81,6 +81,8 @@ pub struct TaskAnswer {
     pub replans: usize,
     pub seconds: f64,
     pub ending: TaskEnding,
+    /// Where the robot stands, when it was told to report and no directive ends with a report.
+    pub reported: Option<Position>,
     /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
     pub after: Option<After>,
 }
@@ -217,6 +219,9 @@ impl Engine {
         }
         let trace = drive.trace();
         let last = trace.last().expect("a run begins with a moment");
+        let must_report =
+            reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report));
+        let reported = must_report.then(|| self.locate(last.map, last.pose, false));
         Ok(TaskAnswer {
             goal: goals.concat(),
             map,
@@ -227,6 +232,7 @@ impl Engine {
             replans: plans - begun,
             seconds: last.time,
             ending,
+            reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
         })
     }
