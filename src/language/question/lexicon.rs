@@ -47,7 +47,7 @@ pub enum Extension {
     Robot,
     /// What gives light, and the switches for it.
     Lighting,
-    /// A sort above the map's types, by its place among [`purposes::SORTS`].
+    /// A sort above the map's types, by its place among the sorts that people name.
     Sort(u16),
 }
 
