@@ -1,0 +1,138 @@
+//! Which things of the map fit a description, and which one is taken of several.
+
+use std::ops::Range;
+
+use super::Settler;
+use crate::language::question::Doubt;
+use crate::language::question::query::{Filter, Noun, Rel, Restriction, Thing};
+use crate::units::AreaId;
+
+impl Settler<'_, '_> {
+    pub(super) fn candidates(
+        &self,
+        noun: &Noun,
+        within: &[Restriction],
+    ) -> Result<Vec<Thing>, Doubt> {
+        let knowledge = self.knowledge;
+        let either = |rel: Rel| {
+            let within: Vec<Restriction> = within
+                .iter()
+                .map(|r| {
+                    let from = matches!(r.rel, Rel::From | Rel::At);
+                    Restriction { rel: if from { rel } else { r.rel }, ..r.clone() }
+                })
+                .collect();
+            knowledge.find(&with(noun, &within), true)
+        };
+        // «со стола», «из шкафа», "from the shelf": on it or in it.
+        let mut found = either(Rel::On)?;
+        if found.is_empty() && within.iter().any(|r| matches!(r.rel, Rel::From | Rel::At)) {
+            found = either(Rel::In)?;
+        }
+        // "the bedroom door", «дверь спальни» where the map says "in".
+        if found.is_empty() && within.iter().any(|r| r.rel == Rel::On) {
+            let inside = within.iter().map(|r| match r.rel {
+                Rel::On => Restriction { rel: Rel::In, ..r.clone() },
+                _ => r.clone(),
+            });
+            found = knowledge.find(&with(noun, &inside.collect::<Vec<_>>()), true)?;
+        }
+        found.retain(|t| matches!(t, Thing::Entity(_)));
+        Ok(found)
+    }
+
+    /// «комнату 2»: of several, the one whose name ends so.
+    pub(super) fn tagged(&self, words: &Range<usize>, found: Vec<Thing>) -> Vec<Thing> {
+        let Some(number) = self.number_after(words) else { return found };
+        let ends = |t: &Thing| {
+            let name = crate::units::name_key(&self.knowledge.name(*t));
+            name.rsplit([' ', '-']).next() == Some(number)
+        };
+        let tagged: Vec<Thing> = found.iter().copied().filter(ends).collect();
+        if tagged.is_empty() { found } else { tagged }
+    }
+
+    pub(super) fn one(
+        &self,
+        noun: &Noun,
+        within: &[Restriction],
+        found: &[Thing],
+        at: Range<usize>,
+    ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
+        match found {
+            [only] => Ok(Some(*only)),
+            [] if is_described(noun, within) && !self.knowledge.base(&noun.head).is_empty() => {
+                Err((self.knowledge.none_such(&with(noun, &self.resting(within))), at))
+            }
+            [] => Ok(None),
+            _ => match (self.strict)(&noun.text).map(Thing::Entity) {
+                Some(thing) if found.contains(&thing) && !is_described(noun, within) => {
+                    Ok(Some(thing))
+                }
+                _ => Err((self.knowledge.ambiguous(noun, found), at)),
+            },
+        }
+    }
+
+    /// Places from which something is taken, as those where it was looked for.
+    fn resting(&self, within: &[Restriction]) -> Vec<Restriction> {
+        let rests = |r: &Restriction| {
+            let mut anchors = r.anchors.iter().flat_map(|a| self.knowledge.base(&a.head));
+            let are_rooms = anchors.all(|t| t.area().is_some());
+            let rel = match r.rel {
+                Rel::From | Rel::At if are_rooms => Rel::In,
+                Rel::From | Rel::At => Rel::On,
+                rel => rel,
+            };
+            Restriction { rel, ..r.clone() }
+        };
+        within.iter().map(rests).collect()
+    }
+
+    pub(super) fn nearest(&self, found: &[Thing]) -> Option<Thing> {
+        match found {
+            [] => None,
+            [only] => Some(*only),
+            _ => self.nearest_of(found, 1).first().copied().or_else(|| found.first().copied()),
+        }
+    }
+
+    /// The room in which the robot is.
+    pub(super) fn here(&self) -> Option<AreaId> {
+        let (map, pose) = self.knowledge.senses.robot()?;
+        self.knowledge.relations.measurements().area_at(map, pose.at)
+    }
+
+    /// So many of some things, those in the robot's own room first, and then by their distance.
+    pub(super) fn nearest_of(&self, found: &[Thing], wanted: usize) -> Vec<Thing> {
+        let knowledge = self.knowledge;
+        let here = self.here();
+
+        let mut ranked: Vec<(bool, f64, Thing)> = found
+            .iter()
+            .map(|t| {
+                let away = knowledge.area_of(*t) != here;
+                (away, knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY), *t)
+            })
+            .collect();
+        ranked.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.cmp(&b.2)));
+        ranked.into_iter().take(wanted).map(|(_, _, t)| t).collect()
+    }
+}
+
+/// A description with places that belong to it.
+pub(super) fn with(noun: &Noun, within: &[Restriction]) -> Noun {
+    let mut noun = noun.clone();
+    noun.restrictions.extend(within.iter().cloned());
+    noun
+}
+
+/// Whether more than the noun itself tells what is meant.
+pub(super) fn is_described(noun: &Noun, within: &[Restriction]) -> bool {
+    let filters: &[Filter] = &noun.filters;
+    !filters.is_empty()
+        || !noun.restrictions.is_empty()
+        || noun.best.is_some()
+        || noun.rank.is_some()
+        || !within.is_empty()
+}

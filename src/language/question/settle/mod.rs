@@ -1,0 +1,319 @@
+//! Commands made plain: every description is replaced by the name of the thing that it means.
+//!
+//! «Принеси красную чашку со стола в кухне» becomes «Принеси Чашку-2», «Закрой все двери» the names of all doors. Where
+//! a thing is said to be narrows what it may be; whither it is to go does not. What the verb can be done to comes
+//! before what it cannot: of a book and a lamp, only the lamp is switched on.
+//!
+//! Invariant: of several things that are left none is chosen, unless any was asked for («какую-нибудь», "a cup",
+//! «найди чашку»): then it is the nearest.
+
+mod choice;
+mod object;
+mod place;
+mod reply;
+mod words;
+
+use std::ops::Range;
+
+use object::More;
+use place::{Spot, case_of};
+pub(super) use reply::Waiting;
+
+use super::grammar::{Item, Phrase, Sentence};
+use super::knowledge::Knowledge;
+use super::query::{Rel, Restriction, Thing};
+use super::vocabulary::Mark;
+use super::{Asker, Doubt, Memory, Misread, Unanswered};
+use crate::language::command::{self, Sort};
+use crate::language::words::{Case, NounPhrase, enumerate};
+use crate::map::Entity;
+use crate::units::AreaId;
+
+/// What a bare noun means by itself, where that is one thing: «стол» the one table that is no desk.
+pub type Strict<'a> = dyn Fn(&str) -> Option<Entity> + 'a;
+
+/// A change of the text, and the things whose names it puts there.
+struct Edit {
+    at: Range<usize>,
+    name: String,
+    things: Vec<Thing>,
+}
+
+impl Edit {
+    fn deletion(at: &Range<usize>) -> Self {
+        Self { at: at.clone(), name: String::new(), things: Vec::new() }
+    }
+}
+
+/// A command with names for descriptions, and what the names mean, in the order of the text.
+#[derive(Debug, Clone)]
+pub struct Settled {
+    pub text: String,
+    pub meant: Vec<Thing>,
+}
+
+impl Asker<'_> {
+    /// A command with its descriptions replaced by names. Words that nothing knows stay as they are.
+    ///
+    /// # Errors
+    /// A description that several things fit, or none; then the memory waits for an answer.
+    pub fn settle(
+        &self,
+        text: &str,
+        memory: &mut Memory,
+        strict: &Strict<'_>,
+    ) -> Result<Settled, Misread> {
+        let waiting = memory.waiting.take();
+        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+            return Ok(Settled { text: text.to_owned(), meant: Vec::new() });
+        }
+        let gathered = command::gathered(text);
+        let text = self.with_kind(self.plain(&gathered).into_owned(), memory);
+        // "Open the lab door" orders; it does not speak of the open one.
+        let described = command::without_verbs(&text);
+        let sentence = Sentence::new(&described, &self.mind.lexicon);
+        let language = sentence.language;
+        let settled = {
+            let knowledge = self.knowledge(language, memory);
+            let spoken = match waiting {
+                Some(waiting) => waiting.candidates,
+                None => memory.last.clone(),
+            };
+            let settler = Settler { knowledge: &knowledge, sentence: &sentence, strict, spoken };
+            settler.settle(&text)
+        };
+        match settled {
+            Ok(mut edits) => {
+                edits.sort_by_key(|edit| edit.at.start);
+                let meant = edits.iter().flat_map(|edit| edit.things.clone()).collect();
+                let mut settled = text;
+                let mut until = usize::MAX;
+                // From the end, so that the places before stay where they are.
+                for edit in edits.into_iter().rev().filter(|edit| !edit.at.is_empty()) {
+                    if edit.at.end <= until {
+                        until = edit.at.start;
+                        settled.replace_range(edit.at, &edit.name);
+                    }
+                }
+                Ok(Settled { text: settled, meant })
+            }
+            Err((doubt, at)) => {
+                if let Doubt::Ambiguous { candidates, .. } = &doubt {
+                    let candidates = candidates.clone();
+                    memory.waiting = Some(Waiting { text, at, candidates, language });
+                }
+                let unanswered: Unanswered = self.knowledge(language, memory).unanswered(doubt);
+                Err(Misread(Box::new(unanswered)))
+            }
+        }
+    }
+
+    /// «Принеси ещё одну»: with the noun of what was spoken of last.
+    fn with_kind(&self, mut text: String, memory: &Memory) -> String {
+        let words = crate::language::words::word_ranges(&text);
+        let key = |n: usize| words.get(n).map(|w| crate::units::name_key(&text[w.clone()]));
+        let is = |n: usize, all: &[&str]| key(n).is_some_and(|key| all.contains(&key.as_str()));
+        let said = (0..words.len())
+            .find(|&n| is(n, &["еще"]) && is(n + 1, &["одну", "один", "одно", "одного"]));
+        let ends = |n: usize| {
+            let rest = words.get(n).map_or("", |next| &text[words[n - 1].end..next.start]);
+            n == words.len() || !rest.trim().is_empty() || is(n, &["и", "пожалуйста", "мне"])
+        };
+        let spoken = memory.last_things().into_iter().rev().find_map(|t| t.replica());
+        let object = spoken.and_then(|id| self.world.replicas.get(&id)).map(|r| r.object);
+        let object = object.and_then(|object| self.world.objects.get(&object));
+        let kind = object.and_then(|object| self.world.types.object.get(object.object_type));
+        if let (Some(said), Some(kind)) = (said.filter(|said| ends(said + 2)), kind) {
+            let hints = crate::language::names::hints_of_type(kind);
+            let noun = NounPhrase::parse(&kind.name.to_lowercase(), &hints).case(Case::Accusative);
+            text.insert_str(words[said + 1].end, &format!(" {noun}"));
+        }
+        text
+    }
+}
+
+impl Knowledge<'_> {
+    /// Several names as one argument of a command.
+    fn listed(&self, things: &[Thing], case: Case) -> String {
+        let names: Vec<String> = things.iter().map(|t| self.form(*t, case)).collect();
+        enumerate(&names, self.language)
+    }
+}
+
+struct Settler<'s, 'k> {
+    knowledge: &'s Knowledge<'k>,
+    sentence: &'s Sentence<'s>,
+    strict: &'s Strict<'s>,
+    /// What "the red one" may be: what was asked about, or the last answer.
+    spoken: Vec<Thing>,
+}
+
+impl Settler<'_, '_> {
+    fn bytes(&self, words: &Range<usize>) -> Range<usize> {
+        match (
+            self.sentence.words.get(words.start),
+            self.sentence.words.get(words.end.saturating_sub(1)),
+        ) {
+            (Some(first), Some(last)) => first.start..last.end,
+            _ => 0..0,
+        }
+    }
+
+    /// What the place that says whither means, by name; places in which that one is go with it.
+    fn whither<'i>(
+        &self,
+        spot: &Spot<'i>,
+        others: &mut Vec<&Spot<'i>>,
+        sort: Sort,
+        edits: &mut Vec<Edit>,
+    ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
+        let mut within = spot.within.clone();
+        let mut aside = Vec::new();
+        others.retain(|other| {
+            // «в спальню на кровать»: whither too, and where that is.
+            let whither = self.is_whither(other.rel, other.phrase) == Some(true);
+            let rooms = self.knowledge.base(&other.phrase.noun.head);
+            let whither = whither && rooms.iter().all(|t| t.area().is_some());
+            if whither && matches!(sort, Sort::Put | Sort::Carry | Sort::Go) {
+                let anchors = vec![other.phrase.noun.clone()];
+                within.push(Restriction { rel: Rel::In, anchors, negated: false });
+                aside.push(other.at.clone());
+            }
+            !whither
+        });
+        let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
+        edits.extend(aside.iter().map(Edit::deletion));
+        let name = self.knowledge.form(thing, case_of(spot.rel, true));
+        edits.push(Edit { at: self.said(&spot.phrase.words), name, things: vec![thing] });
+        edits.extend(spot.attached.iter().map(Edit::deletion));
+        Ok(Some(thing))
+    }
+
+    /// The bytes of a description, with the number after it.
+    fn said(&self, words: &Range<usize>) -> Range<usize> {
+        let mut said = self.bytes(words);
+        if self.number_after(words).is_some() {
+            said.end = self.sentence.words[words.end].end;
+        }
+        said
+    }
+
+    fn settle(&self, text: &str) -> Result<Vec<Edit>, (Doubt, Range<usize>)> {
+        let items = self.sentence.items();
+        let clauses = command::clauses(text);
+        let clause_at =
+            |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
+        let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
+        let spots = self.spots(&items, clause_at, &sort);
+        let mut edits = Vec::new();
+        let mut told_place: Option<Thing> = self.knowledge.memory.last_thing();
+        // The room into which an earlier clause sends the robot.
+        let mut gone_to: Option<AreaId> = None;
+        let count = clauses.len().max(1);
+        for clause in 0..count {
+            let sort = sort(clause);
+            let mut own: Vec<&Spot<'_>> = spots.iter().filter(|s| s.clause == clause).collect();
+            let objects: Vec<(usize, &Phrase)> = items
+                .iter()
+                .enumerate()
+                .filter_map(|(n, item)| match item {
+                    Item::Noun(phrase) if clause_at(self.bytes(&phrase.words).start) == clause => {
+                        Some((n, phrase))
+                    }
+                    _ => None,
+                })
+                .collect();
+            let goal = self.destination(sort, &own, !objects.is_empty());
+            let whither = match goal {
+                Some(goal) => self.whither(own.remove(goal), &mut own, sort, &mut edits)?,
+                None => None,
+            };
+            let says_there = objects.iter().any(|(_, p)| matches!(p.person, Some(Mark::There)));
+            // «Принеси оттуда» tells where it is, «принеси туда» whither.
+            let whence = |phrase: &Phrase| self.sentence.keys[phrase.words.start] == "оттуда";
+            let is_where = !matches!(sort, Sort::Go | Sort::Put | Sort::Carry)
+                || objects.iter().any(|(_, p)| p.person.is_some() && whence(p));
+            let there = told_place.filter(|_| says_there && is_where);
+            let there = there.and_then(|t| self.knowledge.area_of(t));
+            let mut skipped = None;
+            for (n, (at, phrase)) in objects.iter().enumerate() {
+                if skipped == Some(phrase.words.start) {
+                    continue;
+                }
+                if let Some(Mark::There) = phrase.person {
+                    if there.is_some() {
+                        edits.push(Edit::deletion(&self.bytes(&phrase.words)));
+                    } else if let (Some(thing), None, Sort::Go | Sort::Put | Sort::Carry) =
+                        (told_place, goal, sort)
+                    {
+                        let to = self.knowledge.pick("к ", "to ");
+                        let name = self.knowledge.form(thing, Case::Dative);
+                        let at = self.bytes(&phrase.words);
+                        edits.push(Edit { at, name: format!("{to}{name}"), things: vec![thing] });
+                    }
+                    continue;
+                }
+                if phrase.pronoun.is_some() || phrase.person.is_some() {
+                    continue;
+                }
+                // What cannot be done is not asked about either.
+                if matches!(sort, Sort::Other | Sort::Leave)
+                    && self.object(sort, phrase, &[], More::default()).is_err()
+                {
+                    continue;
+                }
+                let until = objects.get(n + 1).map_or(usize::MAX, |(next, _)| *next);
+                let mine: Vec<&&Spot<'_>> = own
+                    .iter()
+                    .filter(|s| s.item < until && (s.item > *at || n == 0))
+                    .filter(|s| !self.is_cut_off(&items, *at, s.item))
+                    .collect();
+                // «дверь coe_door»: a kind, and the name that tells which.
+                let apposed = objects.get(n + 1).filter(|(_, next)| {
+                    next.words.start == phrase.words.end
+                        && !self.is_parted(next.words.start)
+                        && self.names_one_of(next, phrase)
+                });
+                if apposed.is_some() {
+                    edits.push(Edit::deletion(&self.bytes(&phrase.words)));
+                    continue;
+                }
+                let more = More {
+                    value: self.value_after(&items, *at, phrase).map(|(value, _)| value),
+                    except: self.except_after(&items, *at).map(|except| except.noun.clone()),
+                    there,
+                    gone_to,
+                };
+                if let Some(things) = self.object(sort, phrase, &mine, more)? {
+                    let name = self.knowledge.listed(&things, Case::Accusative);
+                    let mut said = self.said(&phrase.words);
+                    if let Some((_, words)) = self.value_after(&items, *at, phrase) {
+                        said.end = self.bytes(&words).end;
+                    }
+                    let end = said.end;
+                    edits.push(Edit { at: said, name, things: things.clone() });
+                    for spot in mine {
+                        edits.push(Edit::deletion(&spot.at));
+                        edits.extend(spot.attached.iter().map(Edit::deletion));
+                    }
+                    if let Some(except) = self.except_after(&items, *at) {
+                        edits.push(Edit::deletion(&(end..self.bytes(&except.words).end)));
+                        skipped = Some(except.words.start);
+                    }
+                    told_place = things.last().copied().or(told_place);
+                } else {
+                    self.left_standing(&mine, &mut edits);
+                }
+            }
+            if objects.is_empty() {
+                let own: Vec<&&Spot<'_>> = own.iter().collect();
+                self.left_standing(&own, &mut edits);
+            }
+            told_place = whither.or(told_place);
+            if sort == Sort::Go {
+                gone_to = whither.and_then(Thing::area).or(gone_to);
+            }
+        }
+        Ok(edits)
+    }
+}

@@ -1,0 +1,191 @@
+//! What a clause of a command speaks of.
+
+use std::ops::Range;
+
+use super::Settler;
+use super::choice::with;
+use super::place::Spot;
+use crate::language::command::Sort;
+use crate::language::question::Doubt;
+use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::language::question::values::ValueId;
+use crate::map::Entity;
+use crate::units::AreaId;
+
+/// What follows a noun and tells more of it.
+#[derive(Default)]
+pub(super) struct More {
+    pub(super) value: Option<ValueId>,
+    pub(super) except: Option<Noun>,
+    /// The room of which it is said to be there.
+    pub(super) there: Option<AreaId>,
+    /// The room into which the sentence sends the robot before.
+    pub(super) gone_to: Option<AreaId>,
+}
+
+impl Settler<'_, '_> {
+    /// What a clause speaks of.
+    pub(super) fn object(
+        &self,
+        sort: Sort,
+        phrase: &Phrase,
+        spots: &[&&Spot<'_>],
+        more: More,
+    ) -> Result<Option<Vec<Thing>>, (Doubt, Range<usize>)> {
+        let at = self.bytes(&phrase.words);
+        let mut noun = phrase.noun.clone();
+        noun.filters.extend(more.value.map(|value| Filter::new(value, false)));
+        noun.except.extend(more.except);
+        noun.indefinite |= self.is_any(&phrase.words);
+        noun.other |= self.is_one_more(&phrase.words);
+        if noun.head.anything && (noun.all || noun.text.to_lowercase().contains("everything")) {
+            // "Turn off everything in the kitchen"
+            noun.plural = true;
+        } else if noun.head.anything && noun.other {
+            noun.head = Head { things: Some(self.like_spoken()), ..Head::default() };
+        } else if noun.head.anything && !self.spoken.is_empty() {
+            noun.head = Head { things: Some(self.spoken.clone()), ..Head::default() };
+            // "the second one", in the order in which they were told
+            if let (Some(rank), None) = (noun.rank, &noun.best) {
+                let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
+                return Ok(self.spoken.get(at).map(|t| vec![*t]));
+            }
+        }
+        let noun = &noun;
+        let mut within: Vec<Restriction> = Vec::new();
+        for spot in spots {
+            let anchors = vec![with(&spot.phrase.noun, &spot.within)];
+            let rel = match (sort, spot.rel) {
+                // «дверь из кухни в коридор»
+                (Sort::Door, Rel::To | Rel::In | Rel::On | Rel::From | Rel::Through | Rel::Of) => {
+                    Rel::Of
+                }
+                (_, rel) => rel,
+            };
+            let anchors = match spot.rel {
+                Rel::Between => self.both_ends(spot).unwrap_or(anchors),
+                _ => anchors,
+            };
+            within.push(Restriction { rel, anchors, negated: false });
+        }
+        if self.is_strange(&phrase.words) {
+            return Ok(None);
+        }
+        let found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
+        let mut found = self.tagged(&phrase.words, found);
+        if let Some(there) = more.there {
+            found.retain(|t| self.knowledge.area_of(*t) == Some(there));
+        }
+        if noun.other {
+            let given = |t: &Thing| {
+                t.replica().is_some_and(|id| self.knowledge.senses.holder(id).is_some())
+            };
+            found.retain(|t| !given(t));
+        }
+        let able: Vec<Thing> = found.iter().copied().filter(|t| self.can(sort, *t)).collect();
+        if !able.is_empty() {
+            found = able;
+        } else if matches!(sort, Sort::Switch | Sort::Door | Sort::Carry | Sort::Put) {
+            // None of them can be: that is said of one, and not asked which.
+            found.truncate(1);
+        }
+        let lights = |kind| self.knowledge.lexicon().kind(kind).extension == Extension::Lighting;
+        let of_light = noun.head.named.is_empty() && noun.head.kinds.iter().any(|k| lights(*k));
+        if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()) {
+            let wanted = usize::try_from(wanted).unwrap_or(usize::MAX);
+            let chosen = match found.len() <= wanted {
+                true => found,
+                false => self.nearest_of(&found, wanted),
+            };
+            return Ok((!chosen.is_empty()).then_some(chosen));
+        }
+        let several = noun.plural || noun.all || (sort == Sort::Switch && of_light);
+        if several && !found.is_empty() {
+            return Ok(Some(found));
+        }
+        // «Поезжай на кухню и возьми чашку»: the one that is there.
+        let near = |t: &&Thing| self.knowledge.area_of(**t) == more.gone_to;
+        if let (Some(_), true, [only]) = (
+            more.gone_to,
+            found.len() > 1,
+            &found.iter().filter(near).copied().collect::<Vec<_>>()[..],
+        ) {
+            found = vec![*only];
+        }
+        if (noun.indefinite || sort == Sort::Find || noun.other && self.is_one_more(&phrase.words))
+            && let Some(nearest) = self.nearest(&found)
+        {
+            return Ok(Some(vec![nearest]));
+        }
+        if sort == Sort::Put && found.len() > 1 {
+            // What is put down is what the robot has in its hands.
+            let held = self.knowledge.senses.held();
+            let in_hand = |t: &&Thing| t.replica().is_some_and(|id| held.contains(&id));
+            let held: Vec<Thing> = found.iter().filter(in_hand).copied().collect();
+            if held.len() == 1 {
+                return Ok(Some(held));
+            }
+        }
+        Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// Whatever is of the kind of what was spoken of last: «ещё одну», "another one".
+    fn like_spoken(&self) -> Vec<Thing> {
+        let world = self.knowledge.world;
+        let kind = |object| world.objects.get(&object).and_then(|object| object.object_type);
+        let spoken = self.spoken.iter().rev().filter_map(|t| t.replica());
+        let mut kinds = spoken.filter_map(|id| kind(world.replicas.get(&id)?.object));
+        let Some(wanted) = kinds.next() else { return Vec::new() };
+        let alike = world.replicas.values().filter(|r| kind(r.object) == Some(wanted));
+        alike.map(|r| Thing::Entity(Entity::Replica(r.id))).collect()
+    }
+
+    /// «ещё одну книгу», "another book": any that was not spoken of, where «другую» is the one that is left.
+    fn is_one_more(&self, words: &Range<usize>) -> bool {
+        let keys = &self.sentence.keys[words.start.saturating_sub(2)..words.end];
+        keys.iter().any(|key| matches!(key.as_str(), "еще" | "another"))
+    }
+
+    /// «любую книгу»: a question would ask about all of them.
+    pub(super) fn is_any(&self, words: &Range<usize>) -> bool {
+        const ANY: [&str; 8] = [
+            "любую",
+            "любой",
+            "любое",
+            "any",
+            "какую нибудь",
+            "some",
+            "какой нибудь",
+            "какое нибудь",
+        ];
+        let said =
+            |n: usize| self.sentence.keys.get(n).is_some_and(|key| ANY.contains(&key.as_str()));
+        said(words.start) || words.start.checked_sub(1).is_some_and(said)
+    }
+
+    /// «между кухней и коридором»
+    fn both_ends(&self, spot: &Spot<'_>) -> Option<Vec<Noun>> {
+        match &self.sentence.items()[spot.item] {
+            Item::Place { nouns, .. } => Some(nouns.iter().map(|p| p.noun.clone()).collect()),
+            _ => None,
+        }
+    }
+
+    /// Whether a verb of this sort can be done to a thing at all.
+    fn can(&self, sort: Sort, thing: Thing) -> bool {
+        let world = self.knowledge.world;
+        let has = |wanted: &str| thing.replica().is_some_and(|id| world.has_trait(id, wanted));
+        match (sort, thing) {
+            (Sort::Carry | Sort::Put, _) => has("portable"),
+            (Sort::Switch, _) => has("device"),
+            (Sort::Door, Thing::Entity(Entity::Door(door))) => {
+                self.knowledge.relations.joins().iter().any(|j| j.door == Some(door))
+                    && world.doors.get(&door).is_some_and(|d| !d.leaves.is_empty())
+            }
+            (Sort::Door, _) => false,
+            (Sort::Go | Sort::Find | Sort::Leave | Sort::Other, _) => true,
+        }
+    }
+}

@@ -1,0 +1,199 @@
+//! The places of a command: which of them say whither, and which tell where another one is.
+
+use std::ops::Range;
+
+use super::choice::is_described;
+use super::{Edit, Settler};
+use crate::language::command::{self, Sort};
+use crate::language::question::Doubt;
+use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::query::{Noun, Rel, Restriction, Thing};
+use crate::language::words::{Case, Language};
+
+/// A place that was said: the preposition, what follows it, and the places that tell where that is.
+pub(super) struct Spot<'i> {
+    pub(super) rel: Rel,
+    pub(super) phrase: &'i Phrase,
+    pub(super) within: Vec<Restriction>,
+    /// Bytes, with the preposition.
+    pub(super) at: Range<usize>,
+    /// Of the places that tell where this one is.
+    pub(super) attached: Vec<Range<usize>>,
+    pub(super) clause: usize,
+    /// The item at which it stands.
+    pub(super) item: usize,
+}
+
+impl Settler<'_, '_> {
+    /// Places whose thing was not found out keep their words; those that mean one thing become its name.
+    pub(super) fn left_standing(&self, spots: &[&&Spot<'_>], edits: &mut Vec<Edit>) {
+        for spot in spots {
+            if let Ok(found) = self.candidates(&spot.phrase.noun, &spot.within)
+                && let [only] = found[..]
+                && is_described(&spot.phrase.noun, &spot.within)
+            {
+                let case = case_of(spot.rel, false);
+                let at = self.bytes(&spot.phrase.words);
+                edits.push(Edit { at, name: self.knowledge.form(only, case), things: vec![only] });
+                edits.extend(spot.attached.iter().map(Edit::deletion));
+            }
+        }
+    }
+
+    /// The places of a sentence, each with those that tell where it is.
+    pub(super) fn spots<'i>(
+        &self,
+        items: &'i [Item],
+        clause_at: impl Fn(usize) -> usize,
+        sort: &impl Fn(usize) -> Sort,
+    ) -> Vec<Spot<'i>> {
+        let mut spots: Vec<Spot<'i>> = Vec::new();
+        for (n, item) in items.iter().enumerate() {
+            let Item::Place { rel, nouns, .. } = item else { continue };
+            let Some(phrase) = nouns.first() else { continue };
+            if phrase.pronoun.is_some() || phrase.person.is_some() {
+                continue;
+            }
+            let last = nouns.last().map_or(phrase.words.end, |p| p.words.end);
+            let before = match n.checked_sub(1).map(|n| &items[n]) {
+                Some(Item::Noun(p)) => Some(p.words.end),
+                Some(Item::Place { nouns, .. }) => nouns.last().map(|p| p.words.end),
+                _ => None,
+            };
+            let link = command::link_before(&self.sentence.keys, phrase.words.start);
+            let from = before.unwrap_or(phrase.words.start - link).min(phrase.words.start);
+            let at = self.bytes(&(from..last));
+            let clause = clause_at(at.start);
+            let anchors: Vec<Noun> = nouns.iter().map(|p| p.noun.clone()).collect();
+            let restriction = Restriction { rel: *rel, anchors, negated: false };
+            let adjacent = matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Place { .. }));
+            if let Some(last) = spots.last_mut()
+                && adjacent
+                && last.clause == clause
+                && self.tells_where(last, *rel, phrase, sort(clause))
+            {
+                last.within.push(restriction);
+                last.attached.push(at);
+                continue;
+            }
+            spots.push(Spot {
+                rel: *rel,
+                phrase,
+                within: Vec::new(),
+                at,
+                attached: Vec::new(),
+                clause,
+                item: n,
+            });
+        }
+        spots
+    }
+
+    /// Whether a place that follows another tells where that one is: «на столе в кухне», "the chair next to the bed".
+    fn tells_where(&self, last: &Spot<'_>, rel: Rel, phrase: &Phrase, sort: Sort) -> bool {
+        let area = |phrase: &Phrase| {
+            let base = self.knowledge.base(&phrase.noun.head);
+            !base.is_empty() && base.iter().all(|t| t.area().is_some())
+        };
+        if sort == Sort::Door || self.is_whither(rel, phrase) == Some(true) {
+            return false;
+        }
+        match rel {
+            Rel::In | Rel::On | Rel::At | Rel::From => area(phrase) && !area(last.phrase),
+            Rel::To | Rel::Through => false,
+            // A room is not told by what it is beside.
+            _ => !area(last.phrase),
+        }
+    }
+
+    /// Whether a place says whither, by its preposition or its case; none where that depends on the verb.
+    pub(super) fn is_whither(&self, rel: Rel, phrase: &Phrase) -> Option<bool> {
+        match (rel, self.sentence.language) {
+            (Rel::To, _) => Some(true),
+            (Rel::From | Rel::Through, _) => Some(false),
+            (Rel::In | Rel::On | Rel::Under | Rel::Behind, Language::Russian) => {
+                let accusative = phrase.cases.iter().any(|r| r.has_case(Case::Accusative));
+                let place = match rel {
+                    Rel::In | Rel::On => Case::Locative,
+                    _ => Case::Instrumental,
+                };
+                let place = phrase.cases.iter().any(|r| {
+                    r.has_case(place)
+                        || (place == Case::Locative && r.has_case(Case::Prepositional))
+                });
+                (accusative != place).then_some(accusative)
+            }
+            // "into", "onto" are "in" and "on" to a question.
+            (Rel::In | Rel::On, Language::English) => {
+                let word =
+                    phrase.words.start.checked_sub(1).and_then(|n| self.sentence.keys.get(n));
+                matches!(word.map(String::as_str), Some("into" | "onto")).then_some(true)
+            }
+            _ => None,
+        }
+    }
+
+    /// Which of a clause's places is where the robot or the thing is to go.
+    pub(super) fn destination(
+        &self,
+        sort: Sort,
+        spots: &[&Spot<'_>],
+        has_object: bool,
+    ) -> Option<usize> {
+        let told = |whither: bool| {
+            let fits = |s: &&Spot<'_>| self.is_whither(s.rel, s.phrase) == Some(whither);
+            spots.iter().rposition(fits)
+        };
+        let open = || spots.iter().rposition(|s| self.is_whither(s.rel, s.phrase).is_none());
+        match sort {
+            Sort::Go => told(true)
+                .or_else(open)
+                .or_else(|| spots.iter().rposition(|s| !matches!(s.rel, Rel::From | Rel::Through))),
+            Sort::Put => told(true).or_else(open).or_else(|| {
+                // «Положи книгу на столе»: no other place is told.
+                let one = spots.len() == 1 && !matches!(spots[0].rel, Rel::From);
+                (one && has_object).then_some(0)
+            }),
+            Sort::Carry => told(true),
+            Sort::Door | Sort::Switch | Sort::Find | Sort::Leave | Sort::Other => None,
+        }
+    }
+
+    /// The one thing that a place means, none where the words are left to be read as they are.
+    pub(super) fn place(
+        &self,
+        spot: &Spot<'_>,
+        within: &[Restriction],
+    ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
+        let noun = &spot.phrase.noun;
+        let at = self.bytes(&spot.phrase.words);
+        if self.is_strange(&spot.phrase.words) {
+            return Ok(None);
+        }
+        let mut found = self.candidates(noun, within).map_err(|doubt| (doubt, at.clone()))?;
+        if noun.other {
+            let here = self.here();
+            found.retain(|t| t.area().is_none() || t.area() != here);
+        }
+        if (noun.indefinite || self.is_any(&spot.phrase.words))
+            && let Some(nearest) = self.nearest(&found)
+        {
+            return Ok(Some(nearest));
+        }
+        let found = self.tagged(&spot.phrase.words, found);
+        self.one(noun, within, &found, at)
+    }
+}
+
+/// The case of a name after a preposition.
+pub(super) fn case_of(rel: Rel, whither: bool) -> Case {
+    match rel {
+        Rel::To => Case::Dative,
+        Rel::In | Rel::On if whither => Case::Accusative,
+        Rel::In | Rel::On => Case::Prepositional,
+        Rel::Under | Rel::Behind if whither => Case::Accusative,
+        Rel::Under | Rel::Behind | Rel::InFrontOf | Rel::Above | Rel::Between => Case::Instrumental,
+        Rel::Through => Case::Accusative,
+        _ => Case::Genitive,
+    }
+}

@@ -1,0 +1,133 @@
+//! A command that waits for the person to say which thing was meant, and the reply that lets it go on.
+
+use std::ops::Range;
+
+use crate::language::question::assemble;
+use crate::language::question::grammar::Sentence;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
+use crate::language::question::{Asker, Memory};
+use crate::language::words::{Case, Language, word_ranges};
+use crate::units::name_key;
+
+/// A command that waits for the person to say which thing was meant.
+#[derive(Debug, Clone)]
+pub(in crate::language::question) struct Waiting {
+    pub(super) text: String,
+    /// Bytes of the description.
+    pub(super) at: Range<usize>,
+    pub(super) candidates: Vec<Thing>,
+    pub(super) language: Language,
+}
+
+impl Memory {
+    /// Notes a command that can go on once a name in it is known to mean one of some things.
+    pub fn wait(
+        &mut self,
+        text: &str,
+        at: Range<usize>,
+        candidates: Vec<Thing>,
+        language: Language,
+    ) {
+        self.waiting = Some(Waiting { text: text.to_owned(), at, candidates, language });
+    }
+}
+
+impl Asker<'_> {
+    /// A command that waited to be told which thing was meant, with the thing that these words choose.
+    #[must_use]
+    pub fn resumed(&self, text: &str, memory: &Memory) -> Option<String> {
+        let waiting = memory.waiting.as_ref()?;
+        let knowledge = self.knowledge(waiting.language, memory);
+        let chosen = self.chosen(text, waiting, &knowledge)?;
+        let mut resumed = waiting.text.clone();
+        resumed.replace_range(waiting.at.clone(), &knowledge.listed(&chosen, Case::Accusative));
+        Some(resumed)
+    }
+
+    fn chosen(
+        &self,
+        text: &str,
+        waiting: &Waiting,
+        knowledge: &Knowledge<'_>,
+    ) -> Option<Vec<Thing>> {
+        const ANY: [&str; 9] = [
+            "любую",
+            "любой",
+            "любое",
+            "все равно",
+            "any",
+            "any one",
+            "whichever",
+            "either",
+            "ближайшую",
+        ];
+        const ALL: [&str; 6] = ["все", "обе", "оба", "all", "both", "all of them"];
+        const YES: [&str; 6] = ["да", "ага", "верно", "yes", "yeah", "right"];
+        let candidates = &waiting.candidates;
+        let key = name_key(text.trim_matches(|c: char| !c.is_alphanumeric()));
+        let nearest = Best { extreme: Extreme::Nearest, anchor: None };
+        let among = |noun: Noun| Noun {
+            head: Head { things: Some(candidates.clone()), ..noun.head.clone() },
+            ..noun
+        };
+        if ALL.contains(&key.as_str()) {
+            return Some(candidates.clone());
+        }
+        if ANY.contains(&key.as_str()) {
+            let noun = among(Noun { best: Some(nearest), ..Noun::default() });
+            return knowledge.find(&noun, true).ok()?.first().map(|t| vec![*t]);
+        }
+        if YES.contains(&key.as_str()) && candidates.len() == 1 {
+            return Some(candidates.clone());
+        }
+        let text = &self.plain(without_pointing(text));
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
+        if noun.head.named.is_empty() && noun.head.kinds.is_empty() {
+            noun.head = Head { things: Some(candidates.clone()), ..Head::default() };
+        }
+        // «вторую»: in the order in which they were told.
+        if let (Some(rank), None) = (noun.rank, &noun.best) {
+            let at = usize::try_from(rank).ok()?.checked_sub(1)?;
+            return candidates.get(at).map(|t| vec![*t]);
+        }
+        noun.plural = true;
+        let found = knowledge.find(&noun, true).ok()?;
+        let meant: Vec<Thing> = found.into_iter().filter(|t| candidates.contains(t)).collect();
+        (meant.len() == 1).then_some(meant)
+    }
+}
+
+/// «ту, что на комоде», "the one that is on the dresser": what follows the pointing words tells which.
+fn without_pointing(text: &str) -> &str {
+    const POINTING: [&str; 22] = [
+        "тот",
+        "та",
+        "то",
+        "те",
+        "ту",
+        "той",
+        "что",
+        "который",
+        "которая",
+        "которое",
+        "которую",
+        "стоит",
+        "лежит",
+        "находится",
+        "это",
+        "я",
+        "имел",
+        "имела",
+        "виду",
+        "that",
+        "which",
+        "is",
+    ];
+    let words = word_ranges(text);
+    let points =
+        |range: &&Range<usize>| POINTING.contains(&name_key(&text[(*range).clone()]).as_str());
+    let skipped = words.iter().take_while(points).count();
+    words.get(skipped).map_or(text, |first| &text[first.start..])
+}

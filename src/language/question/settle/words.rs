@@ -1,0 +1,78 @@
+//! The words about a noun: what stands beside it, behind it and between it and others.
+
+use std::ops::Range;
+
+use super::Settler;
+use crate::language::command;
+use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::values::ValueId;
+use crate::language::question::vocabulary::Mark;
+
+impl Settler<'_, '_> {
+    /// «чашку белую»: the value behind its noun.
+    pub(super) fn value_after(
+        &self,
+        items: &[Item],
+        at: usize,
+        phrase: &Phrase,
+    ) -> Option<(ValueId, Range<usize>)> {
+        let Some(Item::Value(value)) = items.get(at + 1) else { return None };
+        let words = phrase.words.end..phrase.words.end + 1;
+        (!self.is_parted(words.start)).then_some((*value, words))
+    }
+
+    /// «все лампы, кроме торшера»
+    pub(super) fn except_after<'i>(&self, items: &'i [Item], at: usize) -> Option<&'i Phrase> {
+        match items.get(at + 1..)? {
+            [Item::Mark(Mark::Except), Item::Noun(except), ..] => Some(except),
+            _ => None,
+        }
+    }
+
+    /// Whether words that nothing knows stand between a thing and a place: "to the person in the kitchen".
+    pub(super) fn is_cut_off(&self, items: &[Item], object: usize, place: usize) -> bool {
+        let between = items.get(object.min(place)..object.max(place)).unwrap_or_default();
+        between.iter().any(|item| match item {
+            Item::Unknown(words) => !command::is_known(&self.sentence.keys, words.start),
+            _ => false,
+        })
+    }
+
+    /// Whether a word that nothing knows belongs to a noun: "a cup of tea" is no cup.
+    pub(super) fn is_strange(&self, words: &Range<usize>) -> bool {
+        let items = self.sentence.items();
+        items.iter().any(|item| match item {
+            Item::Unknown(unknown) => {
+                let beside = unknown.start == words.end || unknown.end == words.start;
+                let gap = unknown.start.max(words.start);
+                let known = command::is_known(&self.sentence.keys, unknown.start);
+                beside && !known && !self.is_parted(gap)
+            }
+            _ => false,
+        })
+    }
+
+    /// Whether a mark stands before a word.
+    pub(super) fn is_parted(&self, word: usize) -> bool {
+        let (Some(before), Some(after)) = (
+            word.checked_sub(1).and_then(|n| self.sentence.words.get(n)),
+            self.sentence.words.get(word),
+        ) else {
+            return true;
+        };
+        before.end > after.start
+            || self.sentence.text[before.end..after.start].contains([',', ';', '.', ':'])
+    }
+
+    pub(super) fn number_after(&self, words: &Range<usize>) -> Option<&str> {
+        let key = self.sentence.keys.get(words.end)?;
+        let is_number = !key.is_empty() && key.chars().all(char::is_numeric);
+        (is_number && !self.is_parted(words.end)).then_some(key)
+    }
+
+    pub(super) fn names_one_of(&self, name: &Phrase, kind: &Phrase) -> bool {
+        let named = self.knowledge.base(&name.noun.head);
+        let all = self.knowledge.base(&kind.noun.head);
+        matches!(&named[..], [only] if all.len() > 1 && all.contains(only))
+    }
+}
