@@ -328,37 +328,6 @@ fn pieces(
     (1..cuts.len()).map(move |i| (cuts[i - 1], cuts[i]))
 }
 
-/// Smallest convex polygon around some points (Andrew's chain), counter-clockwise.
-#[must_use]
-pub fn convex_hull(points: impl IntoIterator<Item = Point>) -> Polygon {
-    let mut points: Vec<Point> = points.into_iter().collect();
-    points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    points.dedup();
-    if points.len() < 3 {
-        return Polygon::new(points);
-    }
-    let mut hull: Vec<Point> = Vec::with_capacity(points.len() + 1);
-    let lower = points.iter();
-    let upper = points.iter().rev().skip(1);
-    let mut floor = 0;
-    for (pass, chain) in [lower.collect::<Vec<_>>(), upper.collect()].into_iter().enumerate() {
-        if pass == 1 {
-            floor = hull.len() - 1;
-        }
-        for &p in chain {
-            while hull.len() >= floor + 2
-                && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp(&(p - hull[hull.len() - 1]))
-                    <= 1e-9
-            {
-                hull.pop();
-            }
-            hull.push(p);
-        }
-    }
-    hull.pop();
-    Polygon::new(hull)
-}
-
 /// Extent of some points along a direction.
 #[must_use]
 pub fn extent(points: &[Point], along: Vector) -> (f64, f64) {
@@ -468,6 +437,7 @@ fn total_area(shapes: &[Vec<Vec<[f64; 2]>>]) -> f64 {
 mod tests {
     use proptest::prelude::*;
 
+    use super::super::convex_hull;
     use super::*;
     use crate::units::Deg;
 
@@ -626,7 +596,8 @@ mod tests {
 
         #[test]
         fn nothing_escapes_from_the_hull(a in star(), b in star()) {
-            let hull = convex_hull(a.polygon.corners.iter().chain(&b.polygon.corners).copied());
+            let corners = a.polygon.corners.iter().chain(&b.polygon.corners).copied();
+            let hull = Polygon::new(convex_hull(corners.collect()));
             prop_assert!(hull.is_convex(1e-9));
             let hull = [Footprint::new(hull)];
             prop_assert!(escape(&a, &[&hull[0]]) < 1e-6);

@@ -177,6 +177,9 @@ impl Polygon {
     }
 }
 
+/// Twice the area in cm² of a corner so flat that a hull goes without it: what turning a rectangle leaves of error.
+const FLAT: f64 = 1e-9;
+
 /// Corners of the convex hull, counter-clockwise and none on a line between two others (Andrew's monotone chain);
 /// fewer than three when all points lie on one line.
 #[must_use]
@@ -186,7 +189,7 @@ pub fn convex_hull(mut points: Vec<Point>) -> Vec<Point> {
         let mut chain: Vec<Point> = Vec::new();
         for &p in points {
             while let [.., a, b] = chain[..] {
-                if (b - a).perp(&(p - b)) > 0.0 {
+                if (b - a).perp(&(p - b)) > FLAT {
                     break;
                 }
                 chain.pop();

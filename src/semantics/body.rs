@@ -4,8 +4,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::geometry::contact::{Footprint, convex_hull, extent, outline};
-use crate::geometry::{Bounds, Polygon};
+use crate::geometry::contact::{Footprint, extent, outline};
+use crate::geometry::{Bounds, Polygon, convex_hull};
 use crate::map::{Object, Permeability, SideRef, World};
 use crate::units::{AreaId, Frame, MapId, ObjectId, Point, ReplicaId, Vector};
 
@@ -127,7 +127,7 @@ impl Kind {
             front: front_of(world, object),
             size: (axis(Vector::x()), axis(Vector::y())),
             container: object_type.is_some_and(|t| t.traits.iter().any(|t| t == "container")),
-            hull: Footprint::new(convex_hull(corners)),
+            hull: Footprint::new(Polygon::new(convex_hull(corners))),
             outline_area,
             outline,
             blocks,

@@ -18,167 +18,14 @@
 //! assert_eq!(position.say(Language::English), "I am in Room-B at the door leading from Room-B to Room-Z.");
 //! ```
 
+mod english;
+mod named;
 pub mod read;
+mod russian;
 
-use super::words::russian::{self, Preposition};
-use super::words::{Case, Gender, Language, NounPhrase, Number, WordHints, english};
+pub use named::{Doorway, Named, Opening};
 
-/// A name of the map in both languages.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Named {
-    /// Boxed, since a doorway holds three names and a report several doorways.
-    russian: Box<NounPhrase>,
-    english: String,
-}
-
-impl Named {
-    /// A name with what the map knows of it. Without an English name one is made where every word is known, and else
-    /// the Russian one is kept.
-    #[must_use]
-    pub fn new(name: &str, hints: &WordHints, english_name: Option<&str>) -> Self {
-        let english = english_name
-            .map(Into::into)
-            .or_else(|| english::name_of(name))
-            .unwrap_or_else(|| name.to_owned());
-        Self { russian: Box::new(NounPhrase::parse(name, hints)), english }
-    }
-
-    /// A name of which nothing more is known.
-    #[must_use]
-    pub fn plain(name: &str) -> Self {
-        Self::new(name, &WordHints::default(), None)
-    }
-
-    #[must_use]
-    pub fn phrase(&self) -> &NounPhrase {
-        &self.russian
-    }
-
-    /// The English name as it is.
-    #[must_use]
-    pub fn english_name(&self) -> &str {
-        &self.english
-    }
-
-    /// The English name within a sentence, with its article.
-    #[must_use]
-    pub fn english(&self) -> String {
-        english::with_article(&self.english)
-    }
-
-    /// The name within a sentence: in a case, or with its article.
-    #[must_use]
-    pub fn form(&self, case: Case, language: Language) -> String {
-        match language {
-            Language::Russian => self.russian.case(case),
-            Language::English => self.english(),
-        }
-    }
-
-    /// "in the corridor", but "on the balcony".
-    fn english_place(&self) -> String {
-        use super::words::PlaceSense::{Inside, Upon};
-        let on = [
-            "balcony", "stairs", "terrace", "porch", "roof", "floor", "storey", "landing",
-            "street", "bridge", "veranda",
-        ];
-        let lower = self.english.to_lowercase();
-        match self.russian.place() {
-            Upon if on
-                .iter()
-                .any(|word| lower.split(|c: char| !c.is_alphabetic()).any(|w| w == *word)) =>
-            {
-                format!("on {}", self.english())
-            }
-            Upon | Inside => format!("in {}", self.english()),
-        }
-    }
-}
-
-/// What leads from one Area to another.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Opening {
-    Door,
-    /// An opening without a leaf.
-    Passage,
-}
-
-/// A door or passage, told by the Areas on its two sides.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Doorway {
-    pub opening: Opening,
-    /// Its own name, where the two Areas do not tell it from another.
-    pub name: Option<Named>,
-    pub from: Named,
-    /// None for a door that leads out of the map.
-    pub to: Option<Named>,
-}
-
-impl Doorway {
-    /// The only door from one Area to another.
-    #[must_use]
-    pub fn door(from: Named, to: Named) -> Self {
-        Self { opening: Opening::Door, name: None, from, to: Some(to) }
-    }
-
-    /// The only passage from one Area to another.
-    #[must_use]
-    pub fn passage(from: Named, to: Named) -> Self {
-        Self { opening: Opening::Passage, ..Self::door(from, to) }
-    }
-
-    /// «к ней», «к нему», «к ним»
-    fn pronoun(&self) -> &'static str {
-        match (&self.name, self.opening) {
-            (Some(name), _) => pronoun(&name.russian),
-            (None, Opening::Door) => "ней",
-            (None, Opening::Passage) => "нему",
-        }
-    }
-
-    /// «двери, ведущей из Комнаты-В в Комнату-Z», in the case that the sentence needs.
-    fn russian(&self, case: Case) -> String {
-        let (noun, gender, number) = match (&self.name, self.opening) {
-            (Some(name), _) => {
-                (name.russian.case(case), name.russian.gender(), name.russian.number())
-            }
-            (None, Opening::Door) => {
-                (common("дверь").case(case), Gender::Feminine, Number::Singular)
-            }
-            (None, Opening::Passage) => {
-                (common("проход").case(case), Gender::Masculine, Number::Singular)
-            }
-        };
-        let leading = russian::agreeing("ведущий", case, number, gender);
-        match &self.to {
-            Some(to) => {
-                format!(
-                    "{noun}, {leading} {} {}",
-                    russian::whence(&self.from.russian),
-                    russian::whither(&to.russian)
-                )
-            }
-            None => format!("{noun}, {leading} {} наружу", russian::whence(&self.from.russian)),
-        }
-    }
-
-    fn english(&self) -> String {
-        let noun = self.name.as_ref().map_or_else(
-            || {
-                if self.opening == Opening::Door {
-                    "the door".to_owned()
-                } else {
-                    "the passage".to_owned()
-                }
-            },
-            Named::english,
-        );
-        match &self.to {
-            Some(to) => format!("{noun} leading from {} to {}", self.from.english(), to.english()),
-            None => format!("{noun} leading out of {}", self.from.english()),
-        }
-    }
-}
+use super::words::Language;
 
 /// How the robot stands to an object that the map has only once, or that is told apart by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -301,13 +148,11 @@ impl Position {
         let spot = self.strongest().filter(|_| detail > Detail::Region);
         let facing = self.facing.as_ref().filter(|_| detail >= Detail::Heading);
         let (start, place, heading) = match language {
-            Language::Russian => (
-                "Я нахожусь",
-                self.russian(spot),
-                facing.map(|facing| facing_in_russian(facing, spot)),
-            ),
+            Language::Russian => {
+                ("Я нахожусь", self.russian(spot), facing.map(|facing| facing.russian(spot)))
+            }
             Language::English => {
-                ("I am", self.english(spot), facing.map(|facing| facing_in_english(facing, spot)))
+                ("I am", self.english(spot), facing.map(|facing| facing.english(spot)))
             }
         };
         let heading = heading.map(|heading| format!(", {heading}")).unwrap_or_default();
@@ -317,199 +162,25 @@ impl Position {
     fn context(&self, spot: Option<&Spot>) -> &Context {
         if spot.is_some() { &self.spot_context } else { &self.context }
     }
-
-    fn russian(&self, spot: Option<&Spot>) -> String {
-        let Some(area) = &self.area else { return "вне карты".into() };
-        let area = &area.russian;
-        let context = self.context(spot);
-        let mark = |case| context.mark.as_ref().map(|m| m.russian(area, case)).unwrap_or_default();
-        // A mark set off by a comma ends with one where the sentence goes on.
-        let at = format!("{}{}", russian::where_at(area), mark(Case::Prepositional));
-        let at = if spot.is_none() { at.trim_end_matches(',').to_owned() } else { at };
-        let of = format!("{}{}", area.case(Case::Genitive), mark(Case::Genitive));
-        let of = match spot {
-            Some(Spot::InCorner(Some(_))) => of,
-            _ => of.trim_end_matches(',').to_owned(),
-        };
-        let near = |thing: &Option<Named>| {
-            thing
-                .as_ref()
-                .map(|thing| {
-                    format!(" {}", russian::with(Preposition::U, Case::Genitive, &thing.russian))
-                })
-                .unwrap_or_default()
-        };
-        let place = match spot {
-            None => at,
-            Some(Spot::InDoorway(door)) => doorway_in_russian(door),
-            Some(Spot::AtDoor(door)) => format!("{at} у {}", door.russian(Case::Genitive)),
-            Some(Spot::Object(beside, object)) => {
-                format!("{at} {}", beside_in_russian(*beside, &object.russian))
-            }
-            Some(Spot::InCorner(thing)) => format!("в углу {of}{}", near(thing)),
-            Some(Spot::AlongWall(thing)) => {
-                format!("{at} у стены{}", near(thing).replacen(" у ", " возле ", 1))
-            }
-            Some(Spot::InMiddle) => format!("в середине {of}"),
-        };
-        let wider = context.within.iter().rev();
-        let wider = wider.map(|wide| russian::where_at(&wide.russian) + " ");
-        wider.chain([place]).collect()
-    }
-
-    fn english(&self, spot: Option<&Spot>) -> String {
-        let Some(area) = &self.area else { return "off the map".into() };
-        let context = self.context(spot);
-        let mark = context.mark.as_ref().map(Mark::english).unwrap_or_default();
-        let (at, of) = (area.english_place() + &mark, area.english() + &mark);
-        let near = |thing: &Option<Named>| {
-            thing.as_ref().map(|thing| format!(" by {}", thing.english())).unwrap_or_default()
-        };
-        let place = match spot {
-            None => at,
-            Some(Spot::InDoorway(door)) => doorway_in_english(door),
-            Some(Spot::AtDoor(door)) => format!("{at} at {}", door.english()),
-            Some(Spot::Object(beside, object)) => {
-                format!("{at} {} {}", beside_in_english(*beside), object.english())
-            }
-            Some(Spot::InCorner(thing)) => format!("in the corner of {of}{}", near(thing)),
-            Some(Spot::AlongWall(thing)) => {
-                format!("{at} by the wall{}", near(thing).replacen(" by ", " near ", 1))
-            }
-            Some(Spot::InMiddle) => format!("in the middle of {of}"),
-        };
-        let wider = context.within.iter().map(|wide| format!(", {}", wide.english_place()));
-        std::iter::once(place).chain(wider).collect()
-    }
 }
 
-impl Mark {
-    /// «, соседней со Спальней,», « с Душем»
-    fn russian(&self, area: &NounPhrase, case: Case) -> String {
-        match self {
-            Self::Adjoining(room) => {
-                let beside = russian::agreeing("соседний", case, area.number(), area.gender());
-                let room = russian::with(Preposition::S, Case::Instrumental, &room.russian);
-                format!(", {beside} {room},")
-            }
-            Self::With(thing) => {
-                format!(" {}", russian::with(Preposition::S, Case::Instrumental, &thing.russian))
-            }
+impl Facing {
+    /// Whether the spot has told already what is faced, so that «к ней» is enough.
+    fn is_told(&self, spot: Option<&Spot>) -> bool {
+        match (self, spot) {
+            (Self::Door(door), Some(Spot::AtDoor(told))) => door == told,
+            (Self::Object(object), Some(Spot::Object(_, told))) => object == told,
+            _ => false,
         }
-    }
-
-    fn english(&self) -> String {
-        match self {
-            Self::Adjoining(room) => format!(" adjoining {}", room.english()),
-            Self::With(thing) => format!(" with {}", thing.english()),
-        }
-    }
-}
-
-fn common(noun: &str) -> NounPhrase {
-    NounPhrase::parse(noun, &WordHints::default())
-}
-
-fn doorway_in_russian(door: &Doorway) -> String {
-    let opening = match (&door.name, door.opening) {
-        (Some(name), _) => format!("в проёме {}", name.russian.case(Case::Genitive)),
-        (None, Opening::Door) => "в дверном проёме".into(),
-        (None, Opening::Passage) => "в проходе".into(),
-    };
-    let from = door.from.russian.case(Case::Instrumental);
-    match &door.to {
-        Some(to) => format!("{opening} между {from} и {}", to.russian.case(Case::Instrumental)),
-        None => format!("{opening} {} наружу", russian::whence(&door.from.russian)),
-    }
-}
-
-fn doorway_in_english(door: &Doorway) -> String {
-    let opening = match (&door.name, door.opening) {
-        (Some(name), _) => format!("in the doorway of {}", name.english()),
-        (None, Opening::Door) => "in the doorway".into(),
-        (None, Opening::Passage) => "in the passage".into(),
-    };
-    match &door.to {
-        Some(to) => format!("{opening} between {} and {}", door.from.english(), to.english()),
-        None => format!("{opening} leading out of {}", door.from.english()),
-    }
-}
-
-fn beside_in_russian(beside: Beside, object: &NounPhrase) -> String {
-    match beside {
-        Beside::NextTo => {
-            format!("рядом {}", russian::with(Preposition::S, Case::Instrumental, object))
-        }
-        Beside::InFrontOf => russian::with(Preposition::Pered, Case::Instrumental, object),
-        Beside::Behind => russian::with(Preposition::Za, Case::Instrumental, object),
-        Beside::LeftOf => {
-            format!("слева {}", russian::with(Preposition::Ot, Case::Genitive, object))
-        }
-        Beside::RightOf => {
-            format!("справа {}", russian::with(Preposition::Ot, Case::Genitive, object))
-        }
-    }
-}
-
-fn beside_in_english(beside: Beside) -> &'static str {
-    match beside {
-        Beside::NextTo => "next to",
-        Beside::InFrontOf => "in front of",
-        Beside::Behind => "behind",
-        Beside::LeftOf => "to the left of",
-        Beside::RightOf => "to the right of",
-    }
-}
-
-/// Whether the spot has named this door already, so that «к ней» is enough.
-fn is_named(spot: Option<&Spot>, door: &Doorway) -> bool {
-    matches!(spot, Some(Spot::AtDoor(other)) if other == door)
-}
-
-/// As [`is_named`], of a thing.
-fn is_told(spot: Option<&Spot>, object: &Named) -> bool {
-    matches!(spot, Some(Spot::Object(_, other)) if other == object)
-}
-
-/// «к ней», «к нему», «к ним»
-fn pronoun(name: &NounPhrase) -> &'static str {
-    match (name.number(), name.gender()) {
-        (Number::Plural, _) => "ним",
-        (_, Gender::Feminine) => "ней",
-        _ => "нему",
-    }
-}
-
-fn facing_in_russian(facing: &Facing, spot: Option<&Spot>) -> String {
-    match facing {
-        Facing::Door(door) if is_named(spot, door) => format!("лицом к {}", door.pronoun()),
-        Facing::Door(door) => format!("лицом к {}", door.russian(Case::Dative)),
-        Facing::Object(object) if is_told(spot, object) => {
-            format!("лицом к {}", pronoun(&object.russian))
-        }
-        Facing::Object(object) => {
-            format!("лицом {}", russian::with(Preposition::K, Case::Dative, &object.russian))
-        }
-        Facing::Wall => "лицом к стене".into(),
-        Facing::Inward => "лицом к середине".into(),
-    }
-}
-
-fn facing_in_english(facing: &Facing, spot: Option<&Spot>) -> String {
-    match facing {
-        Facing::Door(door) if is_named(spot, door) => "facing it".into(),
-        Facing::Door(door) => format!("facing {}", door.english()),
-        Facing::Object(object) if is_told(spot, object) => "facing it".into(),
-        Facing::Object(object) => format!("facing {}", object.english()),
-        Facing::Wall => "facing the wall".into(),
-        Facing::Inward => "facing the middle".into(),
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use expect_test::{Expect, expect};
+
+    use super::*;
+    use crate::language::words::WordHints;
 
     fn check(position: &Position, expected: &Expect) {
         expected.assert_eq(&format!(

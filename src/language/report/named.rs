@@ -1,0 +1,89 @@
+//! Names and doorways as a report and a way in words tell them: the values, without sentences.
+
+use crate::language::words::{Case, Language, NounPhrase, WordHints, english};
+
+/// A name of the map in both languages.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Named {
+    /// Boxed, since a doorway holds three names and a report several doorways.
+    pub(super) russian: Box<NounPhrase>,
+    pub(super) english: String,
+}
+
+impl Named {
+    /// A name with what the map knows of it. Without an English name one is made where every word is known, and else
+    /// the Russian one is kept.
+    #[must_use]
+    pub fn new(name: &str, hints: &WordHints, english_name: Option<&str>) -> Self {
+        let english = english_name
+            .map(Into::into)
+            .or_else(|| english::name_of(name))
+            .unwrap_or_else(|| name.to_owned());
+        Self { russian: Box::new(NounPhrase::parse(name, hints)), english }
+    }
+
+    /// A name of which nothing more is known.
+    #[must_use]
+    pub fn plain(name: &str) -> Self {
+        Self::new(name, &WordHints::default(), None)
+    }
+
+    #[must_use]
+    pub fn phrase(&self) -> &NounPhrase {
+        &self.russian
+    }
+
+    /// The English name as it is.
+    #[must_use]
+    pub fn english_name(&self) -> &str {
+        &self.english
+    }
+
+    /// The English name within a sentence, with its article.
+    #[must_use]
+    pub fn english(&self) -> String {
+        english::with_article(&self.english)
+    }
+
+    /// The name within a sentence: in a case, or with its article.
+    #[must_use]
+    pub fn form(&self, case: Case, language: Language) -> String {
+        match language {
+            Language::Russian => self.russian.case(case),
+            Language::English => self.english(),
+        }
+    }
+}
+
+/// What leads from one Area to another.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Opening {
+    Door,
+    /// An opening without a leaf.
+    Passage,
+}
+
+/// A door or passage, told by the Areas on its two sides.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Doorway {
+    pub opening: Opening,
+    /// Its own name, where the two Areas do not tell it from another.
+    pub name: Option<Named>,
+    pub from: Named,
+    /// None for a door that leads out of the map.
+    pub to: Option<Named>,
+}
+
+impl Doorway {
+    /// The only door from one Area to another.
+    #[must_use]
+    pub fn door(from: Named, to: Named) -> Self {
+        Self { opening: Opening::Door, name: None, from, to: Some(to) }
+    }
+
+    /// The only passage from one Area to another.
+    #[must_use]
+    pub fn passage(from: Named, to: Named) -> Self {
+        Self { opening: Opening::Passage, ..Self::door(from, to) }
+    }
+}
