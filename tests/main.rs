@@ -30,6 +30,7 @@ mod odd_worlds;
 mod partition;
 mod passframes;
 mod planning;
+mod planning_front;
 mod planning_mutants;
 mod planning_properties;
 mod position_reports;

@@ -158,13 +158,14 @@ fn what_is_said_to_help_helps() {
             .unwrap()
             .replace("../../../../rules", &project("rules").display().to_string());
         for help in obstacles.iter().flat_map(|obstacle| &obstacle.help) {
-            let text = with_help(&text, help);
+            let facts: Vec<String> = help.iter().map(ToString::to_string).collect();
+            let text = with_help(&text, &facts);
             let again = Scenario::parse(&Source::new("помощь", &text)).unwrap();
             let outcome = solve(&again.ground().unwrap(), &Limits::default());
             if matches!(outcome, Outcome::Plan(_)) {
                 helped += 1;
             } else {
-                helpless += &format!("{}: {}\n", case.display(), help.join(", "));
+                helpless += &format!("{}: {}\n", case.display(), facts.join(", "));
             }
         }
     }

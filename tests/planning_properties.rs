@@ -293,7 +293,7 @@ impl Drawn {
         (domain, problem)
     }
 
-    fn as_rules(&self) -> String {
+    pub(crate) fn as_rules(&self) -> String {
         let kinds = |kinds: &Kinds| match kinds.first() {
             Some(kind) => format!("тип{kind} "),
             None => String::new(),

@@ -298,14 +298,26 @@ pub(super) struct PlanArgs {
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,
     /// Check this plan step by step instead of making one
-    #[arg(long, value_name = "PLAN", conflicts_with_all = ["out", "any", "time_limit"])]
+    #[arg(long, value_name = "PLAN", conflicts_with_all = ["out", "any", "time_limit", "memory_limit"])]
     pub check: Option<PathBuf>,
     /// A plan soon, not proven to be the shortest
     #[arg(long)]
     pub any: bool,
+    /// Withdraw an assumption and plan anew; ?x stands for any object; may be given several times
+    #[arg(long, value_name = "FACT")]
+    pub without: Vec<String>,
     /// Give up after this many seconds
-    #[arg(long, value_name = "SECONDS")]
-    pub time_limit: Option<u64>,
+    #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+    pub time_limit: Option<Duration>,
+    /// Give up when planning takes more memory than this, MiB; 1024 when left out
+    #[arg(long, value_name = "MIB")]
+    pub memory_limit: Option<usize>,
+}
+
+fn parse_seconds(text: &str) -> Result<Duration, String> {
+    let seconds: Result<f64, _> = text.trim().parse();
+    let duration = seconds.ok().and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "a number of seconds is wanted, such as 30 or 0.5".to_owned())
 }
 
 impl PlanArgs {
@@ -314,9 +326,11 @@ impl PlanArgs {
     }
 
     pub(super) fn limits(&self) -> Limits {
-        let deadline =
-            self.time_limit.and_then(|s| Instant::now().checked_add(Duration::from_secs(s)));
-        Limits { deadline, ..Limits::default() }
+        let deadline = self.time_limit.and_then(|limit| Instant::now().checked_add(limit));
+        let all = Limits::default();
+        let memory_bytes =
+            self.memory_limit.map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20));
+        Limits { deadline, memory_bytes, ..all }
     }
 }
 

@@ -7,7 +7,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::engine::{
     Engine, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words,
-    directive_in_words, surprise_in_words,
+    directive_in_words, name_in, surprise_in_words,
 };
 use crate::graphplan::Outcome;
 use crate::language::Language;
@@ -130,7 +130,10 @@ impl<'w> Teller<'w> {
                         .iter()
                         .map(|step| step.iter().map(|d| self.directive(d)).collect())
                         .collect();
-                    let plan = text::plan_of(&planned.solved, &steps, self.lang);
+                    let language = self.lang.language();
+                    let name = |name: &str| name_in(self.world, name, language);
+                    let wording = planned.solved.wording(language, &name);
+                    let plan = text::plan_of(&planned.solved, &steps, &wording);
                     self.line(&format!("{plan}\n"));
                 }
                 self.bar.set_length(planned.steps.iter().map(Vec::len).sum::<usize>() as u64);
@@ -216,7 +219,10 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
             Some(position) => position.say(lang.language()),
             None => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
         },
-        TaskEnding::NoPlan(planned) => text::plan(&planned.solved, lang),
+        TaskEnding::NoPlan(planned) => {
+            let name = |name: &str| name_in(world, name, lang.language());
+            text::plan(&planned.solved, &planned.solved.wording(lang.language(), &name))
+        }
         TaskEnding::Stuck(surprise) => {
             let what = surprise_in_words(world, surprise, lang.language());
             format!("{}: {what}.", lang.pick("Не выходит", "Stuck"))

@@ -4,9 +4,9 @@ use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::engine::{
-    Journey, PlanStep, Relations, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Whereabout,
-    World, deeds_in_words, directive_in_words, face_in_words, no_way_in_words, steps,
-    surprise_in_words,
+    Journey, PlanStep, Relations, Replanned, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding,
+    Whereabout, World, deeds_in_words, directive_in_words, face_in_words, name_in, no_way_in_words,
+    steps, surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{FaceInView, Remedy, Ride, Route};
@@ -23,7 +23,9 @@ struct StepView {
     args: Vec<String>,
 }
 
-pub(super) fn plan(solved: &Solved) -> Value {
+/// `name` gives the English names of objects.
+pub(super) fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
+    let english = solved.wording(Language::English, name);
     let steps: Vec<Vec<StepView>> = steps(solved)
         .into_iter()
         .map(|step| {
@@ -36,8 +38,10 @@ pub(super) fn plan(solved: &Solved) -> Value {
         "actions": steps.iter().map(Vec::len).sum::<usize>(),
         "steps": steps,
         "optimal": solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_)),
-        "assumptions": solved.assumptions,
-        "explanation": solved.explanation(crate::units::Language::Russian),
+        "assumptions": solved.assumptions.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        "assumptions_en": solved.assumptions_with(&english),
+        "explanation": solved.explanation(Language::Russian),
+        "explanation_en": solved.explanation_with(&english),
     });
     match &solved.outcome {
         Outcome::NoPlan { leveled_off_at, reason } => {
@@ -64,6 +68,22 @@ pub(super) fn plan(solved: &Solved) -> Value {
         }
         Outcome::Plan(_) => {}
     }
+    view
+}
+
+/// The plan after assumptions were withdrawn, and what became of the one before.
+pub(super) fn replanned(replanned: &Replanned, name: &dyn Fn(&str) -> String) -> Value {
+    let before = steps(&replanned.before);
+    let mut view = plan(&replanned.after, name);
+    view["withdrawn"] =
+        json!(replanned.withdrawn.iter().map(ToString::to_string).collect::<Vec<_>>());
+    view["before"] = json!({
+        "outcome": outcome(&replanned.before.outcome),
+        "parallel_steps": before.len(),
+        "actions": before.iter().map(Vec::len).sum::<usize>(),
+        "rested_on_it": replanned.rested_on(),
+    });
+    view["learned_before"] = json!(replanned.learned_before);
     view
 }
 
@@ -294,7 +314,10 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         "directives": answer.reports.iter().map(|r| report(world, r)).collect::<Vec<_>>(),
     });
     match &answer.ending {
-        TaskEnding::NoPlan(planned) => view["plan"] = plan(&planned.solved),
+        TaskEnding::NoPlan(planned) => {
+            let name = |name: &str| name_in(world, name, Language::English);
+            view["plan"] = plan(&planned.solved, &name);
+        }
         TaskEnding::Stuck(surprise) => {
             view["explanation"] = json!(surprise_in_words(world, surprise, Language::Russian));
             view["explanation_en"] = json!(surprise_in_words(world, surprise, Language::English))

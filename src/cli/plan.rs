@@ -2,9 +2,12 @@
 
 use std::path::Path;
 
-use crate::engine::{Engine, PlanAnswer, check_map, check_plan_alone, plan_alone};
+use crate::engine::{
+    Engine, PlanAnswer, check_map, check_plan_alone, name_in, plan_alone, plan_alone_without,
+};
 use crate::graphplan::{Limits, Outcome, Plan};
-use crate::strips::{PlanText, RuleFault, Scenario};
+use crate::language::Language;
+use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
 
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
@@ -12,26 +15,44 @@ use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
 
 pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
-    let (scenario, engine) = read(common, args)?;
+    let (mut scenario, engine) = read(common, args)?;
     if let Some(plan) = &args.check {
-        return check(common, scenario, engine.as_ref(), plan);
+        for text in &args.without {
+            scenario.problem.withdraw_assumptions(&scenario.domain, text)?;
+        }
+        return check(common, &scenario, plan);
     }
-    let wanted = args.wanted();
-    let limits = Limits { tell: Some(interim(common.lang)), ..args.limits() };
-    let PlanAnswer { solved, warnings } = match &engine {
-        Some(engine) => engine.plan(scenario, &limits, wanted)?,
-        None => plan_alone(scenario, &limits, wanted)?,
+    let world = engine.as_ref().and_then(|engine| engine.world().ok());
+    let names = |name: &str, language| match world {
+        Some(world) => name_in(world, name, language),
+        None => name.to_owned(),
+    };
+    let (language, limits) = (common.lang.language(), args.limits());
+    let limits = Limits { tell: Some(interim(common.lang)), ..limits };
+    let english = |name: &str| names(name, Language::English);
+    let name = |name: &str| names(name, language);
+    let (solved, warnings, told) = if args.without.is_empty() {
+        let PlanAnswer { solved, warnings } = plan_alone(scenario, &limits, args.wanted())?;
+        let told = match common.json {
+            true => json::plan(&solved, &english).to_string(),
+            false => text::plan(&solved, &solved.wording(language, &name)),
+        };
+        (solved, warnings, told)
+    } else {
+        let (replanned, warnings) =
+            plan_alone_without(scenario, &args.without, &limits, args.wanted())?;
+        let told = match common.json {
+            true => json::replanned(&replanned, &english).to_string(),
+            false => text::replanned(&replanned, &replanned.after.wording(language, &name)),
+        };
+        (replanned.after, warnings, told)
     };
     warn(&warnings);
     if let (Some(path), Outcome::Plan(plan)) = (&args.out, &solved.outcome) {
         let text = PlanText::write(&solved.task, &plan.steps);
         std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
     }
-    if common.json {
-        say(&json::plan(&solved).to_string())?;
-    } else {
-        say(&text::plan(&solved, common.lang))?;
-    }
+    say(&told)?;
     Ok(if matches!(solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })
 }
 
@@ -49,7 +70,7 @@ fn interim(lang: Lang) -> fn(&Plan) {
     }
 }
 
-/// The scenario, and who knows its map: the store that was named; else the map that the scenario names; else the
+/// The scenario with what its map knows, and who knows that map: the store that was named; else the map that the scenario names; else the
 /// default store, if there is one; else nobody, and the scenario's own facts are all there is.
 fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), Failure> {
     let path = match (&args.scenario, &args.domain, &args.problem) {
@@ -59,31 +80,39 @@ fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), 
         (Some(scenario), _, _) => scenario,
         _ => unreachable!("clap asks for a scenario or for both PDDL files"),
     };
-    let scenario = Scenario::read(path)?;
-    let engine = match &scenario.map {
-        _ if common.store.is_some() => Some(open(common)?),
-        Some(map) => {
-            let (world, _) = check_map(map)?;
-            Some(Engine::in_memory(world, rules_dir(common).as_deref())?)
-        }
-        None if Path::new(DEFAULT_STORE).is_dir() => Some(open(common)?),
-        None => None,
+    let (mut scenario, faults) = Scenario::read_whole(path)?;
+    let engine = || -> Result<Option<Engine>, Failure> {
+        Ok(match &scenario.map {
+            _ if common.store.is_some() => Some(open(common)?),
+            Some(map) => {
+                let (world, _) = check_map(map)?;
+                Some(Engine::in_memory(world, rules_dir(common).as_deref())?)
+            }
+            None if Path::new(DEFAULT_STORE).is_dir() => Some(open(common)?),
+            None => None,
+        })
     };
-    Ok((scenario, engine))
+    if faults.is_empty() {
+        let engine = engine()?;
+        let scenario = match &engine {
+            Some(engine) => engine.supplemented(scenario)?,
+            None => scenario,
+        };
+        return Ok((scenario, engine));
+    }
+    // Beside the faults of the text those of the names that the map would have to know; where there is no map to ask,
+    // the text's own.
+    match engine() {
+        Ok(Some(engine)) if engine.supply(&mut scenario).is_err() => Err(RuleFaults(faults).into()),
+        Ok(_) => Err(scenario.with_faults_of_names(faults).into()),
+        Err(_) => Err(RuleFaults(faults).into()),
+    }
 }
 
-fn check(
-    common: &Common,
-    scenario: Scenario,
-    engine: Option<&Engine>,
-    plan: &Path,
-) -> Result<Answer, Failure> {
+fn check(common: &Common, scenario: &Scenario, plan: &Path) -> Result<Answer, Failure> {
     let plan = PlanText::read(plan)?;
     warn(&scenario.warnings);
-    let replayed = match engine {
-        Some(engine) => engine.check_plan(scenario, &plan)?,
-        None => check_plan_alone(&scenario, &plan)?,
-    };
+    let replayed = check_plan_alone(scenario, &plan)?;
     if common.json {
         say(&json::replayed(&replayed).to_string())?;
     } else {

@@ -3,7 +3,7 @@
 use comfy_table::presets::UTF8_BORDERS_ONLY;
 use comfy_table::{CellAlignment, ContentArrangement, Table};
 
-use crate::engine::{PlanStep, Relations, RouteAnswer, Solved, World, no_way_in_words, steps};
+use crate::engine::{Relations, Replanned, RouteAnswer, Solved, World, no_way_in_words};
 use crate::facts::Value;
 use crate::geometry::FloorPlan;
 use crate::graphplan::Outcome;
@@ -11,7 +11,7 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::words::english;
 use crate::map::Entity;
-use crate::strips::{Broken, Replayed, RuleFaults};
+use crate::strips::{Broken, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording};
 use crate::units::capitalized;
 
 use super::args::Lang;
@@ -69,37 +69,41 @@ fn fact(relation: &str, values: &[Value]) -> String {
     }
 }
 
-/// A plan as the paper prints it, one directive a line, parallel ones under one number.
-pub(super) fn plan(solved: &Solved, lang: Lang) -> String {
-    let directive = |action: &PlanStep| format!("{}_({})", action.action, action.args.join(", "));
-    let steps: Vec<Vec<String>> =
-        steps(solved).iter().map(|step| step.iter().map(directive).collect()).collect();
-    plan_of(solved, &steps, lang)
+/// A plan as the paper prints it, one directive a line, parallel ones under one number; by the phrases of the rules
+/// where they have any in the language.
+pub(super) fn plan(solved: &Solved, wording: &Wording<'_>) -> String {
+    let directive = |id: &OperatorId| wording.action(&Said::from(solved.task.operator(*id)));
+    let steps: Vec<Vec<String>> = match &solved.outcome {
+        Outcome::Plan(plan) => {
+            plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
+        }
+        _ => Vec::new(),
+    };
+    plan_of(solved, &steps, wording)
 }
 
 /// A plan, its directives given in words.
-pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> String {
+pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> String {
+    let pick = |russian, english| wording.language.pick(russian, english);
     if !matches!(solved.outcome, Outcome::Plan(_)) {
         let head = match solved.outcome {
-            Outcome::LimitReached(_) => lang.pick("План не найден", "No plan was found"),
-            _ => lang.pick("Плана нет, и это доказано", "There is no plan; this is proven"),
+            Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
+            _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
         };
-        return format!("{head}: {}", solved.explanation(lang.language()).unwrap_or_default());
+        return format!("{head}: {}", solved.explanation_with(wording).unwrap_or_default());
     }
     if steps.is_empty() {
-        return lang.pick("Цель уже достигнута.", "The goal holds already.").to_owned();
+        return pick("Цель уже достигнута.", "The goal holds already.").to_owned();
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
-    let proof = match (solved.is_shortest, lang) {
-        (true, Lang::Ru) => "меньше шагов нельзя, это доказано",
-        (true, Lang::En) => "fewer steps are proven impossible",
-        (false, Lang::Ru) => "что он кратчайший, не доказано",
-        (false, Lang::En) => "not proven to be the shortest",
+    let proof = match solved.is_shortest {
+        true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
+        false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
     };
-    let mut text = match lang {
-        Lang::Ru => format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
-        Lang::En => format!("Plan: {}; {proof}.", english_size(steps.len(), actions)),
-    };
+    let mut text = wording.language.pick(
+        format!("План: шагов {}, действий {actions}; {proof}.", steps.len()),
+        format!("Plan: {}; {proof}.", english_size(steps.len(), actions)),
+    );
     for (number, step) in steps.iter().enumerate() {
         for (i, action) in step.iter().enumerate() {
             let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
@@ -107,11 +111,29 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], lang: Lang) -> Str
         }
     }
     if !solved.assumptions.is_empty() {
-        let head =
-            lang.pick("Предположения, на которых он держится:", "It rests on the assumptions:");
-        text.push_str(&format!("\n{head}\n     {}", solved.assumptions.join("\n     ")));
+        let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");
+        let told = solved.assumptions_with(wording).join("\n     ");
+        text.push_str(&format!("\n{head}\n     {told}"));
     }
     text
+}
+
+/// What was withdrawn, whether the plan before rested on it, and the plan now.
+pub(super) fn replanned(replanned: &Replanned, wording: &Wording<'_>) -> String {
+    let mut told: Vec<String> = replanned.withdrawn.iter().map(|f| wording.fact(f)).collect();
+    told.dedup();
+    let withdrawn = told.join(wording.language.pick(", ", "; "));
+    let before = match (&replanned.before.outcome, replanned.rested_on()) {
+        (Outcome::Plan(_), true) => {
+            wording.language.pick("прежний план на этом держался", "the plan before rested on this")
+        }
+        (Outcome::Plan(_), false) => wording
+            .language
+            .pick("прежний план на этом не держался", "the plan before did not rest on this"),
+        _ => wording.language.pick("плана не было и прежде", "there was no plan before either"),
+    };
+    let head = wording.language.pick("Отозвано", "Withdrawn");
+    format!("{head}: {withdrawn} – {before}.\n{}", plan(&replanned.after, wording))
 }
 
 /// "1 step, 2 actions"
@@ -139,23 +161,30 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
             format!("The plan works: {}, cost {cost}.", english_size(steps, actions))
         }
         (Some(Broken { step: Some(step), faults }), Lang::Ru) => {
-            format!("План обрывается на шаге {step}:{}", reasons(faults))
+            format!("План обрывается на шаге {step}:{}", reasons(faults, lang))
         }
         (Some(Broken { step: Some(step), faults }), Lang::En) => {
-            format!("The plan breaks at step {step}:{}", reasons(faults))
+            format!("The plan breaks at step {step}:{}", reasons(faults, lang))
         }
         (Some(Broken { step: None, faults }), Lang::Ru) => {
-            format!("План выполним, но цели не достигает:{}", reasons(faults))
+            format!("План выполним, но цели не достигает:{}", reasons(faults, lang))
         }
         (Some(Broken { step: None, faults }), Lang::En) => {
-            format!("The plan can be carried out, but misses its goal:{}", reasons(faults))
+            format!("The plan can be carried out, but misses its goal:{}", reasons(faults, lang))
         }
     };
     text + &verdict
 }
 
-fn reasons(faults: &RuleFaults) -> String {
-    faults.0.iter().map(|fault| format!("\n      {fault}")).collect()
+fn reasons(faults: &RuleFaults, lang: Lang) -> String {
+    let told = |fault: &RuleFault| match (fault.error.english(), fault.position(), lang) {
+        (Some(text), Some((file, line, column)), Lang::En) => {
+            format!("\n      {file}:{line}:{column}: {text}")
+        }
+        (Some(text), None, Lang::En) => format!("\n      {text}"),
+        _ => format!("\n      {fault}"),
+    };
+    faults.0.iter().map(told).collect()
 }
 
 /// A way in words: through which rooms and doors, how long, and where it bends.

@@ -66,6 +66,20 @@ pub fn directive_in_words(world: &World, directive: &Directive, language: Langua
     }
 }
 
+/// An object of a plan as it is called in a language: by its English name, where the map gives one; in Russian as the
+/// plan has it.
+#[must_use]
+pub fn name_in(world: &World, name: &str, language: Language) -> String {
+    match (language, name.strip_prefix(PLACE_BESIDE)) {
+        (Language::Russian, _) => name.to_owned(),
+        (Language::English, _) if name == OPERATOR => "the operator".to_owned(),
+        (Language::English, beside) => {
+            let told = Words { world, language }.name(name, Case::Nominative);
+            if beside.is_some() { format!("the place by {told}") } else { told }
+        }
+    }
+}
+
 struct Words<'w> {
     world: &'w World,
     language: Language,

@@ -54,7 +54,7 @@ use std::path::Path;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
-pub use deeds::{deeds_in_words, directive_in_words};
+pub use deeds::{deeds_in_words, directive_in_words, name_in};
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};
@@ -63,7 +63,7 @@ pub use history::When;
 pub use journey::{Journey, ride_in_words};
 pub use memory::{After, Now, ROBOT};
 pub use observe::{Believed, Proposal, Source, Station};
-pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, steps};
+pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, plan_alone_without, steps};
 pub use position::Whereabout;
 pub use reading::Region;
 pub use route::{End, Located, RouteAnswer, Stage, parse_pose};
@@ -82,7 +82,7 @@ pub use crate::facts::Value;
 pub use crate::geometry::Method;
 pub use crate::language::question::{Answer, Memory, Unanswered};
 pub use crate::map::{Format, World};
-pub use crate::robot::Solved;
+pub use crate::robot::{Replanned, Solved};
 pub use crate::semantics::Relations;
 pub use crate::store::{
     Change, Difference, FsckReport, Revision, RevisionKind, Severity, Timestamp,

@@ -1,7 +1,7 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
 use crate::graphplan::{Limits, Outcome};
-use crate::robot::{Solved, Wanted, facts_of_map, solve, state};
+use crate::robot::{Replanned, Solved, Wanted, facts_of_map, solve, solve_without, state};
 use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
 
 use super::{Engine, Error};
@@ -60,6 +60,20 @@ impl Engine {
         plan_alone(self.supplemented(scenario)?, limits, wanted)
     }
 
+    /// Plans a scenario, withdraws assumptions of the scenario or of the map, and plans anew with what was learned.
+    ///
+    /// # Errors
+    /// All faults of the scenario, and of what is to be withdrawn.
+    pub fn plan_without(
+        &self,
+        scenario: Scenario,
+        withdrawn: &[String],
+        limits: &Limits,
+        wanted: Wanted,
+    ) -> Result<(Replanned, Vec<RuleFault>), Error> {
+        plan_alone_without(self.supplemented(scenario)?, withdrawn, limits, wanted)
+    }
+
     /// Carries a plan out on a scenario with the facts of the map that the engine holds, if it holds one.
     ///
     /// # Errors
@@ -68,15 +82,46 @@ impl Engine {
         check_plan_alone(&self.supplemented(scenario)?, plan)
     }
 
-    fn supplemented(&self, mut scenario: Scenario) -> Result<Scenario, Error> {
-        if let Ok(world) = self.world() {
-            for fact in facts_of_map(world, self.relations()?) {
-                state(&mut scenario.problem, &fact);
-            }
+    /// A scenario with the facts of the map that the engine holds, if it holds one.
+    ///
+    /// # Errors
+    /// Names of rooms and doors that the map does not know.
+    pub fn supplemented(&self, mut scenario: Scenario) -> Result<Scenario, Error> {
+        self.supply(&mut scenario)?;
+        if self.world().is_ok() {
             scenario.problem.check_supplied(&scenario.domain, &OF_MAP)?;
         }
         Ok(scenario)
     }
+
+    /// States what the map knows, and checks nothing.
+    ///
+    /// # Errors
+    /// The map's relations cannot be derived.
+    pub fn supply(&self, scenario: &mut Scenario) -> Result<(), Error> {
+        if let Ok(world) = self.world() {
+            for fact in facts_of_map(world, self.relations()?) {
+                state(&mut scenario.problem, &fact);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Plans a scenario that needs no map, withdraws assumptions, and plans anew with what was learned.
+///
+/// # Errors
+/// As [`Engine::plan_without`].
+pub fn plan_alone_without(
+    scenario: Scenario,
+    withdrawn: &[String],
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<(Replanned, Vec<RuleFault>), Error> {
+    let Scenario { domain, mut problem, mut warnings, .. } = scenario;
+    let replanned = solve_without(&domain, &mut problem, withdrawn, limits, wanted)?;
+    warnings.extend(without_price(&domain, &problem, &replanned.after.task)?);
+    Ok((replanned, warnings))
 }
 
 /// Plans a scenario that needs no map.

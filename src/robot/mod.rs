@@ -21,4 +21,4 @@ pub use mission::{
 };
 pub use placing::{Hollow, hollow, spot_in, spot_on};
 pub use simulator::{Moment, Simulator};
-pub use solve::{Reason, Solved, Wanted, solve};
+pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};

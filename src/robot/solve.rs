@@ -1,12 +1,14 @@
 //! A planning problem solved, with all that a person wants to know of the answer.
 
 use std::cell::Cell;
+use std::sync::Arc;
 
 use crate::graphplan::{self, Learned, Limit, Limits, NoPlanReason, Outcome};
 use crate::strips::{
-    Clash, Domain, FactId, Obstacle, Problem, RuleFaults, Task, explain_unreachable, ground_while,
+    Clash, Domain, FactId, Obstacle, Phrases, Problem, RuleFaults, Said, Task, Wording,
+    explain_unreachable, ground_while,
 };
-use crate::units::Language;
+use crate::units::{Language, name_key};
 
 /// What planning came to, with the task that it was about.
 #[derive(Debug, Clone)]
@@ -15,10 +17,12 @@ pub struct Solved {
     pub outcome: Outcome,
     /// A plan is proven to have the fewest parallel steps.
     pub is_shortest: bool,
-    /// The assumptions that the plan rests on, in the words of the rule files.
-    pub assumptions: Vec<String>,
+    /// The assumptions that the plan rests on.
+    pub assumptions: Vec<Said>,
     /// Why there is no plan; none when there is one.
     pub reason: Option<Reason>,
+    /// How the rules say their facts and actions in words.
+    pub phrases: Arc<Phrases>,
 }
 
 /// Why there is no plan, or none was found.
@@ -26,32 +30,44 @@ pub struct Solved {
 pub enum Reason {
     Unreachable(Vec<Obstacle>),
     /// Pairs of goals that exclude each other.
-    Exclusive(Vec<(String, String)>),
+    Exclusive(Vec<(Said, Said)>),
     /// Goals that cannot all hold at once.
-    Together(Vec<String>),
+    Together(Vec<Said>),
     Limit(Limit),
 }
 
 impl Reason {
     #[must_use]
-    pub fn in_words(&self, language: Language) -> String {
+    pub fn in_words(&self, wording: &Wording<'_>) -> String {
+        let language = wording.language;
         match self {
             Self::Unreachable(obstacles) => {
-                let told: Vec<String> = obstacles.iter().map(|o| o.in_words(language)).collect();
+                // A door locked from either side is one door in words.
+                let mut told: Vec<String> = Vec::new();
+                for obstacle in obstacles.iter().map(|obstacle| obstacle.in_words(wording)) {
+                    if !told.contains(&obstacle) {
+                        told.push(obstacle);
+                    }
+                }
                 told.join("\n")
             }
             Self::Exclusive(pairs) => {
-                let and = language.pick("и", "and");
-                let pairs: Vec<String> =
-                    pairs.iter().map(|(a, b)| format!("{a} {and} {b}")).collect();
-                let head =
-                    language.pick("цели исключают друг друга", "the goals exclude each other");
-                format!("{head}: {}", pairs.join("; "))
+                let and = language.pick("и", "and that");
+                let pair = |(a, b): &(Said, Said)| {
+                    format!("{} {and} {}", wording.fact(a), wording.fact(b))
+                };
+                let pairs: Vec<String> = pairs.iter().map(pair).collect();
+                let head = language
+                    .pick("цели исключают друг друга: ", "the goals exclude each other: that ");
+                head.to_owned() + &pairs.join(language.pick("; ", "; that "))
             }
             Self::Together(facts) => {
-                let head = language
-                    .pick("цели недостижимы все вместе", "the goals are out of reach all together");
-                format!("{head}: {}", facts.join(", "))
+                let head = language.pick(
+                    "цели недостижимы все вместе: ",
+                    "the goals are out of reach all together: that ",
+                );
+                let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
+                head.to_owned() + &facts.join(language.pick(", ", ", that "))
             }
             Self::Limit(limit) => match limit {
                 Limit::Time => language.pick(
@@ -73,10 +89,38 @@ impl Reason {
 }
 
 impl Solved {
-    /// Why there is no plan, in words; none when there is one.
+    /// Why there is no plan, in words; none when there is one. Objects go under the names that they are planned by.
     #[must_use]
     pub fn explanation(&self, language: Language) -> Option<String> {
-        self.reason.as_ref().map(|reason| reason.in_words(language))
+        self.explanation_with(&self.wording(language, &str::to_owned))
+    }
+
+    /// The same with names of objects from elsewhere, such as their English names on a map.
+    #[must_use]
+    pub fn explanation_with(&self, wording: &Wording<'_>) -> Option<String> {
+        self.reason.as_ref().map(|reason| reason.in_words(wording))
+    }
+
+    /// The assumptions in words, each once.
+    #[must_use]
+    pub fn assumptions_with(&self, wording: &Wording<'_>) -> Vec<String> {
+        let mut told: Vec<String> = Vec::new();
+        for assumption in self.assumptions.iter().map(|fact| wording.fact(fact)) {
+            if !told.contains(&assumption) {
+                told.push(assumption);
+            }
+        }
+        told
+    }
+
+    /// The words of the rules in a language.
+    #[must_use]
+    pub fn wording<'a>(
+        &'a self,
+        language: Language,
+        name: &'a dyn Fn(&str) -> String,
+    ) -> Wording<'a> {
+        Wording { language, phrases: &self.phrases, name }
     }
 }
 
@@ -133,6 +177,68 @@ pub(super) fn solve_again(
     Ok((told(domain, problem, task, outcome, Wanted::Shortest, limits)?, learned))
 }
 
+/// What became of a plan when assumptions were withdrawn.
+#[derive(Debug, Clone)]
+pub struct Replanned {
+    pub before: Solved,
+    pub after: Solved,
+    pub withdrawn: Vec<Said>,
+    /// Whether what planning before had taught went into the new plan.
+    pub learned_before: bool,
+}
+
+impl Replanned {
+    /// Whether the plan before rested on something withdrawn.
+    #[must_use]
+    pub fn rested_on(&self) -> bool {
+        let said = |a: &Said, b: &Said| {
+            name_key(&a.written(Language::Russian)) == name_key(&b.written(Language::Russian))
+        };
+        self.withdrawn.iter().any(|gone| self.before.assumptions.iter().any(|a| said(a, gone)))
+    }
+}
+
+/// Plans, withdraws assumptions, and plans anew with what was learned the first time, where that is sound.
+///
+/// `withdrawn` are texts as [`Problem::withdraw_assumptions`] reads them. Any plan soon is planned anew from the
+/// beginning: the graph is not what it came from.
+///
+/// # Errors
+/// As [`solve`]; and what cannot be withdrawn, all of it at once.
+pub fn solve_without(
+    domain: &Domain,
+    problem: &mut Problem,
+    withdrawn: &[String],
+    limits: &Limits,
+    wanted: Wanted,
+) -> Result<Replanned, RuleFaults> {
+    let mut without = problem.clone();
+    let (mut gone, mut faults) = (Vec::new(), Vec::new());
+    for text in withdrawn {
+        match without.withdraw_assumptions(domain, text) {
+            Ok(said) => gone.extend(said),
+            Err(RuleFaults(found)) => faults.extend(found),
+        }
+    }
+    if !faults.is_empty() {
+        return Err(RuleFaults(faults));
+    }
+    let (before, after, learned_before) = match wanted {
+        Wanted::Any => {
+            let before = solve(domain, problem, limits, wanted)?;
+            (before, solve(domain, &without, limits, wanted)?, false)
+        }
+        Wanted::Shortest => {
+            let (before, learned) = solve_again(domain, problem, limits, None)?;
+            let (after, _) = solve_again(domain, &without, limits, learned.as_ref())?;
+            let serves = learned.is_some_and(|learned| learned.serves(&after.task));
+            (before, after, serves)
+        }
+    };
+    *problem = without;
+    Ok(Replanned { before, after, withdrawn: gone, learned_before })
+}
+
 /// The task, or the limit that grounding ran into.
 fn grounded(
     domain: &Domain,
@@ -159,12 +265,13 @@ fn told(
     let is_shortest = wanted == Wanted::Shortest;
     let assumptions = match &outcome {
         Outcome::Plan(plan) => {
-            plan.assumptions(&task).iter().map(|&f| task.fact(f).to_string()).collect()
+            plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
         }
         _ => Vec::new(),
     };
     let reason = explain(domain, problem, &task, &outcome, limits)?;
-    Ok(Solved { task, outcome, is_shortest, assumptions, reason })
+    let phrases = Arc::clone(domain.phrases());
+    Ok(Solved { task, outcome, is_shortest, assumptions, reason, phrases })
 }
 
 fn explain(
@@ -174,7 +281,7 @@ fn explain(
     outcome: &Outcome,
     limits: &Limits,
 ) -> Result<Option<Reason>, RuleFaults> {
-    let fact = |id: FactId| task.fact(id).to_string();
+    let fact = |id: FactId| Said::from(task.fact(id));
     Ok(Some(match outcome {
         Outcome::Plan(_) => return Ok(None),
         Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } => {
@@ -210,8 +317,8 @@ fn clash(task: &Task, goal: FactId, limits: &Limits, between: usize) -> Option<C
         match graphplan::solve(&needs, limits) {
             Outcome::NoPlan { reason: NoPlanReason::Exclusive(pairs), .. } => {
                 let &(a, b) = pairs.first()?;
-                let needs = (task.fact(a).to_string(), task.fact(b).to_string());
-                Some(Clash { action: giver.to_string(), needs })
+                let needs = (Said::from(task.fact(a)), Said::from(task.fact(b)));
+                Some(Clash { action: Said::from(giver), needs })
             }
             Outcome::NoPlan { reason: NoPlanReason::Unreachable(facts), .. } if between > 0 => {
                 facts.iter().find_map(|&fact| clash(task, fact, limits, between - 1))

@@ -4,21 +4,27 @@
 //! and a predicate takes in each place what the actions put there; two actions that disagree are a fault.
 
 use std::collections::{BTreeMap, HashMap};
+use std::sync::Arc;
+
+use miette::SourceSpan;
 
 use super::domain::{
     ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
     SchemaCost, SchemaTerm,
 };
-use super::error::{RuleError, RuleFault};
+use super::error::{Place, RuleError, RuleFault};
+use super::phrase::{Part, Phrase, Phrases};
+use super::slip::atom_of;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Term};
 use crate::units::{name_key, nearest_name};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
     let domain = kinds(document, faults);
-    let mut checker = Checker { domain, constants: None, functions: HashMap::new(), faults };
+    let (functions, actions) = (HashMap::new(), HashMap::new());
+    let mut checker = Checker { domain, constants: None, functions, actions, faults };
+    checker.declare_objects(document);
     if document.objects_closed {
-        checker.declare_objects(document);
         checker.declare_functions(document);
     }
     checker.declare_predicates(document);
@@ -28,7 +34,9 @@ pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain
     for action in &document.actions {
         checker.schema(action);
     }
-    checker.domain
+    let mut domain = checker.domain;
+    domain.phrases = Arc::new(phrases(document, &domain, faults));
+    domain
 }
 
 pub(super) fn hint<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
@@ -65,6 +73,8 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         predicates: Vec::new(),
         predicate_index: HashMap::new(),
         schemas: Vec::new(),
+        phrases: Arc::default(),
+        introduced: HashMap::new(),
     };
     fn introduce(domain: &mut Domain, name: &Name) -> KindId {
         let next = KindId(domain.kinds.len() as u32);
@@ -118,6 +128,8 @@ struct Checker<'a> {
     constants: Option<BTreeMap<String, (String, KindSet)>>,
     /// Declared functions by key, with their numbers of arguments.
     functions: HashMap<String, usize>,
+    /// Where each action is, by key.
+    actions: HashMap<String, Place>,
     faults: &'a mut Vec<RuleFault>,
 }
 
@@ -152,26 +164,36 @@ impl Checker<'_> {
         id
     }
 
-    /// Two declarations of one object must agree; a constant of the domain may be named in the problem again.
+    /// Two declarations of one object must agree, or one type inherit from the other; a constant of the domain may be
+    /// named in the problem again.
     fn declare_objects(&mut self, document: &Document) {
         let mut declared: BTreeMap<String, (String, KindSet)> = BTreeMap::new();
+        let mut first: HashMap<String, (&Name, KindSet)> = HashMap::new();
         for Declaration { name, kinds } in &document.objects {
             let mut kinds: KindSet =
                 kinds.iter().filter_map(|kind| self.domain.kind(&kind.text)).collect();
-            if kinds.is_empty() {
+            let is_untyped = kinds.is_empty();
+            if is_untyped {
                 kinds.push(ANY_KIND);
             }
-            let known =
-                declared.entry(name.key()).or_insert_with(|| (name.text.clone(), kinds.clone()));
-            if known.1 != kinds {
-                self.faults.push(name.fault(|at| RuleError::Duplicate {
-                    what: "объект",
+            declared.entry(name.key()).or_insert_with(|| (name.text.clone(), kinds.clone()));
+            let (known, theirs) = first.entry(name.key()).or_insert((name, kinds.clone()));
+            let agree = self.domain.fits(&kinds, theirs) || self.domain.fits(theirs, &kinds);
+            if !agree {
+                let found = self.domain.kind_names(&kinds);
+                let earlier = self.domain.kind_names(theirs);
+                let (first, elsewhere) = places(&known.at, name);
+                self.faults.push(name.fault(|at| RuleError::ObjectTwice {
                     name: name.text.clone(),
+                    found,
+                    earlier,
+                    help: format!("оставьте одно из двух{elsewhere}"),
                     at,
+                    first,
                 }));
             }
         }
-        self.constants = Some(declared);
+        self.constants = document.objects_closed.then_some(declared);
     }
 
     /// What no problem needs to declare is the sum itself.
@@ -210,31 +232,37 @@ impl Checker<'_> {
 
     fn declare_predicates(&mut self, document: &Document) {
         for signature in &document.predicates {
-            if self.domain.predicate(&signature.name.text).is_some() {
-                self.faults.push(signature.name.fault(|at| RuleError::Duplicate {
-                    what: "предикат",
-                    name: signature.name.text.clone(),
-                    at,
-                }));
+            if let Some(known) = self.domain.predicate(&signature.name.text) {
+                let first = self.domain.introduced.get(&known).cloned();
+                self.duplicate("предикат", &signature.name, first);
                 continue;
             }
             let args = signature.args.iter().map(|kinds| self.kind_set(kinds)).collect();
-            self.add_predicate(&signature.name.text, args);
+            let id = self.add_predicate(&signature.name.text, args);
+            self.domain.introduced.insert(id, signature.name.at.clone());
         }
+    }
+
+    fn duplicate(&mut self, what: &'static str, name: &Name, first: Option<Place>) {
+        let (first, elsewhere) = first.map_or((None, String::new()), |first| places(&first, name));
+        let help = format!("переименуйте или уберите одно из двух{elsewhere}");
+        let name_text = name.text.clone();
+        let error = |at| RuleError::Duplicate { what, name: name_text, help, at, first };
+        self.faults.push(name.fault(error));
     }
 
     /// Signatures of undeclared predicates: in each place the nearest type that all uses inherit from.
     fn infer_predicates(&mut self, document: &Document) {
         let declared = self.domain.predicates.len();
+        let arities = arities(document);
         for action in &document.actions {
             let kinds_of: HashMap<String, &[Name]> =
                 action.parameters.iter().map(|p| (p.variable.key(), p.kinds.as_slice())).collect();
-            let in_conditions =
-                action.precondition.iter().filter_map(|condition| match condition {
-                    Condition::Holds { atom, .. } => Some(atom),
-                    Condition::Equal { .. } => None,
-                });
+            let in_conditions = action.precondition.iter().filter_map(atom_of);
             for atom in in_conditions.chain(&action.add).chain(&action.del) {
+                if arities.get(&predicate_key(atom)) != Some(&atom.args.len()) {
+                    continue;
+                }
                 let args: Vec<Option<KindSet>> = atom
                     .args
                     .iter()
@@ -256,7 +284,8 @@ impl Checker<'_> {
     fn infer_from(&mut self, atom: &Atom, args: &[Option<KindSet>], declared: usize) {
         let Some(id) = self.domain.predicate(&atom.predicate.text) else {
             let args = args.iter().map(|kinds| kinds.clone().unwrap_or_default()).collect();
-            self.add_predicate(&atom.predicate.text, args);
+            let id = self.add_predicate(&atom.predicate.text, args);
+            self.domain.introduced.insert(id, atom.predicate.at.clone());
             return;
         };
         // A declaration stands as it is; its uses are compared with it later.
@@ -289,25 +318,19 @@ impl Checker<'_> {
 
     fn schema(&mut self, action: &ActionText) {
         let name = &action.name;
-        if self.domain.schemas.iter().any(|s| name_key(&s.name) == name.key()) {
-            self.faults.push(name.fault(|at| RuleError::Duplicate {
-                what: "действие",
-                name: name.text.clone(),
-                at,
-            }));
+        if let Some(first) = self.actions.get(&name.key()).cloned() {
+            self.duplicate("действие", name, Some(first));
             return;
         }
+        self.actions.insert(name.key(), name.at.clone());
         let mut scope = Scope::new();
         let mut parameters = Vec::new();
         for parameter in &action.parameters {
             let kinds = self.kind_set(&parameter.kinds);
             let variable = &parameter.variable;
             if scope.insert(variable.key(), (parameters.len() as u32, kinds.clone())).is_some() {
-                self.faults.push(variable.fault(|at| RuleError::Duplicate {
-                    what: "параметр",
-                    name: variable.text.clone(),
-                    at,
-                }));
+                let known = action.parameters.iter().find(|p| p.variable.key() == variable.key());
+                self.duplicate("параметр", variable, known.map(|p| p.variable.at.clone()));
             }
             parameters.push(kinds);
         }
@@ -537,8 +560,126 @@ impl Domain {
                     }
                 })
                 .collect();
-        format!("запись: {name}_({})", args.join(", "))
+        let place = self.introduced.get(&predicate).map_or_else(String::new, |place| {
+            let (line, column) = place.position();
+            format!(", как здесь: {}:{line}:{column}", place.source.name())
+        });
+        format!("запись: {name}_({}){place}", args.join(", "))
     }
+}
+
+fn predicate_key(atom: &Atom) -> String {
+    name_key(atom.predicate.text.trim_end_matches('_'))
+}
+
+/// How many arguments each predicate has by most of its uses; by the first of them where no number leads.
+fn arities(document: &Document) -> HashMap<String, usize> {
+    let in_actions = document.actions.iter().flat_map(|action| {
+        let needs = action.precondition.iter().filter_map(atom_of);
+        needs.chain(&action.add).chain(&action.del)
+    });
+    let stated = document.facts.iter().chain(&document.assumptions).chain(&document.goal);
+    let mut counts: HashMap<String, Vec<(usize, usize)>> = HashMap::new();
+    for atom in in_actions.chain(stated.filter_map(atom_of)) {
+        let of_predicate = counts.entry(predicate_key(atom)).or_default();
+        match of_predicate.iter_mut().find(|(arity, _)| *arity == atom.args.len()) {
+            Some((_, count)) => *count += 1,
+            None => of_predicate.push((atom.args.len(), 1)),
+        }
+    }
+    let most = |counts: Vec<(usize, usize)>| {
+        let most = counts.iter().map(|&(_, count)| count).max()?;
+        counts.into_iter().find(|&(_, count)| count == most).map(|(arity, _)| arity)
+    };
+    counts.into_iter().filter_map(|(key, counts)| Some((key, most(counts)?))).collect()
+}
+
+/// The first place as a second label; where it stands in another text, in words.
+fn places(first: &Place, second: &Name) -> (Option<SourceSpan>, String) {
+    if first.source.name() == second.at.source.name() {
+        return (Some(first.span), String::new());
+    }
+    let (line, column) = first.position();
+    (None, format!("; первый раз – {}:{line}:{column}", first.source.name()))
+}
+
+/// How the document says its predicates, actions and types in words.
+fn phrases(document: &Document, domain: &Domain, faults: &mut Vec<RuleFault>) -> Phrases {
+    let mut phrases = Phrases::default();
+    for text in &document.phrases {
+        let (name, key) = (&text.name, name_key(text.name.text.trim_end_matches('_')));
+        let vocabulary = phrases.of_mut(text.language);
+        let schema = domain.schemas.iter().find(|schema| name_key(&schema.name) == key);
+        let predicate = domain.predicate(&name.text);
+        let Some(parameters) = &text.parameters else {
+            if domain.kind(&name.text).is_some() {
+                vocabulary.kinds.insert(key, text.phrase.text.clone());
+            } else {
+                let help = hint(&name.text, domain.kinds.iter().map(|kind| kind.name.as_str()));
+                let name = name.text.clone();
+                let error = |at| RuleError::UnknownType { name, help, at };
+                faults.push(text.name.fault(error));
+            }
+            continue;
+        };
+        let (expected, help) = match (predicate, schema) {
+            (Some(id), _) => (domain.predicates[id.index()].args.len(), domain.signature(id)),
+            (None, Some(schema)) => {
+                let names = schema.parameter_names.join(", ");
+                (schema.parameters.len(), format!("запись: {}_({names})", schema.name))
+            }
+            (None, None) => {
+                let predicates = domain.predicates.iter().map(|p| p.name.as_str());
+                let known = predicates.chain(domain.schemas.iter().map(|s| s.name.as_str()));
+                let help = hint(&name.text, known);
+                let name = name.text.clone();
+                let error = |at| RuleError::UnknownPredicate { name, help, at };
+                faults.push(text.name.fault(error));
+                continue;
+            }
+        };
+        if expected != parameters.len() {
+            let (found, of) = (parameters.len(), name.text.clone());
+            let error = |at| RuleError::Arity { name: of, expected, found, help, at };
+            faults.push(name.fault(error));
+            continue;
+        }
+        let Some(phrase) = phrase(&text.phrase, parameters, faults) else { continue };
+        if predicate.is_some() {
+            vocabulary.facts.insert((key, text.negated), phrase);
+        } else {
+            vocabulary.actions.insert(key, phrase);
+        }
+    }
+    phrases
+}
+
+/// A phrase cut at its variables; none when one of them is no parameter.
+fn phrase(text: &Name, parameters: &[Name], faults: &mut Vec<RuleFault>) -> Option<Phrase> {
+    let is_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
+    let mut parts = Vec::new();
+    let mut rest = text.text.as_str();
+    while let Some(mark) = rest.find('?') {
+        let after = &rest[mark + 1..];
+        let end = after.find(|c| !is_of_name(c)).unwrap_or(after.len());
+        if end == 0 {
+            parts.push(Part::Text(rest[..=mark].to_owned()));
+            rest = after;
+            continue;
+        }
+        let variable = &rest[mark..mark + 1 + end];
+        let Some(number) = parameters.iter().position(|p| p.key() == name_key(variable)) else {
+            let help = hint(variable, parameters.iter().map(|p| p.text.as_str()));
+            let variable = variable.to_owned();
+            faults.push(text.fault(|at| RuleError::PhraseVariable { variable, help, at }));
+            return None;
+        };
+        parts.push(Part::Text(rest[..mark].to_owned()));
+        parts.push(Part::Argument(number));
+        rest = &after[end..];
+    }
+    parts.push(Part::Text(rest.to_owned()));
+    Some(Phrase(parts))
 }
 
 /// An atom as a person would write it.

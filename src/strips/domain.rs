@@ -3,7 +3,10 @@
 //! Invariant: every index held by a [`Domain`] is an index of that same `Domain`.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
+use super::error::Place;
+use super::phrase::Phrases;
 use crate::units::name_key;
 
 macro_rules! indices {
@@ -99,6 +102,9 @@ pub struct Domain {
     pub(super) predicates: Vec<Predicate>,
     pub(super) predicate_index: HashMap<String, PredicateId>,
     pub(super) schemas: Vec<Schema>,
+    pub(super) phrases: Arc<Phrases>,
+    /// Where each predicate was declared, or else first spoken of as it is understood.
+    pub(super) introduced: HashMap<PredicateId, Place>,
 }
 
 impl Domain {
@@ -127,6 +133,12 @@ impl Domain {
     #[must_use]
     pub fn schemas(&self) -> &[Schema] {
         &self.schemas
+    }
+
+    /// How the rules say their predicates, actions and types in words.
+    #[must_use]
+    pub fn phrases(&self) -> &Arc<Phrases> {
+        &self.phrases
     }
 
     /// Whether some action of the rules adds or deletes facts of this predicate.

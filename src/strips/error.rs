@@ -113,12 +113,46 @@ pub enum RuleError {
 
     /// PDDL beyond :strips :typing :negative-preconditions :equality :action-costs.
     #[error("«{what}» не поддерживается")]
-    #[diagnostic(
-        code(strips::unsupported),
-        help("читаются :strips :typing :negative-preconditions :equality :action-costs")
-    )]
+    #[diagnostic(code(strips::unsupported), help("{help}"))]
     Unsupported {
         what: String,
+        help: &'static str,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A PDDL requirement beyond what is read; a file that declares it need not use it.
+    #[error("требование «{name}» шире того, что читается")]
+    #[diagnostic(
+        code(strips::requirement),
+        severity(Warning),
+        help(
+            "читаются :strips :typing :negative-preconditions :equality :action-costs; что сверх того, будет названо там, где стоит"
+        )
+    )]
+    Requirement {
+        name: String,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// `(define …)` is closed, and more sections follow.
+    #[error("«(define …)» здесь закрыто, а дальше стоит {next}")]
+    #[diagnostic(code(strips::early_end), help("уберите лишнюю «)» здесь или раньше"))]
+    EarlyEnd {
+        next: String,
+        #[label("закрыто здесь")]
+        at: SourceSpan,
+    },
+
+    /// An assumption to be withdrawn that nobody made.
+    #[error("такого предположения нет: {fact}{}", if *is_fact { " (это факт)" } else { "" })]
+    #[diagnostic(code(strips::not_assumed))]
+    NotAssumed {
+        fact: String,
+        is_fact: bool,
+        #[help]
+        help: Option<String>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -217,7 +251,7 @@ pub enum RuleError {
     },
 
     /// Too few or too many arguments.
-    #[error("у предиката «{name}» аргументов {expected}, а дано {found}")]
+    #[error("«{name}»: аргументов {expected}, а дано {found}")]
     #[diagnostic(code(strips::arity), help("{help}"))]
     Arity {
         name: String,
@@ -251,11 +285,39 @@ pub enum RuleError {
 
     /// The same name given twice where once is enough.
     #[error("{what} «{name}»: второе объявление")]
-    #[diagnostic(code(strips::duplicate), help("переименуйте или уберите одно из двух"))]
+    #[diagnostic(code(strips::duplicate), help("{help}"))]
     Duplicate {
         what: &'static str,
         name: String,
+        help: String,
         #[label("второй раз – здесь")]
+        at: SourceSpan,
+        #[label("первый раз – здесь")]
+        first: Option<SourceSpan>,
+    },
+
+    /// An object declared twice, with types that have nothing in common.
+    #[error("объект «{name}» объявлен дважды: здесь – «{found}», а раньше – «{earlier}»")]
+    #[diagnostic(code(strips::object_twice), help("{help}"))]
+    ObjectTwice {
+        name: String,
+        found: String,
+        earlier: String,
+        help: String,
+        #[label("второй раз – здесь")]
+        at: SourceSpan,
+        #[label("первый раз – здесь")]
+        first: Option<SourceSpan>,
+    },
+
+    /// A phrase with a variable that its head does not name.
+    #[error("в словах стоит «{variable}», а среди аргументов её нет")]
+    #[diagnostic(code(strips::phrase_variable))]
+    PhraseVariable {
+        variable: String,
+        #[help]
+        help: Option<String>,
+        #[label("здесь")]
         at: SourceSpan,
     },
 
@@ -379,7 +441,10 @@ pub enum RuleError {
 
     /// A scenario without a goal.
     #[error("у сценария нет цели")]
-    #[diagnostic(code(strips::no_goal), help("добавьте раздел «Целевая позиция: …»"))]
+    #[diagnostic(
+        code(strips::no_goal),
+        help("добавьте раздел «Целевая позиция: …», в PDDL – «(:goal …)»")
+    )]
     NoGoal,
 
     /// A scenario whose rules know no action.
@@ -397,6 +462,16 @@ pub enum RuleError {
         name: String,
         #[help]
         help: Option<String>,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
+    /// A plan has an object where one of another type is due.
+    #[error("«{name}» не подходит: здесь должен стоять объект типа «{expected}»")]
+    #[diagnostic(code(strips::wrong_object))]
+    WrongObject {
+        name: String,
+        expected: String,
         #[label("здесь")]
         at: SourceSpan,
     },

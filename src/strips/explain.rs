@@ -7,10 +7,11 @@ use std::collections::{BTreeSet, HashSet};
 use std::fmt;
 
 use super::attain::Attainable;
-use super::domain::Domain;
+use super::domain::{Domain, KindId};
 use super::error::RuleFaults;
 use super::ground::Reachability;
 use super::lack::{By, Lacks, Wanted, fits};
+use super::phrase::{Phrases, Said, SaidArgument, Wording};
 use super::problem::{Problem, ThingId};
 use super::task::Fact;
 use crate::units::{Language, name_key};
@@ -18,14 +19,14 @@ use crate::units::{Language, name_key};
 /// Why one fact of the goal cannot be reached.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Obstacle {
-    pub goal: String,
+    pub goal: Said,
     /// From the goal backward.
     pub missing: Vec<Missing>,
     /// Other ways to what stands before the last, that need it themselves.
     pub circles: Vec<Missing>,
     /// Sets of facts of which each would do; the first is what the last of `missing` comes to. None where the
     /// missing facts only need each other.
-    pub help: Vec<Vec<String>>,
+    pub help: Vec<Vec<Said>>,
     /// Whether every single need of the goal could be met, if not together with the others.
     pub is_met_singly: bool,
     /// Then the needs that do not go together, where that was found out.
@@ -35,18 +36,18 @@ pub struct Obstacle {
 /// An action two of whose needs exclude each other.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Clash {
-    pub action: String,
-    pub needs: (String, String),
+    pub action: Said,
+    pub needs: (Said, Said),
 }
 
 /// A fact that an action needs and that cannot be had.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Missing {
-    pub fact: String,
+    pub fact: Said,
     /// The action that would give what stands before in the chain, if this fact held.
-    pub action: String,
+    pub action: Said,
     /// Facts that hold of the same objects now, such as a door being locked.
-    pub now: Vec<String>,
+    pub now: Vec<Said>,
     /// Whether some action of the rules could give such a fact.
     pub has_action: bool,
 }
@@ -54,19 +55,25 @@ pub struct Missing {
 impl Obstacle {
     /// The goal, below it what is missing, and what would help.
     #[must_use]
-    pub fn in_words(&self, language: Language) -> String {
-        let goal = &self.goal;
-        let mut text = language
-            .pick(format!("цель {goal} недостижима"), format!("the goal {goal} is out of reach"));
+    pub fn in_words(&self, wording: &Wording<'_>) -> String {
+        let language = wording.language;
+        let goal = wording.fact(&self.goal);
+        let mut text = language.pick(
+            format!("цель {goal} недостижима"),
+            format!("the goal that {goal} is out of reach"),
+        );
         if self.is_met_singly {
             text += language.pick(
                 ": всё, что для неё нужно, достижимо порознь, но не вместе",
                 ": all that it takes can be had one by one, but not together",
             );
             if let Some(Clash { action, needs: (a, b) }) = &self.clash {
+                let (action, a, b) = (wording.action(action), wording.fact(a), wording.fact(b));
                 text += &language.pick(
                     format!("\n  для {action} нужны {a} и {b}, а они исключают друг друга"),
-                    format!("\n  {action} takes {a} and {b}, which exclude each other"),
+                    format!(
+                        "\n  for this ({action}) it must be that {a} and that {b}, which exclude each other"
+                    ),
                 );
             }
             return text;
@@ -77,36 +84,42 @@ impl Obstacle {
                     .pick(": ни одно действие не даёт этого факта", ": no action brings it about");
         }
         for (number, missing) in self.missing.iter().enumerate() {
-            text += &missing.in_words(language);
+            text += &missing.in_words(wording);
             if number + 1 == self.missing.len() {
                 text += missing.end_in_words(language, self.help.is_empty());
             }
         }
         for Missing { fact, action, .. } in &self.circles {
+            let (fact, action) = (wording.fact(fact), wording.kind_of_action(action));
             text += &language.pick(
                 format!("\n  а {action} не поможет: {fact} само требует этого же"),
-                format!("\n  while {action} is no help: {fact} takes the same itself"),
+                format!("\n  another way ({action}) is no help: that {fact} takes the same itself"),
             );
         }
         if !self.help.is_empty() {
             let and = language.pick(" и ", " and ");
-            let sets: Vec<String> = self.help.iter().map(|facts| facts.join(and)).collect();
-            text += language.pick("\nПомогло бы: ", "\nIt would help to have: ");
-            text += &sets.join(language.pick(", или ", ", or "));
+            let set = |facts: &Vec<Said>| {
+                let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
+                facts.join(and)
+            };
+            let sets: Vec<String> = self.help.iter().map(set).collect();
+            text += language.pick("\nПомогло бы: ", "\nIt would help if ");
+            text += &sets.join(language.pick(", или ", ", or if "));
         }
         text
     }
 }
 
 impl Missing {
-    fn in_words(&self, language: Language) -> String {
-        let Self { fact, action, now, .. } = self;
-        let mut text = language.pick(
+    fn in_words(&self, wording: &Wording<'_>) -> String {
+        let (fact, action) = (wording.fact(&self.fact), wording.kind_of_action(&self.action));
+        let mut text = wording.language.pick(
             format!("\n  для этого ({action}) нужно {fact}"),
-            format!("\n  for this ({action}) it takes {fact}"),
+            format!("\n  for this ({action}) it must be that {fact}"),
         );
-        if !now.is_empty() {
-            text += language.pick("; сейчас ", "; now it is ");
+        if !self.now.is_empty() {
+            let now: Vec<String> = self.now.iter().map(|fact| wording.fact(fact)).collect();
+            text += wording.language.pick("; сейчас ", "; now ");
             text += &now.join(", ");
         }
         text
@@ -133,7 +146,10 @@ impl Missing {
 /// In Russian.
 impl fmt::Display for Obstacle {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.in_words(Language::Russian))
+        let phrases = Phrases::default();
+        let name = |name: &str| name.to_owned();
+        let wording = Wording { language: Language::Russian, phrases: &phrases, name: &name };
+        f.write_str(&self.in_words(&wording))
     }
 }
 
@@ -156,7 +172,7 @@ pub fn explain_unreachable<'a>(
             Some(Wanted { predicate, args, negated: goal.negated })
         });
         let none = Obstacle {
-            goal: goal.to_string(),
+            goal: Said::from(goal),
             missing: Vec::new(),
             circles: Vec::new(),
             help: Vec::new(),
@@ -210,11 +226,11 @@ impl Chain {
     }
 
     /// Each set of statements that would do, the cheapest first.
-    fn help(&self, lacks: &Lacks<'_>) -> Vec<Vec<String>> {
-        let shown = |facts: BTreeSet<usize>| -> Vec<String> {
+    fn help(&self, lacks: &Lacks<'_>) -> Vec<Vec<Said>> {
+        let shown = |facts: BTreeSet<usize>| -> Vec<Said> {
             facts.into_iter().map(|fact| lacks.shown(&lacks.facts[fact])).collect()
         };
-        let first: Vec<String> = shown(lacks.stated(0).collect());
+        let first: Vec<Said> = shown(lacks.stated(0).collect());
         let Some((last, _)) = self.links.last().filter(|_| !first.is_empty()) else {
             return Vec::new();
         };
@@ -271,7 +287,7 @@ fn told(lacks: &Lacks<'_>, way: usize, fact: usize) -> Missing {
     let wanted = &lacks.facts[fact];
     Missing {
         fact: lacks.shown(wanted),
-        action: lacks.domain.schemas[lacks.ways[way].schema].name.clone(),
+        action: lacks.action_of(way),
         now: lacks.said_of_the_same(wanted),
         has_action: lacks.reached.changing[wanted.predicate.index()] && !wanted.negated,
     }
@@ -279,7 +295,7 @@ fn told(lacks: &Lacks<'_>, way: usize, fact: usize) -> Missing {
 
 impl Lacks<'_> {
     /// Initial facts of other predicates about the same two or more objects.
-    fn said_of_the_same(&self, wanted: &Wanted) -> Vec<String> {
+    fn said_of_the_same(&self, wanted: &Wanted) -> Vec<Said> {
         let objects: BTreeSet<ThingId> = wanted.args.iter().flatten().copied().collect();
         if objects.len() < 2 || wanted.negated {
             return Vec::new();
@@ -310,20 +326,34 @@ impl Lacks<'_> {
         })
     }
 
-    /// An open place as the rule language writes a variable: `КЛЮЧ_ПОДХОДИТ-К_(предмет ?, Дверь-ZY)`.
-    fn shown(&self, wanted: &Wanted) -> String {
-        let predicate = &self.domain.predicates[wanted.predicate.index()];
-        let args: Vec<String> = wanted
-            .args
+    /// The action of a way, with the objects that what it is to give names.
+    fn action_of(&self, way: usize) -> Said {
+        let (number, gives) = (self.ways[way].schema, &self.facts[self.ways[way].gives]);
+        let schema = &self.domain.schemas[number];
+        let effects = if gives.negated { &schema.del_effects } else { &schema.add_effects };
+        let binding = effects
             .iter()
-            .zip(&predicate.args)
-            .map(|(arg, kinds)| match arg {
-                Some(thing) => self.resolved.things[thing.index()].name.clone(),
-                None if kinds.is_empty() => "?".to_owned(),
-                None => format!("{} ?", self.domain.kind_names(kinds)),
-            })
-            .collect();
-        let not = if wanted.negated { "НЕ " } else { "" };
-        format!("{not}{}_({})", predicate.name, args.join(", "))
+            .filter(|effect| effect.predicate == gives.predicate)
+            .find_map(|effect| self.bound(number, &effect.args, &gives.args));
+        let binding = binding.unwrap_or_else(|| vec![None; schema.parameters.len()]);
+        let args = binding.iter().zip(&schema.parameters);
+        let args = args.map(|(thing, kinds)| self.argument(*thing, kinds)).collect();
+        Said { name: schema.name.clone(), args, negated: false }
+    }
+
+    /// An open place is told by its type.
+    fn shown(&self, wanted: &Wanted) -> Said {
+        let predicate = &self.domain.predicates[wanted.predicate.index()];
+        let args = wanted.args.iter().zip(&predicate.args);
+        let args = args.map(|(thing, kinds)| self.argument(*thing, kinds)).collect();
+        Said { name: predicate.name.clone(), args, negated: wanted.negated }
+    }
+
+    fn argument(&self, thing: Option<ThingId>, kinds: &[KindId]) -> SaidArgument {
+        let name = |kind: &KindId| self.domain.kinds[kind.index()].name.clone();
+        match thing {
+            Some(thing) => SaidArgument::Object(self.resolved.things[thing.index()].name.clone()),
+            None => SaidArgument::Any(kinds.iter().map(name).collect()),
+        }
     }
 }

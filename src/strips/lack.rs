@@ -170,7 +170,7 @@ impl<'a> Lacks<'a> {
     }
 
     /// The action's parameters where its effect is what is wanted.
-    fn bound(
+    pub(super) fn bound(
         &self,
         schema: usize,
         terms: &[SchemaTerm],
@@ -246,6 +246,15 @@ impl<'a> Lacks<'a> {
                 let missing = with(missing.clone(), now_wanted);
                 self.complete(schema, &binding, &rest, missing, found);
             }
+        }
+        // What was withdrawn would be true but for that.
+        let gone = self.resolved.withdrawn.iter().filter(|gone| gone.predicate == wanted.predicate);
+        for binding in
+            gone.filter(|gone| fits(&gone.args, &wanted.args)).filter_map(|gone| chosen(&gone.args))
+        {
+            is_chosen = true;
+            let missing = with(missing.clone(), self.under(atom, &binding));
+            self.complete(schema, &binding, &rest, missing, found);
         }
         for args in self.elsewhere(&wanted) {
             if let Some(binding) = chosen(&args) {
@@ -415,6 +424,11 @@ impl<'a> Lacks<'a> {
     /// attained is not. A fact that speaks of known objects is nearer than one of any object.
     fn price(&self, number: usize) -> Option<u32> {
         let wanted = &self.facts[number];
+        // What was just withdrawn is the first thing to come to mind.
+        if number != 0 && closed(wanted).is_some_and(|atom| self.resolved.withdrawn.contains(&atom))
+        {
+            return Some(1);
+        }
         let open = wanted.args.iter().filter(|arg| arg.is_none()).count();
         let is_unspoken = !wanted.negated && self.initial[wanted.predicate.index()].is_empty();
         let makes = match (self.reached.changing[wanted.predicate.index()], wanted.negated) {

@@ -38,8 +38,43 @@ impl Scenario {
     /// All faults of the file and of those that it includes, at once. A scenario's objects and goals are
     /// checked when it is grounded, after a map had its chance to supplement them.
     pub fn read(path: &Path) -> Result<Self, RuleFaults> {
+        let (scenario, faults) = Self::read_whole(path)?;
+        if faults.is_empty() { Ok(scenario) } else { Err(RuleFaults(faults)) }
+    }
+
+    /// Reads a file, and what could be read of it beside its faults, so that its names can be checked as well.
+    ///
+    /// # Errors
+    /// The file itself cannot be had.
+    pub fn read_whole(path: &Path) -> Result<(Self, Vec<RuleFault>), RuleFaults> {
         let source = read_source(path)?;
-        Self::load(&source, Some(path))
+        Ok(Self::load(&source, Some(path)))
+    }
+
+    /// The faults that came up in reading, with those of the names that neither facts nor a map know.
+    #[must_use]
+    pub fn with_faults_of_names(&self, mut faults: Vec<RuleFault>) -> RuleFaults {
+        let is_whole = |fault: &RuleFault| {
+            !matches!(
+                &*fault.error,
+                RuleError::Include { .. }
+                    | RuleError::IncludeCycle { .. }
+                    | RuleError::Empty { .. }
+            )
+        };
+        if faults.iter().all(is_whole)
+            && let Err(RuleFaults(found)) = self.problem.resolve(&self.domain)
+        {
+            for fault in found {
+                let (place, text) = (fault.position(), fault.to_string());
+                if !faults.iter().any(|f| f.position() == place && f.to_string() == text) {
+                    faults.push(fault);
+                }
+            }
+        }
+        in_order_of_texts(&mut faults);
+        faults.truncate(MOST_FAULTS);
+        RuleFaults(faults)
     }
 
     /// Reads a text; what it includes is looked for from the working directory.
@@ -47,7 +82,8 @@ impl Scenario {
     /// # Errors
     /// As [`Scenario::read`].
     pub fn parse(source: &Source) -> Result<Self, RuleFaults> {
-        Self::load(source, None)
+        let (scenario, faults) = Self::load(source, None);
+        if faults.is_empty() { Ok(scenario) } else { Err(RuleFaults(faults)) }
     }
 
     /// Reads a PDDL domain and problem.
@@ -77,7 +113,8 @@ impl Scenario {
                 action.cost.push(CostTerm::Number(0));
             }
         }
-        Self::from_document(document, faults)
+        let (scenario, faults) = Self::from_document(document, faults);
+        if faults.is_empty() { Ok(scenario) } else { Err(RuleFaults(faults)) }
     }
 
     /// Grounds the scenario as it stands.
@@ -88,17 +125,14 @@ impl Scenario {
         ground(&self.domain, &self.problem)
     }
 
-    fn load(source: &Source, path: Option<&Path>) -> Result<Self, RuleFaults> {
+    fn load(source: &Source, path: Option<&Path>) -> (Self, Vec<RuleFault>) {
         let mut loader = Loader { open: Vec::new(), done: Vec::new(), faults: Vec::new() };
         let document = loader.load(source, path);
         Self::from_document(document, loader.faults)
     }
 
     /// Checks what was read even when `faults` came up in reading, so that one run tells everything.
-    fn from_document(
-        mut document: Document,
-        mut faults: Vec<RuleFault>,
-    ) -> Result<Self, RuleFaults> {
+    fn from_document(mut document: Document, mut faults: Vec<RuleFault>) -> (Self, Vec<RuleFault>) {
         let mut warnings = std::mem::take(&mut document.warnings);
         slips(&document, &mut faults, &mut warnings);
         if let (Some(own), Some(wanted)) = &document.domain_names
@@ -111,13 +145,10 @@ impl Scenario {
         let domain = check::domain(&document, &mut faults);
         let problem = Problem::of(&document, &mut faults);
         problem.check(&domain, &mut faults);
-        if !faults.is_empty() {
-            in_order_of_texts(&mut faults);
-            faults.truncate(MOST_FAULTS);
-            return Err(RuleFaults(faults));
-        }
+        in_order_of_texts(&mut faults);
+        faults.truncate(MOST_FAULTS);
         let map = document.map.as_ref().map(|name| beside(name, Path::new(name.at.source.name())));
-        Ok(Self { domain, problem, map, warnings })
+        (Self { domain, problem, map, warnings }, faults)
     }
 }
 

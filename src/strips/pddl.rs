@@ -47,6 +47,21 @@ impl<'a> Expression<'a> {
         }
     }
 
+    /// From the bracket to the end of the first word: a list may go over many lines.
+    fn head_span(&self) -> SourceSpan {
+        let span = self.span();
+        match self.items().first() {
+            Some(Self::Word(_, word)) => {
+                (span.offset(), word.offset() + word.len() - span.offset()).into()
+            }
+            _ => span,
+        }
+    }
+
+    fn is_section(&self) -> bool {
+        self.head().is_some_and(|head| is_section_word(&head))
+    }
+
     pub(super) fn items(&self) -> &[Self] {
         match self {
             Self::List(items, _) => items,
@@ -59,31 +74,68 @@ type Faults = Vec<RuleFault>;
 
 /// Reads a domain or a problem into `document`.
 pub(super) fn read(source: &Source, document: &mut Document, faults: &mut Faults) {
-    let expressions = match expressions(source) {
-        Ok(expressions) => expressions,
-        Err(fault) => return faults.push(fault),
-    };
-    if expressions.is_empty() {
+    let (expressions, mut brackets) = expressions(source);
+    if expressions.is_empty() && brackets.is_empty() {
         let error = RuleError::Empty { path: source.name().to_owned() };
         return faults.push(RuleFault::placeless(error));
     }
     document.types.get_or_insert_default();
     document.predicates_closed = true;
     document.objects_closed = true;
-    let mut reader = Reader { source, document, faults };
+    let unclosed: Vec<usize> = brackets
+        .iter()
+        .filter_map(|fault| match &*fault.error {
+            RuleError::MissingParenthesis { at } => Some(at.offset()),
+            _ => None,
+        })
+        .collect();
+    let mut own = Vec::new();
+    let mut reader = Reader { source, document, faults: &mut own };
+    // What an open bracket does to the rest of its section is no fault of its own.
+    let read = |reader: &mut Reader<'_>, section: &Expression<'_>| {
+        let before = reader.faults.len();
+        reader.section(section);
+        if unclosed.contains(&section.span().offset()) {
+            reader.faults.truncate(before);
+        }
+    };
+    let mut closed: Option<SourceSpan> = None;
+    let mut ended = false;
     for expression in &expressions {
         if expression.head().as_deref() == Some("define") {
-            expression.items()[1..].iter().for_each(|section| reader.section(section));
+            expression.items()[1..].iter().for_each(|section| read(&mut reader, section));
+            closed = Some(expression.span());
+        } else if let (Some(define), true) = (closed, expression.is_section()) {
+            if !ended {
+                reader.early_end(define, expression);
+            }
+            ended = true;
+            read(&mut reader, expression);
         } else {
             reader.expected("(define …)", expression.span());
         }
     }
+    if ended {
+        // The bracket at the end of the text is the one that came too early.
+        let surplus = |fault: &RuleFault| matches!(*fault.error, RuleError::Syntax { .. });
+        if let Some(at) = brackets.iter().rposition(surplus) {
+            brackets.remove(at);
+        }
+    }
+    faults.extend(brackets);
+    faults.extend(own);
 }
 
-/// The bracketed lists of a text.
-pub(super) fn expressions(source: &Source) -> Result<Vec<Expression<'_>>, RuleFault> {
+/// `:action` and its like.
+fn is_section_word(word: &str) -> bool {
+    word.starts_with(':')
+}
+
+/// The bracketed lists of a text, with the faults of its brackets. A section begun within another shows that the other
+/// was not closed; it is closed then, and reading goes on.
+pub(super) fn expressions(source: &Source) -> (Vec<Expression<'_>>, Vec<RuleFault>) {
     let text = source.text();
-    let fault = |error| RuleFault::new(source, error);
+    let mut faults = Vec::new();
     let mut open: Vec<(usize, Vec<Expression<'_>>)> = Vec::new();
     let mut top = Vec::new();
     let mut rest = skip_blank(text);
@@ -94,9 +146,16 @@ pub(super) fn expressions(source: &Source) -> Result<Vec<Expression<'_>>, RuleFa
         let end = text.len() - after.len();
         let done = match token {
             "(" => {
+                if open.len() > 1 && word(after).is_ok_and(|(_, word)| is_section_word(word)) {
+                    let at = (open[1].0, 1).into();
+                    faults.push(RuleFault::new(source, RuleError::MissingParenthesis { at }));
+                    close(&mut open, 1, start, &mut top);
+                }
                 if open.len() >= MAX_DEPTH {
                     let at = (start, 1).into();
-                    return Err(fault(RuleError::TooDeep { limit: MAX_DEPTH, at }));
+                    let error = RuleError::TooDeep { limit: MAX_DEPTH, at };
+                    faults.push(RuleFault::new(source, error));
+                    return (top, faults);
                 }
                 open.push((start, Vec::new()));
                 None
@@ -104,23 +163,52 @@ pub(super) fn expressions(source: &Source) -> Result<Vec<Expression<'_>>, RuleFa
             ")" => match open.pop() {
                 Some((from, items)) => Some(Expression::List(items, (from, end - from).into())),
                 None => {
-                    return Err(fault(RuleError::Syntax {
+                    let error = RuleError::Syntax {
                         expected: "«(»".to_owned(),
                         found: "«)»".to_owned(),
                         at: (start, 1).into(),
-                    }));
+                    };
+                    faults.push(RuleFault::new(source, error));
+                    None
                 }
             },
-            word => Some(Expression::Word(word.trim_matches('"'), (start, end - start).into())),
+            word => Some(Expression::Word(unquoted(word), (start, end - start).into())),
         };
         if let Some(done) = done {
             open.last_mut().map_or(&mut top, |(_, items)| items).push(done);
         }
         rest = skip_blank(after);
     }
-    match open.pop() {
-        Some((from, _)) => Err(fault(RuleError::MissingParenthesis { at: (from, 1).into() })),
-        None => Ok(top),
+    if let Some(&(from, _)) = open.get(1).or(open.first()) {
+        let at = (from, 1).into();
+        faults.push(RuleFault::new(source, RuleError::MissingParenthesis { at }));
+        close(&mut open, 0, text.len(), &mut top);
+    }
+    faults.truncate(MOST_BRACKETS);
+    (top, faults)
+}
+
+/// Of brackets that do not match, so many are told.
+const MOST_BRACKETS: usize = 10;
+
+/// Closes all open lists but so many.
+fn close<'a>(
+    open: &mut Vec<(usize, Vec<Expression<'a>>)>,
+    but: usize,
+    end: usize,
+    top: &mut Vec<Expression<'a>>,
+) {
+    while open.len() > but {
+        let Some((from, items)) = open.pop() else { return };
+        let list = Expression::List(items, (from, end - from).into());
+        open.last_mut().map_or(&mut *top, |(_, items)| items).push(list);
+    }
+}
+
+fn unquoted(word: &str) -> &str {
+    match word.strip_prefix('«').and_then(|word| word.strip_suffix('»')) {
+        Some(inside) => inside,
+        None => word.trim_matches('"'),
     }
 }
 
@@ -130,7 +218,11 @@ fn word(input: &str) -> IResult<&str, &str> {
 
 /// A name with blanks, as plans over Russian maps have them.
 fn quoted(input: &str) -> IResult<&str, &str> {
-    recognize((tag("\""), take_while1(|c| c != '"' && c != '\n'), tag("\""))).parse(input)
+    alt((
+        recognize((tag("\""), take_while1(|c| c != '"' && c != '\n'), tag("\""))),
+        recognize((tag("«"), take_while1(|c| c != '»' && c != '\n'), tag("»"))),
+    ))
+    .parse(input)
 }
 
 fn skip_blank(input: &str) -> &str {
@@ -170,8 +262,10 @@ impl Reader<'_> {
             Some(":action") => self.action(section),
             Some(":init") => items[1..].iter().for_each(|fact| self.fact(fact)),
             Some(":goal") => {
-                let mut goal = Vec::new();
+                let (mut goal, before) = (Vec::new(), self.faults.len());
                 items[1..].iter().for_each(|part| self.condition(part, false, &mut goal));
+                self.document.goal_is_empty |=
+                    goal.is_empty() && items.len() > 1 && self.faults.len() == before;
                 self.document.goal.extend(goal);
             }
             Some(":functions") => self.functions(&items[1..]),
@@ -179,9 +273,29 @@ impl Reader<'_> {
             Some("domain") => self.document.domain_names.0 = self.own_name(items),
             Some(":domain") => self.document.domain_names.1 = self.own_name(items),
             // Names and promises; what a text really uses shows when it is read.
-            Some("problem" | ":requirements" | ":length") => {}
-            Some(other) => self.unsupported(other, section.span()),
+            Some("problem" | ":length") => {}
+            Some(":requirements") => self.requirements(&items[1..]),
+            Some(other) => self.unsupported(other, section.head_span()),
             None => self.expected("раздел «(:…)»", section.span()),
+        }
+    }
+
+    /// A promise of more than is read harms nobody who does not make use of it.
+    fn requirements(&mut self, items: &[Expression<'_>]) {
+        const READ: [&str; 6] = [
+            ":strips",
+            ":typing",
+            ":equality",
+            ":negative-preconditions",
+            ":action-costs",
+            ":constants",
+        ];
+        for item in items {
+            let Expression::Word(name, at) = item else { continue };
+            if !READ.contains(&name.to_lowercase().as_str()) {
+                let error = RuleError::Requirement { name: (*name).to_owned(), at: *at };
+                self.document.warnings.push(RuleFault::new(self.source, error));
+            }
         }
     }
 
@@ -292,7 +406,7 @@ impl Reader<'_> {
                 what @ ("and" | "or" | "imply" | "forall" | "exists" | "when" | "preference" | "="
                 | "<" | "<=" | ">" | ">="),
             ) => {
-                self.unsupported(what, part.span());
+                self.unsupported(what, part.head_span());
             }
             Some(_) => {
                 if let Some(atom) = self.atom(part) {
@@ -325,7 +439,7 @@ impl Reader<'_> {
             Some(
                 what @ ("forall" | "when" | "assign" | "decrease" | "scale-up" | "scale-down"),
             ) => {
-                self.unsupported(what, part.span());
+                self.unsupported(what, part.head_span());
             }
             Some(_) => action.add.extend(self.atom(part)),
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
@@ -458,9 +572,39 @@ impl Reader<'_> {
         self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
     }
 
+    fn early_end(&mut self, define: SourceSpan, next: &Expression<'_>) {
+        let next = format!("«{}»", excerpt(self.source, next.head_span()));
+        let at = (define.offset() + define.len() - 1, 1).into();
+        self.faults.push(RuleFault::new(self.source, RuleError::EarlyEnd { next, at }));
+    }
+
     fn unsupported(&mut self, what: &str, at: SourceSpan) {
+        let help = way_round(what);
         let what: String = what.chars().take(40).collect();
-        self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, at }));
+        self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, help, at }));
+    }
+}
+
+/// How to say the same without what is not read.
+fn way_round(what: &str) -> &'static str {
+    match what {
+        "or" | "imply" => "запишите по действию на каждый случай",
+        "forall" => "перечислите объекты по одному или запишите по действию на каждый",
+        "exists" => "добавьте действию параметр вместо «exists»",
+        "when" => "разделите действие на два: где условие выполнено и где нет («not»)",
+        ":durative-action" => {
+            "времени в планах нет: запишите обычное «:action», длительность – как стоимость"
+        }
+        ":derived" => "запишите выведенное в «:init» или добавьте действие, которое его даёт",
+        "preference" | ":constraints" => "мягких целей нет: запишите в «:goal» то, что нужно",
+        "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => {
+            "числа читаются лишь как стоимость: (increase (total-cost) …)"
+        }
+        what if what.starts_with("(increase") => {
+            "числа читаются лишь как стоимость: (increase (total-cost) …)"
+        }
+        "and" => "отрицание перед каждым фактом отдельно: (not (…))",
+        _ => "читаются :strips :typing :negative-preconditions :equality :action-costs",
     }
 }
 

@@ -20,6 +20,8 @@ pub struct Directive {
     pub action: String,
     pub args: Vec<String>,
     pub(super) at: SourceSpan,
+    /// Where each of the arguments stands.
+    pub(super) args_at: Vec<SourceSpan>,
 }
 
 /// As the paper prints a directive.
@@ -72,7 +74,9 @@ impl PlanText {
         let mut times = Vec::new();
         let mut faults = Vec::new();
         let mut time = None;
-        for expression in expressions(source)? {
+        let (expressions, broken) = expressions(source);
+        faults.extend(broken);
+        for expression in expressions {
             let at = expression.span();
             match &expression {
                 Expression::Word(word, _) => match word.trim_end_matches(':').parse::<f64>() {
@@ -80,7 +84,7 @@ impl PlanText {
                         time = Some(number);
                     }
                     // `[1]`, the duration that some planners add.
-                    _ if word.starts_with('[') => {}
+                    _ if word.starts_with('[') && word.ends_with(']') => {}
                     _ => faults.push(syntax(source, "«шаг: (действие объект …)»", word, at)),
                 },
                 Expression::List(items, _) => {
@@ -95,7 +99,8 @@ impl PlanText {
                         Some([action, args @ ..]) => {
                             times.push(time.take().unwrap_or(directives.len() as f64));
                             let (action, args) = (action.clone(), args.to_vec());
-                            directives.push(Directive { step: 0, action, args, at });
+                            let args_at = items[1..].iter().map(Expression::span).collect();
+                            directives.push(Directive { step: 0, action, args, at, args_at });
                         }
                         _ => faults.push(syntax(source, "«(действие объект …)»", "список", at)),
                     }
@@ -125,8 +130,14 @@ fn steps(times: &[f64]) -> Vec<u32> {
     times.iter().map(|time| if is_told_apart { whole(*time) } else { rank(time) }).collect()
 }
 
+/// A name that is not one word to whoever reads the plan stands in quotes: in «», where it has others within.
 fn quoted(name: &str) -> String {
-    if name.contains([' ', '(', ')', ';']) { format!("\"{name}\"") } else { name.to_owned() }
+    let is_sign = |c: char| c.is_whitespace() || "()\";«»".contains(c);
+    match name.contains('"') {
+        true => format!("«{name}»"),
+        false if name.contains(is_sign) => format!("\"{name}\""),
+        false => name.to_owned(),
+    }
 }
 
 fn syntax(source: &Source, expected: &str, found: &str, at: SourceSpan) -> RuleFault {

@@ -3,13 +3,15 @@
 //! A [`Problem`] collects statements; names are resolved against the rules when it is grounded, so that
 //! a scenario may speak of objects that only the map knows. The world is closed: what is not stated is false.
 
-use std::collections::{HashMap, HashSet};
+use std::collections::{BTreeSet, HashMap, HashSet};
 
 use super::check::{hint, text_of};
 use super::domain::{ANY_KIND, Domain, KindId, KindSet, PredicateId, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
+use super::phrase::{Said, SaidArgument};
+use super::rule_text::conditions;
 use super::syntax::{Atom, Condition, Declaration, Document, Name};
-use crate::units::name_key;
+use crate::units::{Source, name_key};
 
 /// An object of a problem.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -55,6 +57,10 @@ pub struct Problem {
     values: Vec<(Atom, u32)>,
     objects_closed: bool,
     compared: Vec<(Name, Name, bool)>,
+    /// The goal was stated and asks for nothing.
+    goal_is_empty: bool,
+    /// Assumptions that were made, and made no longer.
+    withdrawn: Vec<Statement>,
 }
 
 impl Problem {
@@ -92,6 +98,65 @@ impl Problem {
         self.facts.len() < before
     }
 
+    /// Withdraws assumptions given as a rule file writes them, several if need be; a variable stands for any object:
+    /// `ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ZY, ?x, ?z)`. Returns those withdrawn.
+    ///
+    /// # Errors
+    /// What is no fact, unknown to the rules, or assumed by nobody.
+    pub fn withdraw_assumptions(
+        &mut self,
+        domain: &Domain,
+        text: &str,
+    ) -> Result<Vec<Said>, RuleFaults> {
+        let source = Source::new("предположение", text);
+        let mut faults = Vec::new();
+        let mut withdrawn = Vec::new();
+        for condition in conditions(&source)? {
+            let (name, atom) = match &condition {
+                Condition::Holds { atom, negated: false } => (&atom.predicate, atom),
+                Condition::Holds { atom, .. } => {
+                    faults.push(atom.predicate.fault(no_plain_fact));
+                    continue;
+                }
+                Condition::Equal { pair, .. } => {
+                    faults.push(pair.0.name.fault(no_plain_fact));
+                    continue;
+                }
+            };
+            if let Err(fault) = Statement::of(atom, false, Standing::Assumption).predicate(domain) {
+                faults.push(fault);
+                continue;
+            }
+            let matched = self.withdraw_matching(atom);
+            if matched.is_empty() {
+                let is_fact = self.facts.iter().any(|fact| fact.is_matched_by(atom));
+                let assumed = self.facts.iter().filter(|f| f.standing == Standing::Assumption);
+                let assumed: Vec<String> = assumed.map(Statement::shown).collect();
+                let fact = text_of(atom);
+                let help = hint(&fact, assumed.iter().map(String::as_str));
+                let error = |at| RuleError::NotAssumed { fact, is_fact, help, at };
+                faults.push(name.fault(error));
+            }
+            withdrawn.extend(matched);
+        }
+        if faults.is_empty() { Ok(withdrawn) } else { Err(RuleFaults(faults)) }
+    }
+
+    /// What is also known for a fact stays.
+    fn withdraw_matching(&mut self, atom: &Atom) -> Vec<Said> {
+        let facts = self.facts.iter().filter(|fact| fact.standing == Standing::Fact);
+        let known: HashSet<String> = facts.map(Statement::key).collect();
+        let goes = |fact: &mut Statement| {
+            fact.standing == Standing::Assumption
+                && !known.contains(&fact.key())
+                && fact.is_matched_by(atom)
+        };
+        let gone: Vec<Statement> = self.facts.extract_if(.., goes).collect();
+        let withdrawn = gone.iter().map(Statement::said).collect();
+        self.withdrawn.extend(gone);
+        withdrawn
+    }
+
     /// Asks for a fact to hold in the end.
     pub fn add_goal(&mut self, predicate: &str, args: &[&str]) {
         self.goal.push(Statement::outside(predicate, args, false, Standing::Fact));
@@ -104,7 +169,7 @@ impl Problem {
 
     #[must_use]
     pub fn has_goal(&self) -> bool {
-        !self.goal.is_empty()
+        !self.goal.is_empty() || !self.compared.is_empty() || self.goal_is_empty
     }
 
     /// The names of all objects that a statement mentions, each once, in order.
@@ -152,6 +217,7 @@ impl Problem {
         let mut problem = Self {
             values: document.values.clone(),
             objects_closed: document.objects_closed,
+            goal_is_empty: document.goal_is_empty,
             ..Self::default()
         };
         for declaration in &document.objects {
@@ -209,6 +275,7 @@ impl Problem {
         let goal = resolver.goal(&self.goal);
         let impossible = resolver.comparisons(self);
         let values = resolver.values(&self.values);
+        let withdrawn = resolver.known(&self.withdrawn);
         if resolver.faults.is_empty() {
             Ok(Resolved {
                 things: resolver.things,
@@ -217,6 +284,7 @@ impl Problem {
                 goal,
                 values,
                 impossible,
+                withdrawn,
             })
         } else {
             Err(RuleFaults(resolver.faults))
@@ -226,6 +294,13 @@ impl Problem {
 
 fn atom_key(predicate: &str) -> String {
     name_key(predicate.trim_end_matches('_'))
+}
+
+fn no_plain_fact(at: miette::SourceSpan) -> RuleError {
+    let expected = "факт вида «ИМЯ_(объект, …)»".to_owned();
+    RuleError::Syntax {
+        expected, found: "отрицание или сравнение".to_owned(), at
+    }
 }
 
 fn check_ground(condition: &Condition, faults: &mut Vec<RuleFault>) {
@@ -281,6 +356,26 @@ impl Statement {
         }))
     }
 
+    /// Equal for statements that say the same.
+    fn key(&self) -> String {
+        let args: Vec<String> = self.args.iter().map(|arg| name_key(arg)).collect();
+        format!("{}({})", atom_key(&self.predicate), args.join(","))
+    }
+
+    /// Whether an atom, in which variables stand for any object, says this.
+    fn is_matched_by(&self, atom: &Atom) -> bool {
+        let mut objects = atom.args.iter().zip(&self.args);
+        atom_key(&atom.predicate.text) == atom_key(&self.predicate)
+            && atom.args.len() == self.args.len()
+            && !self.negated
+            && objects.all(|(term, arg)| term.is_variable || term.name.key() == name_key(arg))
+    }
+
+    fn said(&self) -> Said {
+        let args = self.args.iter().map(|arg| SaidArgument::Object(arg.clone())).collect();
+        Said { name: self.predicate.clone(), args, negated: self.negated }
+    }
+
     fn shown(&self) -> String {
         match &self.text {
             Some(atom) => text_of(atom),
@@ -332,6 +427,8 @@ pub(super) struct Resolved {
     pub(super) values: HashMap<(String, Vec<ThingId>), u32>,
     /// The goal compares two names, and the comparison is false.
     pub(super) impossible: bool,
+    /// What was assumed until it was withdrawn.
+    pub(super) withdrawn: BTreeSet<GroundAtom>,
 }
 
 struct Resolver<'a> {
@@ -384,7 +481,9 @@ impl Resolver<'_> {
             }
         }
         if !self.closed {
-            for fact in problem.facts.iter().filter(|fact| !fact.negated) {
+            // What was withdrawn is assumed no longer, but the objects that it spoke of are there still.
+            let stated = problem.facts.iter().chain(&problem.withdrawn);
+            for fact in stated.filter(|fact| !fact.negated) {
                 for arg in &fact.args {
                     self.introduce(arg);
                 }
@@ -397,7 +496,8 @@ impl Resolver<'_> {
     /// An undeclared object has the most special of the types that its places in facts and goals ask for.
     fn infer_kinds(&mut self, problem: &Problem) {
         let untyped: Vec<bool> = self.things.iter().map(|thing| thing.kinds.is_empty()).collect();
-        for statement in problem.facts.iter().chain(&problem.goal) {
+        let stated = problem.facts.iter().chain(&problem.withdrawn).chain(&problem.goal);
+        for statement in stated {
             let Some(predicate) = self.domain.predicate(&statement.predicate) else { continue };
             let signature = &self.domain.predicates[predicate.index()].args;
             for (place, (arg, wanted)) in statement.args.iter().zip(signature).enumerate() {
@@ -464,6 +564,17 @@ impl Resolver<'_> {
             }
         }
         facts
+    }
+
+    /// Those of the statements whose names all mean something.
+    fn known(&self, statements: &[Statement]) -> BTreeSet<GroundAtom> {
+        let atom = |statement: &Statement| {
+            let predicate = statement.predicate(self.domain).ok()?;
+            let thing = |arg: &String| self.index.get(&name_key(arg)).copied();
+            let args = statement.args.iter().map(thing).collect::<Option<_>>()?;
+            Some(GroundAtom { predicate, args })
+        };
+        statements.iter().filter_map(atom).collect()
     }
 
     fn goal(&mut self, statements: &[Statement]) -> Vec<(GroundAtom, bool)> {

@@ -3,8 +3,9 @@
 //! The replay works on the rules themselves, not on a grounded task: it is a second opinion on grounding and on
 //! the planner, and it judges plans of others, who may take steps that the planner would never think of.
 
-use std::collections::{BTreeMap, BTreeSet, HashSet};
+use std::collections::{BTreeMap, HashSet};
 
+use super::check::hint;
 use super::domain::{Domain, Schema, SchemaAtom, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::ground::cost;
@@ -28,7 +29,8 @@ pub struct Replayed {
 pub struct Broken {
     /// The step that cannot be carried out; none when all could and a part of the goal does not hold.
     pub step: Option<u32>,
-    /// Everything wrong with that step, or the goals that do not hold.
+    /// Everything wrong with that step, and what in later ones means nothing to the rules; or the goals that do not
+    /// hold.
     pub faults: RuleFaults,
 }
 
@@ -47,13 +49,18 @@ impl PlanText {
         }
         let replay = Replay { domain, resolved: &resolved, source: &self.source };
         let mut replayed = Replayed { steps: Vec::new(), cost: 0, broken: None };
-        for (step, directives) in steps {
+        let mut steps = steps.into_iter();
+        for (step, directives) in steps.by_ref() {
             match replay.step(&directives, &mut state) {
                 Ok(cost) => {
                     replayed.cost += cost;
                     replayed.steps.push((step, directives.into_iter().cloned().collect()));
                 }
-                Err(faults) => {
+                Err(mut faults) => {
+                    // What means nothing to the rules is told of all that was still to come.
+                    let later = steps.flat_map(|(_, directives)| directives);
+                    let senseless = later.filter_map(|directive| replay.meaning(directive).err());
+                    faults.0.extend(senseless.flat_map(|faults| faults.0));
                     replayed.broken = Some(Broken { step: Some(step), faults });
                     return Ok(replayed);
                 }
@@ -155,8 +162,7 @@ impl Replay<'_> {
         directive: &Directive,
         state: &HashSet<GroundAtom>,
     ) -> Result<Instance, RuleFaults> {
-        let schema = self.schema(directive)?;
-        let args = self.args(directive, schema)?;
+        let (schema, args) = self.meaning(directive)?;
         let value = |term: &SchemaTerm| match term {
             SchemaTerm::Constant(name) => self.resolved.index[&name_key(name)],
             SchemaTerm::Parameter(parameter) => args[*parameter as usize],
@@ -193,6 +199,12 @@ impl Replay<'_> {
         Ok(Instance { needs, denied, adds, dels, cost: cost(schema, self.resolved, &args) })
     }
 
+    /// The action and the objects that a directive names.
+    fn meaning(&self, directive: &Directive) -> Result<(&Schema, Vec<ThingId>), RuleFaults> {
+        let schema = self.schema(directive)?;
+        Ok((schema, self.args(directive, schema)?))
+    }
+
     fn schema(&self, directive: &Directive) -> Result<&Schema, RuleFaults> {
         let key = name_key(directive.action.trim_end_matches('_'));
         self.domain.schemas.iter().find(|schema| name_key(&schema.name) == key).ok_or_else(|| {
@@ -223,29 +235,32 @@ impl Replay<'_> {
                 .into());
         }
         let mut args = Vec::new();
-        let mut faults = BTreeSet::new();
-        for (name, kinds) in directive.args.iter().zip(&schema.parameters) {
-            match self.resolved.index.get(&name_key(name)) {
-                Some(&thing) => {
-                    let have = &self.resolved.things[thing.index()].kinds;
-                    if !kinds.is_empty() && !self.domain.fits(have, kinds) {
-                        faults.insert((name.clone(), Some(self.domain.kind_names(kinds))));
-                    }
+        let mut faults = Vec::new();
+        let named = directive.args.iter().zip(&directive.args_at);
+        for ((name, &at), kinds) in named.zip(&schema.parameters) {
+            let known = self.resolved.index.get(&name_key(name));
+            let fits = |thing: &ThingId| {
+                let have = &self.resolved.things[thing.index()].kinds;
+                kinds.is_empty() || self.domain.fits(have, kinds)
+            };
+            let name = name.clone();
+            faults.push(self.fault(match known {
+                Some(&thing) if fits(&thing) => {
                     args.push(thing);
+                    continue;
+                }
+                Some(_) => {
+                    let expected = self.domain.kind_names(kinds);
+                    RuleError::WrongObject { name, expected, at }
                 }
                 None => {
-                    faults.insert((name.clone(), None));
+                    let things = self.resolved.things.iter();
+                    let help = hint(&name, things.map(|thing| thing.name.as_str()));
+                    RuleError::UnknownObject { name, help, at }
                 }
-            }
+            }));
         }
-        if faults.is_empty() {
-            return Ok(args);
-        }
-        let told = |(name, wanted): (String, Option<String>)| {
-            let help = wanted.map(|kind| format!("здесь должен стоять объект типа «{kind}»"));
-            self.fault(RuleError::UnknownObject { name, help, at: directive.at })
-        };
-        Err(RuleFaults(faults.into_iter().map(told).collect()))
+        if faults.is_empty() { Ok(args) } else { Err(RuleFaults(faults)) }
     }
 
     fn fault(&self, error: RuleError) -> RuleFault {

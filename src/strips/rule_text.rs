@@ -6,6 +6,7 @@
 //!              | ("Факты:" | "Исходная позиция:" | "Предположения:" | "Целевая позиция:") { condition }
 //!              | "Типы:" { name ["—" type {"," type}] }        | "Объекты:" { name ["—" type] }
 //!              | "Предикаты:" { name "(" [type {"," type}] ")" }
+//!              | ("По-русски:" | "По-английски:") { ["НЕ"] name ["(" [variable {"," variable}] ")"] "=" "«" phrase "»" }
 //!              | "Включить:" path | "Карта:" path
 //! part        := "Параметры:" { [type] variable } | "Предусловие:" { condition }
 //!              | "Эффект+:" { atom } | "Эффект-:" { atom } | "Стоимость:" number
@@ -19,10 +20,11 @@ use miette::SourceSpan;
 
 use super::error::{RuleError, RuleFault};
 use super::syntax::{
-    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Signature, Term,
+    ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, PhraseText,
+    Signature, Term,
 };
 use super::token::{Token, TokenKind, tokens};
-use crate::units::{Source, name_key, nearest_name};
+use crate::units::{Language, Source, name_key, nearest_name};
 
 /// Beyond this many faults a text is not a rule file, and nobody reads on.
 const MAX_FAULTS: usize = 50;
@@ -61,6 +63,7 @@ enum Heading {
     Objects,
     Include,
     Map,
+    Phrases(Language),
 }
 
 /// Every heading in both languages, as shown to people.
@@ -100,6 +103,10 @@ const HEADINGS: &[(&str, Heading)] = &[
     ("Include", Heading::Include),
     ("Карта", Heading::Map),
     ("Map", Heading::Map),
+    ("По-русски", Heading::Phrases(Language::Russian)),
+    ("In Russian", Heading::Phrases(Language::Russian)),
+    ("По-английски", Heading::Phrases(Language::English)),
+    ("In English", Heading::Phrases(Language::English)),
 ];
 
 impl Heading {
@@ -197,6 +204,7 @@ impl<'a> Parser<'a> {
                 Ok(())
             }
             Heading::Predicates => self.signatures(),
+            Heading::Phrases(language) => self.phrases(language),
             Heading::Include => {
                 let path = self.path()?;
                 self.text.includes.push(path);
@@ -322,8 +330,7 @@ impl<'a> Parser<'a> {
         let negated = match self.kind() {
             Some(TokenKind::Not) => true,
             Some(TokenKind::Word(word)) => {
-                matches!(name_key(word).as_str(), "не" | "not")
-                    && self.kind_after(1) != Some(TokenKind::Open)
+                is_not(word) && self.kind_after(1) != Some(TokenKind::Open)
             }
             _ => false,
         };
@@ -473,7 +480,57 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
+    /// How names are said in a language; a type stands without brackets.
+    fn phrases(&mut self, language: Language) -> Parsed<()> {
+        while matches!(self.kind(), Some(TokenKind::Word(_))) && self.heading_ahead().is_none() {
+            let negated = matches!(self.kind(), Some(TokenKind::Word(word)) if is_not(word))
+                && matches!(self.kind_after(1), Some(TokenKind::Word(_)));
+            if negated {
+                self.advance();
+            }
+            let name = self.name("имя предиката, действия или типа")?;
+            let parameters = (self.kind() == Some(TokenKind::Open))
+                .then(|| self.variables_in_brackets())
+                .transpose()?;
+            if self.kind() != Some(TokenKind::Equal) {
+                return Err(self.expected("«=» и слова в кавычках"));
+            }
+            self.advance();
+            let phrase = self.name("слова в кавычках")?;
+            let text = PhraseText { language, negated, name, parameters, phrase };
+            self.text.document.phrases.push(text);
+        }
+        Ok(())
+    }
+
+    fn variables_in_brackets(&mut self) -> Parsed<Vec<Name>> {
+        let open = self.advance();
+        let mut variables = Vec::new();
+        loop {
+            match self.kind() {
+                Some(TokenKind::Close) => {
+                    self.advance();
+                    return Ok(variables);
+                }
+                Some(TokenKind::Comma) => {
+                    self.advance();
+                }
+                Some(TokenKind::Variable(_)) => variables.push(self.take_name()),
+                None => return Err(self.missing(open)),
+                _ => return Err(self.expected("переменная вида «?x» или «)»")),
+            }
+        }
+    }
+
     fn cost(&mut self) -> Parsed<u32> {
+        if let (Some(TokenKind::Dash), Some(TokenKind::Word(word))) =
+            (self.kind(), self.kind_after(1))
+        {
+            let at = self.advance();
+            self.advance();
+            let text = format!("-{word}");
+            return Err(RuleFault::new(self.source, RuleError::Cost { text, at }));
+        }
         let Some(TokenKind::Word(word)) = self.kind() else {
             return Err(self.expected("число"));
         };
@@ -606,7 +663,7 @@ impl<'a> Parser<'a> {
         let help = Some(match near {
             Some(near) => format!("может быть, «{near}»?"),
             None => "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
-                     Типы, Предикаты, Объекты, Включить, Карта"
+                     Типы, Предикаты, Объекты, Включить, Карта, По-английски"
                 .to_owned(),
         });
         RuleFault::new(
@@ -623,6 +680,21 @@ impl<'a> Parser<'a> {
             }
             self.next += 1;
         }
+    }
+}
+
+fn is_not(word: &str) -> bool {
+    matches!(name_key(word).as_str(), "не" | "not")
+}
+
+/// The conditions that a text of its own consists of, such as facts given in an argument.
+pub(super) fn conditions(source: &Source) -> Result<Vec<Condition>, RuleFault> {
+    let tokens = tokens(source.text());
+    let mut parser = Parser { source, tokens: &tokens, next: 0, text: RuleText::default() };
+    let conditions = parser.conditions()?;
+    match parser.kind() {
+        None => Ok(conditions),
+        Some(_) => Err(parser.expected("факт вида «ИМЯ_(объект, …)»")),
     }
 }
 

@@ -100,7 +100,7 @@ fn uses(document: &Document) -> BTreeMap<String, Uses<'_>> {
     predicates
 }
 
-fn atom_of(condition: &Condition) -> Option<&Atom> {
+pub(super) fn atom_of(condition: &Condition) -> Option<&Atom> {
     match condition {
         Condition::Holds { atom, .. } => Some(atom),
         Condition::Equal { .. } => None,

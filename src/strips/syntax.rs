@@ -3,7 +3,7 @@
 use miette::SourceSpan;
 
 use super::error::{Place, RuleError, RuleFault};
-use crate::units::{Source, name_key};
+use crate::units::{Language, Source, name_key};
 
 /// A word of the text, as written, with its place.
 #[derive(Debug, Clone)]
@@ -85,6 +85,17 @@ pub(super) struct Signature {
     pub(super) args: Vec<Vec<Name>>,
 }
 
+/// `ДВЕРЬ_ИЗ_В_ОТКРЫТА_(?y, ?x, ?z) = «?y is open»`: how a predicate, an action or a type is said in a language.
+#[derive(Debug, Clone)]
+pub(super) struct PhraseText {
+    pub(super) language: Language,
+    pub(super) negated: bool,
+    pub(super) name: Name,
+    /// None for a type.
+    pub(super) parameters: Option<Vec<Name>>,
+    pub(super) phrase: Name,
+}
+
 /// All that one file and the files it includes say.
 #[derive(Debug, Default)]
 pub(super) struct Document {
@@ -103,7 +114,10 @@ pub(super) struct Document {
     /// Numbers that a problem gives, as declared (PDDL).
     pub(super) functions: Vec<Signature>,
     pub(super) goal: Vec<Condition>,
+    /// The goal was stated and asks for nothing, as `(:goal (and))` does.
+    pub(super) goal_is_empty: bool,
     pub(super) map: Option<Name>,
+    pub(super) phrases: Vec<PhraseText>,
     /// What a PDDL domain calls itself, and what its problem calls it.
     pub(super) domain_names: (Option<Name>, Option<Name>),
     pub(super) warnings: Vec<RuleFault>,
@@ -125,7 +139,9 @@ impl Document {
         self.values.extend(other.values);
         self.functions.extend(other.functions);
         self.goal.extend(other.goal);
+        self.goal_is_empty |= other.goal_is_empty;
         self.map = self.map.take().or(other.map);
+        self.phrases.extend(other.phrases);
         self.warnings.extend(other.warnings);
     }
 }

@@ -2,6 +2,7 @@
 
 mod faults;
 mod map;
+mod plans;
 mod readme;
 mod rules;
 mod tasks;
