@@ -170,7 +170,7 @@ fn what_was_withdrawn_is_what_would_help() {
 #[test]
 fn planning_without_an_assumption_comes_to_what_planning_anew_comes_to() {
     let (mut learned, mut rested, mut lost) = (0, 0, 0);
-    for seed in 1..=1500 {
+    for seed in 1..=700 {
         let drawn = Drawn::new(2 * seed + 1);
         if drawn.goal.is_empty() {
             continue;
@@ -204,7 +204,7 @@ fn planning_without_an_assumption_comes_to_what_planning_anew_comes_to() {
         }
     }
     assert!(
-        learned > 500 && rested > 50 && lost > 20,
+        learned > 200 && rested > 20 && lost > 8,
         "{learned} learned, {rested} rested, {lost} lost"
     );
 }
@@ -481,7 +481,7 @@ fn stirred_texts_are_read_without_panic() {
         letters.into_iter().collect()
     };
     let (mut good, mut bad) = (0, 0);
-    for _ in 0..1500 {
+    for _ in 0..500 {
         let results = [
             told(read(&stir(&russian))),
             told(pddl(&stir(GRIPPER.0), GRIPPER.1)),
@@ -492,5 +492,5 @@ fn stirred_texts_are_read_without_panic() {
         }
         let _ = check(&stir("0: (pick b1 ra l)\n1: (move ra rb)\n2: (drop b1 rb l)\n"));
     }
-    assert!(good > 50 && bad > 1000, "{good} good, {bad} bad");
+    assert!(good > 15 && bad > 330, "{good} good, {bad} bad");
 }
