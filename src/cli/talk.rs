@@ -16,7 +16,8 @@ use serde_json::json;
 
 use crate::engine::{Engine, Error, Memory, TaskAnswer};
 use crate::language::Language;
-use crate::language::command::{Command, has_verb, likely_verb};
+use crate::language::command::{Command, Misheard, has_verb, likely_verb};
+use crate::language::question::sentences;
 use crate::units::name_key;
 
 use super::args::{Common, Lang};
@@ -115,9 +116,6 @@ impl Dialogue {
             };
             return self.put("found", &text).map(|()| true);
         }
-        if let Some(answer) = courtesy(line) {
-            return self.put("found", answer).map(|()| true);
-        }
         if let Some(meant) = offered.filter(|_| is_yes(line)) {
             return self.command(&meant).map(|()| true);
         }
@@ -127,9 +125,15 @@ impl Dialogue {
         // «Где пульт? Принеси его.»: a question and a command.
         let parts = sentences(line);
         if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
-            for part in parts {
-                self.hear_one(part, shows)?;
+            let (order, before) = parts.split_last().expect("there are several");
+            for part in before {
+                // "I am thirsty. Bring me a cup.": what asks nothing and commands nothing is let pass.
+                let asked = part.ends_with('?') || self.engine.is_command(part)?;
+                if asked || self.engine.ask(part, &mut self.memory.clone())?.is_ok() {
+                    self.hear_one(part, shows)?;
+                }
             }
+            self.hear_one(order, shows)?;
             return Ok(true);
         }
         if let Some(parts) = self.engine.question_and_order(line)? {
@@ -142,7 +146,12 @@ impl Dialogue {
     }
 
     fn hear_one(&mut self, line: &str, shows: bool) -> Result<(), Failure> {
-        if self.engine.is_command(line)? {
+        // "I need to read something. Where are the books?" asks, whatever is said before.
+        let asks = match &sentences(line)[..] {
+            [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
+            _ => false,
+        };
+        if !asks && self.engine.is_command(line)? {
             return self.command(line);
         }
         match self.engine.ask(line, &mut self.memory)? {
@@ -158,10 +167,14 @@ impl Dialogue {
             Err(unanswered) => {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
                 let not_understood = unanswered.doubt.kind() == "not_understood";
-                if not_understood
-                    && (has_verb(line)
-                        || self.engine.understand_in(line, &mut self.memory.clone()).is_ok())
-                {
+                let heard = || self.engine.understand_in(line, &mut self.memory.clone());
+                let commands = || match heard() {
+                    // A question with such a verb in it stays a question.
+                    Err(Error::Misheard(Misheard::NotUnderstood { .. })) => false,
+                    Err(_) => has_verb(line),
+                    Ok(_) => true,
+                };
+                if not_understood && commands() {
                     return self.command(line);
                 }
                 if let Some((at, verb)) = likely_verb(line) {
@@ -259,36 +272,6 @@ impl Dialogue {
         }
         .map(|_| ())
     }
-}
-
-/// The sentences of a line: a mark that ends one, a blank, and a capital.
-fn sentences(line: &str) -> Vec<&str> {
-    let mut sentences = Vec::new();
-    let mut from = 0;
-    let marks = line.char_indices().filter(|(_, c)| matches!(c, '.' | '!' | '?' | '…'));
-    for (at, mark) in marks {
-        let next = at + mark.len_utf8();
-        let rest = line[next..].trim_start();
-        let begins = rest.len() < line.len() - next && rest.starts_with(char::is_uppercase);
-        if begins && next > from {
-            sentences.push(line[from..next].trim());
-            from = line.len() - rest.len();
-        }
-    }
-    sentences.push(line[from..].trim());
-    sentences
-}
-
-/// What is said back to thanks.
-fn courtesy(line: &str) -> Option<&'static str> {
-    let key = name_key(line.trim_matches(|c: char| !c.is_alphanumeric()));
-    let said = |all: &[&str]| all.contains(&key.as_str());
-    if said(&["спасибо", "большое спасибо", "спасибо большое", "благодарю", "спс", "спасибо тебе"])
-    {
-        return Some("Пожалуйста.");
-    }
-    said(&["thanks", "thank you", "thanks a lot", "many thanks", "thank you very much", "cheers"])
-        .then_some("You are welcome.")
 }
 
 fn is_why(line: &str) -> bool {

@@ -5,7 +5,7 @@ use crate::language::command::{Command, Placement, Relation};
 use crate::map::{Entity, World};
 use crate::robot::{GoalFact, Hollow, facts_of_map, hollow, spot_on};
 use crate::semantics::{Relations, predicate};
-use crate::units::{AreaId, ReplicaId};
+use crate::units::{AreaId, MapId, ReplicaId};
 
 use super::memory::Now;
 use super::{Engine, Error, Method, RequestError};
@@ -56,7 +56,10 @@ impl Engine {
             (Relation::On | Relation::In | Relation::At, Entity::Area(area)) => {
                 self.laid_in_area(id, area, now, relations)
             }
-            (_, anchor) => Err(RequestError::NoGoal { command: name(anchor) }.into()),
+            (Relation::On | Relation::In | Relation::At, Entity::Map(map)) => {
+                self.laid_on_storey(id, map, now, relations)
+            }
+            (_, anchor) => Err(RequestError::NotPutThere { name: name(anchor) }.into()),
         }
     }
 
@@ -140,6 +143,45 @@ impl Engine {
         }
         let area = world.name(Entity::Area(area)).to_owned();
         Err(RequestError::NoSpace { thing: name, area }.into())
+    }
+
+    /// A thing that is to be on a storey: it stays where it is when it is there, else goes into the room nearest to
+    /// where a lift arrives that can take it.
+    fn laid_on_storey(
+        &self,
+        thing: ReplicaId,
+        map: MapId,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let on_storey = |area: &AreaId| world.placement(*area).is_some_and(|(on, _)| on == map);
+        if let Some(area) = relations.area_of(thing).filter(on_storey) {
+            return self.laid_in_area(thing, area, now, relations);
+        }
+        let stops: Vec<AreaId> =
+            world.domain.lifts.iter().flat_map(|(_, stops)| stops).map(|s| s.area).collect();
+        let beside_lift = |area: AreaId| {
+            let joins = |one: AreaId| {
+                relations.joins().iter().any(|j| {
+                    let ends = [j.from, j.to];
+                    ends.contains(&one) && ends.contains(&area)
+                })
+            };
+            stops.iter().copied().any(joins)
+        };
+        let mut rooms: Vec<AreaId> = world.areas.keys().copied().filter(on_storey).collect();
+        rooms.retain(|area| !stops.contains(area));
+        rooms.sort_by_key(|area| !beside_lift(*area));
+        for area in rooms {
+            match self.laid_in_area(thing, area, now, relations) {
+                Err(Error::Request(RequestError::NoSpace { .. })) => {}
+                laid => return laid,
+            }
+        }
+        let storey = world.name(Entity::Map(map)).to_owned();
+        let thing = world.name(Entity::Replica(thing)).to_owned();
+        Err(RequestError::NoSpace { thing, area: storey }.into())
     }
 
     /// Whether a thing has space for another, where the robot can reach it.

@@ -190,6 +190,14 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
     NoGoal { command: String },
 
+    /// Something that is to be put where nothing is put: beside a door, under a bed.
+    #[error("«{name}»: кладу я только на вещь, в вещь или в помещение, не под, не за и не рядом")]
+    #[diagnostic(
+        code(engine::not_put_there),
+        help("скажите, на что, во что или в какое помещение положить")
+    )]
+    NotPutThere { name: String },
+
     /// A lift was called where there is none.
     #[error("на этом этаже нет лифта")]
     #[diagnostic(code(engine::no_lift), help("лифты здания объявляются в разделе domain карты"))]
@@ -360,8 +368,12 @@ impl RequestError {
     fn english(&self, called: &dyn Fn(&str) -> String) -> Option<String> {
         Some(match self {
             Self::NoGoal { command } => {
-                format!("The robot's rules have no goal for this: \"{command}\".")
+                format!("The robot's rules have no goal for this: {}.", called(command))
             }
+            Self::NotPutThere { name } => format!(
+                "I put things onto or into what is named, or in rooms, and not under, behind or beside {}.",
+                called(name)
+            ),
             Self::NoLift => "There is no lift on this floor.".to_owned(),
             Self::NotPortable { name } => format!("The robot does not carry {}.", called(name)),
             Self::NotHollow { name } => {

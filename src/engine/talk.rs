@@ -93,8 +93,10 @@ impl Engine {
     /// As [`Engine::ask`].
     pub fn is_command(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
-        let asks = self.asker(&senses)?.begins_as_question(text);
-        Ok((!asks && is_command(text)) || is_order(text))
+        let asker = self.asker(&senses)?;
+        let asks = asker.begins_as_question(text);
+        // "Give me directions to the fridge" begins as an order does.
+        Ok((!asks && is_command(text)) || (is_order(text) && !asker.asks_to_tell(text)))
     }
 
     /// «Скажи, где ваза, и принеси её»: the question, and the order after it.

@@ -199,6 +199,7 @@ impl Rule<'_, '_> {
                 let terms = [what, than].map(|n| self.noun(n));
                 (terms.join(", "), pick("сравнение", "compared"))
             }
+            Query::Kinds { of, .. } => (self.noun(of), pick("по видам", "by kind")),
             Query::LastSeen(noun) | Query::Before(noun) => {
                 (self.noun(noun), pick("по истории хранилища", "from the store's history"))
             }
@@ -211,6 +212,7 @@ impl Rule<'_, '_> {
             }
             Query::Why { .. }
             | Query::WhereAmI
+            | Query::People
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee
@@ -306,9 +308,10 @@ impl Rule<'_, '_> {
                 Extension::Trait(wanted) => add(format!("{has_trait}({term}, \"{wanted}\")")),
                 Extension::Lighting => {
                     add(format!("{has_trait}({term}, \"light\")"));
+                    let lights = world.replicas.keys().any(|id| world.has_trait(*id, "light"));
                     let switch = |o: &&crate::map::Object| {
                         let entry = world.types.object.get(o.object_type);
-                        entry.is_some_and(super::lexicon::Lexicon::is_switch)
+                        !lights && entry.is_some_and(super::lexicon::Lexicon::is_switch)
                     };
                     world.objects.values().filter(switch).map(|o| object(o.id)).for_each(&mut add);
                 }
@@ -333,6 +336,7 @@ impl Rule<'_, '_> {
                 Extension::Passages => add(format!("opening({term}, \"passage\", _, _)")),
                 // Of these the facts know nothing.
                 Extension::Windows
+                | Extension::Lifts
                 | Extension::Exits
                 | Extension::Places
                 | Extension::Storeys

@@ -69,6 +69,21 @@ impl Knowledge<'_> {
                 true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
                 false => format!("I do not know what \"{}\" means here", tidy(word)),
             },
+            Doubt::Windows => self
+                .pick("окон я не открываю и не закрываю", "I neither open nor shut windows")
+                .to_owned(),
+            Doubt::NoStorey { above: true } => self
+                .pick(
+                    "выше моего этажа на карте ничего нет",
+                    "there is no storey above mine on the map",
+                )
+                .to_owned(),
+            Doubt::NoStorey { above: false } => self
+                .pick(
+                    "ниже моего этажа на карте ничего нет",
+                    "there is no storey below mine on the map",
+                )
+                .to_owned(),
             Doubt::Unknown { reference, near } => {
                 let offered: Vec<String> = near
                     .iter()

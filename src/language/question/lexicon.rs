@@ -49,6 +49,8 @@ pub enum Extension {
     Lighting,
     /// A sort above the map's types, by its place among the sorts that people name.
     Sort(u16),
+    /// Cabins that go from storey to storey.
+    Lifts,
 }
 
 /// A kind with its words.
@@ -100,6 +102,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Lighting, "свет|освещение", "light|lighting"),
     (Extension::Trait("device"), "прибор|устройство|техника", "device|appliance|gadget"),
     (Extension::Trait("support"), "поверхность", "surface"),
+    (Extension::Trait("movable"), "передвижная вещь", "movable object"),
     (Extension::Trait("portable"), "ноша", "portable thing|small object|small thing"),
 ];
 
@@ -171,6 +174,7 @@ impl Lexicon {
         }
         lexicon.add_concepts();
         lexicon.add_building(world);
+        lexicon.add_lifts(world);
         lexicon.add_sorts();
         lexicon.add_parts(world);
         lexicon
@@ -256,7 +260,10 @@ impl Lexicon {
             {
                 self.narrower.entry((true, name_key(head))).or_default().push(id);
             }
-            if is_english && let Some(head) = english::kind(&english_name) {
+            if is_english
+                && let Some(head) = english::kind(&english_name)
+                && !is_no_real_one(&english_name)
+            {
                 self.narrower.entry((false, name_key(head))).or_default().push(id);
             }
         }
@@ -298,6 +305,36 @@ impl Lexicon {
                     self.nouns
                         .insert(&NounPhrase::parse(name, &WordHints::default()), Meaning::Kind(id));
                 }
+            }
+        }
+    }
+
+    /// Lifts, which people speak of whether the map calls a room so or not: a map without one has none.
+    fn add_lifts(&mut self, world: &World) {
+        let first = |stops: &[crate::map::LiftStop]| stops.first().map(|stop| stop.area);
+        for (name, stops) in &world.domain.lifts {
+            let Some(area) = first(stops).filter(|_| self.nouns.find(name).is_empty()) else {
+                continue;
+            };
+            let meaning = Meaning::Entity(Entity::Area(area));
+            match Language::of(name) {
+                Language::English => self.nouns.insert_english(name, meaning),
+                Language::Russian => {
+                    self.nouns.insert(&NounPhrase::parse(name, &WordHints::default()), meaning);
+                }
+            }
+        }
+        let phrase = NounPhrase::parse("лифт", &WordHints::default());
+        for word in ["лифт", "lift", "elevator"] {
+            let is_kind =
+                |hit: &crate::language::words::Hit<'_, Meaning>| matches!(hit.id, Meaning::Kind(_));
+            if self.nouns.find(word).iter().any(is_kind) {
+                continue;
+            }
+            let id = self.push(Extension::Lifts, phrase.clone(), "lift");
+            match Language::of(word) {
+                Language::Russian => self.nouns.insert(&phrase, Meaning::Kind(id)),
+                Language::English => self.nouns.insert_english(word, Meaning::Kind(id)),
             }
         }
     }
@@ -439,6 +476,12 @@ impl Lexicon {
             Language::English => english::plural(&kind.english),
         }
     }
+}
+
+/// "Dog bed", "toy car": named like a thing for people, and no such thing.
+fn is_no_real_one(english_name: &str) -> bool {
+    let first = english_name.split_whitespace().next().map(str::to_lowercase);
+    first.is_some_and(|word| ["dog", "cat", "pet", "toy", "doll", "fake"].contains(&word.as_str()))
 }
 
 /// «Стул» within a sentence is «стул»; «МФУ» stays.

@@ -20,6 +20,7 @@ mod knowledge;
 mod lexicon;
 mod purposes;
 mod query;
+mod rephrase;
 mod settle;
 mod several;
 mod speech;
@@ -36,6 +37,7 @@ pub use query::{
     Restriction, Thing, Use,
 };
 pub use settle::{Settled, Strict};
+pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::report::Detail;
@@ -117,6 +119,8 @@ pub struct Memory {
     pending: Option<Pending>,
     /// A command that waits for the same.
     waiting: Option<settle::Waiting>,
+    /// The command that was understood last, with the words of what it was done to, for «А теперь другую».
+    ordered: Option<settle::Waiting>,
     /// Where the robot was before it was last sent away.
     left: Option<Thing>,
 }
@@ -311,6 +315,12 @@ pub enum Doubt {
     NoReferent {
         word: String,
     },
+    /// «наверху», "downstairs", where there is no such storey.
+    NoStorey {
+        above: bool,
+    },
+    /// Windows are neither opened nor shut.
+    Windows,
 }
 
 impl Doubt {
@@ -323,10 +333,12 @@ impl Doubt {
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
-            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } => "not_understood",
+            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
+                "not_understood"
+            }
             Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
             Self::Ambiguous { .. } => "ambiguous",
-            Self::Unknown { .. } | Self::NoneSuch { .. } => "unknown",
+            Self::Unknown { .. } | Self::NoneSuch { .. } | Self::NoStorey { .. } => "unknown",
         }
     }
 }
@@ -367,7 +379,16 @@ impl Asker<'_> {
         if let Some(answer) = self.each_part(text, language, memory) {
             return Ok(answer);
         }
+        if let Some(answered) = self.each_sentence(text, language, memory) {
+            return answered;
+        }
         let outcome = self.answer(text, language, memory);
+        if let Err(unanswered) = &outcome
+            && matches!(unanswered.0, Doubt::NotUnderstood { .. } | Doubt::Unknown { .. })
+            && let Some(answer) = self.after_preamble(text, memory)
+        {
+            return Ok(answer);
+        }
         match outcome {
             Ok(answer) => {
                 memory.learn(&answer);
@@ -407,6 +428,84 @@ impl Asker<'_> {
         Some(Answer::joined(answers, language))
     }
 
+    /// "I lost my cup. Where is it?": the last sentence asks; those before it are questions too, or tell what it is
+    /// about.
+    fn each_sentence(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Result<Answer, Unanswered>> {
+        let parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
+        let mut after = memory.clone();
+        let mut answers = Vec::new();
+        for part in before {
+            match self.answer(part, language, &after) {
+                Ok(answer) if part.ends_with('?') => {
+                    after.learn(&answer);
+                    answers.push(answer);
+                }
+                _ => self.hear_of(part, &mut after),
+            }
+        }
+        match self.ask(last, &mut after) {
+            Ok(answer) => {
+                answers.push(answer);
+                *memory = after;
+                Some(Ok(match answers.len() {
+                    1 => answers.remove(0),
+                    _ => Answer::joined(answers, language),
+                }))
+            }
+            Err(unanswered) if unanswered.doubt.kind() == "ambiguous" && answers.is_empty() => {
+                *memory = after;
+                Some(Err(unanswered))
+            }
+            Err(_) => None,
+        }
+    }
+
+    /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
+    fn after_preamble(&self, text: &str, memory: &mut Memory) -> Option<Answer> {
+        const LIMITS: [&str; 8] = ["если", "когда", "пока", "if", "when", "while", "from", "из"];
+        let first = crate::language::words::word_ranges(text).into_iter().next()?;
+        if LIMITS.contains(&crate::units::name_key(&text[first]).as_str()) {
+            return None;
+        }
+        let (told, asked) = text.split_once([',', ';', '–', '—'])?;
+        let words: Vec<String> = crate::language::words::word_ranges(asked)
+            .into_iter()
+            .map(|range| crate::units::name_key(&asked[range]))
+            .collect();
+        if words.len() < 2 || !vocabulary::begins_question(&words) || several::asks_in(told) {
+            return None;
+        }
+        let mut after = memory.clone();
+        self.hear_of(told, &mut after);
+        let answer = self.ask(asked.trim(), &mut after).ok()?;
+        *memory = after;
+        Some(answer)
+    }
+
+    /// Notes what a sentence names that asks nothing.
+    fn hear_of(&self, text: &str, memory: &mut Memory) {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let named: Vec<Thing> = {
+            let knowledge = self.knowledge(sentence.language, memory);
+            let nouns = sentence.items().into_iter().filter_map(|item| match item {
+                grammar::Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
+                _ => None,
+            });
+            let found = nouns.filter_map(|noun| knowledge.find(&noun, true).ok());
+            found.filter(|found| found.len() == 1).flatten().collect()
+        };
+        if !named.is_empty() {
+            memory.mention(&named);
+        }
+    }
+
     /// The query that a text asks, without answering it.
     ///
     /// # Errors
@@ -420,6 +519,9 @@ impl Asker<'_> {
             return Ok(query);
         }
         let text = several::without_tag(text);
+        if let Some(above) = self.lacks_storey(text) {
+            return Err(Doubt::NoStorey { above });
+        }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
@@ -439,13 +541,17 @@ impl Asker<'_> {
         self.knowledge(language, &Memory::default()).proof_lines(fact)
     }
 
-    /// A text in words that the map knows: "upstairs" is a storey, «столик» a table.
-    fn plain<'t>(&self, text: &'t str) -> Cow<'t, str> {
+    /// A text in words that the map knows: "upstairs" is a storey, «столик» a table, «закрыта на ключ» locked.
+    fn plain(&self, text: &str) -> Cow<'static, str> {
         let here = self.senses.robot().map(|(map, _)| map);
-        match storeys::named(text, self.world, here) {
-            Cow::Borrowed(text) => everyday::plain(text, &self.mind.lexicon),
-            Cow::Owned(text) => Cow::Owned(everyday::plain(&text, &self.mind.lexicon).into_owned()),
-        }
+        let text = rephrase::plain(text);
+        let named = storeys::named(&text, self.world, here).into_owned();
+        Cow::Owned(everyday::plain(&named, &self.mind.lexicon).into_owned())
+    }
+
+    /// Whether a text speaks of a storey that is not there, the one above (true) or below.
+    fn lacks_storey(&self, text: &str) -> Option<bool> {
+        storeys::lacking(text, self.world, self.senses.robot().map(|(map, _)| map))
     }
 
     /// Whether a text begins as a question of this grammar does, whatever follows.
@@ -457,6 +563,17 @@ impl Asker<'_> {
             .map(|range| crate::units::name_key(&text[range]))
             .collect();
         vocabulary::begins_question(&words)
+    }
+
+    /// Whether a text asks to be told something, in the words of an order: "Give me directions …".
+    #[must_use]
+    pub fn asks_to_tell(&self, text: &str) -> bool {
+        let words: Vec<String> = crate::language::words::word_ranges(text)
+            .into_iter()
+            .take(8)
+            .map(|range| crate::units::name_key(&text[range]))
+            .collect();
+        vocabulary::asks_to_tell(&words)
     }
 
     fn knowledge<'k>(&'k self, language: Language, memory: &'k Memory) -> Knowledge<'k> {
@@ -498,6 +615,9 @@ impl Asker<'_> {
         if !begins.iter().any(|b| key.starts_with(b)) {
             return None;
         }
+        if let Some(query) = self.another_asked(&key, last, memory) {
+            return Some(query);
+        }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
@@ -526,6 +646,54 @@ impl Asker<'_> {
         replaced.map(|_| query)
     }
 
+    /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
+    fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        const SMALL: [&str; 11] =
+            ["а", "и", "and", "what", "about", "how", "the", "one", "is", "ones", "же"];
+        const OTHER: [&str; 14] = [
+            "другая",
+            "другой",
+            "другое",
+            "другие",
+            "вторая",
+            "второй",
+            "второе",
+            "остальные",
+            "other",
+            "others",
+            "second",
+            "rest",
+            "another",
+            "остальное",
+        ];
+        let words: Vec<&str> = key
+            .split(|c: char| !c.is_alphanumeric())
+            .filter(|word| !word.is_empty() && !SMALL.contains(word))
+            .collect();
+        let asks_where = words.iter().any(|word| ["где", "where"].contains(word));
+        let rest: Vec<&&str> = words.iter().filter(|w| !["где", "where"].contains(w)).collect();
+        let [only] = rest[..] else { return None };
+        if !OTHER.contains(only) {
+            return None;
+        }
+        let spoken = memory.spoken.iter().find_map(|t| t.replica())?;
+        let object = self.world.objects.get(&self.world.replicas.get(&spoken)?.object)?;
+        let kind = self.mind.lexicon.kind_of(&Extension::ObjectType(object.object_type?))?;
+        let head = Head { kinds: vec![kind], ..Head::default() };
+        let noun = Noun { head, plural: true, other: true, ..Noun::default() };
+        if asks_where {
+            return Some(Query::Where(noun));
+        }
+        let mut query = last.clone();
+        let mut first = true;
+        query.each_noun(&mut |old| {
+            if std::mem::take(&mut first) {
+                *old = noun.clone();
+            }
+        });
+        Some(query)
+    }
+
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
     fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
         let asked = match &mut query {
@@ -547,6 +715,12 @@ impl Asker<'_> {
             }
             _ => return None,
         };
+        // "Where is the nearest chair? And the farthest?"
+        if noun.best.is_some() {
+            asked.best = noun.best;
+            asked.rank = noun.rank;
+            return Some(query);
+        }
         if noun.restrictions.is_empty() && noun.filters.is_empty() {
             return None;
         }

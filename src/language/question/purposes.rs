@@ -130,7 +130,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "место для мусора",
         "place for rubbish",
-        "выбросить мусор|выкинуть мусор|выбросить|выкинуть|throw away rubbish|throw rubbish|throw away|throw out|throw trash|throw the trash|dispose of|throw it away",
+        "выбросить мусор|выкинуть мусор|выбросить|выкинуть|throw away rubbish|throw rubbish|throw away|throw out|throw trash|throw the trash|dispose of|throw it away|throw this away|throw it out|throw this out|throw that away",
         "bin|trash can|garbage can|waste bin|rubbish bin|мусорное ведро|мусорная корзина|урна",
     ),
     sort(
@@ -160,8 +160,14 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "переносимая вещь",
         "portable thing",
-        "переносить|переставить|носить|унести|поднять|be carried|be moved|be taken|be picked up|pick up|carry",
+        "переносить|переставить|носить|унести|поднять|принести|перенести|взять с собой|be carried|be taken|be picked up|pick up|carry|bring me",
         "small object",
+    ),
+    sort(
+        "подвижная вещь",
+        "movable thing",
+        "передвинуть|передвигать|сдвинуть|подвинуть|двигать|переместить|be moved|be pushed|be shifted|push around",
+        "small object|movable object",
     ),
     sort(
         "включаемый прибор",
@@ -177,6 +183,13 @@ pub(super) const SORTS: &[Sort] = &[
     ),
     sort("игрушка", "toy", "", "teddy bear|ball|doll|basketball|плюшевый медведь|мяч|кукла"),
 ];
+
+/// «Из чего попить?» asks for cups, «что попить» for drinks: the sort of what a deed is done out of.
+pub(super) fn done_out_of(sort: u16) -> u16 {
+    let is_drink = SORTS.get(usize::from(sort)).is_some_and(|s| s.english.starts_with("drink|"));
+    let cups = SORTS.iter().position(|s| s.english == "thing to drink from");
+    cups.filter(|_| is_drink).and_then(|n| u16::try_from(n).ok()).unwrap_or(sort)
+}
 
 /// A verb of [`SORTS`] with the number of its sort.
 pub(super) fn deeds() -> impl Iterator<Item = (u16, &'static str)> {

@@ -38,6 +38,8 @@ pub enum Rel {
     Has,
     /// The inverse of On: «стол, на котором лежит книга».
     Bears,
+    /// Of a key: to a door, or to a room by its door.
+    Opens,
 }
 
 /// What a superlative compares.
@@ -327,6 +329,13 @@ pub enum Query {
     WhereAmI,
     /// Several questions in one sentence, each answered by itself.
     Several(Vec<Self>),
+    /// Who is somewhere: of people the map tells nothing.
+    People,
+    /// Which kinds of such things there are, or how many.
+    Kinds {
+        of: Noun,
+        count: bool,
+    },
     /// What the robot is and can be asked.
     Help,
     /// Nothing is asked: a greeting, thanks.
@@ -395,9 +404,10 @@ impl Query {
                 of.each(act);
                 what.iter_mut().for_each(|n| n.each(act));
             }
-            Self::Property { of, .. } | Self::Size { of, .. } | Self::SameAll { of, .. } => {
-                of.each(act)
-            }
+            Self::Kinds { of, .. }
+            | Self::Property { of, .. }
+            | Self::Size { of, .. }
+            | Self::SameAll { of, .. } => of.each(act),
             Self::Way { from, to, .. }
             | Self::CanReach { from, to }
             | Self::Distance { from, to } => {
@@ -430,6 +440,7 @@ impl Query {
             Self::Several(queries) => queries.iter_mut().for_each(|q| q.each_noun(act)),
             Self::WhereAreYou(_)
             | Self::WhereAmI
+            | Self::People
             | Self::Help
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
@@ -468,6 +479,8 @@ impl Query {
             Self::WhereAreYou(_) => "where_are_you",
             Self::WhereAmI => "where_am_i",
             Self::Several(_) => "several",
+            Self::People => "people",
+            Self::Kinds { .. } => "kinds",
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",

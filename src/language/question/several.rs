@@ -24,6 +24,31 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     parts.iter().all(|part| !part.is_empty()).then_some(parts)
 }
 
+/// Whether a word of these asks.
+pub(super) fn asks_in(text: &str) -> bool {
+    let keys: Vec<String> = word_ranges(text).into_iter().map(|r| name_key(&text[r])).collect();
+    asks(&keys)
+}
+
+/// The sentences of a line: a mark that ends one, a blank, and a capital.
+#[must_use]
+pub fn sentences(line: &str) -> Vec<&str> {
+    let mut sentences = Vec::new();
+    let mut from = 0;
+    let marks = line.char_indices().filter(|(_, c)| matches!(c, '.' | '!' | '?' | '…'));
+    for (at, mark) in marks {
+        let next = at + mark.len_utf8();
+        let rest = line[next..].trim_start();
+        let begins = rest.len() < line.len() - next && rest.starts_with(char::is_uppercase);
+        if begins && next > from {
+            sentences.push(line[from..next].trim());
+            from = line.len() - rest.len();
+        }
+    }
+    sentences.push(line[from..].trim());
+    sentences
+}
+
 fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }

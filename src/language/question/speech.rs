@@ -94,8 +94,11 @@ impl Knowledge<'_> {
 
     /// «находится», "is"
     pub(super) fn is(&self, things: &[Thing]) -> &'static str {
-        let many = things.len() > 1
-            || things.iter().any(|t| self.is_russian() && self.gender(*t).1 == Number::Plural);
+        let is_plural = |t: &Thing| match self.is_russian() {
+            true => self.gender(*t).1 == Number::Plural,
+            false => english::is_plural(&self.name(*t)),
+        };
+        let many = things.len() > 1 || things.iter().any(is_plural);
         match (self.is_russian(), many) {
             (true, false) => "находится",
             (true, true) => "находятся",
@@ -144,6 +147,7 @@ impl Knowledge<'_> {
                 Rel::At => "at",
                 Rel::Of => "of",
                 Rel::Has | Rel::Bears => "with",
+                Rel::Opens => "for",
             };
             return format!("{before} {name}");
         }
@@ -180,6 +184,7 @@ impl Knowledge<'_> {
             Rel::Through => with(Preposition::Cherez, Case::Accusative),
             Rel::At => with(Preposition::U, Case::Genitive),
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
+            Rel::Opens => with(Preposition::Ot, Case::Genitive),
         }
     }
 

@@ -1,15 +1,17 @@
 //! "Upstairs" and «внизу»: the storey above or below the robot's own, put into the sentence by its name.
 //!
-//! Invariant: where there is no such storey, or the robot does not know its own, the sentence stays as it is.
+//! Invariant: where the robot does not know its own storey, the sentence stays as it is; a storey that is not there
+//! is said to be missing ([`lacking`]), unless another one is named beside it.
 
 use std::borrow::Cow;
 
+use crate::language::names::english_name;
 use crate::language::words::{Language, word_ranges};
-use crate::map::World;
+use crate::map::{Entity, World};
 use crate::units::{MapId, name_key};
 
 /// A word, whether it means the storey above, and whether it says whither.
-const WORDS: [(&str, bool, bool); 18] = [
+const WORDS: [(&str, bool, bool); 20] = [
     ("наверху", true, false),
     ("наверх", true, true),
     ("вверх", true, true),
@@ -28,48 +30,89 @@ const WORDS: [(&str, bool, bool); 18] = [
     ("one floor up", true, true),
     ("one floor down", false, true),
     ("the floor above", true, false),
+    ("the floor below", false, false),
+    ("на этаже ниже", false, false),
 ];
 
 /// Before these, "upstairs" says whither.
-const MOTION: [&str; 9] = ["get", "go", "come", "drive", "head", "move", "walk", "way", "bring"];
+const MOTION: [&str; 15] = [
+    "get", "go", "come", "drive", "head", "move", "walk", "way", "bring", "take", "carry",
+    "deliver", "put", "send", "fetch",
+];
+
+/// Such a word in a text: its place among the words, their number, whether it is above, whether it says whither.
+type Told = (usize, usize, bool, bool);
+
+fn told(keys: &[String]) -> Vec<Told> {
+    let mut found = Vec::new();
+    let mut at = 0;
+    while at < keys.len() {
+        let here = WORDS.iter().filter_map(|(phrase, above, whither)| {
+            let phrase: Vec<&str> = phrase.split(' ').collect();
+            let said = keys.get(at..at + phrase.len())?;
+            let fits = said.iter().map(String::as_str).eq(phrase.iter().copied());
+            fits.then_some((at, phrase.len(), *above, *whither))
+        });
+        match here.max_by_key(|(_, taken, ..)| *taken) {
+            Some(one) => {
+                found.push(one);
+                at += one.1;
+            }
+            None => at += 1,
+        }
+    }
+    found
+}
+
+fn keys(text: &str) -> Vec<String> {
+    word_ranges(text).into_iter().map(|r| name_key(&text[r])).collect()
+}
+
+/// Whether a text speaks only of a storey that is not there: the one above (true) or below.
+pub(super) fn lacking(text: &str, world: &World, here: Option<MapId>) -> Option<bool> {
+    let here = here?;
+    let told = told(&keys(text));
+    let missing = |one: &Told| beside(world, here, one.2).is_none();
+    told.iter().all(missing).then(|| told.first().map(|one| one.2)).flatten()
+}
 
 /// The text with the storey named in the place of such words.
 pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Cow<'t, str> {
-    if world.domain.maps.len() < 2 {
+    let Some(here) = here.filter(|_| world.domain.maps.len() > 1) else {
         return Cow::Borrowed(text);
-    }
+    };
     let words = word_ranges(text);
-    let keys: Vec<String> = words.iter().map(|r| name_key(&text[r.clone()])).collect();
-    let found = (0..keys.len()).find_map(|at| {
-        WORDS.iter().find_map(|(phrase, above, whither)| {
-            let phrase: Vec<&str> = phrase.split(' ').collect();
-            let said = keys.get(at..at + phrase.len())?;
-            said.iter().map(String::as_str).eq(phrase.iter().copied()).then_some((
-                at,
-                phrase.len(),
-                *above,
-                *whither,
-            ))
-        })
-    });
-    let Some((at, taken, above, whither)) = found else { return Cow::Borrowed(text) };
-    let Some(name) = here.and_then(|here| beside(world, here, above)) else {
-        return Cow::Borrowed(text);
-    };
-    let moves = keys[..at].iter().any(|key| MOTION.contains(&key.as_str()));
-    let place = match (Language::of(text), whither || moves) {
-        (Language::Russian, true) => format!("на этаж {name}"),
-        (Language::Russian, false) => format!("на этаже {name}"),
-        (Language::English, true) => format!("to {name}"),
-        (Language::English, false) => format!("on {name}"),
-    };
+    let keys = keys(text);
     let mut named = text.to_owned();
-    named.replace_range(words[at].start..words[at + taken - 1].end, &place);
-    Cow::Owned(named)
+    for (at, taken, above, whither) in told(&keys).into_iter().rev() {
+        let end = at + taken;
+        let Some(name) = beside(world, here, above) else {
+            // "upstairs or downstairs": only one of them is there.
+            let is_or = |n: usize| keys.get(n).is_some_and(|k| k == "or" || k == "или");
+            match (at.checked_sub(1).filter(|n| is_or(*n)), is_or(end)) {
+                (Some(or), _) => named.replace_range(words[or].start..words[end - 1].end, ""),
+                (None, true) => named.replace_range(words[at].start..words[end].end, ""),
+                (None, false) => {}
+            }
+            continue;
+        };
+        let moves = keys[..at].iter().any(|key| MOTION.contains(&key.as_str()));
+        let english = english_name(world, Entity::Map(name));
+        let english = if english.is_empty() { world.name(Entity::Map(name)) } else { english };
+        let russian = world.name(Entity::Map(name));
+        let place = match (Language::of(text), whither || moves) {
+            (Language::Russian, true) => format!("на этаж {russian}"),
+            (Language::Russian, false) => format!("на этаже {russian}"),
+            (Language::English, true) => format!("to {english}"),
+            (Language::English, false) => format!("on {english}"),
+        };
+        named.replace_range(words[at].start..words[end - 1].end, &place);
+    }
+    if named == text { Cow::Borrowed(text) } else { Cow::Owned(named) }
 }
 
-/// The name of the storey right above or below another.
-fn beside(world: &World, here: MapId, above: bool) -> Option<&str> {
+/// The storey right above or below another.
+fn beside(world: &World, here: MapId, above: bool) -> Option<MapId> {
     let height = |map: MapId| {
         let placed = world.domain.maps.iter().find(|m| m.map == map);
         placed.map(|m| m.frame.z.get())
@@ -78,5 +121,5 @@ fn beside(world: &World, here: MapId, above: bool) -> Option<&str> {
     let other = |map: &MapId| height(*map).map(|z| if above { z - own } else { own - z });
     let all = world.maps.keys().filter_map(|map| Some((other(map)?, *map)));
     let next = all.filter(|(apart, _)| *apart > 1.0).min_by(|a, b| a.0.total_cmp(&b.0))?;
-    world.maps.get(&next.1).map(|map| map.name.as_str())
+    Some(next.1)
 }

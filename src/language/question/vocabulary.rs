@@ -116,6 +116,12 @@ pub(super) enum Mark {
     More(Extreme),
     /// «такого же цвета», "the same colour"
     Same,
+    /// «виды», "kinds of"
+    Kinds,
+    /// «висит», "hangs": said of what is on a wall
+    Hang,
+    /// «открывает», "unlocks": what a key does
+    Opens,
     Pronoun(Pronoun),
     /// «там», "there"
     There,
@@ -140,7 +146,7 @@ pub(super) enum Pronoun {
 const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Where,
-        "помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        "куда я мог положить|куда я могла положить|куда я мог деть|куда я положил|куда я положила|куда я дел|куда я дела|куда подевался|куда подевалась|куда пропал|куда пропала|куда запропастился|куда запропастилась|where could i have put|where could i have left|where might i have left|where have i put|where have i left|помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
         where can i find|where do i find|where should i look for|where do i look for|where can i look for|where must i look for|where to look for|where should we look for|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
@@ -148,11 +154,20 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::What,
-        "что|чего|чему|чём|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
+        "what can i use to|what could i use to|what should i use to|what do you use to|what do i use to|что|чего|чему|чём|что же|что именно|what|what s|whats|what all|tell me what|скажи что|which things",
     ),
     (
         Mark::Anything,
         "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто",
+    ),
+    (
+        Mark::Kinds,
+        "kinds of|types of|sorts of|виды|видов|вида|видами|типы|типов|сорта|сортов|разновидности|разновидностей",
+    ),
+    (Mark::Hang, "висит|висят|висел|висела|висели|развешано|развешены|hang|hangs|hanging|hung"),
+    (
+        Mark::Opens,
+        "открыть|отпереть|отомкнуть|to open|to unlock|открывает|отпирает|открывается|отпирается|подходит|подойдёт|от чего|opens|unlocks|unlock|is for|fits",
     ),
     (Mark::Whither, "куда|куда же|where to"),
     (Mark::How, "как|how|каким образом"),
@@ -163,7 +178,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::As, "as|что и|как и|с чем"),
     (
         Mark::Which,
-        "который из|которая из|которое из|которые из|котором из|которой из|каком из|каких из|каким из|какой именно|what kinds of|what types of|which kinds of|which types of|what sorts of|какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
+        "что за|что там за|что тут за|который из|которая из|которое из|которые из|котором из|которой из|каком из|каких из|каким из|какой именно|какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
         которую|которых|каков|какова|каково|каковы|какие из|какой из|какая из|какое из|какую из|каких из|which|what kind of|what type of|what sort of|which of|which of the",
     ),
     (
@@ -179,7 +194,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowGet,
-        "how do i leave|how can i leave|how to leave|how do i exit|how do i get out|how can i get out|как покинуть|как подняться|как спуститься|как мне подняться|как мне спуститься|как дойти|как проще попасть|как быстрее попасть|как быстрее добраться|как лучше пройти|how would one get|how might i get|как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
+        "how do i get out of|how can i get out of|how do you get out of|how do we get out of|how to get out of|how does one get out of|how do i leave|how can i leave|how to leave|how do i exit|how do i get out|how can i get out|как покинуть|как подняться|как спуститься|как мне подняться|как мне спуститься|как дойти|как проще попасть|как быстрее попасть|как быстрее добраться|как лучше пройти|how would one get|how might i get|как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
         как мне дойти|как пройти мне|как можно пройти|как можно попасть|как можно добраться|как ты проедешь|как ты доедешь|как ты попадёшь|как выйти|как выехать|как мне выйти|как вернуться|как перейти|как подъехать|как подойти|как зайти|как прийти|как тебе проехать|\
         какой дорогой|каким путём|каким маршрутом|путь|дорога|дорогу|маршрут|проложи маршрут|построй маршрут|покажи дорогу|покажи путь|опиши путь|опиши дорогу|опиши маршрут|кратчайший путь|какой путь|какой маршрут|\
         how do i get|how can i get|how to get|how do you get|how can you get|how would i get|how would you get|how do i go|how can i go|how to go|how do i reach|how can i reach|how to reach|how do you reach|how do i find my way|\
@@ -200,23 +215,26 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::WhyNot,
         "почему нет|почему же нет|отчего нет|почему не|почему это не так|why not|why isn t it|why is it not|why aren t they|why no|why is that not so",
     ),
-    (Mark::Who, "кто|кого|кому|who|whom|whose|чей|чья|чьё|чьи"),
+    (
+        Mark::Who,
+        "кто|кого|кому|кем|кто нибудь|кто либо|кто то|anybody|anyone|somebody|someone|people|person|persons|люди|людей|человек|человека|who|whom|whose|чей|чья|чьё|чьи",
+    ),
     (
         Mark::HowBig(Dimension::All),
-        "какого размера|каков размер|какой размер|какие размеры|каковы размеры|размер|размеры|габариты|каких размеров|насколько большой|насколько большая|насколько большое|насколько велик|насколько велика|\
+        "насколько велико|насколько велики|как велик|как велика|какого размера|каков размер|какой размер|какие размеры|каковы размеры|размер|размеры|габариты|каких размеров|насколько большой|насколько большая|насколько большое|насколько велик|насколько велика|\
         how big|how large|what size|what is the size|what is the size of|the size of|what are the dimensions|what are the dimensions of|dimensions|dimensions of|the dimensions of|size|size of|how small",
     ),
     (
         Mark::HowBig(Dimension::Height),
-        "высота потолка|какая высота потолка|какова высота потолка|высота потолков|какой высоты потолок|какой высоты потолки|how high is the ceiling|how high are the ceilings|ceiling height|what is the ceiling height|the ceiling height|какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
+        "насколько высок|насколько высока|насколько высоко|насколько высоки|как высок|как высока|как высоко|высота потолка|какая высота потолка|какова высота потолка|высота потолков|какой высоты потолок|какой высоты потолки|how high is the ceiling|how high are the ceilings|ceiling height|what is the ceiling height|the ceiling height|какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
     ),
     (
         Mark::HowBig(Dimension::Width),
-        "какой ширины|какова ширина|какая ширина|ширина|насколько широкий|насколько широкая|how wide|what width|what is the width|what is the width of|the width of|width of|width",
+        "насколько широк|насколько широка|насколько широко|насколько широки|какой ширины|какова ширина|какая ширина|ширина|насколько широкий|насколько широкая|how wide|what width|what is the width|what is the width of|the width of|width of|width",
     ),
     (
         Mark::HowBig(Dimension::Length),
-        "какой длины|какова длина|какая длина|длина|насколько длинный|насколько длинная|глубина|какой глубины|какова глубина|how long|how deep|what length|what is the length|what is the length of|the length of|length of|the depth of|depth",
+        "насколько длинен|насколько длинна|насколько длинно|насколько глубок|насколько глубока|какой длины|какова длина|какая длина|длина|насколько длинный|насколько длинная|глубина|какой глубины|какова глубина|how long|how deep|what length|what is the length|what is the length of|the length of|length of|the depth of|depth",
     ),
     (
         Mark::HowBig(Dimension::Area),
@@ -230,10 +248,10 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Be,
-        "является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
-        стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висит|висят|висел|висела|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
+        "живёт|живут|обитает|lives|live|living in|является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
-        stand|stands|standing|lie|lies|lying|hang|hangs|hanging|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
+        stand|stands|standing|lie|lies|lying|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
         я оставил|я оставила|я положил|я положила|я поставил|оставил|оставила|мы оставили|делся|девался|девалась",
     ),
     (
@@ -256,7 +274,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
+        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
     ),
     (
         Mark::List,
@@ -290,7 +308,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::PutDown, "положить|поставить|разместить|put|place|set down|put down|lay down|leave"),
     (
         Mark::Can,
-        "можно|можно ли|можешь|могу|могу ли|могу ли я|сможешь|можешь ли|можно мне|могли бы|мог бы|получится|смогу|can i|can one|could i|can we|may i|is it possible to|should i|can you|can|could|could one|might i|able|possible",
+        "может|могут|может ли|could you|can i|сумеешь|можно|можно ли|можешь|могу|могу ли|могу ли я|сможешь|можешь ли|можно мне|могли бы|мог бы|получится|смогу|can i|can one|could i|can we|may i|is it possible to|should i|can you|can|could|could one|might i|able|possible",
     ),
     (
         Mark::Hold,
@@ -303,7 +321,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Me, "я|мне|меня|мной|i|me|myself|us|we|нам|нас|мы"),
     (
         Mark::Not,
-        "не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|isnt|arent|doesnt|dont",
+        "can t|cannot|cant|couldn t|won t|не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|isnt|arent|doesnt|dont",
     ),
     (Mark::Without, "без|without|with no|without any|without a|безо"),
     (
@@ -417,7 +435,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Biggest),
-        "самый большой|самому большому|самым большим|самом большом|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|по величине|по размеру|по площади|by size|in size|by area|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
+        "самое просторное|самые просторные|самую просторную|самом просторном|самой просторной|самый большой|самому большому|самым большим|самом большом|самая большая|самое большое|самые большие|самую большую|самого большого|самой большой|самых больших|больше всех|по величине|по размеру|по площади|by size|in size|by area|наибольший|наибольшая|наибольшее|крупнейший|самый крупный|самая крупная|самое крупное|самые крупные|самую крупную|самый просторный|самая просторная|biggest|largest|greatest|most spacious|roomiest",
     ),
     (
         Mark::Best(Extreme::Smallest),
@@ -528,12 +546,12 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
     (Mark::Pronoun(Pronoun::It), "оно"),
     (Mark::Pronoun(Pronoun::They), "они|их|им|них|ними|they|them|those"),
-    (Mark::Pronoun(Pronoun::Any), "it|its"),
+    (Mark::Pronoun(Pronoun::Any), "it|its|этого места"),
     (Mark::There, "там|оттуда|туда|в ней|в нём|there|in there|in it"),
     (Mark::One, "one|ones"),
     (
         Mark::A,
-        "any of the|any of|any|at least one of the|at least one|some of the|a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно",
+        "one of the|one of my|one of|any of the|any of|any|at least one of the|at least one|some of the|a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно",
     ),
     (
         Mark::The,
@@ -541,7 +559,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|anybody|anyone|somebody|someone|кто нибудь|кто то|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
@@ -585,12 +603,26 @@ pub(super) fn begins_question(words: &[String]) -> bool {
         match mark {
             Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
             // «Можно ли сесть на кровать?» asks; «Можешь открыть дверь?» is a polite command.
-            Mark::Can => return asks_leave(&words[at..at + taken]),
+            Mark::Can => {
+                return asks_leave(&words[at..at + taken]) || asks_way(&words[at + taken..]);
+            }
             Mark::Link(_) | Mark::Not => return false,
             Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => {
                 return false;
             }
             _ => return true,
+        }
+    }
+    false
+}
+
+/// Whether these words begin, after small ones, with a way, a list or a description to be told.
+pub(super) fn asks_to_tell(words: &[String]) -> bool {
+    let mut at = 0;
+    while let Some((taken, mark)) = longest(&words[at..]) {
+        match mark {
+            Mark::Filler | Mark::The | Mark::A | Mark::Me => at += taken,
+            mark => return matches!(mark, Mark::HowGet | Mark::List | Mark::Describe),
         }
     }
     false
@@ -611,6 +643,14 @@ fn asks_leave(words: &[String]) -> bool {
         "possible",
     ];
     !ROBOT.contains(&words.join(" ").as_str())
+}
+
+/// "Can you get from the hall to the kitchen?": of a way between two others the robot is asked, not sent.
+fn asks_way(words: &[String]) -> bool {
+    let you = longest(words).filter(|(_, mark)| *mark == Mark::You).map_or(0, |(taken, _)| taken);
+    let Some((taken, Mark::Move)) = longest(&words[you..]) else { return false };
+    let next = longest(&words[you + taken..]).map(|(_, mark)| mark);
+    next == Some(Mark::Link(Rel::From))
 }
 
 type Phrases = Vec<(Vec<String>, Mark)>;

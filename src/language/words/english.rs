@@ -36,6 +36,19 @@ pub fn a(noun: &str) -> String {
     format!("{} {noun}", if begins_with_vowel_sound(noun) { "an" } else { "a" })
 }
 
+/// Whether a name is of several by its form: "Keys 1", "Scissors", "Wardrobe doors".
+#[must_use]
+pub fn is_plural(name: &str) -> bool {
+    const NOT: [&str; 9] = ["ss", "us", "is", "as", "os", "lens", "series", "chess", "species"];
+    let before =
+        [" of ", " to ", " for ", " with "].iter().filter_map(|after| name.find(after)).min();
+    let head = &name[..before.unwrap_or(name.len())];
+    let head = head.trim_end_matches(|c: char| !c.is_alphabetic());
+    let word = head.rsplit(|c: char| !c.is_alphabetic()).next().unwrap_or_default().to_lowercase();
+    word == "people"
+        || (word.len() > 3 && word.ends_with('s') && !NOT.iter().any(|n| word.ends_with(n)))
+}
+
 /// The plural of a noun or of a phrase whose last word is its head: "boxes", "shelves", "living rooms".
 #[must_use]
 pub fn plural(noun: &str) -> String {

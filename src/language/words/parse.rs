@@ -250,6 +250,8 @@ impl<'a> Parser<'a> {
             .filter(|_| {
                 !readings.known
                     || readings.adjective
+                    // A participle: «переносимая вещь».
+                    || !readings.noun
                     || lexicon::find(&lower).is_some_and(|e| e.adjectival)
             })
             .map(|adjective| (lower, adjective))

@@ -110,7 +110,19 @@ impl Knowledge<'_> {
                 return self.say_lighting(subject, filter.value, negated);
             }
         }
-        let found = self.subject(subject)?;
+        let mut found = self.subject(subject)?;
+        // «Заперта ли лаборатория?»: its door, where it has only one.
+        if let (&[room], [Claim::Value(filter)]) = (&found[..], claims)
+            && let Some(area) = room.area()
+            && self.own_value(room, filter.value).is_none()
+            && self.lexicon().values.entry(filter.value).property == Property::State
+        {
+            let mut doors =
+                self.gates().iter().filter(|g| !g.is_passage && g.areas.contains(&area));
+            if let (Some(only), None) = (doors.next(), doors.next()) {
+                found = vec![only.thing];
+            }
+        }
         if let (&[thing], [Claim::Value(filter)]) = (&found[..], claims)
             && self.lexicon().values.entry(filter.value).russian == "пустой"
             && self.own_value(thing, filter.value).is_none()

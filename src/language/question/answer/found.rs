@@ -34,6 +34,9 @@ impl Knowledge<'_> {
             let list = self.with_details(noun, &found);
             let general = noun.head.anything || noun.head.kinds.is_empty();
             match (self.is_russian(), place.is_empty()) {
+                // «Какие лампы включены?»
+                (true, _) if self.is_only(noun, &found) => format!("только {list}"),
+                (false, _) if self.is_only(noun, &found) => format!("only {list}"),
                 (true, true) => {
                     let counted = self.counted(noun, found.len());
                     if general { list } else { format!("{counted}: {list}") }
@@ -74,6 +77,15 @@ impl Knowledge<'_> {
         let said = if found.is_empty() { Said::Nothing } else { Said::Found };
         let text = format!("{text}{}", self.also(noun, &found));
         Ok(Draft { facts, ..Draft::new(said, text).with(found) }.about(&anchors))
+    }
+
+    /// Whether what was found is one of several that differ by a value, or by what they have.
+    fn is_only(&self, noun: &Noun, found: &[Thing]) -> bool {
+        let told = !noun.filters.is_empty() || self.is_having(noun);
+        let placed = noun.restrictions.iter().any(|r| !matches!(r.rel, Rel::Has | Rel::Bears));
+        let rooms = noun.restrictions.iter().any(|r| r.rel == Rel::Near);
+        let kind = !noun.head.kinds.is_empty() && noun.head.named.is_empty();
+        found.len() == 1 && told && kind && !placed && !rooms
     }
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»

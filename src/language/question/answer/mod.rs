@@ -4,6 +4,7 @@ mod claim;
 mod compare;
 mod each;
 mod found;
+mod kinds;
 mod part;
 mod place;
 mod property;
@@ -99,6 +100,8 @@ impl Knowledge<'_> {
             Query::WhereAreYou(detail) => self.where_are_you(*detail),
             Query::WhereAmI => self.where_am_i(),
             Query::Several(queries) => return self.several(queries),
+            Query::People => self.people(),
+            Query::Kinds { of, count } => self.say_kinds(of, *count)?,
             Query::Help => self.help(),
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),

@@ -383,6 +383,7 @@ impl Knowledge<'_> {
             }
             Rel::In => self.holder(thing),
             Rel::Between => self.ends_around(thing),
+            Rel::Opens => self.opened_by(thing).into_iter().collect(),
             Rel::From | Rel::Of | Rel::To => self.related(Rel::Near, thing),
             rel => self.related_of(rel, thing),
         };
@@ -403,6 +404,18 @@ impl Knowledge<'_> {
         }
         let name = self.name(thing);
         let verb = self.is(&[thing]);
+        if rel == Rel::Opens {
+            let text = match (found.first(), self.is_russian()) {
+                (Some(door), true) => {
+                    format!("{name} – от {}", self.form(*door, Case::Genitive))
+                }
+                (Some(door), false) => format!("{name} opens {}", self.name(*door)),
+                (None, true) => format!("на карте не указано, от какой двери {name}"),
+                (None, false) => format!("the map does not say what {name} opens"),
+            };
+            let said = if found.is_empty() { Said::Unknown } else { Said::Found };
+            return Ok(Draft::new(said, text).with(found).about(&[thing]));
+        }
         if found.is_empty() {
             let text = match (floor, self.is_russian()) {
                 (true, true) => {

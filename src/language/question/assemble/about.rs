@@ -4,6 +4,8 @@
 
 use super::Frame;
 use super::Spot;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::Property;
 use crate::language::question::vocabulary::Mark;
@@ -14,7 +16,8 @@ impl Frame<'_, '_> {
         if self.has(Mark::Hold) && self.nouns.is_empty() {
             return Some(Query::WhatDoYouHold);
         }
-        if self.has(Mark::Help) && self.nouns.is_empty() && self.spots.is_empty() {
+        let deed = self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
+        if self.has(Mark::Help) && !deed && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::Help);
         }
         if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
@@ -42,12 +45,85 @@ impl Frame<'_, '_> {
         {
             return Some(Query::WhatDoYouSee);
         }
+        // «Что ты видишь справа от себя?»
+        if let (true, true, [spot]) = (self.has(Mark::See), self.nouns.is_empty(), &self.spots[..])
+            && is_robot(&spot.nouns[0])
+        {
+            let head = Head { anything: true, ..Head::default() };
+            let noun = Noun { head, plural: true, ..Noun::default() };
+            return Some(Query::Find(self.with_rest(noun, &[])));
+        }
         let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
         let moves = self.has(Mark::Can) || self.has(Mark::HowGet) || self.has(Mark::Sit);
         if self.you && asks && !others && !moves && !self.has(Mark::Before) {
             return Some(Query::WhereAreYou(self.detail()));
         }
         None
+    }
+
+    /// "Who is in the kitchen?", «Есть ли кто-нибудь дома?»
+    pub(super) fn people(&self) -> Option<Query> {
+        let other = self.has(Mark::Took)
+            || self.has(Mark::Have)
+            || self.has(Mark::LastSeen)
+            || self.has(Mark::Moved)
+            || self.has(Mark::Move);
+        let in_rooms =
+            self.nouns.iter().map(|s| &s.noun).chain(self.spots.iter().flat_map(|s| &s.nouns));
+        let only_rooms = in_rooms.into_iter().all(|noun| self.is_area(noun));
+        let asks = self.nouns.len() + self.spots.len() > 0
+            || self.there.is_some()
+            || self.has(Mark::Exists)
+            || self.has(Mark::Be)
+            || self.has(Mark::See);
+        (self.has(Mark::Who) && !other && only_rooms && asks && self.values.is_empty())
+            .then_some(Query::People)
+    }
+
+    /// «Какие виды мебели есть в спальне?», "How many kinds of food are there?"
+    pub(super) fn kinds(&self) -> Option<Query> {
+        if !self.has(Mark::Kinds) {
+            return None;
+        }
+        let mut noun = self.first()?;
+        noun.plural = true;
+        noun.indefinite = true;
+        for other in self.nouns.iter().skip(1) {
+            self.relate(&mut noun, other);
+        }
+        let count = self.has(Mark::HowMany) || self.has(Mark::Count);
+        Some(Query::Kinds { of: self.with_rest(noun, &[]), count })
+    }
+
+    /// "Which key opens the lab?", «От какой двери ключ?», "What does Key 1 open?"
+    pub(super) fn keys(&self) -> Option<Query> {
+        let key = self.nouns.iter().find(|s| self.is_key(&s.noun))?;
+        let from = self.links.iter().any(|(rel, _)| matches!(rel, Rel::From | Rel::To));
+        let open = self.lexicon.values.meaning("открытый");
+        let opens = self.has(Mark::Opens)
+            || from
+            || self.values.iter().any(|(value, _, _)| Some(*value) == open);
+        if !opens || !(self.asks() || self.has(Mark::Where) || self.has(Mark::Opens)) {
+            return None;
+        }
+        let general = |noun: &Noun| noun.head.named.is_empty() && self.follows_which(key.at);
+        let other = self.nouns.iter().find(|s| s.at != key.at && !self.follows_which(s.at));
+        let other = other
+            .map(|s| s.noun.clone())
+            .or_else(|| self.spots.first().map(|spot| spot.nouns[0].clone()));
+        match other {
+            Some(door) => {
+                let mut noun = key.noun.clone();
+                noun.plural |= general(&noun);
+                let anchors = vec![door];
+                noun.restrictions.push(Restriction { rel: Rel::Opens, anchors, negated: false });
+                Some(Query::Find(Noun { indefinite: true, ..noun }))
+            }
+            None => {
+                let of = key.noun.clone();
+                Some(Query::Anchor { rel: Rel::Opens, of, what: None })
+            }
+        }
     }
 
     pub(super) fn use_of_place(&self) -> Option<Query> {
@@ -107,9 +183,11 @@ impl Frame<'_, '_> {
             Mark::Deed(sort) => Some(*sort),
             _ => None,
         })?;
+        let sort = if self.has(Mark::MadeOf) { purposes::done_out_of(sort) } else { sort };
         let asks = self.has(Mark::Where)
             || self.asks()
             || self.has(Mark::Anything)
+            || self.has(Mark::Help)
             || self.has(Mark::MadeOf)
             || self.has(Mark::Can)
             || self.has(Mark::Exists);
@@ -122,6 +200,10 @@ impl Frame<'_, '_> {
                 Noun { head, ..Noun::default() }
             }
             [only] if only.noun.head.anything || covered(&only.noun) => only.noun.clone(),
+            [only] if self.is_things(&only.noun) => {
+                let head = Head { kinds: own, ..Head::default() };
+                Noun { head, ..only.noun.clone() }
+            }
             _ => return None,
         };
         let noun = Noun { plural: true, indefinite: true, ..self.with_rest(noun, &[]) };
@@ -129,6 +211,14 @@ impl Frame<'_, '_> {
             true => Query::Where(noun),
             false => Query::Find(noun),
         })
+    }
+
+    /// "things", «предметы»: anything at all.
+    fn is_things(&self, noun: &Noun) -> bool {
+        let things = |k: &_| self.lexicon.kind(*k).extension == Extension::Things;
+        noun.head.named.is_empty()
+            && !noun.head.kinds.is_empty()
+            && noun.head.kinds.iter().all(things)
     }
 
     /// «Какой стул свободен?», "Is any chair free?": which have nothing on them.

@@ -20,6 +20,13 @@ impl Frame<'_, '_> {
         };
         let alone = self.marks.iter().find_map(|(mark, _)| match mark {
             Mark::Best(extreme @ (Extreme::Most | Extreme::Fewest)) => Some(*extreme),
+            // «На каком этаже больше столов?»: of all of them, where no two are named.
+            Mark::More(Extreme::Biggest | Extreme::Most) if self.asks_of_rooms() => {
+                Some(Extreme::Most)
+            }
+            Mark::More(Extreme::Smallest | Extreme::Fewest) if self.asks_of_rooms() => {
+                Some(Extreme::Fewest)
+            }
             _ => None,
         });
         let counted = self.nouns.iter().find(|s| counts(&s.noun)).or_else(|| {
@@ -47,6 +54,11 @@ impl Frame<'_, '_> {
         asked.rank = asked.rank.or(what.rank.take());
         asked.best = Some(Best { extreme, anchor: Some(Box::new(what)) });
         Some(Query::Find(Noun { indefinite: true, ..asked }))
+    }
+
+    fn asks_of_rooms(&self) -> bool {
+        let asked = self.nouns.iter().any(|s| self.is_rooms(&s.noun) && self.follows_which(s.at));
+        asked && self.nouns.len() == 2 && self.spots.is_empty() && !self.has(Mark::Than)
     }
 
     /// «Где больше стульев, в кухне или в спальне?», "Are there more chairs than tables in the kitchen?"
@@ -198,7 +210,14 @@ impl Frame<'_, '_> {
         }
         let extreme = more?;
         let [.., first, second] = &self.nouns[..] else { return None };
-        let (what, other) = (first.noun.clone(), second.noun.clone());
+        let (mut what, mut other) = (first.noun.clone(), second.noun.clone());
+        // "… the fridge or the wardrobe in Room V": a place belongs to the noun before it.
+        for spot in &self.spots {
+            let noun = if spot.at > second.at { &mut other } else { &mut what };
+            if spot.at > first.at && !self.is_area(noun) {
+                self.attach(noun, spot);
+            }
+        }
         if self.asks() || (self.has(Mark::Or) && than.is_none()) {
             return Some(Query::WhichMore { of: [what, other], extreme, to: None });
         }

@@ -11,7 +11,7 @@ use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase, Sentence};
 use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::query::{
-    Best, Closeness, Extreme, Filter, Noun, Rel, Restriction, Thing,
+    Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction, Thing,
 };
 use crate::language::question::vocabulary::{Mark, Pronoun};
 use crate::language::report::Detail;
@@ -55,7 +55,17 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
                 Item::Noun(phrase) => {
-                    let Some(noun) = frame.noun(phrase, referent)? else { continue };
+                    let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
+                    // "the green book and the red one"
+                    let joined =
+                        at > 0 && matches!(items[at - 1], Item::Mark(Mark::And | Mark::Or));
+                    if let Some(before) = frame.nouns.last().filter(|_| joined)
+                        && noun.head.anything
+                        && !before.noun.head.kinds.is_empty()
+                    {
+                        noun.head =
+                            Head { kinds: before.noun.head.kinds.clone(), ..Head::default() };
+                    }
                     if std::mem::take(&mut without) {
                         frame.except.push(noun);
                         continue;
@@ -72,6 +82,14 @@ impl<'s, 't> Frame<'s, 't> {
                 }
                 Item::Place { rel, nouns, either } => {
                     let mut anchors = Vec::new();
+                    // «Где у тебя лежит зонт?» says nothing of a place.
+                    let said = nouns[0].words.start.checked_sub(1).map(|n| &sentence.keys[n]);
+                    if nouns[0].person == Some(Mark::You)
+                        && *rel == Rel::NextTo
+                        && said.is_some_and(|key| key == "у")
+                    {
+                        continue;
+                    }
                     for phrase in nouns {
                         anchors.extend(frame.noun(phrase, referent)?);
                         if phrase.person == Some(Mark::You) {
@@ -116,6 +134,8 @@ impl<'s, 't> Frame<'s, 't> {
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
             first.noun.all = true;
         }
+        let walls = frame.on_walls(items.len());
+        frame.spots.extend(walls);
         Ok(frame)
     }
 
@@ -197,7 +217,30 @@ impl<'s, 't> Frame<'s, 't> {
     }
 
     pub(super) fn has(&self, wanted: Mark) -> bool {
-        self.marks.iter().any(|(mark, _)| *mark == wanted)
+        // What hangs is somewhere, too.
+        let fits = |mark: Mark| mark == wanted || (wanted == Mark::Be && mark == Mark::Hang);
+        self.marks.iter().any(|(mark, _)| fits(*mark))
+    }
+
+    /// "What hangs in the hall?": on its walls, where nothing else is named to hang on.
+    fn on_walls(&self, items: usize) -> Option<Spot> {
+        let asked = self.asks() || self.has(Mark::HowMany) || self.has(Mark::List);
+        let in_rooms = self.spots.iter().all(|s| s.rel != Rel::On && self.is_area(&s.nouns[0]));
+        let kind = self.lexicon.kind_of(&Extension::Walls)?;
+        let head = Head { kinds: vec![kind], ..Head::default() };
+        (asked && in_rooms && self.has(Mark::Hang) && self.links.is_empty()).then(|| Spot {
+            rel: Rel::On,
+            nouns: vec![Noun { head, plural: true, indefinite: true, ..Noun::default() }],
+            either: false,
+            at: items + 1,
+            negated: false,
+        })
+    }
+
+    /// Whether a noun is a key, by its words.
+    pub(super) fn is_key(&self, noun: &Noun) -> bool {
+        let keys = crate::units::name_key(&noun.text);
+        keys.split(' ').any(|word| word.starts_with("ключ") || word == "key" || word == "keys")
     }
 
     /// How much of a way or a place is asked for.
@@ -294,6 +337,12 @@ impl<'s, 't> Frame<'s, 't> {
     /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
     pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
         if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
+            return;
+        }
+        // «ключ от лаборатории»
+        if matches!(spot.rel, Rel::From | Rel::To | Rel::Of) && self.is_key(noun) {
+            let opens = Spot { rel: Rel::Opens, ..spot.clone() };
+            noun.restrictions.extend(opens.restrictions());
             return;
         }
         // «в комнате с диваном», «стол с лампой»

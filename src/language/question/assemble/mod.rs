@@ -125,7 +125,10 @@ pub(super) fn fragment(
     let items = sentence.items();
     let frame = Frame::of(sentence, lexicon, &items, referent).ok()?;
     let small = |mark: &Mark| {
-        matches!(mark, Mark::The | Mark::A | Mark::Be | Mark::One | Mark::Best(_) | Mark::And)
+        matches!(
+            mark,
+            Mark::The | Mark::A | Mark::Be | Mark::Hang | Mark::One | Mark::Best(_) | Mark::And
+        )
     };
     if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
@@ -213,6 +216,9 @@ impl Frame<'_, '_> {
             return None;
         }
         self.of_robot()
+            .or_else(|| self.people())
+            .or_else(|| self.kinds())
+            .or_else(|| self.keys())
             .or_else(|| self.way())
             .or_else(|| self.more_of())
             .or_else(|| self.most())

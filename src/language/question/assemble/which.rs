@@ -46,7 +46,7 @@ impl Frame<'_, '_> {
     }
 
     /// A second noun: what rooms have, or the room that has them.
-    fn relate(&self, noun: &mut Noun, other: &Subject) {
+    pub(super) fn relate(&self, noun: &mut Noun, other: &Subject) {
         if self.is_building(&other.noun) {
             return;
         }
@@ -118,7 +118,10 @@ impl Frame<'_, '_> {
             (mark_at + 1..at).all(|between| {
                 self.marks.iter().any(|(m, a)| {
                     *a == between
-                        && matches!(m, Mark::Be | Mark::Exists | Mark::Best(_) | Mark::The)
+                        && matches!(
+                            m,
+                            Mark::Be | Mark::Hang | Mark::Exists | Mark::Best(_) | Mark::The
+                        )
                 }) || self.values.iter().any(|(_, a, _)| *a == between)
             })
         })
@@ -226,6 +229,14 @@ impl Frame<'_, '_> {
             }
             let noun = self.with_rest(noun, &[]);
             return Some(Query::Find(Noun { indefinite: true, ..noun }));
+        }
+        // «Что из мебели деревянное?»
+        let of = self
+            .spot(&[Rel::From, Rel::Of])
+            .filter(|s| !self.is_area(&s.nouns[0]) && !s.nouns[0].head.kinds.is_empty());
+        if let Some(of) = of.filter(|_| !self.values.is_empty() || self.spots.len() > 1) {
+            let noun = Noun { plural: true, indefinite: true, ..of.nouns[0].clone() };
+            return Some(Query::Find(self.with_rest(noun, &[of.at])));
         }
         let mut noun = Noun { plural: true, ..Noun::default() };
         noun.head.anything = true;

@@ -9,6 +9,7 @@
 //! ```
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
+mod relative;
 mod tokens;
 
 use std::iter::{Copied, Enumerate};
@@ -272,7 +273,11 @@ impl<'t> Sentence<'t> {
 
     /// A noun with what belongs to it.
     fn phrase<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
-        alt((|i| self.person(i), |i| self.described(i))).parse(input)
+        let (rest, phrase) = alt((|i| self.person(i), |i| self.described(i))).parse(input)?;
+        if phrase.person.is_some() || phrase.pronoun.is_some() {
+            return Ok((rest, phrase));
+        }
+        Ok(self.relative(rest, phrase))
     }
 
     fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
@@ -387,6 +392,8 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
             Tok::Number(count) => Modifier::Number(count),
+            // «Закрыта дверь?» says it of the door; it does not tell which.
+            Tok::Value(_) if self.is_predicate(first) => return fail(input),
             Tok::Value(value) => Modifier::Value(value, false),
             // «красные или белые чашки», "black and white chairs": either will do.
             Tok::Mark(Mark::Or | Mark::And) => {
@@ -419,6 +426,15 @@ impl<'t> Sentence<'t> {
             _ => return fail(input),
         };
         Ok((rest, modifier))
+    }
+
+    /// A short form of a participle, which no Russian noun takes.
+    fn is_predicate(&self, token: &Token) -> bool {
+        const STEMS: [&str; 5] = ["открыт", "закрыт", "заперт", "включен", "выключен"];
+        let key = &self.keys[token.from as usize];
+        STEMS.iter().any(|stem| {
+            key.strip_prefix(stem).is_some_and(|end| ["", "а", "о", "ы"].contains(&end))
+        })
     }
 
     /// The head, and its owner with the relation to it.
@@ -467,6 +483,16 @@ impl<'t> Sentence<'t> {
         }
         match self.language {
             // «в Комнате-В книг»: a room is not owned by things.
+            // «Нет ли на столе чашки?»: the genitive is of what is not there.
+            Language::Russian
+                if self.keys.iter().any(|key| key == "нет" || key == "нету")
+                    && matches!(
+                        self.tokens.iter().rev().find(|t| t.to <= input.0[0].from).map(|t| t.kind),
+                        Some(Tok::Mark(Mark::Link(_)))
+                    ) =>
+            {
+                Ok((rest, Some(found), None))
+            }
             Language::Russian
                 if (!found.is_area || next.is_area)
                     && next.readings.iter().any(|r| r.has_case(Case::Genitive)) =>

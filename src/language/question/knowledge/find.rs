@@ -34,6 +34,10 @@ impl Knowledge<'_> {
             Extension::Trait(wanted) => with_trait(wanted),
             Extension::Lighting => {
                 let mut found = with_trait("light");
+                // A switch stands for its light only where the map gives the lights themselves no place.
+                if !found.is_empty() {
+                    return found;
+                }
                 let types = &self.world.types.object;
                 let switches = self.by_type().iter().filter(|(kind, _)| {
                     types.get(**kind).is_some_and(super::super::lexicon::Lexicon::is_switch)
@@ -73,6 +77,10 @@ impl Knowledge<'_> {
                 self.world.maps.keys().map(|m| Thing::Entity(Entity::Map(*m))).collect()
             }
             Extension::Robot => vec![Thing::Robot],
+            Extension::Lifts => {
+                let stops = self.world.domain.lifts.iter().filter_map(|(_, stops)| stops.first());
+                stops.map(|stop| Thing::Entity(Entity::Area(stop.area))).collect()
+            }
             Extension::Exits => {
                 self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
             }
@@ -141,7 +149,19 @@ impl Knowledge<'_> {
                     continue;
                 }
             }
+            let before = found.clone();
             found.retain(|t| related.contains(t) != restriction.negated);
+            // «стул у стола»: where none is right beside it, the one near it is meant.
+            if found.is_empty()
+                && restriction.rel == Rel::NextTo
+                && !restriction.negated
+                && !noun.head.kinds.is_empty()
+                && !noun.plural
+            {
+                let near = Restriction { rel: Rel::Near, ..restriction.clone() };
+                let related = self.related_to(&near, loose)?;
+                found = before.into_iter().filter(|t| related.contains(t)).collect();
+            }
         }
         for filter in &noun.filters {
             found.retain(|t| self.fits(*t, filter));

@@ -7,7 +7,7 @@ use super::Knowledge;
 use super::bases;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Rel, Thing};
-use crate::map::Entity;
+use crate::map::{Entity, Mark};
 use crate::units::{AreaId, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
 
@@ -62,6 +62,7 @@ impl Knowledge<'_> {
                 self.within_reach(&areas, |id| self.relations.distance_to_point(id, map, at))
             }
             (Rel::Has, _) => self.holders(anchor),
+            (Rel::Opens, _) => self.keys_of(anchor),
             (Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf, Thing::Robot) => {
                 self.beside_robot(rel)
             }
@@ -73,6 +74,27 @@ impl Knowledge<'_> {
             }
             _ => self.by_relation(rel, anchor),
         }
+    }
+
+    /// Keys of a door, or of the doors of a room.
+    fn keys_of(&self, anchor: Thing) -> Vec<Thing> {
+        let all = self.world.replicas.values();
+        let all = all.map(|r| Thing::Entity(Entity::Replica(r.id)));
+        let fits = |key: &Thing| {
+            let door = self.opened_by(*key);
+            door == Some(anchor)
+                || anchor.area().is_some_and(|area| {
+                    door.and_then(|door| self.gate(door)).is_some_and(|g| g.areas.contains(&area))
+                })
+        };
+        all.filter(fits).collect()
+    }
+
+    /// The door that a key opens.
+    pub(in crate::language::question) fn opened_by(&self, key: Thing) -> Option<Thing> {
+        let (_, door) = Mark::KeyOf.of(&self.world.replicas.get(&key.replica()?)?.properties)?;
+        let is_door = |entity: &Entity| matches!(entity, Entity::Door(_));
+        self.world.find(door).into_iter().find(is_door).map(Thing::Entity)
     }
 
     fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {

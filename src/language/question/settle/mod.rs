@@ -21,11 +21,12 @@ pub(super) use reply::Waiting;
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
-use super::query::{Rel, Restriction, Thing};
+use super::purposes;
+use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::vocabulary::Mark;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
-use crate::language::words::{Case, NounPhrase, enumerate};
+use crate::language::words::{Case, Language, NounPhrase, enumerate};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -37,11 +38,13 @@ struct Edit {
     at: Range<usize>,
     name: String,
     things: Vec<Thing>,
+    /// What the command is done to, not a place.
+    object: bool,
 }
 
 impl Edit {
     fn deletion(at: &Range<usize>) -> Self {
-        Self { at: at.clone(), name: String::new(), things: Vec::new() }
+        Self { at: at.clone(), name: String::new(), things: Vec::new(), object: false }
     }
 }
 
@@ -68,7 +71,15 @@ impl Asker<'_> {
             return Ok(Settled { text: text.to_owned(), meant: Vec::new() });
         }
         let gathered = command::gathered(text);
+        let language = crate::language::words::Language::of(text);
+        let misread = |doubt: Doubt| {
+            Misread(Box::new(self.knowledge(language, &Memory::default()).unanswered(doubt)))
+        };
+        if let Some(above) = self.lacks_storey(&gathered) {
+            return Err(misread(Doubt::NoStorey { above }));
+        }
         let text = self.with_kind(self.plain(&gathered).into_owned(), memory);
+        let text = self.with_deed(text, language).map_err(misread)?;
         // "Open the lab door" orders; it does not speak of the open one.
         let described = command::without_verbs(&text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
@@ -85,6 +96,10 @@ impl Asker<'_> {
         match settled {
             Ok(mut edits) => {
                 edits.sort_by_key(|edit| edit.at.start);
+                memory.ordered = edits.iter().find(|edit| edit.object).map(|edit| {
+                    let (at, candidates) = (edit.at.clone(), edit.things.clone());
+                    Waiting { text: text.clone(), at, candidates, language }
+                });
                 let meant = edits.iter().flat_map(|edit| edit.things.clone()).collect();
                 let mut settled = text;
                 let mut until = usize::MAX;
@@ -106,6 +121,55 @@ impl Asker<'_> {
                 Err(Misread(Box::new(unanswered)))
             }
         }
+    }
+
+    /// «Дай что-нибудь почитать», "something to drink from": with the nearest portable thing of that sort.
+    fn with_deed(&self, text: String, language: Language) -> Result<String, Doubt> {
+        const ANY: [&[&str]; 7] = [
+            &["something"],
+            &["anything"],
+            &["что", "нибудь"],
+            &["чего", "нибудь"],
+            &["что", "либо"],
+            &["что", "то"],
+            &["чего", "то"],
+        ];
+        let words = crate::language::words::word_ranges(&text);
+        let keys: Vec<String> =
+            words.iter().map(|w| crate::units::name_key(&text[w.clone()])).collect();
+        let starts = |at: usize, phrase: &[&str]| {
+            keys.get(at..at + phrase.len()).is_some_and(|said| said.iter().eq(phrase.iter()))
+        };
+        let any = (0..keys.len())
+            .find_map(|at| ANY.iter().find(|any| starts(at, any)).map(|any| (at, at + any.len())));
+        let Some((at, mut next)) = any else { return Ok(text) };
+        next += usize::from(keys.get(next).is_some_and(|key| key == "to"));
+        let deeds = purposes::deeds().filter_map(|(sort, deed)| {
+            let deed: Vec<&str> = deed.split(' ').collect();
+            starts(next, &deed).then_some((sort, deed.len()))
+        });
+        let Some((sort, taken)) = deeds.max_by_key(|(_, taken)| *taken) else { return Ok(text) };
+        let kinds = self.mind.lexicon.kinds_of_sort(sort);
+        let noun = Noun {
+            head: Head { kinds, ..Head::default() },
+            best: Some(Best { extreme: Extreme::Nearest, anchor: None }),
+            ..Noun::default()
+        };
+        let memory = Memory::default();
+        let knowledge = self.knowledge(language, &memory);
+        let portable =
+            |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
+        let all = knowledge.base(&noun.head);
+        let carried: Vec<Thing> = all.into_iter().filter(portable).collect();
+        if carried.is_empty() {
+            return Err(Doubt::NoneSuch { noun: Box::new(Noun { best: None, ..noun }) });
+        }
+        let nearest = Noun { head: Head { things: Some(carried), ..Head::default() }, ..noun };
+        let Some(thing) = knowledge.find(&nearest, true)?.first().copied() else { return Ok(text) };
+        let mut text = text.clone();
+        let name = knowledge.form(thing, Case::Accusative);
+        text.replace_range(words[at].start..words[next + taken - 1].end, &name);
+        Ok(text)
     }
 
     /// «Принеси ещё одну»: with the noun of what was spoken of last.
@@ -184,7 +248,8 @@ impl Settler<'_, '_> {
         let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
         let name = self.knowledge.form(thing, case_of(spot.rel, true));
-        edits.push(Edit { at: self.said(&spot.phrase.words), name, things: vec![thing] });
+        let at = self.said(&spot.phrase.words);
+        edits.push(Edit { at, name, things: vec![thing], object: false });
         edits.extend(spot.attached.iter().map(Edit::deletion));
         Ok(Some(thing))
     }
@@ -249,7 +314,8 @@ impl Settler<'_, '_> {
                         let to = self.knowledge.pick("к ", "to ");
                         let name = self.knowledge.form(thing, Case::Dative);
                         let at = self.bytes(&phrase.words);
-                        edits.push(Edit { at, name: format!("{to}{name}"), things: vec![thing] });
+                        let name = format!("{to}{name}");
+                        edits.push(Edit { at, name, things: vec![thing], object: false });
                     }
                     continue;
                 }
@@ -283,6 +349,11 @@ impl Settler<'_, '_> {
                     except: self.except_after(&items, *at).map(|except| except.noun.clone()),
                     there,
                     gone_to,
+                    like: objects[..n]
+                        .iter()
+                        .rev()
+                        .map(|(_, before)| before.noun.head.clone())
+                        .find(|head| !head.kinds.is_empty() && head.named.is_empty()),
                 };
                 if let Some(things) = self.object(sort, phrase, &mine, more)? {
                     let name = self.knowledge.listed(&things, Case::Accusative);
@@ -291,7 +362,7 @@ impl Settler<'_, '_> {
                         said.end = self.bytes(&words).end;
                     }
                     let end = said.end;
-                    edits.push(Edit { at: said, name, things: things.clone() });
+                    edits.push(Edit { at: said, name, things: things.clone(), object: true });
                     for spot in mine {
                         edits.push(Edit::deletion(&spot.at));
                         edits.extend(spot.attached.iter().map(Edit::deletion));

@@ -23,6 +23,8 @@ pub(super) struct More {
     pub(super) there: Option<AreaId>,
     /// The room into which the sentence sends the robot before.
     pub(super) gone_to: Option<AreaId>,
+    /// What stands before it in the clause: "the red one" after a book is a book.
+    pub(super) like: Option<Head>,
 }
 
 impl Settler<'_, '_> {
@@ -43,6 +45,8 @@ impl Settler<'_, '_> {
         if noun.head.anything && (noun.all || noun.text.to_lowercase().contains("everything")) {
             // "Turn off everything in the kitchen"
             noun.plural = true;
+        } else if let (true, Some(like)) = (noun.head.anything, more.like) {
+            noun.head = like;
         } else if noun.head.anything && noun.other {
             noun.head = Head { things: Some(self.like_spoken()), ..Head::default() };
         } else if noun.head.anything && !self.spoken.is_empty() {
@@ -58,6 +62,8 @@ impl Settler<'_, '_> {
         for spot in spots {
             let anchors = vec![with(&spot.phrase.noun, &spot.within)];
             let rel = match (sort, spot.rel) {
+                // «ключ от лаборатории»
+                (_, Rel::From | Rel::Of) if is_key(noun) => Rel::Opens,
                 // «дверь из кухни в коридор»
                 (Sort::Door, Rel::To | Rel::In | Rel::On | Rel::From | Rel::Through | Rel::Of) => {
                     Rel::Of
@@ -72,6 +78,10 @@ impl Settler<'_, '_> {
         }
         if self.is_strange(&phrase.words) {
             return Ok(None);
+        }
+        let is_window = |k| self.knowledge.lexicon().kind(k).extension == Extension::Windows;
+        if sort == Sort::Door && noun.head.kinds.iter().any(|k| is_window(*k)) {
+            return Err((Doubt::Windows, at));
         }
         let found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
         let mut found = self.tagged(&phrase.words, found);
@@ -101,7 +111,8 @@ impl Settler<'_, '_> {
             };
             return Ok((!chosen.is_empty()).then_some(chosen));
         }
-        let several = noun.plural || noun.all || (sort == Sort::Switch && of_light);
+        let one_of = noun.plural && self.is_one_of(&phrase.words);
+        let several = noun.plural && !one_of || noun.all || (sort == Sort::Switch && of_light);
         if several && !found.is_empty() {
             return Ok(Some(found));
         }
@@ -114,7 +125,10 @@ impl Settler<'_, '_> {
         ) {
             found = vec![*only];
         }
-        if (noun.indefinite || sort == Sort::Find || noun.other && self.is_one_more(&phrase.words))
+        if (noun.indefinite
+            || one_of
+            || sort == Sort::Find
+            || noun.other && self.is_one_more(&phrase.words))
             && let Some(nearest) = self.nearest(&found)
         {
             return Ok(Some(vec![nearest]));
@@ -146,6 +160,14 @@ impl Settler<'_, '_> {
     fn is_one_more(&self, words: &Range<usize>) -> bool {
         let keys = &self.sentence.keys[words.start.saturating_sub(2)..words.end];
         keys.iter().any(|key| matches!(key.as_str(), "еще" | "another"))
+    }
+
+    /// «одну из тарелок», "one of the plates": any of them.
+    fn is_one_of(&self, words: &Range<usize>) -> bool {
+        const ONE: [&str; 7] = ["одну", "один", "одно", "одного", "любую", "любой", "one"];
+        self.sentence.keys[words.start.saturating_sub(3)..words.end]
+            .iter()
+            .any(|key| ONE.contains(&key.as_str()))
     }
 
     /// «любую книгу»: a question would ask about all of them.
@@ -188,4 +210,10 @@ impl Settler<'_, '_> {
             (Sort::Go | Sort::Find | Sort::Leave | Sort::Other, _) => true,
         }
     }
+}
+
+/// Whether a noun is a key, by its words.
+fn is_key(noun: &Noun) -> bool {
+    let said = crate::units::name_key(&noun.text);
+    said.split(' ').any(|word| word.starts_with("ключ") || word == "key" || word == "keys")
 }

@@ -34,7 +34,12 @@ impl Settler<'_, '_> {
             {
                 let case = case_of(spot.rel, false);
                 let at = self.bytes(&spot.phrase.words);
-                edits.push(Edit { at, name: self.knowledge.form(only, case), things: vec![only] });
+                edits.push(Edit {
+                    at,
+                    name: self.knowledge.form(only, case),
+                    things: vec![only],
+                    object: false,
+                });
                 edits.extend(spot.attached.iter().map(Edit::deletion));
             }
         }

@@ -8,6 +8,7 @@ use crate::language::question::knowledge::Knowledge;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
 use crate::language::question::{Asker, Memory};
 use crate::language::words::{Case, Language, word_ranges};
+use crate::map::Entity;
 use crate::units::name_key;
 
 /// A command that waits for the person to say which thing was meant.
@@ -37,12 +38,63 @@ impl Asker<'_> {
     /// A command that waited to be told which thing was meant, with the thing that these words choose.
     #[must_use]
     pub fn resumed(&self, text: &str, memory: &Memory) -> Option<String> {
-        let waiting = memory.waiting.as_ref()?;
+        let Some(waiting) = memory.waiting.as_ref() else { return self.another(text, memory) };
         let knowledge = self.knowledge(waiting.language, memory);
         let chosen = self.chosen(text, waiting, &knowledge)?;
         let mut resumed = waiting.text.clone();
         resumed.replace_range(waiting.at.clone(), &knowledge.listed(&chosen, Case::Accusative));
         Some(resumed)
+    }
+
+    /// «А теперь другую», "now the other one": the last command, done to the nearest other thing of that kind.
+    fn another(&self, text: &str, memory: &Memory) -> Option<String> {
+        const SMALL: [&str; 10] =
+            ["а", "и", "теперь", "потом", "пожалуйста", "now", "and", "then", "please", "тоже"];
+        const OTHER: [&str; 22] = [
+            "другую",
+            "другой",
+            "другое",
+            "вторую",
+            "второй",
+            "второе",
+            "следующую",
+            "следующий",
+            "еще одну",
+            "еще один",
+            "еще одно",
+            "еще",
+            "the other one",
+            "the other",
+            "another one",
+            "another",
+            "the second one",
+            "the next one",
+            "one more",
+            "the next",
+            "также другую",
+            "остальную",
+        ];
+        let ordered = memory.ordered.as_ref().filter(|_| !text.trim_end().ends_with('?'))?;
+        let keys = word_ranges(text).into_iter().map(|range| name_key(&text[range]));
+        let keys: Vec<String> = keys.skip_while(|key| SMALL.contains(&key.as_str())).collect();
+        if !OTHER.contains(&keys.join(" ").as_str()) {
+            return None;
+        }
+        let knowledge = self.knowledge(ordered.language, memory);
+        let kind = |t: &Thing| {
+            let object = self.world.replicas.get(&t.replica()?)?.object;
+            self.world.objects.get(&object)?.object_type
+        };
+        let wanted = ordered.candidates.last().and_then(kind)?;
+        let given = |t: &Thing| t.replica().is_some_and(|id| self.senses.holder(id).is_some());
+        let all = self.world.replicas.keys().map(|id| Thing::Entity(Entity::Replica(*id)));
+        let others =
+            all.filter(|t| kind(t) == Some(wanted) && !ordered.candidates.contains(t) && !given(t));
+        let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
+        let next = others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
+        let mut whole = ordered.text.clone();
+        whole.replace_range(ordered.at.clone(), &knowledge.listed(&[next], Case::Accusative));
+        Some(whole)
     }
 
     fn chosen(

@@ -1,0 +1,79 @@
+//! Kinds of things instead of the things, and what is said of people.
+//!
+//! Invariant: a kind is counted where at least one thing of it was found.
+
+use std::collections::BTreeMap;
+
+use super::Draft;
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::lower_first;
+use crate::language::question::query::Noun;
+use crate::language::question::{Doubt, Said};
+use crate::language::words::{Case, NounPhrase, Number, WordHints, english, enumerate, russian};
+
+impl Knowledge<'_> {
+    /// "There are 3 kinds: a bed, 2 bedside tables and a wardrobe."
+    pub(super) fn say_kinds(&self, of: &Noun, count: bool) -> Result<Draft, Doubt> {
+        let found = self.find(of, false)?;
+        let place = self.restrictions(of);
+        if found.is_empty() {
+            let text = self.nothing_found(of, &place);
+            return Ok(Draft::new(Said::Nothing, text));
+        }
+        let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
+        for thing in &found {
+            let kind = self.kind_name(*thing).unwrap_or_else(|| self.name(*thing));
+            *kinds.entry(kind.to_lowercase()).or_default() += 1;
+        }
+        let each = |(kind, number): (&String, &usize)| match number {
+            1 => kind.clone(),
+            n => format!("{kind} ({n})"),
+        };
+        let list = enumerate(&kinds.iter().map(each).collect::<Vec<_>>(), self.language);
+        let number = kinds.len();
+        let blank = if place.is_empty() { "" } else { " " };
+        let text = match self.is_russian() {
+            true => {
+                let kind = NounPhrase::parse("вид", &WordHints::default());
+                let counted = russian::count(number as u64, &kind);
+                format!("{place}{blank}{counted} {}: {list}", self.of_kind(of))
+            }
+            false => {
+                let verb = if number == 1 { "is" } else { "are" };
+                let counted = english::count(number as u64, "kind");
+                format!("there {verb} {counted} of {}{blank}{place}: {list}", self.of_kind(of))
+            }
+        };
+        let draft = Draft::new(Said::Found, text).with(found);
+        Ok(if count { draft.number(number as f64) } else { draft })
+    }
+
+    /// «мебели», "books": of what there are kinds.
+    fn of_kind(&self, of: &Noun) -> String {
+        let Some(kind) = of.head.kinds.first().map(|id| self.lexicon().kind(*id)) else {
+            return self.pick("вещей", "things").to_owned();
+        };
+        let mass = ["furniture", "lighting", "food", "cutlery", "crockery", "electronics", "fruit"];
+        let is_mass = mass.contains(&kind.english.as_str());
+        match self.is_russian() {
+            true => {
+                let number = if is_mass && kind.phrase.name() != "фрукт" {
+                    Number::Singular
+                } else {
+                    Number::Plural
+                };
+                lower_first(&kind.phrase.form(Case::Genitive, number))
+            }
+            false if is_mass => kind.english.clone(),
+            false => english::plural(&kind.english),
+        }
+    }
+
+    pub(super) fn people(&self) -> Draft {
+        let text = self.pick(
+            "людей карта не знает: на ней только помещения и вещи",
+            "the map knows no people: only rooms and things are on it",
+        );
+        Draft::new(Said::Unknown, text.to_owned())
+    }
+}

@@ -1,0 +1,205 @@
+//! Constructions of everyday speech put into those that the grammar reads, word by word.
+//!
+//! Invariant: what is put in means the same, and names nothing that was not named.
+
+use std::borrow::Cow;
+use std::ops::Range;
+
+use crate::language::words::{Language, word_ranges};
+use crate::units::name_key;
+
+/// A text with its everyday constructions put plainly.
+pub(super) fn plain(text: &str) -> Cow<'_, str> {
+    let mut plain = Cow::Borrowed(text);
+    let rules = [
+        locked,
+        neither,
+        everything_switched,
+        that_far,
+        up_or_down,
+        one_of,
+        storey_again,
+        any_left,
+    ];
+    for rule in rules {
+        if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
+            plain = Cow::Owned(next);
+        }
+    }
+    plain
+}
+
+/// A text by its words.
+struct Words<'t> {
+    text: &'t str,
+    at: Vec<Range<usize>>,
+    keys: Vec<String>,
+}
+
+impl<'t> Words<'t> {
+    fn of(text: &'t str) -> Option<Self> {
+        let at = word_ranges(text);
+        let keys: Vec<String> = at.iter().map(|range| name_key(&text[range.clone()])).collect();
+        (!keys.is_empty()).then_some(Self { text, at, keys })
+    }
+
+    fn is(&self, n: usize, all: &[&str]) -> bool {
+        self.keys.get(n).is_some_and(|key| all.contains(&key.as_str()))
+    }
+
+    fn find(&self, all: &[&str]) -> Option<usize> {
+        (0..self.keys.len()).find(|n| self.is(*n, all))
+    }
+
+    /// The text with some words replaced, the last first.
+    fn replaced(&self, mut changes: Vec<(Range<usize>, String)>) -> String {
+        changes.sort_by_key(|(words, _)| std::cmp::Reverse(words.start));
+        let mut text = self.text.to_owned();
+        for (words, by) in changes {
+            text.replace_range(self.at[words.start].start..self.at[words.end - 1].end, &by);
+        }
+        text
+    }
+}
+
+/// «Закрыта ли дверь на ключ?» asks whether it is locked.
+fn locked(words: &Words<'_>) -> Option<String> {
+    let key = (1..words.keys.len())
+        .find(|n| words.is(*n, &["ключ", "замок", "засов"]) && words.is(*n - 1, &["на"]))?;
+    let shut = words.keys.iter().position(|key| key.starts_with("закрыт") && key != "закрыть")?;
+    let said = &words.text[words.at[shut].clone()];
+    let capital = said.starts_with(char::is_uppercase);
+    let ending: String = said.chars().skip("закрыт".chars().count()).collect();
+    Some(words.replaced(vec![
+        (shut..shut + 1, format!("{}аперт{ending}", if capital { 'З' } else { 'з' })),
+        (key - 1..key + 1, String::new()),
+    ]))
+}
+
+/// "Which room has neither a window nor a lamp?": without either of them.
+fn neither(words: &Words<'_>) -> Option<String> {
+    let neither = words.find(&["neither"])?;
+    let nor = words.find(&["nor"]).filter(|nor| *nor > neither)?;
+    let has = neither.checked_sub(1).filter(|n| words.is(*n, &["has", "have", "contains", "with"]));
+    let without = has.unwrap_or(neither)..neither + 1;
+    Some(words.replaced(vec![(without, "without".to_owned()), (nor..nor + 1, "or".to_owned())]))
+}
+
+/// «Выключи всё в комнате», "turn everything off": all devices, where nothing is named behind.
+fn everything_switched(words: &Words<'_>) -> Option<String> {
+    let switches = |key: &String| {
+        ["выключ", "отключ", "включ", "погас", "выруб"].iter().any(|stem| key.starts_with(stem))
+            || ["turn", "switch", "power", "shut"].contains(&key.as_str())
+    };
+    let orders = words.keys.iter().take(4).position(switches)?;
+    // A state («выключено ли всё») is asked after.
+    if words.keys[orders].contains("ключен") {
+        return None;
+    }
+    let all = words.find(&["все", "everything"]).filter(|all| *all > orders)?;
+    let ends = ["в", "во", "на", "кроме", "здесь", "тут", "off", "on", "in", "down", "except"];
+    if all + 1 < words.keys.len() && !words.is(all + 1, &ends) {
+        return None;
+    }
+    let devices = match Language::of(words.text) {
+        Language::Russian => "все приборы",
+        Language::English => "all devices",
+    };
+    Some(words.replaced(vec![(all..all + 1, devices.to_owned())]))
+}
+
+/// «Сколько это метров?», «Это далеко?»: how far what was spoken of is.
+fn that_far(words: &Words<'_>) -> Option<String> {
+    const SAID: [&str; 10] = [
+        "сколько это метров",
+        "сколько это в метрах",
+        "а сколько это метров",
+        "это далеко",
+        "а это далеко",
+        "далеко это",
+        "далеко ли это",
+        "how far is that",
+        "is that far",
+        "is that far away",
+    ];
+    SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
+        Language::Russian => "Как далеко до этого места?".to_owned(),
+        Language::English => "How far is it?".to_owned(),
+    })
+}
+
+/// «Спускайся!»: to the storey below.
+fn up_or_down(words: &Words<'_>) -> Option<String> {
+    const UP: [&str; 4] = ["поднимись", "поднимитесь", "поднимайся", "поднимайтесь"];
+    const DOWN: [&str; 4] = ["спустись", "спуститесь", "спускайся", "спускайтесь"];
+    let last = words.keys.len() - 1;
+    let whither = match () {
+        () if words.is(last, &UP) => "вверх",
+        () if words.is(last, &DOWN) => "вниз",
+        () => return None,
+    };
+    let said = &words.text[words.at[last].clone()];
+    Some(words.replaced(vec![(last..last + 1, format!("{said} {whither}"))]))
+}
+
+/// «одну из тарелок»: one plate, whichever.
+fn one_of(words: &Words<'_>) -> Option<String> {
+    const ONE: [&str; 8] = ["один", "одна", "одно", "одну", "одного", "одной", "любую", "любой"];
+    let one = (0..words.keys.len()).find(|n| words.is(*n, &ONE) && words.is(*n + 1, &["из"]))?;
+    (one + 2 < words.keys.len()).then(|| {
+        let said = &words.text[words.at[one].clone()];
+        words.replaced(vec![(one..one + 2, said.to_owned())])
+    })
+}
+
+/// «На первом этаже или на втором?», "on the first floor or the second": the floor said again.
+fn storey_again(words: &Words<'_>) -> Option<String> {
+    const ORDER: [&str; 10] = [
+        "первом",
+        "втором",
+        "третьем",
+        "четвертом",
+        "пятом",
+        "first",
+        "second",
+        "third",
+        "fourth",
+        "fifth",
+    ];
+    let floor = words.find(&["этаже", "floor", "storey"])?;
+    let or = words.find(&["или", "or"]).filter(|or| *or > floor)?;
+    let last = words.keys.len() - 1;
+    (last > or && words.is(last, &ORDER)).then(|| {
+        let said = &words.text[words.at[last].clone()];
+        let noun = &words.text[words.at[floor].clone()];
+        words.replaced(vec![(last..last + 1, format!("{said} {noun}"))])
+    })
+}
+
+/// "Do I have any apples left?"
+fn any_left(words: &Words<'_>) -> Option<String> {
+    let last = words.keys.len() - 1;
+    let any = words.find(&["any", "some"])?;
+    (any + 1 < last && words.is(last, &["left"]))
+        .then(|| words.replaced(vec![(last..last + 1, String::new())]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn everyday_constructions_become_plain_ones() {
+        let check = |text: &str, expected: &str| assert_eq!(plain(text), expected, "{text}");
+        check("Закрыта ли дверь на ключ?", "Заперта ли дверь ?");
+        check("Закрой дверь на ключ", "Закрой дверь на ключ");
+        check("Which room has neither a lamp nor a bed?", "Which room without a lamp or a bed?");
+        check("Выключи всё в спальне", "Выключи все приборы в спальне");
+        check("Выключи все лампы", "Выключи все лампы");
+        check("Turn everything off", "Turn all devices off");
+        check("Это далеко?", "Как далеко до этого места?");
+        check("Теперь спускайся!", "Теперь спускайся вниз!");
+        check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
+        check("", "");
+    }
+}
