@@ -174,7 +174,9 @@ impl Dialogue {
                     Err(_) => has_verb(line),
                     Ok(_) => true,
                 };
-                if not_understood && commands() {
+                // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
+                let asks = line.split_whitespace().nth(1).is_some_and(|word| word == "ли");
+                if not_understood && !asks && commands() {
                     return self.command(line);
                 }
                 if let Some((at, verb)) = likely_verb(line) {

@@ -123,7 +123,7 @@ fn that_far(words: &Words<'_>) -> Option<String> {
         "is that far away",
     ];
     SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
-        Language::Russian => "Как далеко до этого места?".to_owned(),
+        Language::Russian => "Как далеко туда?".to_owned(),
         Language::English => "How far is it?".to_owned(),
     })
 }
@@ -197,7 +197,7 @@ mod tests {
         check("Выключи всё в спальне", "Выключи все приборы в спальне");
         check("Выключи все лампы", "Выключи все лампы");
         check("Turn everything off", "Turn all devices off");
-        check("Это далеко?", "Как далеко до этого места?");
+        check("Это далеко?", "Как далеко туда?");
         check("Теперь спускайся!", "Теперь спускайся вниз!");
         check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
         check("", "");

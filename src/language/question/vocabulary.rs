@@ -146,7 +146,7 @@ pub(super) enum Pronoun {
 const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Where,
-        "куда я мог положить|куда я могла положить|куда я мог деть|куда я положил|куда я положила|куда я дел|куда я дела|куда подевался|куда подевалась|куда пропал|куда пропала|куда запропастился|куда запропастилась|where could i have put|where could i have left|where might i have left|where have i put|where have i left|помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        "где бы мне найти|где мне найти|где бы найти|где бы взять|где бы мне взять|где мне взять|куда я мог положить|куда я могла положить|куда я мог деть|куда я положил|куда я положила|куда я дел|куда я дела|куда подевался|куда подевалась|куда пропал|куда пропала|куда запропастился|куда запропастилась|where could i have put|where could i have left|where might i have left|where have i put|where have i left|помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
         where can i find|where do i find|where should i look for|where do i look for|where can i look for|where must i look for|where to look for|where should we look for|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
@@ -178,7 +178,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::As, "as|что и|как и|с чем"),
     (
         Mark::Which,
-        "что за|что там за|что тут за|который из|которая из|которое из|которые из|котором из|которой из|каком из|каких из|каким из|какой именно|какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
+        "который из|которая из|которое из|которые из|котором из|которой из|каком из|каких из|каким из|какой именно|какой|какая|какое|какие|какого|каком|какую|каких|каким|какому|какими|какою|который|которая|которое|которые|которой|которого|котором|\
         которую|которых|каков|какова|каково|каковы|какие из|какой из|какая из|какое из|какую из|каких из|which|what kind of|what type of|what sort of|which of|which of the",
     ),
     (
@@ -274,11 +274,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая|who is",
+        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая",
     ),
     (
         Mark::List,
-        "покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
+        "покажи мне всю|покажи всю|покажи мне весь|покажи весь|покажи мне все|покажи мне всё|покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
     ),
     (
         Mark::See,
@@ -546,7 +546,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
     (Mark::Pronoun(Pronoun::It), "оно"),
     (Mark::Pronoun(Pronoun::They), "они|их|им|них|ними|they|them|those"),
-    (Mark::Pronoun(Pronoun::Any), "it|its|этого места"),
+    (Mark::Pronoun(Pronoun::Any), "it|its"),
     (Mark::There, "там|оттуда|туда|в ней|в нём|there|in there|in it"),
     (Mark::One, "one|ones"),
     (
@@ -598,6 +598,14 @@ pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
 
 /// Whether these words begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {
+    // «Дойдёшь ли ты …?» asks; «Можешь ли открыть дверь?» is a polite command.
+    const POLITE: [&str; 6] = ["можешь", "сможешь", "можете", "сможете", "мог", "могла"];
+    if let [first, second, ..] = words
+        && second == "ли"
+        && !POLITE.contains(&first.as_str())
+    {
+        return true;
+    }
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {
@@ -606,7 +614,12 @@ pub(super) fn begins_question(words: &[String]) -> bool {
             Mark::Can => {
                 return asks_leave(&words[at..at + taken]) || asks_way(&words[at + taken..]);
             }
-            Mark::Link(_) | Mark::Not => return false,
+            // «Скажи, в какой комнате плита»
+            Mark::Link(_) => {
+                let next = longest(&words[at + taken..]);
+                return matches!(next, Some((_, Mark::Which | Mark::What)));
+            }
+            Mark::Not => return false,
             Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => {
                 return false;
             }

@@ -5,7 +5,7 @@
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::{Extension, KindId};
-use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::query::{Extreme, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::words::length;
 use crate::language::words::{Language, enumerate, russian};
@@ -17,6 +17,16 @@ impl Knowledge<'_> {
         // "Name three things": as many as are asked for.
         if let (Some(count), None) = (noun.count, &noun.best) {
             found.truncate(usize::try_from(count).unwrap_or(usize::MAX));
+        }
+        // «Какой предмет самый тяжёлый?»: without weights nothing is the heaviest.
+        let by_weight = noun
+            .best
+            .as_ref()
+            .is_some_and(|b| matches!(b.extreme, Extreme::Heaviest | Extreme::Lightest));
+        if found.is_empty() && by_weight {
+            let text =
+                self.pick("вес этих вещей на карте не указан", "the map gives no weight of them");
+            return Ok(Draft::new(Said::Unknown, text.to_owned()));
         }
         let facts = self.facts_of(noun, &found);
         if noun.best.is_some() {

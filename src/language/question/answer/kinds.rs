@@ -54,7 +54,9 @@ impl Knowledge<'_> {
             return self.pick("вещей", "things").to_owned();
         };
         let mass = ["furniture", "lighting", "food", "cutlery", "crockery", "electronics", "fruit"];
-        let is_mass = mass.contains(&kind.english.as_str());
+        let russian = ["мебель", "еда", "пища", "посуда", "электроника", "техника", "свет"];
+        let said = crate::units::name_key(kind.phrase.name());
+        let is_mass = mass.contains(&kind.english.as_str()) || russian.contains(&said.as_str());
         match self.is_russian() {
             true => {
                 let number = if is_mass && kind.phrase.name() != "фрукт" {
@@ -64,7 +66,10 @@ impl Knowledge<'_> {
                 };
                 lower_first(&kind.phrase.form(Case::Genitive, number))
             }
-            false if is_mass => kind.english.clone(),
+            false if is_mass => {
+                let plain = kind.english.strip_prefix("piece of ").unwrap_or(&kind.english);
+                plain.to_owned()
+            }
             false => english::plural(&kind.english),
         }
     }
