@@ -37,12 +37,19 @@ pub(super) enum Effort {
 /// States looked at with small effort.
 const FEW_STATES: u64 = 20_000;
 
-/// States looked at by width, with small effort and with all.
+/// States looked at by width, with small effort, and most of all.
 const FEW_STATES_BY_WIDTH: usize = 50_000;
 const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
 pub(super) fn search(task: &Task, limits: &Limits, effort: Effort) -> Result<Found, Limit> {
-    let mut forward = Forward { task, limits, relaxed: Relaxed::new(task), evaluated: 0, effort };
+    let mut forward = Forward {
+        task,
+        limits,
+        relaxed: Relaxed::new(task),
+        evaluated: 0,
+        until: u64::MAX,
+        effort,
+    };
     let operators = match forward.sequence()? {
         Searched::Path(operators) => operators,
         Searched::Exhausted => return Ok(Found::Exhausted),
@@ -58,6 +65,8 @@ struct Forward<'a> {
     limits: &'a Limits,
     relaxed: Relaxed<'a>,
     evaluated: u64,
+    /// Where best-first search ends for the time being.
+    until: u64,
     effort: Effort,
 }
 
@@ -76,26 +85,38 @@ impl Forward<'_> {
         {
             return Ok(Searched::Path(operators));
         }
-        let states = match self.effort {
-            Effort::Small => FEW_STATES_BY_WIDTH,
-            Effort::All => MANY_STATES_BY_WIDTH,
-        };
         // What is looked at by width leaves room for what comes after it.
-        let limits = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
-        let relaxed = &mut self.relaxed;
-        match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &limits) {
-            Ok(Searched::Open) | Err(Limit::Memory) => {}
-            other => return other,
+        let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
+        let first = if self.effort == Effort::Small { 0 } else { 1 };
+        // Both take turns, each with more effort than before: where one loses its way, the other may know it.
+        for round in first.. {
+            let times = 4_usize.pow(round);
+            let states = FEW_STATES_BY_WIDTH * times;
+            let by_width = states <= MANY_STATES_BY_WIDTH;
+            if by_width {
+                let relaxed = &mut self.relaxed;
+                match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &half) {
+                    Ok(Searched::Open) | Err(Limit::Memory) => {}
+                    other => return other,
+                }
+            }
+            let more = FEW_STATES * times as u64;
+            self.until = if by_width { self.evaluated + more } else { u64::MAX };
+            if let Some(operators) = self.best_first(landmarks.as_ref())? {
+                return Ok(Searched::Path(operators));
+            }
+            if !self.is_over() {
+                return Ok(Searched::Exhausted);
+            }
+            if self.effort == Effort::Small {
+                break;
+            }
         }
-        match self.best_first(landmarks.as_ref())? {
-            Some(operators) => Ok(Searched::Path(operators)),
-            None if self.is_over() => Ok(Searched::Open),
-            None => Ok(Searched::Exhausted),
-        }
+        Ok(Searched::Open)
     }
 
     fn is_over(&self) -> bool {
-        self.effort == Effort::Small && self.evaluated >= FEW_STATES
+        self.evaluated >= self.until
     }
 
     fn initial(&self) -> State {

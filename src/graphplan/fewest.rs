@@ -18,6 +18,10 @@ use crate::strips::{FactId, OperatorId, Task};
 /// A counter with more clauses than this costs more than it saves.
 const MOST_CLAUSES: usize = 1 << 19;
 
+/// Each bound gets such a part of the effort at most: where there is a better plan it is mostly found soon, and most of
+/// the effort would go into the last bound, which there is none for.
+const SHARE: u64 = 2;
+
 /// What an operator adds to a plan: its cost where costs differ, else one.
 fn weight(task: &Task, id: OperatorId) -> u64 {
     if is_priced(task) { u64::from(task.operator(id).cost) } else { 1 }
@@ -61,7 +65,7 @@ fn improve(
     while encoding.conflicts() < until {
         let best = weight_of(task, plan);
         let bound: Vec<Literal> = sums.range(best..).map(|(_, &reached)| !reached).collect();
-        let allowed = until - encoding.conflicts();
+        let allowed = (until - encoding.conflicts()).min(limits.fewer_actions / SHARE);
         let Verdict::Plan(mut better) = encoding.extract_within(graph, &bound, allowed, limits)?
         else {
             return Ok(());

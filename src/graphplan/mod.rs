@@ -36,6 +36,7 @@ mod plan;
 mod relaxed;
 mod replan;
 mod sat;
+mod serial;
 mod shorten;
 mod solver;
 mod symmetry;
@@ -252,6 +253,9 @@ fn with_stack<T: Send>(search: impl FnOnce() -> Result<T, Limit> + Send) -> Resu
 /// What a conflict of the solver takes the time of, near enough.
 const CHOICES_A_CONFLICT: u64 = 100;
 
+/// Levels that the solver refutes at no price, one after the other, must not leave the search behind for good.
+const CHOICES_A_LEVEL: u64 = 128;
+
 /// Choices that the search may take for a level before the solver has its turn, after it decided the last level
 /// with so many: much more while they are few, later no more than twice as many.
 fn patience(spent: u64) -> u64 {
@@ -348,7 +352,7 @@ impl<'a> Extractor<'a> {
     fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
         Self {
             search: Search::new(task, *limits),
-            encoding: Encoding::new(task, limits),
+            encoding: Encoding::new(task, !turn.goes_on, limits),
             limits,
             turn,
             solver_leads: false,
@@ -404,7 +408,9 @@ impl<'a> Extractor<'a> {
     /// length is an answer.
     fn prove(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
         let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
-        let share = self.turn.choices * (graph.top() - leveled_off_at) as u64
+        let beyond = (graph.top() - leveled_off_at) as u64;
+        let share = self.turn.choices * beyond
+            + CHOICES_A_LEVEL * beyond * beyond
             + CHOICES_A_CONFLICT * self.encoding.conflicts();
         self.refuted = self.refuted.max(leveled_off_at);
         while self.refuted < graph.top() && self.search.choices() < share {

@@ -10,6 +10,7 @@ use super::counting::Counter;
 use super::first_use::FirstUse;
 use super::graph::{ActionId, PlanningGraph};
 use super::plan::Plan;
+use super::serial::Serial;
 use super::solver::{Answer, Literal, Solver};
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
@@ -27,6 +28,12 @@ pub(super) struct Encoding<'a> {
     relevant_from: Vec<u32>,
     /// What is said of the length looked at; withdrawn with the next.
     horizon: Option<(usize, Literal)>,
+    /// So many steps are said to carry out something.
+    busy: usize,
+    /// What can hold after so many steps that follow one another singly, if they do.
+    serial: Option<Serial>,
+    /// For each operator those that would only undo it.
+    undone_by: Vec<Vec<OperatorId>>,
     /// Interchangeable objects and their order, once there is a level.
     first_use: Option<FirstUse>,
     /// What is still to be done at each level, once that is worth counting.
@@ -55,7 +62,8 @@ pub(super) enum Verdict {
 }
 
 impl<'a> Encoding<'a> {
-    pub(super) fn new(task: &'a Task, limits: &Limits) -> Self {
+    /// `shorter_refuted` promises that plans are looked for of a length only once every shorter one is refuted.
+    pub(super) fn new(task: &'a Task, shorter_refuted: bool, limits: &Limits) -> Self {
         let mut users = vec![Users::default(); task.facts.len()];
         for id in task.operator_ids() {
             let operator = task.operator(id);
@@ -70,6 +78,7 @@ impl<'a> Encoding<'a> {
                 }
             }
         }
+        let serial = if shorter_refuted { Serial::of(task, limits) } else { None };
         Self {
             task,
             solver: Solver::new(limits.deadline),
@@ -78,6 +87,9 @@ impl<'a> Encoding<'a> {
             users,
             relevant_from: relevance(task),
             horizon: None,
+            busy: 0,
+            undone_by: undoing(task),
+            serial,
             first_use: None,
             counter: None,
             asked_to_count: false,
@@ -92,6 +104,7 @@ impl<'a> Encoding<'a> {
             }
             self.solver.add_clause(&[!literal]);
         }
+        self.keep_busy(level);
         let literal = self.solver.new_variable();
         for (step, operators) in self.operators[..level].iter().enumerate() {
             for (operator, &from) in operators.iter().zip(&self.relevant_from) {
@@ -105,6 +118,16 @@ impl<'a> Encoding<'a> {
         }
         self.horizon = Some((level, literal));
         literal
+    }
+
+    /// A plan with an idle step would do with one step less, and that is refuted. Where one hand does everything, this
+    /// tells what each step must be about.
+    fn keep_busy(&mut self, level: usize) {
+        while self.serial.is_some() && self.busy < level {
+            let done: Vec<Literal> = self.operators[self.busy].iter().flatten().copied().collect();
+            self.solver.add_clause(&done);
+            self.busy += 1;
+        }
     }
 
     /// Where lengths are hard to decide, what is still to be done is counted.
@@ -142,10 +165,10 @@ impl<'a> Encoding<'a> {
         self.reach(graph, limits)?;
         self.count(graph);
         let level = graph.top();
-        let mut assumed = vec![self.horizon(level)];
-        let facts = &self.facts[level];
-        let wanted = self.task.goal.iter();
-        assumed.extend(wanted.map(|goal| facts[goal.index()].expect("the goal is possible")));
+        let wanted: Option<Vec<Literal>> =
+            self.task.goal.iter().map(|goal| self.facts[level][goal.index()]).collect();
+        let Some(mut assumed) = wanted else { return Ok(Verdict::None) };
+        assumed.push(self.horizon(level));
         assumed.extend(assumptions);
         Ok(match self.solver.solve(&assumed, conflicts) {
             Answer::Satisfiable => Verdict::Plan(self.plan(level)),
@@ -192,12 +215,17 @@ impl<'a> Encoding<'a> {
 
     fn add_level(&mut self, graph: &PlanningGraph) {
         let level = self.facts.len();
+        if let (Some(serial), true) = (&mut self.serial, level > 0) {
+            serial.reach(self.task);
+        }
+        let possible = |fact: FactId| {
+            graph.fact_level(fact) as usize <= level
+                && self.serial.as_ref().is_none_or(|serial| serial.holds(level, fact))
+        };
         let facts: Vec<Option<Literal>> = self
             .task
             .fact_ids()
-            .map(|fact| {
-                (graph.fact_level(fact) as usize <= level).then(|| self.solver.new_variable())
-            })
+            .map(|fact| possible(fact).then(|| self.solver.new_variable()))
             .collect();
         self.facts.push(facts);
         if level > 0 {
@@ -212,7 +240,10 @@ impl<'a> Encoding<'a> {
     }
 
     fn add_step(&mut self, graph: &PlanningGraph, step: usize) {
-        let possible = |id: OperatorId| graph.action_level(ActionId(id.0)) as usize <= step;
+        let possible = |id: OperatorId| {
+            graph.action_level(ActionId(id.0)) as usize <= step
+                && self.serial.as_ref().is_none_or(|serial| serial.allows(self.task, step, id))
+        };
         let variables: Vec<Option<Literal>> = self
             .task
             .operator_ids()
@@ -249,7 +280,15 @@ impl<'a> Encoding<'a> {
                     .filter_map(|a| variables[a.index()]),
             );
             self.solver.add_clause(&clause);
-            self.add_interference(fact, step, &variables);
+        }
+        self.task.fact_ids().for_each(|fact| self.add_interference(fact, step, &variables));
+        if let Some(before) = self.operators.last() {
+            for (done, undoing) in before.iter().zip(&self.undone_by) {
+                let Some(done) = *done else { continue };
+                for undone in undoing.iter().filter_map(|id| variables[id.index()]) {
+                    self.solver.add_clause(&[!done, !undone]);
+                }
+            }
         }
         let first_use = self.first_use.get_or_insert_with(|| FirstUse::of(self.task));
         first_use.add_step(&mut self.solver, &variables);
@@ -265,8 +304,8 @@ impl<'a> Encoding<'a> {
         if takers.is_empty() && breakers.is_empty() {
             return;
         }
-        let after = self.facts[step + 1][fact.index()].expect("a fact that is deleted may hold");
         for keeper in present(keepers) {
+            let after = self.facts[step + 1][fact.index()].expect("what is kept may hold");
             self.solver.add_clause(&[!keeper, after]);
         }
         self.at_most_one(&takers);
@@ -380,4 +419,28 @@ fn relevance(task: &Task) -> Vec<u32> {
         wanted = next;
     }
     from
+}
+
+/// For each operator those of which the next step is rid in a plan of the fewest actions: they take away all that it
+/// adds, and bring back only what held before it. Without both, as much holds after them, and what holds in between
+/// instead is missed by nobody: who needs what the one adds is barred by the other, which deletes it.
+fn undoing(task: &Task) -> Vec<Vec<OperatorId>> {
+    let mut deleted_by: Vec<Vec<OperatorId>> = vec![Vec::new(); task.facts.len()];
+    for id in task.operator_ids() {
+        task.operator(id).del_effects.iter().for_each(|fact| deleted_by[fact.index()].push(id));
+    }
+    let undone_by = |id: OperatorId| -> Vec<OperatorId> {
+        let one = task.operator(id);
+        let Some(added) = one.add_effects.first() else { return Vec::new() };
+        let undoes = |other: &&OperatorId| {
+            let other = task.operator(**other);
+            one.add_effects.iter().all(|fact| other.del_effects.binary_search(fact).is_ok())
+                && other
+                    .add_effects
+                    .iter()
+                    .all(|fact| one.preconditions.binary_search(fact).is_ok())
+        };
+        deleted_by[added.index()].iter().filter(undoes).copied().collect()
+    };
+    task.operator_ids().map(undone_by).collect()
 }
