@@ -65,7 +65,7 @@ fn improve(
     while encoding.conflicts() < until {
         let best = weight_of(task, plan);
         let bound: Vec<Literal> = sums.range(best..).map(|(_, &reached)| !reached).collect();
-        let allowed = (until - encoding.conflicts()).min(limits.fewer_actions / SHARE);
+        let allowed = (until - encoding.conflicts()).min(limits.fewer_actions.div_ceil(SHARE));
         let Verdict::Plan(mut better) = encoding.extract_within(graph, &bound, allowed, limits)?
         else {
             return Ok(());
