@@ -35,7 +35,20 @@ impl Solids {
             let door = d.door.map(|id| &world.doors[&id]);
             door.map_or(vec![], |door| d.leaves(door).obstacles(plan.door_state(world, door.id)))
         });
-        let all = met.chain(walls).chain(doors);
+        // Shut, a doorway ends the floor on both faces of its wall: nobody stands in it.
+        let is_shut = |d: &&Doorway| {
+            let door = d.door.map(|id| &world.doors[&id]);
+            door.is_some_and(|door| {
+                let state = plan.door_state(world, door.id);
+                door.kind != DoorKind::Passage
+                    && (state.status != DoorStatus::Open || state.opening <= 0.0)
+            })
+        };
+        let shut = plan.doorways().iter().filter(is_shut).flat_map(|d| {
+            let (right, left) = d.span();
+            [0.0, d.gap].map(|s| Polygon::new(vec![d.at(right, s), d.at(left, s)]))
+        });
+        let all = met.chain(walls).chain(doors).chain(shut);
         Self { things: all.map(|t| (t.bounds(), t)).collect() }
     }
 
@@ -284,8 +297,10 @@ fn check_mirror(b: &Builder, plan: &FloorPlan, random: &mut Random) {
         let sizes = |f: &FragmentFloor| {
             [f.free(), f.centre()].map(|r| r.iter().map(Region::area).sum::<f64>())
         };
-        for (a, b) in sizes(one).into_iter().zip(sizes(two)) {
-            assert!((a - b).abs() < 1.0 + 1e-4 * a, "{a} {b}");
+        // Where the disc bulges into a gap, one straight line closes up to 60° of it; a hair decides how many do.
+        let bulges = 0.2 * plan.reach() * plan.reach();
+        for ((a, b), most) in sizes(one).into_iter().zip(sizes(two)).zip([bulges, 1.0]) {
+            assert!((a - b).abs() < most + 1e-4 * a, "{a} {b}");
         }
         let (low, high) = (one.bounds.min, one.bounds.max);
         let mut spot = || p(random.between(low.x, high.x), random.between(low.y, high.y));
@@ -353,20 +368,55 @@ pub(crate) fn check_all(seed: u64, seen: &mut Seen) {
     check_floor(&b, &plan, &Solids::of(&plan, &b.world), seen);
 }
 
-/// Worlds in which a promise is broken still: two borders of a hair's breadth, centre space lost between things that
-/// touch in a corner, a dead zone about which nothing stands.
-const OPEN: [u64; 9] = [24, 56, 79, 86, 94, 202, 210, 324, 359];
-
 #[test]
 fn odd_worlds_keep_every_promise() {
     let mut seen = Seen::default();
-    (0..35).filter(|seed| !OPEN.contains(seed)).for_each(|seed| check_all(seed, &mut seen));
+    (0..35).for_each(|seed| check_all(seed, &mut seen));
     assert!(seen.ways > 60 && seen.none > 5 && seen.graphs > 20 && seen.raster > 60, "{seen:?}");
     assert!(seen.faces > 1000 && seen.zones > 100, "{seen:?}");
 }
 
+fn check_seeds(seeds: &[u64]) {
+    seeds.iter().for_each(|&seed| check_all(seed, &mut Seen::default()));
+}
+
+/// Boxes 0.3 cm out of line left a corner of 0.7 cm² uncovered that hung on slivers along a metre of walls: by its
+/// area over its rim it was no zone, and the border before it fell to a wall 1.5 cm off.
 #[test]
-#[ignore = "open faults, to be looked at one by one"]
-fn the_other_odd_worlds_do_too() {
-    OPEN.into_iter().for_each(|seed| check_all(seed, &mut Seen::default()));
+fn a_small_zone_on_long_slivers_is_a_zone() {
+    check_seeds(&[24, 56, 94, 210, 604, 759]);
+}
+
+/// In a wall 40 cm thick the floor beyond the doorway's line reached further than what is cut off there: a strip of
+/// 2 cm in the neighbour's room was a dead zone, with nothing around it.
+#[test]
+fn a_deep_doorway_leaves_no_zone_beyond_its_line() {
+    check_seeds(&[79, 520, 555, 583, 793]);
+}
+
+/// The end of centre space 0.008 cm wide is an edge that rounding turns; half a metre off, its line missed the border
+/// that it lies on, and the Passframe before the doorway had no crossing: the paper's method found no way there.
+#[test]
+fn a_doorway_just_as_wide_as_the_robot_is_crossed_from_both_sides() {
+    check_seeds(&[324]);
+}
+
+/// Before a shut door of a deep wall the robot was said to fit nowhere, where only this check had forgotten that the
+/// floor ends on the wall's face.
+#[test]
+fn a_shut_doorway_ends_the_floor_on_the_face_of_the_wall() {
+    check_seeds(&[86, 359, 653, 709]);
+}
+
+/// An edge of the centre space of 6 nm, grown by the robot's radius, cut a crack of 34 cm into the floor; in the mirror
+/// image it did not. And of screens end to end a hair decides by how many lines a bulge is closed.
+#[test]
+fn a_mirror_image_has_the_same_floor() {
+    check_seeds(&[202, 685, 734, 811, 843, 860]);
+}
+
+/// A corner of 60° was given back or not, as rounding had it: 870 cm² of a triangular corridor.
+#[test]
+fn corners_of_a_triangle_are_given_back() {
+    check_seeds(&[1296]);
 }

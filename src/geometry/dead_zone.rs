@@ -1,12 +1,18 @@
 //! Dead zones: floor that the robot covers from no place where it fits, what stands around it, and how narrow it is.
 
+use std::f64::consts::PI;
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+
 use crate::map::Permeability;
 use crate::units::Point;
 
 use super::doors::distance_within;
 use super::floor::FragmentFloor;
-use super::grid::{Grid, Shapes};
+use super::grid::{Contour, Grid, Shapes, overlay, positive};
 use super::obstacle::Blocker;
+use super::offset::{grow, shrink};
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
 /// What makes a dead zone one.
@@ -20,12 +26,37 @@ pub struct Surroundings {
 
 /// The dead zones among pieces of floor that the robot does not cover.
 pub(super) fn dead_zones(grid: &Grid, dead: &Shapes) -> Vec<Region> {
-    // What rounding leaves along the walls is no zone.
     let rim = |r: &Region| {
         r.contours().flat_map(Polygon::edges).map(|(a, b)| (b - a).norm()).sum::<f64>()
     };
-    let is_zone = |r: &Region| r.area() > 0.01 * rim(r).max(1.0);
-    grid.regions(dead).into_iter().filter(is_zone).collect()
+    let zone = |r: Region| {
+        let area = r.area();
+        if area > RIM * rim(&r).max(1.0) {
+            vec![r]
+        } else if area > PI * LEAST * LEAST {
+            without_rims(grid, r)
+        } else {
+            Vec::new()
+        }
+    };
+    grid.regions(dead).into_iter().flat_map(zone).collect()
+}
+
+/// What rounding leaves along the walls is less wide than this, in cm, and no zone.
+const RIM: f64 = 0.01;
+
+/// A disc of this radius, in cm, makes a zone of what holds it, however much hangs on it.
+const LEAST: f64 = 0.03;
+
+/// What is left of a piece when only places count that hold a small disc. A zone may hang on the slivers along a
+/// long wall, which are no part of it.
+fn without_rims(grid: &Grid, piece: Region) -> Vec<Region> {
+    let piece = [piece];
+    let core = grid.regions(&positive(&shrink(grid, &piece, LEAST)));
+    let covered = grow(grid, &core, LEAST, &piece);
+    let own: Vec<Contour> =
+        piece.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect();
+    grid.regions(&overlay(&covered, &own, OverlayRule::Intersect, FillRule::Positive))
 }
 
 /// What stands around a dead zone, for a robot that keeps `reach` from everything.

@@ -156,7 +156,9 @@ impl FragmentFloor {
         let mut beyond: Vec<Contour> = Vec::new();
         for &(_, doorway, side) in &open {
             floor.extend(stub(site, &grid, doorway, side, reach));
-            beyond.push(grid.contour(&doorway.beyond(side, 2.0 * reach + 10.0)));
+            // Deeper than the stub.
+            let depth = doorway.gap / 2.0 + 2.0 * reach + 10.0;
+            beyond.push(grid.contour(&doorway.beyond(side, depth)));
         }
         let mut blocked: Vec<Contour> =
             obstacles.iter().map(|o| grid.contour(&o.polygon)).collect();

@@ -206,8 +206,10 @@ impl Mesh {
 
     /// The part of segment `a`-`b` within a cell, as fractions of its length.
     pub(super) fn clip(&self, cell: u32, a: Point, b: Point) -> Option<(f64, f64)> {
-        const TOUCH: f64 = 1e-4;
+        /// Rounding turns an edge so short, in cm, that its line says nothing of places far off.
+        const SHORT: f64 = 0.1;
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        let mut has_short = false;
         for i in 0..self.ring(cell).len() {
             let (u, v) = self.edge(cell, i);
             let along = v - u;
@@ -217,18 +219,26 @@ impl Mesh {
                 continue;
             }
             let length = along.norm();
-            let (da, db) = (da / length, db / length);
-            if da < -TOUCH && db < -TOUCH {
-                return None;
+            if length < SHORT {
+                has_short = true;
+                continue;
             }
-            if (da - db).abs() > 1e-12 {
-                let t = da / (da - db);
-                if da < -TOUCH {
-                    from = from.max(t);
-                } else if db < -TOUCH {
-                    to = to.min(t);
+            (from, to) = cut(from, to, (da / length, db / length))?;
+        }
+        if has_short {
+            // Where the long edges leave the segment, the short ones are near.
+            let (p, q) = (a + (b - a) * from, a + (b - a) * to);
+            let (mut near, mut far) = (0.0, 1.0);
+            for i in 0..self.ring(cell).len() {
+                let (u, v) = self.edge(cell, i);
+                let along = v - u;
+                let length = along.norm();
+                if length > 0.0 && length < SHORT {
+                    let sides = [p, q].map(|end| along.perp(&(end - u)) / length);
+                    (near, far) = cut(near, far, (sides[0], sides[1]))?;
                 }
             }
+            (from, to) = (from + (to - from) * near, from + (to - from) * far);
         }
         // A needle's sides are within touch of their own line all along it: only its ends end it.
         let ends = Bounds::of(self.ring(cell).iter().map(|&v| self.vertices[v as usize]));
@@ -325,6 +335,27 @@ impl Mesh {
             count += 1;
         }
         (component, count)
+    }
+}
+
+/// Places so far on the wrong side of an edge are on it, in cm.
+const TOUCH: f64 = 1e-4;
+
+/// What is left of a stretch, given as shares of a segment whose ends lie so far inside of an edge.
+fn cut(from: f64, to: f64, (da, db): (f64, f64)) -> Option<(f64, f64)> {
+    if da < -TOUCH && db < -TOUCH {
+        return None;
+    }
+    if (da - db).abs() <= 1e-12 {
+        return Some((from, to));
+    }
+    let t = da / (da - db);
+    if da < -TOUCH {
+        Some((from.max(t), to))
+    } else if db < -TOUCH {
+        Some((from, to.min(t)))
+    } else {
+        Some((from, to))
     }
 }
 

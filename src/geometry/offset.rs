@@ -117,7 +117,7 @@ pub(super) fn grow(grid: &Grid, centres: &[Region], radius: f64, floor: &[Region
                 let on_edge = |c: Point| (c - at - end).dot(&end).abs() <= TOUCH * radius;
                 corners.find(at + end, on_edge).map_or(end, |c| c - at)
             };
-            if turns_left && corner.cosine > -0.5 {
+            if turns_left && corner.cosine > GIVEN_BACK {
                 let apex = at + corner.meeting();
                 if let Some(c) = corners.find(apex, |c| (c - apex).norm() <= TOUCH) {
                     out.push(c - at);
@@ -142,6 +142,10 @@ pub(super) fn grow(grid: &Grid, centres: &[Region], radius: f64, floor: &[Region
     };
     centres.iter().flat_map(Region::contours).map(curve).collect()
 }
+
+/// Cosine of the widest turn at a corner that is given back: 120°, corners of regular triangles among them whatever
+/// rounding makes of them.
+const GIVEN_BACK: f64 = -0.501;
 
 /// The widest turn of the disc that one straight line closes, in radians: it leaves out 13 % of the radius.
 const MOUTH_STEP: f64 = PI / 3.0 + 1e-6;
@@ -214,7 +218,7 @@ fn offset_curve(
     distance: f64,
     joint: impl Fn(&Corner, &mut Vec<Vector>),
 ) -> Contour {
-    let corners = distinct(&contour.corners);
+    let corners = distinct(&contour.corners, if distance > 0.0 { 0.0 } else { NOISE });
     let n = corners.len();
     // For each edge its length and direction; corners are distinct, so that no length is zero.
     let edge = |i: usize| {
@@ -295,11 +299,16 @@ impl CornerSet {
     }
 }
 
-/// The corners without repetitions.
-fn distinct(corners: &[Point]) -> Vec<Point> {
+/// An edge of the centre space so short, in cm, points wherever rounding turned it; grown by the disc's radius, it
+/// would cut a crack into the floor.
+const NOISE: f64 = 1e-3;
+
+/// The corners without repetitions, and without those that are nearer to the one before.
+fn distinct(corners: &[Point], nearer: f64) -> Vec<Point> {
+    let is_same = |a: &Point, b: &Point| (a - b).norm() <= nearer;
     let mut kept: Vec<Point> = corners.to_vec();
-    kept.dedup();
-    while kept.len() > 1 && kept.first() == kept.last() {
+    kept.dedup_by(|next, last| is_same(next, last));
+    while kept.len() > 1 && is_same(&kept[0], &kept[kept.len() - 1]) {
         kept.pop();
     }
     kept
