@@ -8,8 +8,11 @@
 //! furniture are taken into account as far as the robot's radius reaches, so that both Fragments agree on where
 //! the robot fits through.
 //!
-//! **Invariant**: `free` and the dead zones do not overlap and together are the floor inside the doorways'
-//! lines; `centre` lies in `free`, at least the robot's radius and clearance (less [`SLACK`]) from everything.
+//! What is free and where the robot's centre may be is kept as convex cells alone; outlines are drawn round them when
+//! they are asked for.
+//!
+//! **Invariant**: what is free and the dead zones do not overlap and together are the floor inside the doorways'
+//! lines; centre space lies in it, at least the robot's radius and clearance (less [`SLACK`]) from everything.
 
 use std::collections::BTreeMap;
 
@@ -23,7 +26,7 @@ use super::buckets::Buckets;
 use super::dead_zone::dead_zones;
 use super::doors::Doorway;
 use super::edging::Edging;
-use super::grid::{Contour, Grid, Shapes, difference, intersection, overlays, smooth};
+use super::grid::{Contour, Grid, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
@@ -58,10 +61,8 @@ pub struct FragmentFloor {
     pub level: f64,
     /// Floor that nothing stands on, dead zones included; reaches into the open doorways' other sides.
     pub raw: Vec<Region>,
-    /// The grid of `free` and `centre`.
+    /// The grid of the cells.
     pub(super) grid: Grid,
-    pub(super) free: Shapes,
-    pub(super) centre: Shapes,
     pub obstacles: Vec<Obstacle>,
     /// Walls and jambs, whatever the state of the doors.
     pub walls: Vec<(Point, Point)>,
@@ -186,6 +187,7 @@ impl FragmentFloor {
 
         let cells = Mesh::of(&grid, &centre, 0);
         let frames = Mesh::of(&grid, &free, PATIENCE);
+        debug_assert!(cells.fills(&grid, &centre) && frames.fills(&grid, &free), "{area:?}");
         let exits = exits(&cells, &open);
         let walls = walls(site, placed);
         let dead_zones = dead_zones(&grid, &dead);
@@ -195,8 +197,6 @@ impl FragmentFloor {
             level: storey.level,
             raw,
             grid,
-            free,
-            centre,
             obstacles,
             walls,
             dead_zones,
@@ -230,13 +230,13 @@ impl FragmentFloor {
     /// Floor that nothing stands on and that the robot covers from somewhere.
     #[must_use]
     pub fn free(&self) -> Vec<Region> {
-        self.grid.regions(&self.free)
+        self.frames.outline(&self.grid)
     }
 
     /// Where the robot's centre may be.
     #[must_use]
     pub fn centre(&self) -> Vec<Region> {
-        self.grid.regions(&self.centre)
+        self.cells.outline(&self.grid)
     }
 
     /// The Passframes, sorted by place; see [`Passframe::id`].

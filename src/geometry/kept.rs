@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon, Region};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 3");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 4");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -230,7 +230,7 @@ kept_structs! {
     Edging { doorways, sides, marks }
     Exit { doorway, cell, edge }
     FragmentFloor {
-        area, bounds, level, raw, grid, free, centre, obstacles, walls, dead_zones, edging, frames, ids, passframes,
+        area, bounds, level, raw, grid, obstacles, walls, dead_zones, edging, frames, ids, passframes,
         cells, exits
     }
 }

@@ -6,7 +6,7 @@
 use crate::units::Point;
 
 use super::buckets::Buckets;
-use super::grid::{Grid, Shapes};
+use super::grid::{Contour, Grid, Region, Shapes, positive};
 use super::half_edge::HalfEdges;
 use super::kept::Kept;
 use super::on_demand::OnDemand;
@@ -143,6 +143,21 @@ impl Mesh {
 
     pub(super) fn polygon(&self, cell: u32) -> Polygon {
         Polygon::new(self.ring(cell).iter().map(|&v| self.vertices[v as usize]).collect())
+    }
+
+    /// The floor that the cells fill.
+    pub(super) fn outline(&self, grid: &Grid) -> Vec<Region> {
+        let node = |&v: &u32| grid.node(self.vertices[v as usize]);
+        let cells: Vec<Contour> =
+            self.cells().map(|c| self.ring(c).iter().map(node).collect()).collect();
+        grid.regions(&positive(&cells))
+    }
+
+    /// Whether the cells are as large as the shapes that they were made of.
+    pub(super) fn fills(&self, grid: &Grid, shapes: &Shapes) -> bool {
+        let wanted: f64 = grid.regions(shapes).iter().map(Region::area).sum();
+        let own: f64 = self.cells().map(|c| self.polygon(c).signed_area()).sum();
+        (own - wanted).abs() <= 1e-6 * wanted.max(1.0)
     }
 
     /// The cells by place.
