@@ -6,9 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::{Args, Subcommand};
 
 use crate::engine::{
-    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, face_in_words, no_way_in_words,
-    parse_pose, ride_in_words,
+    Drawing, Engine, Lens, Method, RequestError, TaskAnswer, directive_in_words, face_in_words,
+    no_way_in_words, parse_pose, ride_in_words,
 };
+use crate::language::Language;
+use crate::robot::Directive;
 use crate::units::{MapId, Point};
 
 use super::args::{Common, CorridorArgs, Lang};
@@ -331,8 +333,14 @@ fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<Vec<S
             legs.push((report.number, way));
         }
     }
+    let world = engine.world()?;
+    // As the paper prints them; in English, where its Russian names tell nothing, in words.
+    let told = |directive: &Directive| match common.lang {
+        Lang::Ru => directive.to_string(),
+        Lang::En => directive_in_words(world, directive, Language::English),
+    };
     let directives: Vec<_> =
-        answer.reports.iter().map(|r| (r.number, r.directive.to_string())).collect();
+        answer.reports.iter().map(|r| (r.number, told(&r.directive))).collect();
     let sheet = |(map, legs): Storey| {
         let drawing = Drawing {
             floor: true,
