@@ -5,7 +5,7 @@ use orthoframe::map::*;
 use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
-use crate::floors::{Builder, p};
+use crate::floors::{Builder, p, two_rooms};
 
 fn build(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
@@ -102,4 +102,26 @@ fn every_change_that_is_named_opens_the_way() {
     }
     eprintln!("{opened} doors, {pushed} pushes, {both} both, {cleared} cleared");
     assert!(opened + pushed + both > 2, "{opened} {pushed} {both}");
+}
+
+/// A chest stands where the leaf swings: told to open the door, the robot got it no further than the chest. What opens
+/// the way is the door and the chest out of its way.
+#[test]
+fn a_door_that_strikes_a_thing_is_not_all_that_is_asked_for() {
+    let (mut b, one, _, door) = two_rooms(10.0, DoorKind::Hinged, DoorState::CLOSED);
+    b.put(one, 320.0, 130.0, 50.0, 50.0, 0.0, 90.0);
+    b.world.replicas.values_mut().for_each(|r| r.move_prob = 60);
+    let plan = build(&b.world);
+    let (from, target) = (p(40.0, 250.0), Target::Point(p(600.0, 150.0)));
+    let no = plan.route(&b.world, from, target, Method::Shortest).expect_err("it is shut");
+    let remedy = plan.remedy(&b.world, from, target, &no).expect("the chest moves");
+    let (open, chest) = match &remedy {
+        Remedy::Move { open, replica, .. } => (open, *replica),
+        Remedy::Remove { open, replicas } => (open, replicas[0]),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!((open, chest), (&vec![door], *b.world.replicas.keys().next().expect("the chest")));
+    let mut changed = b.world.clone();
+    let after = plan.remedied(&mut changed, &remedy);
+    assert!(after.route(&changed, from, target, Method::Shortest).is_ok(), "{remedy:?}");
 }

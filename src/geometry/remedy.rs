@@ -11,10 +11,12 @@ use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::blocked::{Barrier, NoRoute, gaps};
-use super::leaf::opening_of;
+use super::leaf::{Strike, opening_of};
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
-use super::route::{Method, Target};
+use super::route::Target;
+use super::scene::Prism;
+use super::{Bounds, Polygon};
 
 /// What would have to change.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,25 +61,28 @@ impl FloorPlan {
         no: &NoRoute,
     ) -> Option<Remedy> {
         let doors = self.openable(world, no);
-        let open: DoorStates = doors.iter().map(|&d| (d, DoorState::OPEN)).collect();
-        let opened = if doors.is_empty() { self.clone() } else { self.with_doors(world, &open) };
-        if !doors.is_empty() && opened.route(world, from, target, Method::Shortest).is_ok() {
+        let (opened, struck) = self.with_open(world, &doors);
+        if !doors.is_empty() && opened.leads(world, from, target) {
             return Some(Remedy::Open(doors));
         }
+        // Doors that strike a thing are tried anew with every change.
+        let jammed: &[DoorId] = if struck.is_empty() { &[] } else { &doors };
         if let Some((door, of)) = opened.shut(world, (from, target), no) {
             return Some(Remedy::Shut { door, of, open: doors });
         }
         let mut best: Option<(f64, Remedy)> = None;
-        let things = movable(world, no);
+        let mut things = movable(world, no);
+        things.extend(may_move(world, struck.into_iter()));
         for replica in opened.beside(world, no, &things) {
             let limit = best.as_ref().map_or(FURTHEST, |b| b.0 - STEP);
-            if let Some((way, by)) = opened.shortest_push(world, from, target, replica, limit) {
+            let push = opened.shortest_push(world, (from, target), jammed, replica, limit);
+            if let Some((way, by)) = push {
                 best = Some((way, Remedy::Move { replica, by, open: doors.clone() }));
             }
         }
         best.map(|b| b.1).or_else(|| {
-            let replicas = opened.removal(world, from, target, &things)?;
-            Some(Remedy::Remove { replicas, open: doors })
+            let replicas = opened.removal(world, (from, target), jammed, &things)?;
+            Some(Remedy::Remove { replicas, open: doors.clone() })
         })
     }
 
@@ -88,7 +93,7 @@ impl FloorPlan {
         | Remedy::Move { open, .. }
         | Remedy::Shut { open, .. }
         | Remedy::Remove { open, .. }) = remedy;
-        let mut states: DoorStates = open.iter().map(|&d| (d, DoorState::OPEN)).collect();
+        let mut states = DoorStates::new();
         let mut changed: Vec<ReplicaId> = Vec::new();
         match remedy {
             Remedy::Open(_) => {}
@@ -118,7 +123,55 @@ impl FloorPlan {
         let mut plan =
             if states.is_empty() { self.clone() } else { self.with_doors(world, &states) };
         plan.rebuild(world, &changed);
-        plan
+        plan.with_open(world, open).0
+    }
+
+    /// The floor with doors open as far as their leaves go, and what they strike.
+    fn with_open(&self, world: &World, doors: &[DoorId]) -> (Self, Vec<Blocker>) {
+        if doors.is_empty() {
+            return (self.clone(), Vec::new());
+        }
+        let mut struck = Vec::new();
+        let state = |&door: &DoorId| {
+            let first = self.strike(world, door);
+            struck.extend(first.map(|s| s.against));
+            let opening = first.map_or(100.0, |s| s.opening);
+            (door, DoorState { opening, ..DoorState::OPEN })
+        };
+        let states: DoorStates = doors.iter().map(state).collect();
+        (self.with_doors(world, &states), struck)
+    }
+
+    /// What a door's leaves strike first when it is opened: things, and leaves of other doors.
+    fn strike(&self, world: &World, door: DoorId) -> Option<Strike<Blocker>> {
+        /// A leaf passes over what is no higher, in cm.
+        const UNDER_LEAF: f64 = 2.0;
+        let model = world.doors.get(&door)?;
+        let from = opening_of(self.door_state(world, door));
+        let height = if model.height.get() > 0.0 { model.height.get() } else { f64::INFINITY };
+        let strikes = self.doorways_of(door).filter_map(|doorway| {
+            let near = Bounds::of([doorway.middle()]).grown(2.0 * doorway.width() + doorway.gap);
+            let floor = self.fragment(doorway.areas[0]).map_or(0.0, |f| f.level);
+            let meets = |p: &&Prism| {
+                p.bounds.meets(&near) && p.top > floor + UNDER_LEAF && p.bottom < floor + height
+            };
+            let areas = doorway.areas.into_iter();
+            let things = areas.flat_map(|area| self.scene().replicas_in(area)).flat_map(|r| {
+                let of = move |p: &Prism| Blocker::Replica { replica: r.id, item: p.item };
+                r.prisms.iter().filter(meets).map(move |p| (of(p), p.polygon.clone()))
+            });
+            let leaves = self.fragments_near(&near).flat_map(|f| &f.obstacles);
+            let leaves = leaves.filter_map(|o| match o.blocker {
+                Blocker::DoorLeaf { door: other, .. } if other != door => {
+                    Some((o.blocker, o.polygon.clone()))
+                }
+                _ => None,
+            });
+            let solids: Vec<(Blocker, Polygon)> = things.chain(leaves).collect();
+            let bodies = solids.iter().map(|(of, body)| (*of, body));
+            doorway.leaves(model).strikes((from, 100.0), bodies)
+        });
+        strikes.min_by(|a, b| a.opening.total_cmp(&b.opening))
     }
 
     /// The doors in the way that are shut, or not as wide open as they go.
@@ -180,7 +233,7 @@ impl FloorPlan {
         leaves.into_iter().find(|&(door, of)| match of {
             None => {
                 let shut = self.with_doors(world, &DoorStates::from([(door, DoorState::CLOSED)]));
-                shut.route(world, from, target, Method::Shortest).is_ok()
+                shut.leads(world, from, target)
             }
             Some(replica) => {
                 let mut trial = world.clone();
@@ -188,7 +241,7 @@ impl FloorPlan {
                 thing.door_states.insert(door, DoorState::CLOSED);
                 let mut plan = self.clone();
                 plan.rebuild(&trial, &[replica]);
-                plan.route(&trial, from, target, Method::Shortest).is_ok()
+                plan.leads(&trial, from, target)
             }
         })
     }
@@ -197,8 +250,8 @@ impl FloorPlan {
     fn removal(
         &self,
         world: &World,
-        from: Point,
-        target: Target,
+        (from, target): (Point, Target),
+        jammed: &[DoorId],
         things: &BTreeSet<ReplicaId>,
     ) -> Option<Vec<ReplicaId>> {
         let opens = |gone: &[ReplicaId]| {
@@ -206,7 +259,7 @@ impl FloorPlan {
             gone.iter().for_each(|id| drop(trial.replicas.remove(id)));
             let mut plan = self.clone();
             plan.rebuild(&trial, gone);
-            plan.route(&trial, from, target, Method::Shortest).is_ok()
+            plan.with_open(&trial, jammed).0.leads(&trial, from, target)
         };
         let mut gone: Vec<ReplicaId> =
             things.iter().copied().filter(|&id| target != Target::Replica(id)).collect();
@@ -226,12 +279,12 @@ impl FloorPlan {
     }
 
     /// The shortest push of one thing that opens the way, in sixteen directions from its Area's own axes: along the
-    /// walls, and between. Tried at every second step first, as most pushes that are too short are tried in vain.
+    /// walls, and between.
     fn shortest_push(
         &self,
         world: &World,
-        from: Point,
-        target: Target,
+        (from, target): (Point, Target),
+        jammed: &[DoorId],
         replica: ReplicaId,
         limit: f64,
     ) -> Option<(f64, Vector)> {
@@ -250,13 +303,16 @@ impl FloorPlan {
                     return None;
                 }
                 plan.rebuild(&trial, &[replica]);
-                let way = plan.route(&trial, from, target, Method::Shortest);
-                way.is_ok().then_some((STEP * step as f64, by))
+                let opens = if jammed.is_empty() {
+                    plan.leads(&trial, from, target)
+                } else {
+                    plan.with_open(&trial, jammed).0.leads(&trial, from, target)
+                };
+                opens.then_some((STEP * step as f64, by))
             })
         };
-        let coarse = (1..=steps).filter(|step| step % 2 == 0 || *step == steps);
-        let (step, found) = coarse.map(|step| (step, opens(step))).find(|(_, f)| f.is_some())?;
-        if step > 1 { opens(step - 1).or(found) } else { found }
+        // A push that opens a way is not bettered by a longer one: pushed on, the thing may stand in the next gap.
+        (1..=steps).find_map(&mut opens)
     }
 
     /// Whether a thing, as it stands in `trial`, is on its Area's floor and in nothing else.

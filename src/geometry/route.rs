@@ -119,6 +119,14 @@ impl FloorPlan {
         region(from).is_some_and(|r| region(to) == Some(r))
     }
 
+    /// Whether [`Self::route`] would find a way; what stands in it if not is not asked.
+    pub(super) fn leads(&self, world: &World, from: Point, target: Target) -> bool {
+        let Some(start) = self.anchor(from, None, None) else { return false };
+        let goals = self.goals(world, &start, target).unwrap_or_default();
+        let region = self.region(start.cell);
+        goals.iter().any(|goal| self.region(goal.anchor.cell) == region)
+    }
+
     /// A route that stays in the Fragments named.
     ///
     /// # Errors
