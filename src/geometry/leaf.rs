@@ -17,11 +17,13 @@ use std::f64::consts::PI;
 use crate::map::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 use crate::units::{Point, Vector};
 
-use super::Polygon;
 use super::doors::distance;
+use super::{Bounds, Polygon, Prism};
 
 /// A leaf that comes no nearer than this has not struck a thing, cm: coordinates are rounded, and hinges have play.
 const PLAY: f64 = 0.1;
+/// A leaf passes over what is no higher, such as a mat, cm.
+const UNDER_LEAF: f64 = 2.0;
 /// Of the straight pieces by which the arc of a leaf's tip is drawn.
 const ARC: f64 = PI / 36.0;
 
@@ -40,6 +42,22 @@ pub struct Strike<T> {
     pub against: T,
     /// How far the door then stands open, in per cent.
     pub opening: f64,
+}
+
+/// The space that a door's leaves may pass through; what stands elsewhere they do not strike.
+#[derive(Debug, Clone, Copy)]
+pub struct LeafSpace {
+    pub near: Bounds,
+    /// cm above the Map's zero.
+    heights: (f64, f64),
+}
+
+impl LeafSpace {
+    #[must_use]
+    pub fn meets(&self, prism: &Prism) -> bool {
+        let (bottom, top) = self.heights;
+        prism.bounds.meets(&self.near) && prism.top > bottom && prism.bottom < top
+    }
 }
 
 /// How far leaves stand open, in per cent.
@@ -123,6 +141,19 @@ impl<'d> Leaves<'d> {
             .collect();
         let gaps = solids.windows(2).map(|pair| distance(&pair[0], &pair[1]));
         gaps.fold(0.0, f64::max).min(width)
+    }
+
+    /// Where the leaves may strike something, over a floor at this height, cm.
+    #[must_use]
+    pub fn space(&self, floor: f64) -> LeafSpace {
+        let (bay, height) = (&self.bay, self.door.height.get());
+        let (right, left) = bay.span;
+        let middle = bay.at(f64::midpoint(right, left), bay.gap / 2.0);
+        let top = if height > 0.0 { floor + height } else { f64::INFINITY };
+        LeafSpace {
+            near: Bounds::of([middle]).grown(2.0 * (left - right) + bay.gap),
+            heights: (floor + UNDER_LEAF, top),
+        }
     }
 
     /// What the leaves strike first between two openings, and how far they get; solids are given by what they take of

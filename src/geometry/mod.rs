@@ -56,7 +56,7 @@ pub use doors::{Doorway, doorways};
 pub use faces::{Face, FaceKind, Faces};
 pub use floor::{FragmentFloor, SLACK};
 pub use grid::Region;
-pub use leaf::{Leaves, Strike, clear_width, opening_of};
+pub use leaf::{LeafSpace, Leaves, Strike, clear_width, opening_of};
 pub use lift::{Leg, NoWay, Ride, across};
 pub use obstacle::{Blocker, Obstacle};
 pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};

@@ -10,13 +10,13 @@ use std::f64::consts::PI;
 use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
+use super::Polygon;
 use super::blocked::{Barrier, NoRoute, gaps};
 use super::leaf::{Strike, opening_of};
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::Target;
 use super::scene::Prism;
-use super::{Bounds, Polygon};
 
 /// What would have to change.
 #[derive(Debug, Clone, PartialEq)]
@@ -144,23 +144,18 @@ impl FloorPlan {
 
     /// What a door's leaves strike first when it is opened: things, and leaves of other doors.
     fn strike(&self, world: &World, door: DoorId) -> Option<Strike<Blocker>> {
-        /// A leaf passes over what is no higher, in cm.
-        const UNDER_LEAF: f64 = 2.0;
         let model = world.doors.get(&door)?;
         let from = opening_of(self.door_state(world, door));
-        let height = if model.height.get() > 0.0 { model.height.get() } else { f64::INFINITY };
         let strikes = self.doorways_of(door).filter_map(|doorway| {
-            let near = Bounds::of([doorway.middle()]).grown(2.0 * doorway.width() + doorway.gap);
-            let floor = self.fragment(doorway.areas[0]).map_or(0.0, |f| f.level);
-            let meets = |p: &&Prism| {
-                p.bounds.meets(&near) && p.top > floor + UNDER_LEAF && p.bottom < floor + height
-            };
+            let own = doorway.leaves(model);
+            let space = own.space(self.fragment(doorway.areas[0]).map_or(0.0, |f| f.level));
             let areas = doorway.areas.into_iter();
             let things = areas.flat_map(|area| self.scene().replicas_in(area)).flat_map(|r| {
                 let of = move |p: &Prism| Blocker::Replica { replica: r.id, item: p.item };
-                r.prisms.iter().filter(meets).map(move |p| (of(p), p.polygon.clone()))
+                let met = r.prisms.iter().filter(move |p| space.meets(p));
+                met.map(move |p| (of(p), p.polygon.clone()))
             });
-            let leaves = self.fragments_near(&near).flat_map(|f| &f.obstacles);
+            let leaves = self.fragments_near(&space.near).flat_map(|f| &f.obstacles);
             let leaves = leaves.filter_map(|o| match o.blocker {
                 Blocker::DoorLeaf { door: other, .. } if other != door => {
                     Some((o.blocker, o.polygon.clone()))
@@ -169,7 +164,7 @@ impl FloorPlan {
             });
             let solids: Vec<(Blocker, Polygon)> = things.chain(leaves).collect();
             let bodies = solids.iter().map(|(of, body)| (*of, body));
-            doorway.leaves(model).strikes((from, 100.0), bodies)
+            own.strikes((from, 100.0), bodies)
         });
         strikes.min_by(|a, b| a.opening.total_cmp(&b.opening))
     }

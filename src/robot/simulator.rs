@@ -10,7 +10,9 @@ use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
 use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-use crate::geometry::{Bounds, Doorway, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of};
+use crate::geometry::{
+    Bounds, Doorway, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
+};
 use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -148,7 +150,7 @@ impl Simulator {
                 let opening = openings.0 as u8;
                 return Some(Refusal::DoorJammed { door, by: None, opening });
             }
-            let solids = self.solids_before(doorway, model, &scene);
+            let solids = self.solids_before(doorway, &leaves, &scene);
             let strike = leaves.strikes(openings, solids.iter().map(|(of, body)| (*of, body)))?;
             let (by, opening) = (Some(strike.against), strike.opening as u8);
             Some(Refusal::DoorJammed { door, by, opening })
@@ -159,19 +161,14 @@ impl Simulator {
     fn solids_before(
         &self,
         doorway: &Doorway,
-        model: &Door,
+        leaves: &Leaves<'_>,
         scene: &Scene,
     ) -> Vec<(Obstruction, Polygon)> {
         let room = scene.areas.get(&doorway.areas[0]).and_then(|a| a.prisms.first());
-        let floor = room.map_or(0.0, |prism| prism.bottom);
-        let height = if model.height.get() > 0.0 { model.height.get() } else { f64::INFINITY };
-        let near = Bounds::of([doorway.middle()]).grown(2.0 * doorway.width() + doorway.gap);
+        let space = leaves.space(room.map_or(0.0, |prism| prism.bottom));
         let things = scene.replicas.values().flat_map(|r| {
-            let in_the_way = |p: &&Prism| {
-                p.bounds.meets(&near) && p.top > floor + UNDER_LEAF && p.bottom < floor + height
-            };
-            let of = Obstruction::Replica(r.id);
-            r.prisms.iter().filter(in_the_way).map(move |p| (of, p.polygon.clone()))
+            let met = r.prisms.iter().filter(move |p| space.meets(p));
+            met.map(move |p| (Obstruction::Replica(r.id), p.polygon.clone()))
         });
         let others = self.doorways.iter().filter(|d| d.door != doorway.door);
         let leaves = others.flat_map(|d| {
@@ -181,7 +178,7 @@ impl Simulator {
                 all.into_iter().map(move |leaf| (Obstruction::Door(id), leaf))
             })
         });
-        things.chain(leaves.filter(|(_, leaf)| leaf.bounds().meets(&near))).collect()
+        things.chain(leaves.filter(|(_, leaf)| leaf.bounds().meets(&space.near))).collect()
     }
 
     fn is_in_the_way(&self, prism: &Prism) -> bool {
@@ -454,8 +451,6 @@ impl Drive for Simulator {
     }
 }
 
-/// A leaf passes over what is no higher, such as a mat, cm.
-const UNDER_LEAF: f64 = 2.0;
 /// Seconds until a lift comes when it is called.
 const LIFT_WAIT: f64 = 20.0;
 /// Seconds that a lift takes to shut its doors, start and stop.

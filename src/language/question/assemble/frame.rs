@@ -176,7 +176,7 @@ impl<'s, 't> Frame<'s, 't> {
             near.extend(self.lexicon.values.near(said));
         }
         let before_noun = matches!(next, Some(Item::Noun(_)));
-        if near.is_empty() && (before_noun || !crate::language::question::may_be_noun(said)) {
+        if near.is_empty() && (before_noun || !crate::language::words::may_be_noun(said)) {
             return Doubt::not_understood(said);
         }
         if before_noun && near.is_empty() {

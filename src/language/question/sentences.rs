@@ -1,0 +1,108 @@
+//! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
+
+use super::grammar::Item;
+use super::grammar::Sentence;
+use super::{Answer, Asker, Memory, Thing, Unanswered, several, vocabulary};
+use crate::language::words::{Language, word_ranges};
+use crate::units::name_key;
+
+impl Asker<'_> {
+    /// «Где ваза и какого она цвета?»: two questions in one sentence, the second knowing the first. None where the
+    /// sentence is one question, or one of its parts has no answer.
+    pub(super) fn each_part(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Answer> {
+        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+            return None;
+        }
+        let parts = several::parts(text)?;
+        let mut after = memory.clone();
+        let mut answers = Vec::new();
+        for part in parts {
+            let answer = self.answer(part, language, &after).ok()?;
+            after.learn(&answer);
+            answers.push(answer);
+        }
+        *memory = after;
+        Some(Answer::joined(answers, language))
+    }
+
+    /// "I lost my cup. Where is it?": the last sentence asks; those before it are questions too, or tell what it is
+    /// about.
+    pub(super) fn each_sentence(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &mut Memory,
+    ) -> Option<Result<Answer, Unanswered>> {
+        let parts = several::sentences(text.get(..Self::LONGEST * 2).unwrap_or(text));
+        let (last, before) = parts.split_last().filter(|(_, before)| !before.is_empty())?;
+        let mut after = memory.clone();
+        let mut answers = Vec::new();
+        for part in before {
+            match self.answer(part, language, &after) {
+                Ok(answer) if part.ends_with('?') => {
+                    after.learn(&answer);
+                    answers.push(answer);
+                }
+                _ => self.hear_of(part, &mut after),
+            }
+        }
+        match self.ask(last, &mut after) {
+            Ok(answer) => {
+                answers.push(answer);
+                *memory = after;
+                Some(Ok(match answers.len() {
+                    1 => answers.remove(0),
+                    _ => Answer::joined(answers, language),
+                }))
+            }
+            Err(unanswered) if unanswered.doubt.kind() == "ambiguous" && answers.is_empty() => {
+                *memory = after;
+                Some(Err(unanswered))
+            }
+            Err(_) => None,
+        }
+    }
+
+    /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
+    pub(super) fn after_preamble(&self, text: &str, memory: &mut Memory) -> Option<Answer> {
+        const LIMITS: [&str; 8] = ["если", "когда", "пока", "if", "when", "while", "from", "из"];
+        let first = word_ranges(text).into_iter().next()?;
+        if LIMITS.contains(&name_key(&text[first]).as_str()) {
+            return None;
+        }
+        let (told, asked) = text.split_once([',', ';', '–', '—'])?;
+        let words: Vec<String> =
+            word_ranges(asked).into_iter().map(|range| name_key(&asked[range])).collect();
+        if words.len() < 2 || !vocabulary::begins_question(&words) || several::asks_in(told) {
+            return None;
+        }
+        let mut after = memory.clone();
+        self.hear_of(told, &mut after);
+        let answer = self.ask(asked.trim(), &mut after).ok()?;
+        *memory = after;
+        Some(answer)
+    }
+
+    /// Notes what a sentence names that asks nothing.
+    fn hear_of(&self, text: &str, memory: &mut Memory) {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let named: Vec<Thing> = {
+            let knowledge = self.knowledge(sentence.language, memory);
+            let nouns = sentence.items().into_iter().filter_map(|item| match item {
+                Item::Noun(phrase) if phrase.person.is_none() => Some(phrase.noun),
+                _ => None,
+            });
+            let found = nouns.filter_map(|noun| knowledge.find(&noun, true).ok());
+            found.filter(|found| found.len() == 1).flatten().collect()
+        };
+        if !named.is_empty() {
+            memory.mention(&named);
+        }
+    }
+}
