@@ -166,7 +166,7 @@ impl Asker<'_> {
         }
         let nearest = Noun { head: Head { things: Some(carried), ..Head::default() }, ..noun };
         let Some(thing) = knowledge.find(&nearest, true)?.first().copied() else { return Ok(text) };
-        let mut text = text.clone();
+        let mut text = text;
         let name = knowledge.form(thing, Case::Accusative);
         text.replace_range(words[at].start..words[next + taken - 1].end, &name);
         Ok(text)
