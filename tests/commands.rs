@@ -565,6 +565,14 @@ fn verbs_are_known_in_all_their_forms() {
     }
 }
 
+/// To a window no way is known; that there is none is not said.
+#[test]
+fn a_window_that_cannot_be_gone_to_is_not_denied() {
+    let engine = Engine::in_memory(rb2(), None).unwrap();
+    let refused = engine.understand("Встань у окна в Комнате-В").unwrap_err().to_string();
+    assert!(refused.contains("не понимаю") && !refused.contains("нет окон"), "{refused}");
+}
+
 /// Several things are gathered one after the other: there is one hand.
 #[test]
 fn gathered_things_are_brought_one_by_one() {

@@ -37,7 +37,12 @@ impl Settler<'_, '_> {
             });
             found = knowledge.find(&with(noun, &inside.collect::<Vec<_>>()), true)?;
         }
+        let are_any = !found.is_empty();
         found.retain(|t| matches!(t, Thing::Entity(_)));
+        // What is there and has no name of its own, a window, cannot be a goal; it is not denied.
+        if are_any && found.is_empty() {
+            return Err(Doubt::not_understood(&noun.text));
+        }
         Ok(found)
     }
 
