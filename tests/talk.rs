@@ -98,7 +98,8 @@ fn houses() -> Vec<(String, Engine)> {
     found
 }
 
-/// Types by the English word for them, with all their things: a dining table is a table too.
+/// Types by the English word for them, with all their things: a dining table is a table too, but a dog's bed is none
+/// that a person means by "bed".
 fn things_by_word(world: &World) -> BTreeMap<String, BTreeSet<String>> {
     let of_type = |wanted: TypeId| {
         let all = world.replicas.values();
@@ -117,7 +118,10 @@ fn things_by_word(world: &World) -> BTreeMap<String, BTreeSet<String>> {
     all.iter()
         .map(|(word, _)| {
             let narrower = format!(" {word}");
-            let covered = all.iter().filter(|(w, _)| w == word || w.ends_with(&narrower));
+            let is_own =
+                |w: &str| !["dog ", "cat ", "toy "].iter().any(|animal| w.starts_with(animal));
+            let covers = |w: &str| w == word || (w.ends_with(&narrower) && is_own(w));
+            let covered = all.iter().filter(|(w, _)| covers(w));
             (word.clone(), covered.flat_map(|(_, things)| things.clone()).collect())
         })
         .collect()
