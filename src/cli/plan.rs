@@ -70,8 +70,8 @@ fn interim(lang: Lang) -> fn(&Plan) {
     }
 }
 
-/// The scenario with what its map knows, and who knows that map: the store that was named; else the map that the scenario names; else the
-/// default store, if there is one; else nobody, and the scenario's own facts are all there is.
+/// The scenario with what its map knows, and who knows that map: the store that was named; else the map that the
+/// scenario names; else the default store, if there is one; else nobody, and the scenario's own facts are all there is.
 fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), Failure> {
     let path = match (&args.scenario, &args.domain, &args.problem) {
         (None, Some(domain), Some(problem)) => {

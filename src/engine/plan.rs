@@ -60,28 +60,6 @@ impl Engine {
         plan_alone(self.supplemented(scenario)?, limits, wanted)
     }
 
-    /// Plans a scenario, withdraws assumptions of the scenario or of the map, and plans anew with what was learned.
-    ///
-    /// # Errors
-    /// All faults of the scenario, and of what is to be withdrawn.
-    pub fn plan_without(
-        &self,
-        scenario: Scenario,
-        withdrawn: &[String],
-        limits: &Limits,
-        wanted: Wanted,
-    ) -> Result<(Replanned, Vec<RuleFault>), Error> {
-        plan_alone_without(self.supplemented(scenario)?, withdrawn, limits, wanted)
-    }
-
-    /// Carries a plan out on a scenario with the facts of the map that the engine holds, if it holds one.
-    ///
-    /// # Errors
-    /// All faults of the scenario.
-    pub fn check_plan(&self, scenario: Scenario, plan: &PlanText) -> Result<Replayed, Error> {
-        check_plan_alone(&self.supplemented(scenario)?, plan)
-    }
-
     /// A scenario with the facts of the map that the engine holds, if it holds one.
     ///
     /// # Errors

@@ -6,7 +6,7 @@ use std::collections::{HashMap, HashSet};
 use super::domain::{Domain, SchemaAtom};
 use super::ground::Reachability;
 use super::lack::{Wanted, closed};
-use super::problem::{GroundAtom, Resolved};
+use super::resolve::{GroundAtom, Resolved};
 
 pub(super) struct Attainable<'a> {
     pub(super) initial: HashSet<&'a GroundAtom>,

@@ -12,7 +12,8 @@ use super::error::RuleFaults;
 use super::ground::Reachability;
 use super::lack::{By, Lacks, Wanted, fits};
 use super::phrase::{Phrases, Said, SaidArgument, Wording};
-use super::problem::{Problem, ThingId};
+use super::problem::Problem;
+use super::resolve::ThingId;
 use super::task::Fact;
 use crate::units::{Language, name_key};
 

@@ -11,7 +11,8 @@ use std::collections::HashMap;
 
 use super::domain::{Domain, KindSet, PredicateId, Schema, SchemaAtom, SchemaCost, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
-use super::problem::{GroundAtom, Problem, Resolved, Standing, ThingId};
+use super::problem::{Problem, Standing};
+use super::resolve::{GroundAtom, Resolved, ThingId};
 use super::simplify::{Draft, DraftOperator, simplify};
 use super::task::{Operator, Task};
 use crate::units::name_key;

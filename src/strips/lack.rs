@@ -16,7 +16,7 @@ use super::attain::Attainable;
 use super::domain::{Domain, PredicateId, Schema, SchemaAtom, SchemaTerm};
 use super::exchange::{exchanged, moving, states};
 use super::ground::{Binding, Reachability};
-use super::problem::{GroundAtom, Resolved, ThingId};
+use super::resolve::{GroundAtom, Resolved, ThingId};
 
 /// An atom, or its absence; open places are any object.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]

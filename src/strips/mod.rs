@@ -38,6 +38,7 @@ mod phrase;
 mod plan_text;
 mod problem;
 mod replay;
+mod resolve;
 mod rule_text;
 mod simplify;
 mod slip;

@@ -3,25 +3,15 @@
 //! A [`Problem`] collects statements; names are resolved against the rules when it is grounded, so that
 //! a scenario may speak of objects that only the map knows. The world is closed: what is not stated is false.
 
-use std::collections::{BTreeSet, HashMap, HashSet};
+use std::collections::HashSet;
 
 use super::check::{hint, text_of};
-use super::domain::{ANY_KIND, Domain, KindId, KindSet, PredicateId, SchemaTerm};
+use super::domain::{Domain, PredicateId};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
 use super::rule_text::conditions;
 use super::syntax::{Atom, Condition, Declaration, Document, Name};
 use crate::units::{Source, name_key};
-
-/// An object of a problem.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub(super) struct ThingId(pub(super) u32);
-
-impl ThingId {
-    pub(super) fn index(self) -> usize {
-        self.0 as usize
-    }
-}
 
 /// How a fact is known (SPEC P2).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -32,35 +22,35 @@ pub enum Standing {
 }
 
 #[derive(Debug, Clone)]
-struct Statement {
-    predicate: String,
-    args: Vec<String>,
-    negated: bool,
-    standing: Standing,
+pub(super) struct Statement {
+    pub(super) predicate: String,
+    pub(super) args: Vec<String>,
+    pub(super) negated: bool,
+    pub(super) standing: Standing,
     /// None for what came from outside a text.
-    text: Option<Atom>,
+    pub(super) text: Option<Atom>,
 }
 
 #[derive(Debug, Clone)]
-struct ObjectStatement {
-    name: String,
-    kinds: Vec<String>,
-    text: Option<Declaration>,
+pub(super) struct ObjectStatement {
+    pub(super) name: String,
+    pub(super) kinds: Vec<String>,
+    pub(super) text: Option<Declaration>,
 }
 
 /// What holds and what is wanted.
 #[derive(Debug, Clone, Default)]
 pub struct Problem {
-    objects: Vec<ObjectStatement>,
-    facts: Vec<Statement>,
-    goal: Vec<Statement>,
-    values: Vec<(Atom, u32)>,
-    objects_closed: bool,
-    compared: Vec<(Name, Name, bool)>,
+    pub(super) objects: Vec<ObjectStatement>,
+    pub(super) facts: Vec<Statement>,
+    pub(super) goal: Vec<Statement>,
+    pub(super) values: Vec<(Atom, u32)>,
+    pub(super) objects_closed: bool,
+    pub(super) compared: Vec<(Name, Name, bool)>,
     /// The goal was stated and asks for nothing.
-    goal_is_empty: bool,
+    pub(super) goal_is_empty: bool,
     /// Assumptions that were made, and made no longer.
-    withdrawn: Vec<Statement>,
+    pub(super) withdrawn: Vec<Statement>,
 }
 
 impl Problem {
@@ -260,36 +250,6 @@ impl Problem {
         let stated = self.facts.iter().chain(&self.goal).filter(|s| s.text.is_some());
         faults.extend(stated.filter_map(|statement| statement.predicate(domain).err()));
     }
-
-    /// Every name resolved against the rules.
-    pub(super) fn resolve(&self, domain: &Domain) -> Result<Resolved, RuleFaults> {
-        let mut resolver = Resolver {
-            domain,
-            things: Vec::new(),
-            index: HashMap::new(),
-            faults: Vec::new(),
-            closed: self.objects_closed,
-        };
-        resolver.objects(self);
-        let facts = resolver.facts(&self.facts);
-        let goal = resolver.goal(&self.goal);
-        let impossible = resolver.comparisons(self);
-        let values = resolver.values(&self.values);
-        let withdrawn = resolver.known(&self.withdrawn);
-        if resolver.faults.is_empty() {
-            Ok(Resolved {
-                things: resolver.things,
-                index: resolver.index,
-                facts,
-                goal,
-                values,
-                impossible,
-                withdrawn,
-            })
-        } else {
-            Err(RuleFaults(resolver.faults))
-        }
-    }
 }
 
 fn atom_key(predicate: &str) -> String {
@@ -332,7 +292,7 @@ impl Statement {
         }
     }
 
-    fn predicate(&self, domain: &Domain) -> Result<PredicateId, RuleFault> {
+    pub(super) fn predicate(&self, domain: &Domain) -> Result<PredicateId, RuleFault> {
         let name = &self.predicate;
         let Some(predicate) = domain.predicate(name) else {
             let help = hint(name, domain.predicates.iter().map(|p| p.name.as_str()))
@@ -376,7 +336,7 @@ impl Statement {
         Said { name: self.predicate.clone(), args, negated: self.negated }
     }
 
-    fn shown(&self) -> String {
+    pub(super) fn shown(&self) -> String {
         match &self.text {
             Some(atom) => text_of(atom),
             None => format!("{}_({})", self.predicate, self.args.join(", ")),
@@ -384,14 +344,14 @@ impl Statement {
     }
 
     /// A fault at the predicate, or without a place when no text stated this.
-    fn fault(&self, error: impl FnOnce(miette::SourceSpan) -> RuleError) -> RuleFault {
+    pub(super) fn fault(&self, error: impl FnOnce(miette::SourceSpan) -> RuleError) -> RuleFault {
         match &self.text {
             Some(atom) => atom.predicate.fault(error),
             None => RuleFault::placeless(error((0, 0).into())),
         }
     }
 
-    fn argument_fault(
+    pub(super) fn argument_fault(
         &self,
         place: usize,
         error: impl FnOnce(miette::SourceSpan) -> RuleError,
@@ -400,317 +360,5 @@ impl Statement {
             Some(atom) => atom.args[place].name.fault(error),
             None => RuleFault::placeless(error((0, 0).into())),
         }
-    }
-}
-
-/// An object and the types it has.
-#[derive(Debug, Clone)]
-pub(super) struct Thing {
-    pub(super) name: String,
-    pub(super) kinds: KindSet,
-}
-
-/// An atom over objects.
-#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub(super) struct GroundAtom {
-    pub(super) predicate: PredicateId,
-    pub(super) args: Vec<ThingId>,
-}
-
-/// A problem whose names all mean something.
-#[derive(Debug)]
-pub(super) struct Resolved {
-    pub(super) things: Vec<Thing>,
-    pub(super) index: HashMap<String, ThingId>,
-    pub(super) facts: Vec<(GroundAtom, Standing)>,
-    pub(super) goal: Vec<(GroundAtom, bool)>,
-    pub(super) values: HashMap<(String, Vec<ThingId>), u32>,
-    /// The goal compares two names, and the comparison is false.
-    pub(super) impossible: bool,
-    /// What was assumed until it was withdrawn.
-    pub(super) withdrawn: BTreeSet<GroundAtom>,
-}
-
-struct Resolver<'a> {
-    domain: &'a Domain,
-    things: Vec<Thing>,
-    index: HashMap<String, ThingId>,
-    faults: Vec<RuleFault>,
-    closed: bool,
-}
-
-impl Resolver<'_> {
-    fn introduce(&mut self, name: &str) -> ThingId {
-        let next = ThingId(self.things.len() as u32);
-        let id = *self.index.entry(name_key(name)).or_insert(next);
-        if id == next {
-            self.things.push(Thing { name: name.to_owned(), kinds: KindSet::new() });
-        }
-        id
-    }
-
-    /// Declared objects first, then those that a fact is enough to make known; a goal makes none.
-    fn objects(&mut self, problem: &Problem) {
-        for object in &problem.objects {
-            let id = self.introduce(&object.name);
-            for (place, name) in object.kinds.iter().enumerate() {
-                match self.domain.kind(name) {
-                    Some(kind) => {
-                        let kinds = &mut self.things[id.index()].kinds;
-                        if !kinds.contains(&kind) {
-                            kinds.push(kind);
-                        }
-                    }
-                    None => {
-                        if let Some(declaration) = &object.text {
-                            let kinds = self.domain.kinds.iter().map(|kind| kind.name.as_str());
-                            let (name, help) = (name.clone(), hint(name, kinds));
-                            self.faults.push(
-                                declaration.kinds[place].fault(|at| RuleError::UnknownType {
-                                    name,
-                                    help,
-                                    at,
-                                }),
-                            );
-                        }
-                    }
-                }
-            }
-            if object.text.is_some() && self.closed && object.kinds.is_empty() {
-                self.things[id.index()].kinds.push(ANY_KIND);
-            }
-        }
-        if !self.closed {
-            // What was withdrawn is assumed no longer, but the objects that it spoke of are there still.
-            let stated = problem.facts.iter().chain(&problem.withdrawn);
-            for fact in stated.filter(|fact| !fact.negated) {
-                for arg in &fact.args {
-                    self.introduce(arg);
-                }
-            }
-        }
-        self.constants_of_rules();
-        self.infer_kinds(problem);
-    }
-
-    /// An undeclared object has the most special of the types that its places in facts and goals ask for.
-    fn infer_kinds(&mut self, problem: &Problem) {
-        let untyped: Vec<bool> = self.things.iter().map(|thing| thing.kinds.is_empty()).collect();
-        let stated = problem.facts.iter().chain(&problem.withdrawn).chain(&problem.goal);
-        for statement in stated {
-            let Some(predicate) = self.domain.predicate(&statement.predicate) else { continue };
-            let signature = &self.domain.predicates[predicate.index()].args;
-            for (place, (arg, wanted)) in statement.args.iter().zip(signature).enumerate() {
-                let Some(&id) = self.index.get(&name_key(arg)) else { continue };
-                let ([wanted], true) = (wanted.as_slice(), untyped[id.index()]) else { continue };
-                let have = self.things[id.index()].kinds.first().copied();
-                match have {
-                    None => self.things[id.index()].kinds.push(*wanted),
-                    Some(have) if self.domain.inherits(have, *wanted) => {}
-                    Some(have) if self.domain.inherits(*wanted, have) => {
-                        self.things[id.index()].kinds[0] = *wanted;
-                    }
-                    Some(have) => {
-                        let error = |at| RuleError::ObjectType {
-                            name: arg.clone(),
-                            found: self.domain.kind_names(&[*wanted]),
-                            earlier: self.domain.kind_names(&[have]),
-                            at,
-                        };
-                        self.faults.push(statement.argument_fault(place, error));
-                    }
-                }
-            }
-        }
-        for thing in &mut self.things {
-            if thing.kinds.is_empty() {
-                thing.kinds.push(ANY_KIND);
-            }
-        }
-    }
-
-    fn facts(&mut self, statements: &[Statement]) -> Vec<(GroundAtom, Standing)> {
-        let mut facts = Vec::new();
-        let mut known: HashMap<GroundAtom, usize> = HashMap::new();
-        let mut denied: Vec<(GroundAtom, &Statement)> = Vec::new();
-        for statement in statements {
-            let outside = statement.text.is_none();
-            if outside && self.domain.predicate(&statement.predicate).is_none() {
-                continue;
-            }
-            let Some(atom) = self.atom(statement) else { continue };
-            if statement.negated {
-                denied.push((atom, statement));
-                continue;
-            }
-            match known.get(&atom) {
-                // What is both known and assumed is known.
-                Some(&at) => {
-                    let (_, standing): &mut (GroundAtom, Standing) = &mut facts[at];
-                    if statement.standing == Standing::Fact {
-                        *standing = Standing::Fact;
-                    }
-                }
-                None => {
-                    known.insert(atom.clone(), facts.len());
-                    facts.push((atom, statement.standing));
-                }
-            }
-        }
-        for (atom, statement) in denied {
-            if known.contains_key(&atom) {
-                let atom = statement.shown();
-                self.faults.push(statement.fault(|at| RuleError::ContradictoryFact { atom, at }));
-            }
-        }
-        facts
-    }
-
-    /// Those of the statements whose names all mean something.
-    fn known(&self, statements: &[Statement]) -> BTreeSet<GroundAtom> {
-        let atom = |statement: &Statement| {
-            let predicate = statement.predicate(self.domain).ok()?;
-            let thing = |arg: &String| self.index.get(&name_key(arg)).copied();
-            let args = statement.args.iter().map(thing).collect::<Option<_>>()?;
-            Some(GroundAtom { predicate, args })
-        };
-        statements.iter().filter_map(atom).collect()
-    }
-
-    fn goal(&mut self, statements: &[Statement]) -> Vec<(GroundAtom, bool)> {
-        let mut goal: Vec<(GroundAtom, bool)> = Vec::new();
-        for statement in statements {
-            let Some(atom) = self.atom(statement) else { continue };
-            if goal.contains(&(atom.clone(), !statement.negated)) {
-                let shown = statement.shown();
-                self.faults
-                    .push(statement.fault(|at| RuleError::ContradictoryFact { atom: shown, at }));
-            }
-            let wanted = (atom, statement.negated);
-            if !goal.contains(&wanted) {
-                goal.push(wanted);
-            }
-        }
-        goal
-    }
-
-    fn comparisons(&mut self, problem: &Problem) -> bool {
-        let mut impossible = false;
-        for (left, right, negated) in &problem.compared {
-            for name in [left, right] {
-                if !self.index.contains_key(&name.key()) {
-                    let fault = self.unknown_object(&name.text);
-                    self.faults.push(name.fault(fault));
-                }
-            }
-            impossible |= (left.key() == right.key()) == *negated;
-        }
-        impossible
-    }
-
-    fn atom(&mut self, statement: &Statement) -> Option<GroundAtom> {
-        let predicate =
-            statement.predicate(self.domain).map_err(|fault| self.faults.push(fault)).ok()?;
-        let signature = &self.domain.predicates[predicate.index()].args;
-        let mut args = Vec::new();
-        for (place, (arg, wanted)) in statement.args.iter().zip(signature).enumerate() {
-            let Some(&id) = self.index.get(&name_key(arg)) else {
-                let error = self.unknown_object(arg);
-                self.faults.push(statement.argument_fault(place, error));
-                continue;
-            };
-            self.check_kind(statement, predicate, place, id, wanted);
-            args.push(id);
-        }
-        (args.len() == signature.len()).then_some(GroundAtom { predicate, args })
-    }
-
-    fn unknown_object(&self, name: &str) -> impl FnOnce(miette::SourceSpan) -> RuleError + use<> {
-        let help = hint(name, self.things.iter().map(|thing| thing.name.as_str())).or_else(|| {
-            Some("ни факты, ни раздел «Объекты», ни карта не знают такого объекта".to_owned())
-        });
-        let name = name.to_owned();
-        move |at| RuleError::UnknownObject { name, help, at }
-    }
-
-    fn check_kind(
-        &mut self,
-        statement: &Statement,
-        predicate: PredicateId,
-        place: usize,
-        id: ThingId,
-        wanted: &[KindId],
-    ) {
-        let thing = &self.things[id.index()];
-        // What is known by name alone stands anywhere; what is more general than asked is let be.
-        if wanted.is_empty()
-            || self.domain.fits(&thing.kinds, wanted)
-            || (!self.closed && self.domain.fits(wanted, &thing.kinds))
-        {
-            return;
-        }
-        let error = |at| RuleError::ArgumentType {
-            name: statement.predicate.clone(),
-            number: place + 1,
-            expected: self.domain.kind_names(wanted),
-            term: thing.name.clone(),
-            found: self.domain.kind_names(&thing.kinds),
-            help: self.domain.signature(predicate),
-            at,
-        };
-        // Two conflicting uses of an undeclared object have been told already.
-        if !self.faults.iter().any(|fault| {
-            matches!(&*fault.error, RuleError::ObjectType { name, .. } if *name == thing.name)
-        }) {
-            self.faults.push(statement.argument_fault(place, error));
-        }
-    }
-
-    /// Objects that the rules name exist as well, of the types that their places there ask for.
-    fn constants_of_rules(&mut self) {
-        let domain = self.domain;
-        for schema in &domain.schemas {
-            let atoms = schema
-                .preconditions
-                .iter()
-                .chain(&schema.negative_preconditions)
-                .chain(&schema.add_effects)
-                .chain(&schema.del_effects);
-            for atom in atoms {
-                let signature = &domain.predicates[atom.predicate.index()].args;
-                for (term, wanted) in atom.args.iter().zip(signature) {
-                    let SchemaTerm::Constant(name) = term else { continue };
-                    let id = self.introduce(name);
-                    if self.things[id.index()].kinds.is_empty() {
-                        self.things[id.index()].kinds.clone_from(wanted);
-                    }
-                }
-            }
-            for (left, right) in schema.equal.iter().chain(&schema.different) {
-                for term in [left, right] {
-                    if let SchemaTerm::Constant(name) = term {
-                        self.introduce(name);
-                    }
-                }
-            }
-        }
-    }
-
-    fn values(&mut self, values: &[(Atom, u32)]) -> HashMap<(String, Vec<ThingId>), u32> {
-        let mut found = HashMap::new();
-        for (atom, value) in values {
-            let mut args = Vec::new();
-            for term in &atom.args {
-                match self.index.get(&term.name.key()) {
-                    Some(&id) => args.push(id),
-                    None => {
-                        let error = self.unknown_object(&term.name.text);
-                        self.faults.push(term.name.fault(error));
-                    }
-                }
-            }
-            found.insert((atom.predicate.key(), args), *value);
-        }
-        found
     }
 }

@@ -10,7 +10,8 @@ use super::domain::{Domain, Schema, SchemaAtom, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::ground::cost;
 use super::plan_text::{Directive, PlanText};
-use super::problem::{GroundAtom, Problem, Resolved, ThingId};
+use super::problem::Problem;
+use super::resolve::{GroundAtom, Resolved, ThingId};
 use crate::units::{Source, name_key, nearest_name};
 
 /// What came of carrying out a plan.

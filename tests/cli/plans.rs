@@ -75,28 +75,11 @@ fn an_assumption_is_withdrawn_and_the_plan_made_anew() {
     // A plan that rests on what was withdrawn is no plan any more.
     place.run(&["plan", &file, "--out", "plan.txt"]).is(0);
     place.run(&["plan", &file, "--check", "plan.txt"]).is(0);
-    let broken = place.json(
-        &[
-            "plan",
-            &file,
-            "--check",
-            "plan.txt",
-            "--without",
-            "ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ВZ, ?x, ?z)",
-        ],
-        1,
-    );
+    let gone = "ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ВZ, ?x, ?z)";
+    let check = ["plan", &file, "--check", "plan.txt", "--without", gone];
+    let broken = place.json(&check, 1);
     assert_eq!(broken["broken"]["step"], 1, "{broken}");
-    let text = place.run(&[
-        "plan",
-        &file,
-        "--check",
-        "plan.txt",
-        "--without",
-        "ДВЕРЬ_ИЗ_В_ОТКРЫТА_(Дверь-ВZ, ?x, ?z)",
-        "--lang",
-        "en",
-    ]);
+    let text = place.run(&[&check[..], &["--lang", "en"]].concat());
     let text = text.is(1).out;
     assert!(
         text.contains("plan.txt:2:4: the action cannot be carried out: it takes ДВЕРЬ"),

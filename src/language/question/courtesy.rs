@@ -3,8 +3,7 @@
 //! Invariant: only a sentence of nothing else is one.
 
 use super::Query;
-use crate::language::words::word_ranges;
-use crate::units::name_key;
+use crate::language::words::word_keys;
 
 /// What politeness answers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,7 +45,7 @@ const BESIDE: [&str; 10] =
 
 /// The courtesy that a sentence is; of several the last one that wants an answer.
 pub(super) fn of(text: &str) -> Option<Courtesy> {
-    let keys: Vec<String> = word_ranges(text).into_iter().map(|r| name_key(&text[r])).collect();
+    let keys = word_keys(text);
     let (mut at, mut said) = (0, None);
     while at < keys.len() {
         let phrase = |n: &usize| keys.get(at..at + n).map(|words| words.join(" "));

@@ -19,6 +19,7 @@ mod follow;
 mod grammar;
 mod knowledge;
 mod lexicon;
+mod opening;
 mod purposes;
 mod query;
 mod rephrase;
@@ -43,7 +44,7 @@ pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::report::Detail;
-use crate::language::words::Language;
+use crate::language::words::{Language, word_keys};
 use crate::map::World;
 use crate::semantics::Relations;
 use crate::units::{AreaId, MapId, Pose, ReplicaId};
@@ -463,23 +464,13 @@ impl Asker<'_> {
     /// Whether a text begins as a question of this grammar does, whatever follows.
     #[must_use]
     pub fn begins_as_question(&self, text: &str) -> bool {
-        let words: Vec<String> = crate::language::words::word_ranges(text)
-            .into_iter()
-            .take(8)
-            .map(|range| crate::units::name_key(&text[range]))
-            .collect();
-        vocabulary::begins_question(&words)
+        opening::begins_question(&word_keys(text))
     }
 
     /// Whether a text asks to be told something, in the words of an order: "Give me directions …".
     #[must_use]
     pub fn asks_to_tell(&self, text: &str) -> bool {
-        let words: Vec<String> = crate::language::words::word_ranges(text)
-            .into_iter()
-            .take(8)
-            .map(|range| crate::units::name_key(&text[range]))
-            .collect();
-        vocabulary::asks_to_tell(&words)
+        opening::asks_to_tell(&word_keys(text))
     }
 
     fn knowledge<'k>(&'k self, language: Language, memory: &'k Memory) -> Knowledge<'k> {

@@ -1,10 +1,8 @@
 //! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
 
-use super::grammar::Item;
-use super::grammar::Sentence;
-use super::{Answer, Asker, Memory, Thing, Unanswered, several, vocabulary};
-use crate::language::words::{Language, word_ranges};
-use crate::units::name_key;
+use super::grammar::{Item, Sentence};
+use super::{Answer, Asker, Memory, Thing, Unanswered, opening, several};
+use crate::language::words::{Language, word_keys};
 
 impl Asker<'_> {
     /// «Где ваза и какого она цвета?»: two questions in one sentence, the second knowing the first. None where the
@@ -71,14 +69,13 @@ impl Asker<'_> {
     /// «Хочу пить, где чашки?»: what is asked stands behind the comma; before it nothing limits the question.
     pub(super) fn after_preamble(&self, text: &str, memory: &mut Memory) -> Option<Answer> {
         const LIMITS: [&str; 8] = ["если", "когда", "пока", "if", "when", "while", "from", "из"];
-        let first = word_ranges(text).into_iter().next()?;
-        if LIMITS.contains(&name_key(&text[first]).as_str()) {
+        let first = word_keys(text).into_iter().next()?;
+        if LIMITS.contains(&first.as_str()) {
             return None;
         }
         let (told, asked) = text.split_once([',', ';', '–', '—'])?;
-        let words: Vec<String> =
-            word_ranges(asked).into_iter().map(|range| name_key(&asked[range])).collect();
-        if words.len() < 2 || !vocabulary::begins_question(&words) || several::asks_in(told) {
+        let words = word_keys(asked);
+        if words.len() < 2 || !opening::begins_question(&words) || several::asks_in(told) {
             return None;
         }
         let mut after = memory.clone();

@@ -1,13 +1,12 @@
 //! Several questions in one sentence, and what people hang on a question's end.
 
 use super::vocabulary::{self, Mark};
-use crate::language::words::word_ranges;
-use crate::units::name_key;
+use crate::language::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.
 pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     let words = word_ranges(text);
-    let keys: Vec<String> = words.iter().map(|range| name_key(&text[range.clone()])).collect();
+    let keys = word_keys(text);
     let cuts: Vec<usize> = (1..keys.len())
         .filter(|&n| is_joint(&keys[n]) && asks(&keys[..n]) && begins(&keys[n + 1..]))
         .collect();
@@ -26,7 +25,7 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
 
 /// Whether a word of these asks.
 pub(super) fn asks_in(text: &str) -> bool {
-    let keys: Vec<String> = word_ranges(text).into_iter().map(|r| name_key(&text[r])).collect();
+    let keys = word_keys(text);
     asks(&keys)
 }
 
@@ -115,7 +114,7 @@ pub(super) fn without_tag(text: &str) -> &str {
         "правильно",
     ];
     let Some((before, tag)) = text.rsplit_once(',') else { return text };
-    let tag: Vec<String> = word_ranges(tag).into_iter().map(|r| name_key(&tag[r])).collect();
+    let tag = word_keys(tag);
     let is_tag = TAGS.contains(&tag.join(" ").as_str());
     if is_tag && word_ranges(before).len() > 1 { before } else { text }
 }

@@ -6,9 +6,9 @@
 use std::borrow::Cow;
 
 use crate::language::names::english_name;
-use crate::language::words::{Language, word_ranges};
+use crate::language::words::{Language, word_keys, word_ranges};
 use crate::map::{Entity, World};
-use crate::units::{MapId, name_key};
+use crate::units::MapId;
 
 /// A word, whether it means the storey above, and whether it says whither.
 const WORDS: [(&str, bool, bool); 20] = [
@@ -64,14 +64,10 @@ fn told(keys: &[String]) -> Vec<Told> {
     found
 }
 
-fn keys(text: &str) -> Vec<String> {
-    word_ranges(text).into_iter().map(|r| name_key(&text[r])).collect()
-}
-
 /// Whether a text speaks only of a storey that is not there: the one above (true) or below.
 pub(super) fn lacking(text: &str, world: &World, here: Option<MapId>) -> Option<bool> {
     let here = here?;
-    let told = told(&keys(text));
+    let told = told(&word_keys(text));
     let missing = |one: &Told| beside(world, here, one.2).is_none();
     told.iter().all(missing).then(|| told.first().map(|one| one.2)).flatten()
 }
@@ -82,7 +78,7 @@ pub(super) fn named<'t>(text: &'t str, world: &World, here: Option<MapId>) -> Co
         return Cow::Borrowed(text);
     };
     let words = word_ranges(text);
-    let keys = keys(text);
+    let keys = word_keys(text);
     let mut named = text.to_owned();
     for (at, taken, above, whither) in told(&keys).into_iter().rev() {
         let end = at + taken;

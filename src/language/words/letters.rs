@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use crate::units::name_key;
+
 /// A maximal run of word letters (letters, digits) or of anything else.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Run<'a> {
@@ -47,6 +49,12 @@ pub(crate) fn runs(text: &str) -> Vec<Run<'_>> {
 #[must_use]
 pub fn word_ranges(text: &str) -> Vec<Range<usize>> {
     runs(text).iter().filter(|run| run.is_word).map(|run| run.at..run.at + run.text.len()).collect()
+}
+
+/// The words of a text in the form in which names are compared.
+#[must_use]
+pub(crate) fn word_keys(text: &str) -> Vec<String> {
+    word_ranges(text).into_iter().map(|range| name_key(&text[range])).collect()
 }
 
 fn is_combining(c: char) -> bool {

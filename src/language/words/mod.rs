@@ -34,6 +34,7 @@ pub(crate) use dictionary::ordering_verb;
 pub use grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 pub use index::{FormIndex, Hit, Readings, Spelling};
 pub(crate) use letters::is_hyphen;
+pub(crate) use letters::word_keys;
 pub use letters::word_ranges;
 pub use list::{Language, alternatives, enumerate};
 pub(crate) use measure::{area, length};

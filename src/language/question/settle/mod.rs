@@ -26,7 +26,7 @@ use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::vocabulary::Mark;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
-use crate::language::words::{Case, Language, NounPhrase, enumerate};
+use crate::language::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -134,9 +134,7 @@ impl Asker<'_> {
             &["что", "то"],
             &["чего", "то"],
         ];
-        let words = crate::language::words::word_ranges(&text);
-        let keys: Vec<String> =
-            words.iter().map(|w| crate::units::name_key(&text[w.clone()])).collect();
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
         let starts = |at: usize, phrase: &[&str]| {
             keys.get(at..at + phrase.len()).is_some_and(|said| said.iter().eq(phrase.iter()))
         };
@@ -174,9 +172,8 @@ impl Asker<'_> {
 
     /// «Принеси ещё одну»: with the noun of what was spoken of last.
     fn with_kind(&self, mut text: String, memory: &Memory) -> String {
-        let words = crate::language::words::word_ranges(&text);
-        let key = |n: usize| words.get(n).map(|w| crate::units::name_key(&text[w.clone()]));
-        let is = |n: usize, all: &[&str]| key(n).is_some_and(|key| all.contains(&key.as_str()));
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
+        let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&&**key));
         let said = (0..words.len())
             .find(|&n| is(n, &["еще"]) && is(n + 1, &["одну", "один", "одно", "одного"]));
         let ends = |n: usize| {

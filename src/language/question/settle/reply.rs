@@ -7,7 +7,7 @@ use crate::language::question::grammar::Sentence;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
 use crate::language::question::{Asker, Memory};
-use crate::language::words::{Case, Language, word_ranges};
+use crate::language::words::{Case, Language, word_keys, word_ranges};
 use crate::map::Entity;
 use crate::units::name_key;
 
@@ -75,7 +75,7 @@ impl Asker<'_> {
             "остальную",
         ];
         let ordered = memory.ordered.as_ref().filter(|_| !text.trim_end().ends_with('?'))?;
-        let keys = word_ranges(text).into_iter().map(|range| name_key(&text[range]));
+        let keys = word_keys(text).into_iter();
         let keys: Vec<String> = keys.skip_while(|key| SMALL.contains(&key.as_str())).collect();
         if !OTHER.contains(&keys.join(" ").as_str()) {
             return None;

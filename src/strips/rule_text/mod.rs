@@ -16,15 +16,19 @@
 //!
 //! The text is read to its end whatever is wrong with it, so that all faults are told at once.
 
-use miette::SourceSpan;
+mod cursor;
+mod heading;
 
-use super::error::{RuleError, RuleFault};
-use super::syntax::{
+use cursor::Ahead;
+use heading::Heading;
+
+use crate::strips::error::{RuleError, RuleFault};
+use crate::strips::syntax::{
     ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, PhraseText,
     Signature, Term,
 };
-use super::token::{Token, TokenKind, tokens};
-use crate::units::{Language, Source, name_key, nearest_name};
+use crate::strips::token::{Token, TokenKind, tokens};
+use crate::units::{Language, Source, name_key};
 
 /// Beyond this many faults a text is not a rule file, and nobody reads on.
 const MAX_FAULTS: usize = 50;
@@ -44,88 +48,6 @@ pub(super) fn parse(source: &Source) -> RuleText {
     let mut parser = Parser { source, tokens: &tokens, next: 0, text: RuleText::default() };
     parser.file();
     parser.text
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Heading {
-    Action,
-    Parameters,
-    Precondition,
-    AddEffect,
-    DelEffect,
-    Cost,
-    Initial,
-    Goal,
-    Facts,
-    Assumptions,
-    Types,
-    Predicates,
-    Objects,
-    Include,
-    Map,
-    Phrases(Language),
-}
-
-/// Every heading in both languages, as shown to people.
-const HEADINGS: &[(&str, Heading)] = &[
-    ("Действие", Heading::Action),
-    ("Action", Heading::Action),
-    ("Параметры", Heading::Parameters),
-    ("Parameters", Heading::Parameters),
-    ("Предусловие", Heading::Precondition),
-    ("Precondition", Heading::Precondition),
-    ("Эффект+", Heading::AddEffect),
-    ("Effect+", Heading::AddEffect),
-    ("Эффект-", Heading::DelEffect),
-    ("Effect-", Heading::DelEffect),
-    ("Стоимость", Heading::Cost),
-    ("Cost", Heading::Cost),
-    ("Исходная позиция", Heading::Initial),
-    ("Initial", Heading::Initial),
-    ("Initial position", Heading::Initial),
-    ("Целевая позиция", Heading::Goal),
-    ("Цель", Heading::Goal),
-    ("Goal", Heading::Goal),
-    ("Goal position", Heading::Goal),
-    ("Факты", Heading::Facts),
-    ("Facts", Heading::Facts),
-    ("Предположения", Heading::Assumptions),
-    ("Assumptions", Heading::Assumptions),
-    ("Типы", Heading::Types),
-    ("Types", Heading::Types),
-    ("Предикаты", Heading::Predicates),
-    ("Predicates", Heading::Predicates),
-    ("Объекты", Heading::Objects),
-    ("Objects", Heading::Objects),
-    ("Константы", Heading::Objects),
-    ("Constants", Heading::Objects),
-    ("Включить", Heading::Include),
-    ("Include", Heading::Include),
-    ("Карта", Heading::Map),
-    ("Map", Heading::Map),
-    ("По-русски", Heading::Phrases(Language::Russian)),
-    ("In Russian", Heading::Phrases(Language::Russian)),
-    ("По-английски", Heading::Phrases(Language::English)),
-    ("In English", Heading::Phrases(Language::English)),
-];
-
-impl Heading {
-    fn of(key: &str) -> Option<Self> {
-        HEADINGS.iter().find(|(name, _)| name_key(name) == key).map(|&(_, heading)| heading)
-    }
-
-    fn is_part_of_action(self) -> bool {
-        matches!(
-            self,
-            Self::Parameters | Self::Precondition | Self::AddEffect | Self::DelEffect | Self::Cost
-        )
-    }
-}
-
-/// What stands before a colon.
-enum Ahead {
-    Known(Heading, usize),
-    Unknown(String),
 }
 
 struct Parser<'a> {
@@ -556,131 +478,6 @@ impl<'a> Parser<'a> {
         let start = colon_end + raw.find(path).unwrap_or(0);
         Ok(Name::new(path, self.source, (start, path.len()).into()))
     }
-
-    // The words under the cursor.
-
-    fn kind(&self) -> Option<TokenKind<'a>> {
-        self.kind_after(0)
-    }
-
-    fn kind_after(&self, count: usize) -> Option<TokenKind<'a>> {
-        self.tokens.get(self.next + count).map(|token| token.kind)
-    }
-
-    fn here(&self) -> SourceSpan {
-        match self.tokens.get(self.next) {
-            Some(token) => token.span(),
-            None => (self.source.text().len(), 0).into(),
-        }
-    }
-
-    fn advance(&mut self) -> SourceSpan {
-        let here = self.here();
-        self.next += 1;
-        here
-    }
-
-    fn heading_ahead(&self) -> Option<Ahead> {
-        let Some(TokenKind::Word(first)) = self.kind() else { return None };
-        let (heading, length) = match (self.kind_after(1), self.kind_after(2)) {
-            (Some(TokenKind::Colon), _) => (first.to_owned(), 2),
-            (Some(TokenKind::Word(second)), Some(TokenKind::Colon)) => {
-                // `ИМЯ Факты:` is a name and a heading, `Исходная позиция:` one heading.
-                let both = format!("{first} {second}");
-                if Heading::of(&name_key(&both)).is_none()
-                    && Heading::of(&name_key(second)).is_some()
-                {
-                    return None;
-                }
-                (both, 3)
-            }
-            _ => return None,
-        };
-        Some(match Heading::of(&name_key(&heading)) {
-            Some(known) => Ahead::Known(known, length),
-            None => Ahead::Unknown(heading),
-        })
-    }
-
-    /// Whether `(Предусловие:` or its like stands ahead.
-    fn opens_part(&self) -> bool {
-        self.kind() == Some(TokenKind::Open)
-            && matches!(self.kind_after(1), Some(TokenKind::Word(_)))
-            && self.kind_after(2) == Some(TokenKind::Colon)
-    }
-
-    fn name(&mut self, expected: &str) -> Parsed<Name> {
-        match self.kind() {
-            Some(TokenKind::Word(_)) if self.heading_ahead().is_none() => Ok(self.take_name()),
-            _ => Err(self.expected(expected)),
-        }
-    }
-
-    /// The name under the cursor. The paper writes an underscore between a name and its bracket at
-    /// times (`РОБОТ-НАХОДИТСЯ-В_(…)`, `ДВЕРЬ_ИЗ_В_ОТКРЫТА(…)`); it is no part of the name.
-    fn take_name(&mut self) -> Name {
-        let token = self.tokens[self.next];
-        self.next += 1;
-        let text = match token.kind {
-            TokenKind::Word(word) | TokenKind::Variable(word) => word,
-            _ => &self.source.text()[token.start..token.end],
-        };
-        let trimmed = text.trim_end_matches('_');
-        Name::new(if trimmed.is_empty() { text } else { trimmed }, self.source, token.span())
-    }
-
-    // Faults, and the way on after one.
-
-    fn expected(&self, expected: &str) -> RuleFault {
-        self.expected_at(expected, self.here())
-    }
-
-    fn expected_at(&self, expected: &str, at: SourceSpan) -> RuleFault {
-        let found = match self.kind() {
-            Some(TokenKind::Strange(signs)) => {
-                let sign = excerpt(signs);
-                return RuleFault::new(
-                    self.source,
-                    RuleError::UnexpectedCharacter { sign, at: self.here() },
-                );
-            }
-            Some(_) => {
-                let token = self.tokens[self.next];
-                format!("«{}»", excerpt(&self.source.text()[token.start..token.end]))
-            }
-            None => "конец файла".to_owned(),
-        };
-        RuleFault::new(self.source, RuleError::Syntax { expected: expected.to_owned(), found, at })
-    }
-
-    fn missing(&self, at: SourceSpan) -> RuleFault {
-        RuleFault::new(self.source, RuleError::MissingParenthesis { at })
-    }
-
-    fn unknown_heading(&mut self, heading: &str) -> RuleFault {
-        let at = self.advance();
-        let near = nearest_name(heading, HEADINGS.iter().map(|&(name, _)| name));
-        let help = Some(match near {
-            Some(near) => format!("может быть, «{near}»?"),
-            None => "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
-                     Типы, Предикаты, Объекты, Включить, Карта, По-английски"
-                .to_owned(),
-        });
-        RuleFault::new(
-            self.source,
-            RuleError::UnknownHeading { heading: excerpt(heading), help, at },
-        )
-    }
-
-    /// On to the next place where a section or a part of an action may begin.
-    fn skip_to_heading(&mut self) {
-        while self.next < self.tokens.len() {
-            if self.opens_part() || matches!(self.heading_ahead(), Some(Ahead::Known(..))) {
-                return;
-            }
-            self.next += 1;
-        }
-    }
 }
 
 fn is_not(word: &str) -> bool {
@@ -696,15 +493,4 @@ pub(super) fn conditions(source: &Source) -> Result<Vec<Condition>, RuleFault> {
         None => Ok(conditions),
         Some(_) => Err(parser.expected("факт вида «ИМЯ_(объект, …)»")),
     }
-}
-
-/// A word short enough for a message.
-fn excerpt(text: &str) -> String {
-    const LONGEST: usize = 40;
-    let mut shown: String =
-        text.chars().take(LONGEST).map(|c| if c.is_control() { '·' } else { c }).collect();
-    if text.chars().nth(LONGEST).is_some() {
-        shown.push('…');
-    }
-    shown
 }

@@ -1,0 +1,74 @@
+//! How a sentence begins: whether it asks, asks to be told, or orders.
+
+use super::query::Rel;
+use super::vocabulary::{Mark, longest};
+
+/// Whether these words, in [`name_key`](crate::units::name_key) form, begin a question: after small words, one that asks.
+pub(super) fn begins_question(words: &[String]) -> bool {
+    // «Дойдёшь ли ты …?» asks; «Можешь ли открыть дверь?» is a polite command.
+    const POLITE: [&str; 6] = ["можешь", "сможешь", "можете", "сможете", "мог", "могла"];
+    if let [first, second, ..] = words
+        && second == "ли"
+        && !POLITE.contains(&first.as_str())
+    {
+        return true;
+    }
+    let mut at = 0;
+    while let Some((taken, mark)) = longest(&words[at..]) {
+        match mark {
+            Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
+            // «Можно ли сесть на кровать?» asks; «Можешь открыть дверь?» is a polite command.
+            Mark::Can => {
+                return asks_leave(&words[at..at + taken]) || asks_way(&words[at + taken..]);
+            }
+            // «Скажи, в какой комнате плита»
+            Mark::Link(_) => {
+                let next = longest(&words[at + taken..]);
+                return matches!(next, Some((_, Mark::Which | Mark::What)));
+            }
+            Mark::Not => return false,
+            Mark::PutDown | Mark::Free | Mark::See | Mark::Hold | Mark::Lead | Mark::Move => {
+                return false;
+            }
+            _ => return true,
+        }
+    }
+    false
+}
+
+/// Whether these words begin, after small ones, with a way, a list or a description to be told.
+pub(super) fn asks_to_tell(words: &[String]) -> bool {
+    let mut at = 0;
+    while let Some((taken, mark)) = longest(&words[at..]) {
+        match mark {
+            Mark::Filler | Mark::The | Mark::A | Mark::Me => at += taken,
+            mark => return matches!(mark, Mark::HowGet | Mark::List | Mark::Describe),
+        }
+    }
+    false
+}
+
+/// Whether these words of [`Mark::Can`] ask what may or can be done, and not the robot to do it.
+fn asks_leave(words: &[String]) -> bool {
+    const ROBOT: [&str; 10] = [
+        "можешь",
+        "можешь ли",
+        "сможешь",
+        "могли бы",
+        "мог бы",
+        "can",
+        "can you",
+        "could",
+        "able",
+        "possible",
+    ];
+    !ROBOT.contains(&words.join(" ").as_str())
+}
+
+/// "Can you get from the hall to the kitchen?": of a way between two others the robot is asked, not sent.
+fn asks_way(words: &[String]) -> bool {
+    let you = longest(words).filter(|(_, mark)| *mark == Mark::You).map_or(0, |(taken, _)| taken);
+    let Some((taken, Mark::Move)) = longest(&words[you..]) else { return false };
+    let next = longest(&words[you + taken..]).map(|(_, mark)| mark);
+    next == Some(Mark::Link(Rel::From))
+}
