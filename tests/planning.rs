@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use miette::Diagnostic;
 use orthoframe::engine::plan_alone;
 use orthoframe::graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
 use orthoframe::robot::Wanted;
-use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
+use orthoframe::strips::{EnglishFault, PlanText, RuleFaults, Scenario, Task, explain_unreachable};
 use orthoframe::units::Source;
 
 fn project(path: &str) -> PathBuf {
@@ -91,11 +92,20 @@ fn outcome(case: &Path) -> String {
     told(scenario).replace(&format!("{}/", case.display()), "")
 }
 
+/// Each fault in English, with its remedy.
+fn in_english(faults: &RuleFaults) -> String {
+    let told = faults.0.iter().map(EnglishFault).map(|fault| {
+        let help = fault.help().map_or_else(String::new, |help| format!(" – {help}"));
+        format!("{fault}{help}")
+    });
+    told.collect::<Vec<_>>().join("\n")
+}
+
 fn told(scenario: Result<Scenario, RuleFaults>) -> String {
     let read = scenario.and_then(|scenario| scenario.ground().map(|task| (scenario, task)));
     let (scenario, task) = match read {
         Ok(read) => read,
-        Err(faults) => return format!("{faults}\n"),
+        Err(faults) => return format!("{faults}\n\n{}\n", in_english(&faults)),
     };
     match solve(&task, &Limits::default()) {
         Outcome::Plan(plan) => {

@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use miette::Diagnostic;
 use orthoframe::graphplan::{Limits, Outcome, solve};
 use orthoframe::robot::{Solved, Wanted, solve as solve_problem, solve_without};
-use orthoframe::strips::{PlanText, RuleFaults, Scenario};
+use orthoframe::strips::{EnglishFault, PlanText, RuleFaults, Scenario};
 use orthoframe::units::{Language, Source};
 
 use crate::planning_properties::Drawn;
@@ -222,8 +223,7 @@ fn an_object_of_two_unrelated_types_is_a_fault_with_both_places() {
     };
     let twice = rules("А — место\n А — человек").unwrap_err();
     assert_eq!(twice.codes(), ["strips::object_twice"]);
-    let labels: Vec<usize> =
-        miette::Diagnostic::labels(&twice.0[0]).unwrap().map(|label| label.offset()).collect();
+    let labels: Vec<usize> = twice.0[0].labels().unwrap().map(|label| label.offset()).collect();
     assert_eq!(labels.len(), 2, "both places");
     assert!(labels[1] < labels[0]);
     // The same again, and a special case of it, are no contradiction.
@@ -242,7 +242,7 @@ fn an_object_of_two_unrelated_types_is_a_fault_with_both_places() {
     assert_eq!(told(pddl(domain, &problem("x - truck"))), "");
     assert_eq!(told(pddl(domain, &problem("x - vehicle"))), "");
     let twice = pddl(domain, &problem("x - plane")).unwrap_err();
-    let help = miette::Diagnostic::help(&twice.0[0]).unwrap().to_string();
+    let help = twice.0[0].help().unwrap().to_string();
     assert_eq!(twice.codes(), ["strips::object_twice"]);
     assert!(help.contains("первый раз – domain:1:68"), "{help}");
 }
@@ -254,11 +254,8 @@ fn of_two_arities_the_rarer_is_blamed() {
 (Предусловие: В_(?a, ?b) ПУТЬ_(?a, ?b)) (Эффект+: В_(?b)) (Эффект-: В_(?a))
 Факты: В_(К1) ПУТЬ_(К1, К2)  Цель: В_(К2)";
     let faults = read(text).unwrap_err();
-    let told: Vec<String> = faults
-        .0
-        .iter()
-        .map(|fault| format!("{fault} – {}", miette::Diagnostic::help(fault).unwrap()))
-        .collect();
+    let told: Vec<String> =
+        faults.0.iter().map(|fault| format!("{fault} – {}", fault.help().unwrap())).collect();
     assert_eq!(
         told,
         [
@@ -295,6 +292,15 @@ fn unknown_objects_of_the_goal_are_told_beside_faults_of_the_rules() {
     let (scenario, faults) = Scenario::read_whole(&path).unwrap();
     let all = scenario.with_faults_of_names(faults).codes();
     assert_eq!(all, ["strips::unknown_type", "strips::cost", "strips::unknown_object"]);
+}
+
+/// Several objects of one declaration share their type, and its fault.
+#[test]
+fn a_fault_of_one_place_is_told_once() {
+    let problem = GRIPPER.1.replace("ra rb - room", "ra rb - rom");
+    assert!(
+        told(pddl(GRIPPER.0, &problem)).lines().filter(|line| line.contains("rom")).count() == 1
+    );
 }
 
 // ─── Plans as text ───
@@ -388,6 +394,47 @@ fn broken_plans_are_told_with_all_that_means_nothing() {
 
 // ─── PDDL of strangers ───
 
+/// A domain and a problem in Latin letters, words of which were dropped, doubled, exchanged or misspelt: what is told
+/// of them in English has no other letters, and a place wherever it has one in Russian.
+#[test]
+fn faults_of_spoilt_pddl_are_english_where_english_is_asked_for() {
+    let mut random = Random::new(7);
+    let mut codes = std::collections::BTreeSet::new();
+    let spoil = |text: &str, random: &mut Random| {
+        let text = text.replace('(', " ( ").replace(')', " ) ");
+        let mut words: Vec<String> = text.split_whitespace().map(str::to_owned).collect();
+        for _ in 0..=random.below(3) {
+            let (at, other) = (random.below(words.len()), random.below(words.len()));
+            match random.below(6) {
+                0 => drop(words.remove(at)),
+                1 => words.insert(at, words[other].clone()),
+                2 => words.swap(at, other),
+                3 => words[at].push('x'),
+                4 => words.insert(at, [")", "(", "or", "-7", "(when", "?u", "$"][other % 7].into()),
+                _ => words[at] = words[other].clone(),
+            }
+        }
+        words.join(" ")
+    };
+    for _ in 0..2000 {
+        let (domain, problem) = (spoil(GRIPPER.0, &mut random), spoil(GRIPPER.1, &mut random));
+        let Err(faults) = pddl(&domain, &problem) else { continue };
+        for fault in &faults.0 {
+            let english = EnglishFault(fault);
+            let labels = english.labels().into_iter().flatten();
+            let labels: Vec<String> = labels.filter_map(|l| l.label().map(str::to_owned)).collect();
+            let help = english.help().map(|help| help.to_string());
+            let told = format!("{english} {help:?} {labels:?}");
+            assert!(!told.chars().any(|c| matches!(c, 'а'..='я' | 'А'..='Я')), "{told}");
+            assert_eq!(help.is_some(), fault.help().is_some(), "{told}");
+            let places = fault.labels().into_iter().flatten().count();
+            assert_eq!(labels.len(), places, "{told}");
+        }
+        codes.extend(faults.codes());
+    }
+    assert!(codes.len() >= 15, "{codes:?}");
+}
+
 #[test]
 fn an_empty_goal_holds_and_a_missing_one_is_a_fault() {
     let goal = |goal: &str| {
@@ -418,7 +465,7 @@ fn what_is_beyond_is_refused_by_name_and_place_with_a_way_round() {
         assert_ne!(domain, GRIPPER.0);
         let faults = pddl(&domain, GRIPPER.1).unwrap_err();
         let fault = &faults.0[0];
-        let help = miette::Diagnostic::help(fault).unwrap().to_string();
+        let help = fault.help().unwrap().to_string();
         assert_eq!(faults.codes(), ["strips::unsupported"], "{faults}");
         (fault.error.to_string(), help)
     };

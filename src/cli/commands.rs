@@ -190,7 +190,7 @@ pub(super) fn perform(
     if let Some(from) = from {
         engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
-    super::plan::warn(&engine.rules().warnings);
+    super::plan::warn(&engine.rules().warnings, common.lang);
     let answer = super::demo::perform(common, &mut engine, task)?;
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;

@@ -7,6 +7,7 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, SourceCode};
 use serde::Serialize;
 
 use crate::engine::{Error, RequestError};
+use crate::strips::EnglishFaults;
 
 use super::args::Lang;
 
@@ -57,16 +58,24 @@ impl Failure {
                 ExitCode::from(3)
             }
             Self::Engine(error) => {
+                let english;
+                let shown: &dyn Diagnostic = match (error.as_ref(), lang) {
+                    (Error::Rules(faults), Lang::En) => {
+                        english = EnglishFaults::from(faults);
+                        &english
+                    }
+                    (error, _) => error,
+                };
                 if as_json {
                     let mut leaves = Vec::new();
-                    gather(error.as_ref(), None, &mut leaves);
+                    gather(shown, None, &mut leaves);
                     let faults: Vec<FaultView> = leaves.iter().map(view).collect();
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
                     println!("{view}");
                 } else {
                     match error.english().filter(|_| lang == Lang::En) {
                         Some(text) => eprintln!("  × {text}"),
-                        None => eprint!("{}", drawn(error.as_ref())),
+                        None => eprint!("{}", drawn(shown)),
                     }
                 }
                 ExitCode::from(if error.is_input() { 2 } else { 3 })

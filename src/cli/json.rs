@@ -111,6 +111,7 @@ pub(super) fn replayed(replayed: &Replayed) -> Value {
                 json!({
                     "code": code,
                     "message": fault.error.to_string(),
+                    "message_en": fault.error.english(),
                     "line": place.map(|(_, line, _)| line),
                     "column": place.map(|(_, _, column)| column),
                 })

@@ -7,7 +7,7 @@ use crate::engine::{
 };
 use crate::graphplan::{Limits, Outcome, Plan};
 use crate::language::Language;
-use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
+use crate::strips::{EnglishFault, PlanText, RuleFault, RuleFaults, Scenario};
 
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
@@ -47,7 +47,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         };
         (replanned.after, warnings, told)
     };
-    warn(&warnings);
+    warn(&warnings, common.lang);
     if let (Some(path), Outcome::Plan(plan)) = (&args.out, &solved.outcome) {
         let text = PlanText::write(&solved.task, &plan.steps);
         std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
@@ -111,7 +111,7 @@ fn read(common: &Common, args: &PlanArgs) -> Result<(Scenario, Option<Engine>), 
 
 fn check(common: &Common, scenario: &Scenario, plan: &Path) -> Result<Answer, Failure> {
     let plan = PlanText::read(plan)?;
-    warn(&scenario.warnings);
+    warn(&scenario.warnings, common.lang);
     let replayed = check_plan_alone(scenario, &plan)?;
     if common.json {
         say(&json::replayed(&replayed).to_string())?;
@@ -122,8 +122,14 @@ fn check(common: &Common, scenario: &Scenario, plan: &Path) -> Result<Answer, Fa
 }
 
 /// Harmless faults of rule files go to standard error.
-pub(super) fn warn(warnings: &[RuleFault]) {
+pub(super) fn warn(warnings: &[RuleFault], lang: Lang) {
     for warning in warnings {
-        note(drawn(warning).trim_end());
+        note(
+            match lang {
+                Lang::Ru => drawn(warning),
+                Lang::En => drawn(&EnglishFault(warning)),
+            }
+            .trim_end(),
+        );
     }
 }

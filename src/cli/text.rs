@@ -11,7 +11,9 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::words::english;
 use crate::map::Entity;
-use crate::strips::{Broken, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording};
+use crate::strips::{
+    Broken, EnglishFault, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording,
+};
 use crate::units::capitalized;
 
 use super::args::Lang;
@@ -177,12 +179,9 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
 }
 
 fn reasons(faults: &RuleFaults, lang: Lang) -> String {
-    let told = |fault: &RuleFault| match (fault.error.english(), fault.position(), lang) {
-        (Some(text), Some((file, line, column)), Lang::En) => {
-            format!("\n      {file}:{line}:{column}: {text}")
-        }
-        (Some(text), None, Lang::En) => format!("\n      {text}"),
-        _ => format!("\n      {fault}"),
+    let told = |fault: &RuleFault| match lang {
+        Lang::Ru => format!("\n      {fault}"),
+        Lang::En => format!("\n      {}", EnglishFault(fault)),
     };
     faults.0.iter().map(told).collect()
 }

@@ -13,10 +13,10 @@ use super::domain::{
     SchemaCost, SchemaTerm,
 };
 use super::error::{Place, RuleError, RuleFault};
-use super::phrase::{Part, Phrase, Phrases};
+use super::phrase::phrases;
 use super::slip::atom_of;
 use super::syntax::{ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Term};
-use crate::units::{name_key, nearest_name};
+use crate::units::{Bilingual, Language, name_key, nearest_name};
 
 /// The rules of a document. Faults are appended; what could be read is returned all the same.
 pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
@@ -39,14 +39,28 @@ pub(super) fn domain(document: &Document, faults: &mut Vec<RuleFault>) -> Domain
     domain
 }
 
-pub(super) fn hint<'a>(wanted: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
+pub(super) fn hint<'a>(
+    wanted: &str,
+    known: impl IntoIterator<Item = &'a str>,
+) -> Option<Bilingual> {
     nearest_name(wanted, known).map(|near| {
         if looks_the_same(near, wanted) {
-            format!("может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов")
+            Bilingual::new(
+                format!(
+                    "может быть, «{near}»? буквы выглядят одинаково, но взяты из разных алфавитов"
+                ),
+                format!(
+                    "perhaps “{near}”? the letters look the same, but are of different alphabets"
+                ),
+            )
         } else {
-            format!("может быть, «{near}»?")
+            perhaps(near)
         }
     })
+}
+
+pub(super) fn perhaps(near: &str) -> Bilingual {
+    Bilingual::new(format!("может быть, «{near}»?"), format!("perhaps “{near}”?"))
 }
 
 /// Whether two names differ only in the alphabet of letters that look alike, as В and B.
@@ -140,8 +154,16 @@ impl Checker<'_> {
     fn kind(&mut self, name: &Name) -> Option<KindId> {
         let found = self.domain.kind(&name.text);
         if found.is_none() {
-            let help = hint(&name.text, self.domain.kinds.iter().map(|k| k.name.as_str()))
-                .or_else(|| Some("объявите тип в разделе «Типы»".to_owned()));
+            let help =
+                hint(&name.text, self.domain.kinds.iter().map(|k| k.name.as_str())).or_else(|| {
+                    Some(
+                        (
+                            "объявите тип в разделе «Типы»",
+                            "declare the type under “Types:” (PDDL: :types)",
+                        )
+                            .into(),
+                    )
+                });
             self.faults.push(name.fault(|at| RuleError::UnknownType {
                 name: name.text.clone(),
                 help,
@@ -187,7 +209,10 @@ impl Checker<'_> {
                     name: name.text.clone(),
                     found,
                     earlier,
-                    help: format!("оставьте одно из двух{elsewhere}"),
+                    help: Bilingual::new(
+                        format!("оставьте одно из двух{}", elsewhere.say(Language::Russian)),
+                        format!("keep one of the two{}", elsewhere.say(Language::English)),
+                    ),
                     at,
                     first,
                 }));
@@ -215,12 +240,17 @@ impl Checker<'_> {
                 name: name.text.clone(),
                 expected,
                 found: atom.args.len(),
-                help: format!("в «:functions» у «{}» аргументов {expected}", name.text),
+                help: Bilingual::new(
+                    format!("в «:functions» у «{}» аргументов {expected}", name.text),
+                    format!("in :functions “{}” has so many: {expected}", name.text),
+                ),
                 at,
             })),
             None => {
-                let help = hint(&name.text, self.functions.keys().map(String::as_str))
-                    .or_else(|| Some("объявите её в «:functions»".to_owned()));
+                let help =
+                    hint(&name.text, self.functions.keys().map(String::as_str)).or_else(|| {
+                        Some(("объявите её в «:functions»", "declare it in :functions").into())
+                    });
                 self.faults.push(name.fault(|at| RuleError::UnknownFunction {
                     name: name.text.clone(),
                     help,
@@ -234,7 +264,7 @@ impl Checker<'_> {
         for signature in &document.predicates {
             if let Some(known) = self.domain.predicate(&signature.name.text) {
                 let first = self.domain.introduced.get(&known).cloned();
-                self.duplicate("предикат", &signature.name, first);
+                self.duplicate(("предикат", "the predicate"), &signature.name, first);
                 continue;
             }
             let args = signature.args.iter().map(|kinds| self.kind_set(kinds)).collect();
@@ -243,9 +273,14 @@ impl Checker<'_> {
         }
     }
 
-    fn duplicate(&mut self, what: &'static str, name: &Name, first: Option<Place>) {
-        let (first, elsewhere) = first.map_or((None, String::new()), |first| places(&first, name));
-        let help = format!("переименуйте или уберите одно из двух{elsewhere}");
+    fn duplicate(&mut self, what: (&'static str, &'static str), name: &Name, first: Option<Place>) {
+        let (first, elsewhere) =
+            first.map_or((None, Bilingual::new("", "")), |first| places(&first, name));
+        let help = Bilingual::new(
+            format!("переименуйте или уберите одно из двух{}", elsewhere.say(Language::Russian)),
+            format!("rename or remove one of the two{}", elsewhere.say(Language::English)),
+        );
+        let what = what.into();
         let name_text = name.text.clone();
         let error = |at| RuleError::Duplicate { what, name: name_text, help, at, first };
         self.faults.push(name.fault(error));
@@ -319,7 +354,7 @@ impl Checker<'_> {
     fn schema(&mut self, action: &ActionText) {
         let name = &action.name;
         if let Some(first) = self.actions.get(&name.key()).cloned() {
-            self.duplicate("действие", name, Some(first));
+            self.duplicate(("действие", "the action"), name, Some(first));
             return;
         }
         self.actions.insert(name.key(), name.at.clone());
@@ -330,7 +365,11 @@ impl Checker<'_> {
             let variable = &parameter.variable;
             if scope.insert(variable.key(), (parameters.len() as u32, kinds.clone())).is_some() {
                 let known = action.parameters.iter().find(|p| p.variable.key() == variable.key());
-                self.duplicate("параметр", variable, known.map(|p| p.variable.at.clone()));
+                self.duplicate(
+                    ("параметр", "the parameter"),
+                    variable,
+                    known.map(|p| p.variable.at.clone()),
+                );
             }
             parameters.push(kinds);
         }
@@ -425,7 +464,15 @@ impl Checker<'_> {
         let name = &atom.predicate;
         let Some(predicate) = self.domain.predicate(&name.text) else {
             let help = hint(&name.text, self.domain.predicates.iter().map(|p| p.name.as_str()))
-                .or_else(|| Some("объявите его в разделе «Предикаты»".to_owned()));
+                .or_else(|| {
+                    Some(
+                        (
+                            "объявите его в разделе «Предикаты»",
+                            "declare it under “Predicates:” (PDDL: :predicates)",
+                        )
+                            .into(),
+                    )
+                });
             let error = |at| RuleError::UnknownPredicate { name: name.text.clone(), help, at };
             self.faults.push(name.fault(error));
             let _ = self.terms(action, scope, atom);
@@ -492,7 +539,9 @@ impl Checker<'_> {
         let Some((index, declared)) = scope.get(&term.name.key()) else {
             let help =
                 hint(&term.name.text, action.parameters.iter().map(|p| p.variable.text.as_str()))
-                    .or_else(|| Some("добавьте её в «Параметры»".to_owned()));
+                    .or_else(|| {
+                        Some(("добавьте её в «Параметры»", "add it to the parameters").into())
+                    });
             self.faults.push(term.name.fault(|at| RuleError::UndeclaredVariable {
                 action: action.name.text.clone(),
                 variable: term.name.text.clone(),
@@ -530,9 +579,10 @@ impl Checker<'_> {
         }
         let marked = format!("?{}", name.key());
         let help = match action.parameters.iter().find(|p| p.variable.key() == marked) {
-            Some(parameter) => Some(format!("может быть, «{}»?", parameter.variable.text)),
-            None => hint(&name.text, known.values().map(|(name, _)| name.as_str()))
-                .or_else(|| Some("объявите его в «:constants»".to_owned())),
+            Some(parameter) => Some(perhaps(&parameter.variable.text)),
+            None => hint(&name.text, known.values().map(|(name, _)| name.as_str())).or_else(|| {
+                Some(("объявите его в «:constants»", "declare it in :constants").into())
+            }),
         };
         self.faults.push(name.fault(|at| RuleError::UnknownObject {
             name: name.text.clone(),
@@ -541,30 +591,31 @@ impl Checker<'_> {
         }));
     }
 
-    fn signature(&self, predicate: PredicateId) -> String {
+    fn signature(&self, predicate: PredicateId) -> Bilingual {
         self.domain.signature(predicate)
     }
 }
 
 impl Domain {
     /// `ДВЕРЬ_НАХОДИТСЯ-В_(дверь, помещение)`, for messages.
-    pub(super) fn signature(&self, predicate: PredicateId) -> String {
+    pub(super) fn signature(&self, predicate: PredicateId) -> Bilingual {
         let Predicate { name, args } = &self.predicates[predicate.index()];
-        let args: Vec<String> =
-            args.iter()
-                .map(|kinds| {
-                    if kinds.is_empty() {
-                        "объект".to_owned()
-                    } else {
-                        self.kind_names(kinds)
-                    }
+        let told = |language: Language| {
+            let args: Vec<String> = args
+                .iter()
+                .map(|kinds| match kinds.is_empty() {
+                    true => language.pick("объект", "object").to_owned(),
+                    false => self.kind_names(kinds).say(language).to_owned(),
                 })
                 .collect();
-        let place = self.introduced.get(&predicate).map_or_else(String::new, |place| {
-            let (line, column) = place.position();
-            format!(", как здесь: {}:{line}:{column}", place.source.name())
-        });
-        format!("запись: {name}_({}){place}", args.join(", "))
+            let place = self.introduced.get(&predicate).map_or_else(String::new, |place| {
+                let (line, column) = place.position();
+                let here = language.pick("как здесь", "as here");
+                format!(", {here}: {}:{line}:{column}", place.source.name())
+            });
+            format!("{}: {name}_({}){place}", language.pick("запись", "written"), args.join(", "))
+        };
+        Bilingual::new(told(Language::Russian), told(Language::English))
     }
 }
 
@@ -595,91 +646,13 @@ fn arities(document: &Document) -> HashMap<String, usize> {
 }
 
 /// The first place as a second label; where it stands in another text, in words.
-fn places(first: &Place, second: &Name) -> (Option<SourceSpan>, String) {
+fn places(first: &Place, second: &Name) -> (Option<SourceSpan>, Bilingual) {
     if first.source.name() == second.at.source.name() {
-        return (Some(first.span), String::new());
+        return (Some(first.span), Bilingual::new("", ""));
     }
     let (line, column) = first.position();
-    (None, format!("; первый раз – {}:{line}:{column}", first.source.name()))
-}
-
-/// How the document says its predicates, actions and types in words.
-fn phrases(document: &Document, domain: &Domain, faults: &mut Vec<RuleFault>) -> Phrases {
-    let mut phrases = Phrases::default();
-    for text in &document.phrases {
-        let (name, key) = (&text.name, name_key(text.name.text.trim_end_matches('_')));
-        let vocabulary = phrases.of_mut(text.language);
-        let schema = domain.schemas.iter().find(|schema| name_key(&schema.name) == key);
-        let predicate = domain.predicate(&name.text);
-        let Some(parameters) = &text.parameters else {
-            if domain.kind(&name.text).is_some() {
-                vocabulary.kinds.insert(key, text.phrase.text.clone());
-            } else {
-                let help = hint(&name.text, domain.kinds.iter().map(|kind| kind.name.as_str()));
-                let name = name.text.clone();
-                let error = |at| RuleError::UnknownType { name, help, at };
-                faults.push(text.name.fault(error));
-            }
-            continue;
-        };
-        let (expected, help) = match (predicate, schema) {
-            (Some(id), _) => (domain.predicates[id.index()].args.len(), domain.signature(id)),
-            (None, Some(schema)) => {
-                let names = schema.parameter_names.join(", ");
-                (schema.parameters.len(), format!("запись: {}_({names})", schema.name))
-            }
-            (None, None) => {
-                let predicates = domain.predicates.iter().map(|p| p.name.as_str());
-                let known = predicates.chain(domain.schemas.iter().map(|s| s.name.as_str()));
-                let help = hint(&name.text, known);
-                let name = name.text.clone();
-                let error = |at| RuleError::UnknownPredicate { name, help, at };
-                faults.push(text.name.fault(error));
-                continue;
-            }
-        };
-        if expected != parameters.len() {
-            let (found, of) = (parameters.len(), name.text.clone());
-            let error = |at| RuleError::Arity { name: of, expected, found, help, at };
-            faults.push(name.fault(error));
-            continue;
-        }
-        let Some(phrase) = phrase(&text.phrase, parameters, faults) else { continue };
-        if predicate.is_some() {
-            vocabulary.facts.insert((key, text.negated), phrase);
-        } else {
-            vocabulary.actions.insert(key, phrase);
-        }
-    }
-    phrases
-}
-
-/// A phrase cut at its variables; none when one of them is no parameter.
-fn phrase(text: &Name, parameters: &[Name], faults: &mut Vec<RuleFault>) -> Option<Phrase> {
-    let is_of_name = |c: char| c.is_alphanumeric() || c == '_' || c == '-';
-    let mut parts = Vec::new();
-    let mut rest = text.text.as_str();
-    while let Some(mark) = rest.find('?') {
-        let after = &rest[mark + 1..];
-        let end = after.find(|c| !is_of_name(c)).unwrap_or(after.len());
-        if end == 0 {
-            parts.push(Part::Text(rest[..=mark].to_owned()));
-            rest = after;
-            continue;
-        }
-        let variable = &rest[mark..mark + 1 + end];
-        let Some(number) = parameters.iter().position(|p| p.key() == name_key(variable)) else {
-            let help = hint(variable, parameters.iter().map(|p| p.text.as_str()));
-            let variable = variable.to_owned();
-            faults.push(text.fault(|at| RuleError::PhraseVariable { variable, help, at }));
-            return None;
-        };
-        parts.push(Part::Text(rest[..mark].to_owned()));
-        parts.push(Part::Argument(number));
-        rest = &after[end..];
-    }
-    parts.push(Part::Text(rest.to_owned()));
-    Some(Phrase(parts))
+    let at = format!("{}:{line}:{column}", first.source.name());
+    (None, Bilingual::new(format!("; первый раз – {at}"), format!("; the first time at {at}")))
 }
 
 /// An atom as a person would write it.

@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::error::Place;
 use super::phrase::Phrases;
-use crate::units::name_key;
+use crate::units::{Bilingual, name_key};
 
 macro_rules! indices {
     ($($(#[$doc:meta])* $name:ident),+ $(,)?) => {$(
@@ -161,9 +161,12 @@ impl Domain {
         have.iter().any(|&kind| wanted.iter().any(|&ancestor| self.inherits(kind, ancestor)))
     }
 
-    pub(super) fn kind_names(&self, kinds: &[KindId]) -> String {
-        let names: Vec<&str> =
-            kinds.iter().map(|kind| self.kinds[kind.index()].name.as_str()).collect();
-        names.join(" или ")
+    pub(super) fn kind_names(&self, kinds: &[KindId]) -> Bilingual {
+        let name = |kind: &KindId| self.kinds[kind.index()].name.as_str();
+        let english = |kind: &KindId| if *kind == ANY_KIND { "object" } else { name(kind) };
+        Bilingual::new(
+            kinds.iter().map(name).collect::<Vec<_>>().join(" или "),
+            kinds.iter().map(english).collect::<Vec<_>>().join(" or "),
+        )
     }
 }

@@ -5,7 +5,7 @@ use std::fmt;
 use miette::{Diagnostic, LabeledSpan, Severity, SourceCode, SourceSpan};
 use thiserror::Error;
 
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// A stretch of a text that was read.
 #[derive(Debug, Clone)]
@@ -28,7 +28,7 @@ pub enum RuleError {
     /// The file system refused.
     #[error("файл «{path}» не читается: {reason}")]
     #[diagnostic(code(strips::unreadable), help("проверьте путь и права доступа"))]
-    Unreadable { path: String, reason: String },
+    Unreadable { path: String, reason: Bilingual },
 
     /// Rubbish instead of UTF-8.
     #[error("файл «{path}» – не текст в UTF-8: байт {offset} не читается")]
@@ -69,8 +69,8 @@ pub enum RuleError {
     #[error("ожидается {expected}, а стоит {found}")]
     #[diagnostic(code(strips::syntax))]
     Syntax {
-        expected: String,
-        found: String,
+        expected: Bilingual,
+        found: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -81,7 +81,7 @@ pub enum RuleError {
     UnknownHeading {
         heading: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -116,7 +116,7 @@ pub enum RuleError {
     #[diagnostic(code(strips::unsupported), help("{help}"))]
     Unsupported {
         what: String,
-        help: &'static str,
+        help: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -140,7 +140,7 @@ pub enum RuleError {
     #[error("«(define …)» здесь закрыто, а дальше стоит {next}")]
     #[diagnostic(code(strips::early_end), help("уберите лишнюю «)» здесь или раньше"))]
     EarlyEnd {
-        next: String,
+        next: Bilingual,
         #[label("закрыто здесь")]
         at: SourceSpan,
     },
@@ -152,7 +152,7 @@ pub enum RuleError {
         fact: String,
         is_fact: bool,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -163,7 +163,7 @@ pub enum RuleError {
     UnknownType {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -183,7 +183,7 @@ pub enum RuleError {
     UnknownPredicate {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -195,17 +195,17 @@ pub enum RuleError {
         name: String,
         action: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
 
     /// A parent that is declared nowhere and differs from a declared type by a slip of the pen.
     #[error("тип «{name}» не объявлен – не описка ли это?")]
-    #[diagnostic(code(strips::lonely_type), severity(Warning), help("может быть, «{near}»?"))]
+    #[diagnostic(code(strips::lonely_type), severity(Warning), help("{help}"))]
     LonelyType {
         name: String,
-        near: String,
+        help: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -216,7 +216,7 @@ pub enum RuleError {
     UnknownFunction {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -257,7 +257,7 @@ pub enum RuleError {
         name: String,
         expected: usize,
         found: usize,
-        help: String,
+        help: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -269,7 +269,7 @@ pub enum RuleError {
         action: String,
         variable: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -287,9 +287,9 @@ pub enum RuleError {
     #[error("{what} «{name}»: второе объявление")]
     #[diagnostic(code(strips::duplicate), help("{help}"))]
     Duplicate {
-        what: &'static str,
+        what: Bilingual,
         name: String,
-        help: String,
+        help: Bilingual,
         #[label("второй раз – здесь")]
         at: SourceSpan,
         #[label("первый раз – здесь")]
@@ -301,9 +301,9 @@ pub enum RuleError {
     #[diagnostic(code(strips::object_twice), help("{help}"))]
     ObjectTwice {
         name: String,
-        found: String,
-        earlier: String,
-        help: String,
+        found: Bilingual,
+        earlier: Bilingual,
+        help: Bilingual,
         #[label("второй раз – здесь")]
         at: SourceSpan,
         #[label("первый раз – здесь")]
@@ -316,7 +316,7 @@ pub enum RuleError {
     PhraseVariable {
         variable: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -356,10 +356,10 @@ pub enum RuleError {
     ArgumentType {
         name: String,
         number: usize,
-        expected: String,
+        expected: Bilingual,
         term: String,
-        found: String,
-        help: String,
+        found: Bilingual,
+        help: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -369,7 +369,7 @@ pub enum RuleError {
     #[diagnostic(code(strips::variable_type), help("назовите тип так же, как в «Параметры»"))]
     VariableType {
         variable: String,
-        declared: String,
+        declared: Bilingual,
         found: String,
         #[label("здесь")]
         at: SourceSpan,
@@ -381,7 +381,7 @@ pub enum RuleError {
     UnknownObject {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -394,8 +394,8 @@ pub enum RuleError {
     )]
     ObjectType {
         name: String,
-        found: String,
-        earlier: String,
+        found: Bilingual,
+        earlier: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -425,7 +425,7 @@ pub enum RuleError {
     )]
     Include {
         path: String,
-        reason: String,
+        reason: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -461,7 +461,7 @@ pub enum RuleError {
     UnknownAction {
         name: String,
         #[help]
-        help: Option<String>,
+        help: Option<Bilingual>,
         #[label("здесь")]
         at: SourceSpan,
     },
@@ -471,7 +471,7 @@ pub enum RuleError {
     #[diagnostic(code(strips::wrong_object))]
     WrongObject {
         name: String,
-        expected: String,
+        expected: Bilingual,
         #[label("здесь")]
         at: SourceSpan,
     },

@@ -12,7 +12,7 @@ use super::rule_text;
 use super::slip::slips;
 use super::syntax::{CostTerm, Document, Name};
 use super::task::Task;
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// No rule file that a person wrote is longer.
 pub const MAX_FILE_BYTES: u64 = 16 << 20;
@@ -152,8 +152,9 @@ impl Scenario {
     }
 }
 
-/// Text by text as they were first spoken of, and from the head of each to its end.
-fn in_order_of_texts(faults: &mut [RuleFault]) {
+/// Text by text as they were first spoken of, and from the head of each to its end; what is told twice of one place,
+/// such as the type that several objects share, once.
+fn in_order_of_texts(faults: &mut Vec<RuleFault>) {
     let mut texts: Vec<String> = Vec::new();
     for (name, ..) in faults.iter().filter_map(RuleFault::position) {
         if !texts.iter().any(|known| known == name) {
@@ -163,6 +164,9 @@ fn in_order_of_texts(faults: &mut [RuleFault]) {
     faults.sort_by_cached_key(|fault| {
         let (name, line, column) = fault.position()?;
         Some((texts.iter().position(|known| known == name), line, column))
+    });
+    faults.dedup_by(|later, earlier| {
+        later.error == earlier.error && later.position() == earlier.position()
     });
 }
 
@@ -185,9 +189,11 @@ pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
     let shown = path.display().to_string();
     let refused = |error: std::io::Error| {
         let reason = match error.kind() {
-            std::io::ErrorKind::NotFound => "такого файла нет".to_owned(),
-            std::io::ErrorKind::PermissionDenied => "нет прав на чтение".to_owned(),
-            _ => error.to_string(),
+            std::io::ErrorKind::NotFound => ("такого файла нет", "there is no such file").into(),
+            std::io::ErrorKind::PermissionDenied => {
+                ("нет прав на чтение", "there is no permission to read it").into()
+            }
+            _ => Bilingual::new(error.to_string(), error.to_string()),
         };
         RuleFault::placeless(RuleError::Unreadable { path: shown.clone(), reason })
     };
@@ -251,7 +257,7 @@ impl Loader {
                     path: include.text.clone(),
                     reason: match *fault.error {
                         RuleError::Unreadable { reason, .. } => reason,
-                        other => other.to_string(),
+                        other => Bilingual::new(other.to_string(), other.english()),
                     },
                     at,
                 })),

@@ -17,7 +17,7 @@ use super::rule_text::MAX_COST;
 use super::syntax::{
     ActionText, Atom, Condition, CostTerm, Declaration, Document, Name, Parameter, Signature, Term,
 };
-use crate::units::{Source, name_key};
+use crate::units::{Bilingual, Source, name_key};
 
 /// No file of a person nests deeper.
 const MAX_DEPTH: usize = 200;
@@ -112,7 +112,7 @@ pub(super) fn read(source: &Source, document: &mut Document, faults: &mut Faults
             ended = true;
             read(&mut reader, expression);
         } else {
-            reader.expected("(define …)", expression.span());
+            reader.expected(("«(define …)»", "“(define …)”"), expression.span());
         }
     }
     if ended {
@@ -164,8 +164,8 @@ pub(super) fn expressions(source: &Source) -> (Vec<Expression<'_>>, Vec<RuleFaul
                 Some((from, items)) => Some(Expression::List(items, (from, end - from).into())),
                 None => {
                     let error = RuleError::Syntax {
-                        expected: "«(»".to_owned(),
-                        found: "«)»".to_owned(),
+                        expected: Bilingual::quoted("("),
+                        found: Bilingual::quoted(")"),
                         at: (start, 1).into(),
                     };
                     faults.push(RuleFault::new(source, error));
@@ -276,7 +276,7 @@ impl Reader<'_> {
             Some("problem" | ":length") => {}
             Some(":requirements") => self.requirements(&items[1..]),
             Some(other) => self.unsupported(other, section.head_span()),
-            None => self.expected("раздел «(:…)»", section.span()),
+            None => self.expected(("раздел «(:…)»", "a section “(:…)”"), section.span()),
         }
     }
 
@@ -343,7 +343,7 @@ impl Reader<'_> {
     fn action(&mut self, section: &Expression<'_>) {
         let items = section.items();
         let Some(Expression::Word(name, span)) = items.get(1) else {
-            return self.expected("имя действия", section.span());
+            return self.expected(("имя действия", "the name of an action"), section.span());
         };
         let mut action = ActionText {
             name: Name::new(name, self.source, *span),
@@ -356,11 +356,17 @@ impl Reader<'_> {
         let mut rest = items[2..].iter();
         while let Some(key) = rest.next() {
             let Expression::Word(word, span) = key else {
-                self.expected(":parameters, :precondition или :effect", key.span());
+                self.expected(
+                    (
+                        ":parameters, :precondition или :effect",
+                        ":parameters, :precondition or :effect",
+                    ),
+                    key.span(),
+                );
                 continue;
             };
             let Some(body) = rest.next() else {
-                self.expected("выражение в скобках", *span);
+                self.expected(("выражение в скобках", "an expression in brackets"), *span);
                 continue;
             };
             match word.to_lowercase().as_str() {
@@ -369,7 +375,10 @@ impl Reader<'_> {
                         if name.text.starts_with('?') {
                             action.parameters.push(Parameter { kinds, variable: name });
                         } else {
-                            self.expected("переменная вида «?x»", name.at.span);
+                            self.expected(
+                                ("переменная вида «?x»", "a variable such as “?x”"),
+                                name.at.span,
+                            );
                         }
                     }
                 }
@@ -414,7 +423,7 @@ impl Reader<'_> {
                 }
             }
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
-            None => self.expected("условие в скобках", part.span()),
+            None => self.expected(("условие в скобках", "a condition in brackets"), part.span()),
         }
     }
 
@@ -443,7 +452,7 @@ impl Reader<'_> {
             }
             Some(_) => action.add.extend(self.atom(part)),
             None if matches!(part, Expression::List(items, _) if items.is_empty()) => {}
-            None => self.expected("эффект в скобках", part.span()),
+            None => self.expected(("эффект в скобках", "an effect in brackets"), part.span()),
         }
     }
 
@@ -498,7 +507,7 @@ impl Reader<'_> {
                 Some((Name::new(name, self.source, *span), rest))
             }
             _ => {
-                self.expected("«(имя аргументы…)»", expression.span());
+                self.expected(("«(имя аргументы…)»", "“(name arguments…)”"), expression.span());
                 None
             }
         }
@@ -512,7 +521,10 @@ impl Reader<'_> {
                 is_variable: word.starts_with('?'),
             }),
             Expression::List(..) => {
-                self.expected("переменная или объект", expression.span());
+                self.expected(
+                    ("переменная или объект", "a variable or an object"),
+                    expression.span(),
+                );
                 None
             }
         }
@@ -527,7 +539,7 @@ impl Reader<'_> {
             match item {
                 Expression::Word("-", span) => {
                     let Some(kind) = items.next() else {
-                        self.expected("тип после «-»", *span);
+                        self.expected(("тип после «-»", "a type after “-”"), *span);
                         break;
                     };
                     let words = match kind {
@@ -536,7 +548,10 @@ impl Reader<'_> {
                             &items[1..]
                         }
                         Expression::List(_, span) => {
-                            self.expected("тип или «(either …)»", *span);
+                            self.expected(
+                                ("тип или «(either …)»", "a type or “(either …)”"),
+                                *span,
+                            );
                             continue;
                         }
                     };
@@ -561,50 +576,75 @@ impl Reader<'_> {
                         declarations.push(Declaration { name, kinds: Vec::new() });
                     }
                 }
-                Expression::List(_, span) => self.expected("имя", *span),
+                Expression::List(_, span) => self.expected(("имя", "a name"), *span),
             }
         }
         declarations
     }
 
-    fn expected(&mut self, expected: &str, at: SourceSpan) {
-        let (expected, found) = (expected.to_owned(), format!("«{}»", excerpt(self.source, at)));
+    fn expected(&mut self, expected: (&'static str, &'static str), at: SourceSpan) {
+        let (expected, found) = (expected.into(), Bilingual::quoted(&excerpt(self.source, at)));
         self.faults.push(RuleFault::new(self.source, RuleError::Syntax { expected, found, at }));
     }
 
     fn early_end(&mut self, define: SourceSpan, next: &Expression<'_>) {
-        let next = format!("«{}»", excerpt(self.source, next.head_span()));
+        let next = Bilingual::quoted(&excerpt(self.source, next.head_span()));
         let at = (define.offset() + define.len() - 1, 1).into();
         self.faults.push(RuleFault::new(self.source, RuleError::EarlyEnd { next, at }));
     }
 
     fn unsupported(&mut self, what: &str, at: SourceSpan) {
-        let help = way_round(what);
+        let help = way_round(what).into();
         let what: String = what.chars().take(40).collect();
         self.faults.push(RuleFault::new(self.source, RuleError::Unsupported { what, help, at }));
     }
 }
 
+const COSTS_ALONE: (&str, &str) = (
+    "числа читаются лишь как стоимость: (increase (total-cost) …)",
+    "numbers are read as costs alone: (increase (total-cost) …)",
+);
+
 /// How to say the same without what is not read.
-fn way_round(what: &str) -> &'static str {
+fn way_round(what: &str) -> (&'static str, &'static str) {
     match what {
-        "or" | "imply" => "запишите по действию на каждый случай",
-        "forall" => "перечислите объекты по одному или запишите по действию на каждый",
-        "exists" => "добавьте действию параметр вместо «exists»",
-        "when" => "разделите действие на два: где условие выполнено и где нет («not»)",
-        ":durative-action" => {
-            "времени в планах нет: запишите обычное «:action», длительность – как стоимость"
+        "or" | "imply" => {
+            ("запишите по действию на каждый случай", "write one action for each case")
         }
-        ":derived" => "запишите выведенное в «:init» или добавьте действие, которое его даёт",
-        "preference" | ":constraints" => "мягких целей нет: запишите в «:goal» то, что нужно",
-        "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => {
-            "числа читаются лишь как стоимость: (increase (total-cost) …)"
-        }
-        what if what.starts_with("(increase") => {
-            "числа читаются лишь как стоимость: (increase (total-cost) …)"
-        }
-        "and" => "отрицание перед каждым фактом отдельно: (not (…))",
-        _ => "читаются :strips :typing :negative-preconditions :equality :action-costs",
+        "forall" => (
+            "перечислите объекты по одному или запишите по действию на каждый",
+            "name the objects one by one, or write one action for each",
+        ),
+        "exists" => (
+            "добавьте действию параметр вместо «exists»",
+            "give the action one more parameter instead of “exists”",
+        ),
+        "when" => (
+            "разделите действие на два: где условие выполнено и где нет («not»)",
+            "divide the action in two: where the condition holds and where it does not (“not”)",
+        ),
+        ":durative-action" => (
+            "времени в планах нет: запишите обычное «:action», длительность – как стоимость",
+            "plans have no time: write a plain :action, and its duration as a cost",
+        ),
+        ":derived" => (
+            "запишите выведенное в «:init» или добавьте действие, которое его даёт",
+            "write what is derived into :init, or add an action that brings it about",
+        ),
+        "preference" | ":constraints" => (
+            "мягких целей нет: запишите в «:goal» то, что нужно",
+            "there are no soft goals: write into :goal what is needed",
+        ),
+        "<" | "<=" | ">" | ">=" | "assign" | "decrease" | "scale-up" | "scale-down" => COSTS_ALONE,
+        what if what.starts_with("(increase") => COSTS_ALONE,
+        "and" => (
+            "отрицание перед каждым фактом отдельно: (not (…))",
+            "a negation before each fact by itself: (not (…))",
+        ),
+        _ => (
+            "читаются :strips :typing :negative-preconditions :equality :action-costs",
+            ":strips :typing :negative-preconditions :equality :action-costs are read",
+        ),
     }
 }
 

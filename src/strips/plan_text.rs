@@ -11,7 +11,7 @@ use super::error::{RuleError, RuleFault, RuleFaults};
 use super::load::read_source;
 use super::pddl::{Expression, expressions};
 use super::task::{OperatorId, Task};
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 /// An action of a plan text and where it stands.
 #[derive(Debug, Clone)]
@@ -85,7 +85,7 @@ impl PlanText {
                     }
                     // `[1]`, the duration that some planners add.
                     _ if word.starts_with('[') && word.ends_with(']') => {}
-                    _ => faults.push(syntax(source, "«шаг: (действие объект …)»", word, at)),
+                    _ => faults.push(syntax(source, STEP, word, at)),
                 },
                 Expression::List(items, _) => {
                     let words: Option<Vec<String>> = items
@@ -102,7 +102,7 @@ impl PlanText {
                             let args_at = items[1..].iter().map(Expression::span).collect();
                             directives.push(Directive { step: 0, action, args, at, args_at });
                         }
-                        _ => faults.push(syntax(source, "«(действие объект …)»", "список", at)),
+                        _ => faults.push(syntax(source, ACTION, "(…)", at)),
                     }
                 }
             }
@@ -140,7 +140,15 @@ fn quoted(name: &str) -> String {
     }
 }
 
-fn syntax(source: &Source, expected: &str, found: &str, at: SourceSpan) -> RuleFault {
-    let found = format!("«{}»", found.chars().take(40).collect::<String>());
-    RuleFault::new(source, RuleError::Syntax { expected: expected.to_owned(), found, at })
+const STEP: (&str, &str) = ("«шаг: (действие объект …)»", "“step: (action object …)”");
+const ACTION: (&str, &str) = ("«(действие объект …)»", "“(action object …)”");
+
+fn syntax(
+    source: &Source,
+    expected: (&'static str, &'static str),
+    found: &str,
+    at: SourceSpan,
+) -> RuleFault {
+    let found = Bilingual::quoted(&found.chars().take(40).collect::<String>());
+    RuleFault::new(source, RuleError::Syntax { expected: expected.into(), found, at })
 }

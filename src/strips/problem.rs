@@ -9,7 +9,7 @@ use super::check::{hint, text_of};
 use super::domain::{Domain, PredicateId};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::phrase::{Said, SaidArgument};
-use super::rule_text::conditions;
+use super::rule_text::{PLAIN_FACT, conditions};
 use super::syntax::{Atom, Condition, Declaration, Document, Name};
 use crate::units::{Source, name_key};
 
@@ -192,7 +192,11 @@ impl Problem {
                     continue;
                 }
                 let help = hint(name, self.objects.iter().map(|o| o.name.as_str())).or_else(|| {
-                    Some("карта не знает такого имени; нового назовите в «Объекты»".to_owned())
+                    let known = (
+                        "карта не знает такого имени; нового назовите в «Объекты»",
+                        "the map knows no such name; name a new one under “Objects:”",
+                    );
+                    Some(known.into())
                 });
                 let name = name.clone();
                 let error = |at| RuleError::UnknownObject { name, help, at };
@@ -257,10 +261,8 @@ fn atom_key(predicate: &str) -> String {
 }
 
 fn no_plain_fact(at: miette::SourceSpan) -> RuleError {
-    let expected = "факт вида «ИМЯ_(объект, …)»".to_owned();
-    RuleError::Syntax {
-        expected, found: "отрицание или сравнение".to_owned(), at
-    }
+    let found = ("отрицание или сравнение", "a negation or a comparison");
+    RuleError::Syntax { expected: PLAIN_FACT.into(), found: found.into(), at }
 }
 
 fn check_ground(condition: &Condition, faults: &mut Vec<RuleFault>) {
@@ -295,8 +297,16 @@ impl Statement {
     pub(super) fn predicate(&self, domain: &Domain) -> Result<PredicateId, RuleFault> {
         let name = &self.predicate;
         let Some(predicate) = domain.predicate(name) else {
-            let help = hint(name, domain.predicates.iter().map(|p| p.name.as_str()))
-                .or_else(|| Some("правила не упоминают такого предиката".to_owned()));
+            let help =
+                hint(name, domain.predicates.iter().map(|p| p.name.as_str())).or_else(|| {
+                    Some(
+                        (
+                            "правила не упоминают такого предиката",
+                            "the rules have no such predicate",
+                        )
+                            .into(),
+                    )
+                });
             return Err(self.fault(|at| RuleError::UnknownPredicate {
                 name: name.clone(),
                 help,

@@ -5,14 +5,14 @@
 
 use std::collections::{BTreeMap, HashSet};
 
-use super::check::hint;
+use super::check::{hint, perhaps};
 use super::domain::{Domain, Schema, SchemaAtom, SchemaTerm};
 use super::error::{RuleError, RuleFault, RuleFaults};
 use super::ground::cost;
 use super::plan_text::{Directive, PlanText};
 use super::problem::Problem;
 use super::resolve::{GroundAtom, Resolved, ThingId};
-use crate::units::{Source, name_key, nearest_name};
+use crate::units::{Bilingual, Source, name_key, nearest_name};
 
 /// What came of carrying out a plan.
 #[derive(Debug, Clone)]
@@ -213,7 +213,7 @@ impl Replay<'_> {
                 &directive.action,
                 self.domain.schemas.iter().map(|s| s.name.as_str()),
             );
-            let help = near.map(|near| format!("может быть, «{near}»?"));
+            let help = near.map(perhaps);
             self.fault(RuleError::UnknownAction {
                 name: directive.action.clone(),
                 help,
@@ -225,12 +225,16 @@ impl Replay<'_> {
 
     fn args(&self, directive: &Directive, schema: &Schema) -> Result<Vec<ThingId>, RuleFaults> {
         if directive.args.len() != schema.parameters.len() {
+            let written = format!("({} {})", schema.name, schema.parameter_names.join(" "));
             return Err(self
                 .fault(RuleError::Arity {
                     name: schema.name.clone(),
                     expected: schema.parameters.len(),
                     found: directive.args.len(),
-                    help: format!("запись: ({} {})", schema.name, schema.parameter_names.join(" ")),
+                    help: Bilingual::new(
+                        format!("запись: {written}"),
+                        format!("written: {written}"),
+                    ),
                     at: directive.at,
                 })
                 .into());

@@ -275,7 +275,11 @@ impl Resolver<'_> {
 
     fn unknown_object(&self, name: &str) -> impl FnOnce(miette::SourceSpan) -> RuleError + use<> {
         let help = hint(name, self.things.iter().map(|thing| thing.name.as_str())).or_else(|| {
-            Some("ни факты, ни раздел «Объекты», ни карта не знают такого объекта".to_owned())
+            let nobody = (
+                "ни факты, ни раздел «Объекты», ни карта не знают такого объекта",
+                "neither the facts, nor “Objects:” (PDDL: :objects), nor the map know such an object",
+            );
+            Some(nobody.into())
         });
         let name = name.to_owned();
         move |at| RuleError::UnknownObject { name, help, at }

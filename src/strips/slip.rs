@@ -8,10 +8,10 @@
 
 use std::collections::BTreeMap;
 
-use super::check::{hint, looks_the_same};
+use super::check::{hint, looks_the_same, perhaps};
 use super::error::{RuleError, RuleFault};
 use super::syntax::{ActionText, Atom, Condition, Document, Name};
-use crate::units::name_key;
+use crate::units::{Bilingual, name_key};
 
 /// Where a predicate is spoken of.
 struct Uses<'a> {
@@ -53,8 +53,9 @@ pub(super) fn slips(
             let error = |at| RuleError::UnknownPredicate { name: name.clone(), help, at };
             faults.push(uses.first.fault(error));
         } else if let Some(near) = near {
-            let help = Some(format!(
-                "может быть, «{near}»? если нет, объявите предикаты в разделе «Предикаты»"
+            let help = Some(Bilingual::new(
+                format!("может быть, «{near}»? если нет, объявите предикаты в разделе «Предикаты»"),
+                format!("perhaps “{near}”? if not, declare the predicates under “Predicates:”"),
             ));
             let action = action.name.text.clone();
             let error = |at| RuleError::LonelyPredicate { name: name.clone(), action, help, at };
@@ -72,8 +73,8 @@ fn parents(document: &Document, warnings: &mut Vec<RuleFault>) {
             continue;
         }
         if let Some(near) = declared.values().find(|name| is_slip(&name.text, &parent.text)) {
-            let (name, near) = (parent.text.clone(), near.text.clone());
-            let error = |at| RuleError::LonelyType { name, near, at };
+            let (name, help) = (parent.text.clone(), perhaps(&near.text));
+            let error = |at| RuleError::LonelyType { name, help, at };
             warnings.push(parent.fault(error));
         }
     }

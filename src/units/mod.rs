@@ -10,6 +10,7 @@
 //! assert_eq!(door.apply(Point::new(10.0, 0.0)), Point::new(300.0, 10.0)); // exact, no 1e-15 left over
 //! ```
 
+mod bilingual;
 mod frame;
 mod id;
 mod language;
@@ -17,6 +18,7 @@ mod name;
 mod quantity;
 mod source;
 
+pub use bilingual::Bilingual;
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
 pub use language::Language;

@@ -4,10 +4,11 @@ use miette::SourceSpan;
 
 use super::heading::{HEADINGS, Heading};
 use super::{Parsed, Parser};
+use crate::strips::check::perhaps;
 use crate::strips::error::{RuleError, RuleFault};
 use crate::strips::syntax::Name;
 use crate::strips::token::TokenKind;
-use crate::units::{name_key, nearest_name};
+use crate::units::{Bilingual, name_key, nearest_name};
 
 /// What stands before a colon.
 pub(super) enum Ahead {
@@ -66,7 +67,7 @@ impl<'a> Parser<'a> {
             && self.kind_after(2) == Some(TokenKind::Colon)
     }
 
-    pub(super) fn name(&mut self, expected: &str) -> Parsed<Name> {
+    pub(super) fn name(&mut self, expected: (&'static str, &'static str)) -> Parsed<Name> {
         match self.kind() {
             Some(TokenKind::Word(_)) if self.heading_ahead().is_none() => Ok(self.take_name()),
             _ => Err(self.expected(expected)),
@@ -86,11 +87,15 @@ impl<'a> Parser<'a> {
         Name::new(if trimmed.is_empty() { text } else { trimmed }, self.source, token.span())
     }
 
-    pub(super) fn expected(&self, expected: &str) -> RuleFault {
+    pub(super) fn expected(&self, expected: (&'static str, &'static str)) -> RuleFault {
         self.expected_at(expected, self.here())
     }
 
-    pub(super) fn expected_at(&self, expected: &str, at: SourceSpan) -> RuleFault {
+    pub(super) fn expected_at(
+        &self,
+        expected: (&'static str, &'static str),
+        at: SourceSpan,
+    ) -> RuleFault {
         let found = match self.kind() {
             Some(TokenKind::Strange(signs)) => {
                 let sign = excerpt(signs);
@@ -101,11 +106,11 @@ impl<'a> Parser<'a> {
             }
             Some(_) => {
                 let token = self.tokens[self.next];
-                format!("«{}»", excerpt(&self.source.text()[token.start..token.end]))
+                Bilingual::quoted(&excerpt(&self.source.text()[token.start..token.end]))
             }
-            None => "конец файла".to_owned(),
+            None => ("конец файла", "the end of the file").into(),
         };
-        RuleFault::new(self.source, RuleError::Syntax { expected: expected.to_owned(), found, at })
+        RuleFault::new(self.source, RuleError::Syntax { expected: expected.into(), found, at })
     }
 
     pub(super) fn missing(&self, at: SourceSpan) -> RuleFault {
@@ -116,10 +121,13 @@ impl<'a> Parser<'a> {
         let at = self.advance();
         let near = nearest_name(heading, HEADINGS.iter().map(|&(name, _)| name));
         let help = Some(match near {
-            Some(near) => format!("может быть, «{near}»?"),
-            None => "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
-                     Типы, Предикаты, Объекты, Включить, Карта, По-английски"
-                .to_owned(),
+            Some(near) => perhaps(near),
+            None => Bilingual::new(
+                "разделы: Действие, Факты, Предположения, Исходная позиция, Целевая позиция, \
+                 Типы, Предикаты, Объекты, Включить, Карта, По-английски",
+                "sections: Action, Facts, Assumptions, Initial, Goal, Types, Predicates, Objects, \
+                 Include, Map, In English",
+            ),
         });
         RuleFault::new(
             self.source,

@@ -90,10 +90,10 @@ impl<'a> Parser<'a> {
                         self.part()
                     }
                     Some(Ahead::Unknown(heading)) => Err(self.unknown_heading(&heading)),
-                    _ => Err(self.expected_at("раздел: «Действие:», «Факты:» и так далее", open)),
+                    _ => Err(self.expected_at(SECTION, open)),
                 }
             }
-            None => Err(self.expected("раздел: «Действие:», «Факты:» и так далее")),
+            None => Err(self.expected(SECTION)),
         }
     }
 
@@ -144,7 +144,7 @@ impl<'a> Parser<'a> {
     }
 
     fn action(&mut self) -> Parsed<()> {
-        let name = self.name("имя действия")?;
+        let name = self.name(("имя действия", "the name of an action"))?;
         self.text.document.actions.push(ActionText {
             name,
             parameters: Vec::new(),
@@ -161,11 +161,17 @@ impl<'a> Parser<'a> {
         let opened = (self.kind() == Some(TokenKind::Open)).then(|| self.advance());
         let here = self.here();
         let Some(Ahead::Known(heading, length)) = self.heading_ahead() else {
-            return Err(self.expected("«Параметры:», «Предусловие:», «Эффект+:» или «Эффект-:»"));
+            return Err(self.expected((
+                "«Параметры:», «Предусловие:», «Эффект+:» или «Эффект-:»",
+                "“Parameters:”, “Precondition:”, “Effect+:” or “Effect-:”",
+            )));
         };
         self.next += length;
         if self.text.document.actions.is_empty() {
-            return Err(self.expected_at("«Действие: имя» перед его частями", here));
+            return Err(self.expected_at(
+                ("«Действие: имя» перед его частями", "“Action: name” before its parts"),
+                here,
+            ));
         }
         match heading {
             Heading::Parameters => {
@@ -197,7 +203,7 @@ impl<'a> Parser<'a> {
             }
             None => Err(self.missing(open)),
             _ if self.heading_ahead().is_some() || self.opens_part() => Err(self.missing(open)),
-            _ => Err(self.expected("«)» или следующий факт")),
+            _ => Err(self.expected(("«)» или следующий факт", "“)” or the next fact"))),
         }
     }
 
@@ -213,9 +219,12 @@ impl<'a> Parser<'a> {
                     self.advance();
                 }
                 Some(TokenKind::Word(_)) if self.heading_ahead().is_none() => {
-                    let kind = self.name("тип")?;
+                    let kind = self.name(("тип", "a type"))?;
                     let Some(TokenKind::Variable(_)) = self.kind() else {
-                        return Err(self.expected("переменная вида «?x» после типа"));
+                        return Err(self.expected((
+                            "переменная вида «?x» после типа",
+                            "a variable such as “?x” after the type",
+                        )));
                     };
                     parameters.push(Parameter { kinds: vec![kind], variable: self.take_name() });
                 }
@@ -243,7 +252,7 @@ impl<'a> Parser<'a> {
                 }
                 None | Some(TokenKind::Close) => return Ok(conditions),
                 Some(TokenKind::Open) if self.opens_part() => return Ok(conditions),
-                _ => return Err(self.expected("факт вида «ИМЯ_(объект, …)»")),
+                _ => return Err(self.expected(PLAIN_FACT)),
             }
         }
     }
@@ -268,8 +277,13 @@ impl<'a> Parser<'a> {
         let differs = match self.kind() {
             Some(TokenKind::Equal) => false,
             Some(TokenKind::NotEqual) => true,
-            _ if left.is_variable => return Err(self.expected("«=» или «≠»")),
-            _ => return Err(self.expected("«(» после имени предиката")),
+            _ if left.is_variable => return Err(self.expected(("«=» или «≠»", "“=” or “≠”"))),
+            _ => {
+                return Err(self.expected((
+                    "«(» после имени предиката",
+                    "“(” after the name of the predicate",
+                )));
+            }
         };
         self.advance();
         let right = self.term()?;
@@ -285,19 +299,24 @@ impl<'a> Parser<'a> {
                 Condition::Holds { atom, negated: false } => Ok(atom),
                 Condition::Holds { atom, .. } => {
                     Err(atom.predicate.fault(|at| RuleError::Syntax {
-                        expected: "факт без «НЕ»; то, что перестаёт быть верным, пишут в «Эффект-»"
+                        expected: (
+                            "факт без «НЕ»; то, что перестаёт быть верным, пишут в «Эффект-»",
+                            "a fact without “NOT”; what ceases to hold is written under “Effect-:”",
+                        )
                             .into(),
-                        found: "отрицание".into(),
+                        found: ("отрицание", "a negation").into(),
                         at,
                     }))
                 }
-                Condition::Equal { .. } => Err(self.expected_at("факт, а не сравнение", at)),
+                Condition::Equal { .. } => {
+                    Err(self.expected_at(("факт, а не сравнение", "a fact, and no comparison"), at))
+                }
             })
             .collect()
     }
 
     fn atom(&mut self) -> Parsed<Atom> {
-        let predicate = self.name("имя предиката")?;
+        let predicate = self.name(("имя предиката", "the name of a predicate"))?;
         let open = self.advance();
         let mut args = Vec::new();
         loop {
@@ -318,14 +337,16 @@ impl<'a> Parser<'a> {
                 _ if self.opens_part() || self.heading_ahead().is_some() => {
                     return Err(self.missing(open));
                 }
-                _ => return Err(self.expected("«,» или «)»")),
+                _ => return Err(self.expected(("«,» или «)»", "“,” or “)”"))),
             }
         }
     }
 
     fn term(&mut self) -> Parsed<Term> {
         if !matches!(self.kind(), Some(TokenKind::Word(_) | TokenKind::Variable(_))) {
-            return Err(self.expected("имя объекта или переменная"));
+            return Err(
+                self.expected(("имя объекта или переменная", "an object’s name or a variable"))
+            );
         }
         let starts_typed = matches!(self.kind(), Some(TokenKind::Word(_)))
             && matches!(self.kind_after(1), Some(TokenKind::Word(_) | TokenKind::Variable(_)));
@@ -349,7 +370,7 @@ impl<'a> Parser<'a> {
                 }
                 Some(TokenKind::Dash) if open_group < declarations.len() => {
                     self.advance();
-                    let kind = self.name("имя типа")?;
+                    let kind = self.name(("имя типа", "the name of a type"))?;
                     // A type stands for all names before it in its line.
                     let mut next_start = kind.at.span.offset();
                     for declaration in declarations[open_group..].iter_mut().rev() {
@@ -364,7 +385,7 @@ impl<'a> Parser<'a> {
                     open_group = declarations.len();
                 }
                 Some(TokenKind::Strange(_) | TokenKind::Dash | TokenKind::Variable(_)) => {
-                    return Err(self.expected("имя"));
+                    return Err(self.expected(("имя", "a name")));
                 }
                 _ => return Ok(declarations),
             }
@@ -375,8 +396,10 @@ impl<'a> Parser<'a> {
     fn signatures(&mut self) -> Parsed<()> {
         self.text.document.predicates_closed = true;
         while matches!(self.kind(), Some(TokenKind::Word(_))) && self.heading_ahead().is_none() {
-            let name = self.name("имя предиката")?;
-            let Some(TokenKind::Open) = self.kind() else { return Err(self.expected("«(»")) };
+            let name = self.name(("имя предиката", "the name of a predicate"))?;
+            let Some(TokenKind::Open) = self.kind() else {
+                return Err(self.expected(("«(»", "“(”")));
+            };
             let open = self.advance();
             let mut args = Vec::new();
             loop {
@@ -393,7 +416,12 @@ impl<'a> Parser<'a> {
                         }
                     }
                     None => return Err(self.missing(open)),
-                    _ => return Err(self.expected("тип аргумента или «)»")),
+                    _ => {
+                        return Err(self.expected((
+                            "тип аргумента или «)»",
+                            "the type of an argument or “)”",
+                        )));
+                    }
                 }
             }
             self.advance();
@@ -410,15 +438,20 @@ impl<'a> Parser<'a> {
             if negated {
                 self.advance();
             }
-            let name = self.name("имя предиката, действия или типа")?;
+            let name = self.name((
+                "имя предиката, действия или типа",
+                "the name of a predicate, an action or a type",
+            ))?;
             let parameters = (self.kind() == Some(TokenKind::Open))
                 .then(|| self.variables_in_brackets())
                 .transpose()?;
             if self.kind() != Some(TokenKind::Equal) {
-                return Err(self.expected("«=» и слова в кавычках"));
+                return Err(
+                    self.expected(("«=» и слова в кавычках", "“=” and words in quotation marks"))
+                );
             }
             self.advance();
-            let phrase = self.name("слова в кавычках")?;
+            let phrase = self.name(("слова в кавычках", "words in quotation marks"))?;
             let text = PhraseText { language, negated, name, parameters, phrase };
             self.text.document.phrases.push(text);
         }
@@ -439,7 +472,12 @@ impl<'a> Parser<'a> {
                 }
                 Some(TokenKind::Variable(_)) => variables.push(self.take_name()),
                 None => return Err(self.missing(open)),
-                _ => return Err(self.expected("переменная вида «?x» или «)»")),
+                _ => {
+                    return Err(self.expected((
+                        "переменная вида «?x» или «)»",
+                        "a variable such as “?x” or “)”",
+                    )));
+                }
             }
         }
     }
@@ -454,7 +492,7 @@ impl<'a> Parser<'a> {
             return Err(RuleFault::new(self.source, RuleError::Cost { text, at }));
         }
         let Some(TokenKind::Word(word)) = self.kind() else {
-            return Err(self.expected("число"));
+            return Err(self.expected(("число", "a number")));
         };
         let at = self.advance();
         word.parse().ok().filter(|&cost| cost <= MAX_COST).ok_or_else(|| {
@@ -473,12 +511,20 @@ impl<'a> Parser<'a> {
             self.next += 1;
         }
         if path.is_empty() {
-            return Err(self.expected_at("имя файла", (colon_end - 1, 1).into()));
+            return Err(
+                self.expected_at(("имя файла", "the name of a file"), (colon_end - 1, 1).into())
+            );
         }
         let start = colon_end + raw.find(path).unwrap_or(0);
         Ok(Name::new(path, self.source, (start, path.len()).into()))
     }
 }
+
+const SECTION: (&str, &str) =
+    ("раздел: «Действие:», «Факты:» и так далее", "a section: “Action:”, “Facts:” and so on");
+
+pub(super) const PLAIN_FACT: (&str, &str) =
+    ("факт вида «ИМЯ_(объект, …)»", "a fact such as “NAME_(object, …)”");
 
 fn is_not(word: &str) -> bool {
     matches!(name_key(word).as_str(), "не" | "not")
@@ -491,6 +537,6 @@ pub(super) fn conditions(source: &Source) -> Result<Vec<Condition>, RuleFault> {
     let conditions = parser.conditions()?;
     match parser.kind() {
         None => Ok(conditions),
-        Some(_) => Err(parser.expected("факт вида «ИМЯ_(объект, …)»")),
+        Some(_) => Err(parser.expected(PLAIN_FACT)),
     }
 }

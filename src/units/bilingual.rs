@@ -1,0 +1,45 @@
+//! The same words in the two languages that people here speak.
+
+use std::borrow::Cow;
+use std::fmt;
+
+use super::Language;
+
+/// Words of a message in both languages. Displayed in Russian, in which faults are told unless English is asked for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Bilingual {
+    russian: Cow<'static, str>,
+    english: Cow<'static, str>,
+}
+
+impl Bilingual {
+    pub fn new(
+        russian: impl Into<Cow<'static, str>>,
+        english: impl Into<Cow<'static, str>>,
+    ) -> Self {
+        Self { russian: russian.into(), english: english.into() }
+    }
+
+    /// What stands in a text, in the quotation marks of each language.
+    #[must_use]
+    pub fn quoted(text: &str) -> Self {
+        Self::new(format!("«{text}»"), format!("“{text}”"))
+    }
+
+    #[must_use]
+    pub fn say(&self, language: Language) -> &str {
+        language.pick(&self.russian, &self.english)
+    }
+}
+
+impl fmt::Display for Bilingual {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.russian)
+    }
+}
+
+impl From<(&'static str, &'static str)> for Bilingual {
+    fn from((russian, english): (&'static str, &'static str)) -> Self {
+        Self::new(russian, english)
+    }
+}
