@@ -6,7 +6,9 @@ use std::path::{Path, PathBuf};
 use expect_test::expect_file;
 use miette::Diagnostic;
 use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
-use orthoframe::map::{DoorState, Format, Reading, World, check, read};
+use orthoframe::map::{
+    DoorState, EnglishMapErrors, Format, MapErrors, Reading, World, check, read,
+};
 use orthoframe::units::{Cm, Source};
 
 use proptest::prelude::*;
@@ -41,6 +43,17 @@ fn listing(reading: &Reading) -> String {
     text
 }
 
+/// Every fault in English with its remedy.
+fn in_english(faults: &MapErrors) -> String {
+    let english = EnglishMapErrors::from(faults);
+    let mut text = format!("{english}\n");
+    for fault in english.related().into_iter().flatten() {
+        let help = fault.help().expect("every fault has a remedy");
+        writeln!(text, "{fault}\n    {help}").expect("a string takes all");
+    }
+    text
+}
+
 #[test]
 fn every_fault_is_reported_in_its_place() {
     let mut cases = 0;
@@ -51,6 +64,7 @@ fn every_fault_is_reported_in_its_place() {
         let source = Source::new("map", std::fs::read_to_string(map).expect("a map is a text"));
         let reading = read(&source, Format::of(map));
         expect_file![case.join("faults.txt")].assert_eq(&listing(&reading));
+        expect_file![case.join("faults.en.txt")].assert_eq(&in_english(&reading.faults));
         cases += 1;
     }
     assert!(cases > 10);

@@ -10,9 +10,9 @@ use crate::engine::{
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase};
-use crate::map::MapErrors;
+use crate::map::{EnglishMapErrors, MapErrors};
 
-use super::args::{Common, Detail, RouteMethod};
+use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn};
 use super::{Answer, json, say, text};
 
@@ -73,15 +73,22 @@ pub(super) fn note_repairs(engine: &Engine) {
     }
 }
 
-pub(super) fn warn(warnings: &MapErrors) {
-    if !warnings.faults.is_empty() {
-        note(drawn(warnings).trim_end());
+pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
+    if warnings.faults.is_empty() {
+        return;
     }
+    note(
+        match lang {
+            Lang::Ru => drawn(warnings),
+            Lang::En => drawn(&EnglishMapErrors::from(warnings)),
+        }
+        .trim_end(),
+    );
 }
 
 pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
     let (world, warnings) = check_map(file)?;
-    warn(&warnings);
+    warn(&warnings, common.lang);
     let uncertain = uncertain_names(&world);
     if common.json {
         let names: Vec<_> = uncertain

@@ -7,7 +7,6 @@ use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, SourceCode};
 use serde::Serialize;
 
 use crate::engine::{Error, RequestError};
-use crate::strips::EnglishFaults;
 
 use super::args::Lang;
 
@@ -58,14 +57,8 @@ impl Failure {
                 ExitCode::from(3)
             }
             Self::Engine(error) => {
-                let english;
-                let shown: &dyn Diagnostic = match (error.as_ref(), lang) {
-                    (Error::Rules(faults), Lang::En) => {
-                        english = EnglishFaults::from(faults);
-                        &english
-                    }
-                    (error, _) => error,
-                };
+                let english = Some(error).filter(|_| lang == Lang::En).and_then(|e| e.in_english());
+                let shown: &dyn Diagnostic = english.as_deref().unwrap_or(error.as_ref());
                 if as_json {
                     let mut leaves = Vec::new();
                     gather(shown, None, &mut leaves);

@@ -31,7 +31,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     note_repairs(&engine);
     let reason = format!("импорт {}", args.file.display());
     let imported = engine.keep(read, &change_now(&common.user, &reason))?;
-    warn(&imported.warnings);
+    warn(&imported.warnings, common.lang);
     let world = engine.world()?;
     let counts = imported.report.counts;
     if common.json {

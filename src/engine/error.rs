@@ -9,11 +9,11 @@ use crate::facts::FilesError;
 use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::names::named;
-use crate::map::{MapErrors, World};
+use crate::map::{EnglishMapErrors, MapErrors, World};
 use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
-use crate::strips::RuleFaults;
+use crate::strips::{EnglishFaults, RuleFaults};
 use crate::units::capitalized;
 
 /// Why the engine could not do what it was asked.
@@ -319,6 +319,21 @@ impl Error {
         match self {
             Self::Misheard(misheard) => Some(misheard.say(Language::English)),
             Self::Request(request) => request.english(&str::to_owned),
+            _ => None,
+        }
+    }
+
+    /// Faults of a map, a rule file or a plan as English tells them, each with its place and remedy.
+    #[must_use]
+    pub fn in_english(&self) -> Option<Box<dyn Diagnostic + '_>> {
+        let of_map = |faults| Some(Box::new(EnglishMapErrors::from(faults)) as Box<dyn Diagnostic>);
+        match self {
+            Self::Rules(faults) => Some(Box::new(EnglishFaults::from(faults))),
+            Self::Map(faults) => of_map(faults),
+            Self::Import(error) => match error.as_ref() {
+                ImportError::Map(faults) => of_map(faults),
+                _ => None,
+            },
             _ => None,
         }
     }

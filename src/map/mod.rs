@@ -47,7 +47,7 @@ pub use check::check;
 pub(crate) use check::plane;
 pub use device::{is_on, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
-pub use fault::{Fault, MapError, MapErrors, Record, Spot, Step};
+pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{EditReading, Format, NextIds, Reading, edit, json_schema, kinds, read, read_file};
 pub use marks::Mark;
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};

@@ -26,6 +26,20 @@ impl Bilingual {
         Self::new(format!("«{text}»"), format!("“{text}”"))
     }
 
+    /// A thing with its kind: «комната «Кухня»», "room “Kitchen”".
+    #[must_use]
+    pub fn named(kind: (&'static str, &'static str), name: &str) -> Self {
+        Self::new(format!("{} «{name}»", kind.0), format!("{} “{name}”", kind.1))
+    }
+
+    /// One after the other, with commas.
+    #[must_use]
+    pub fn list(parts: &[Self]) -> Self {
+        let listed =
+            |language| parts.iter().map(|p| p.say(language)).collect::<Vec<_>>().join(", ");
+        Self::new(listed(Language::Russian), listed(Language::English))
+    }
+
     #[must_use]
     pub fn say(&self, language: Language) -> &str {
         language.pick(&self.russian, &self.english)
@@ -35,6 +49,13 @@ impl Bilingual {
 impl fmt::Display for Bilingual {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.russian)
+    }
+}
+
+/// What is the same in both, such as a field's name.
+impl From<&'static str> for Bilingual {
+    fn from(text: &'static str) -> Self {
+        Self::new(text, text)
     }
 }
 

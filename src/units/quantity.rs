@@ -6,6 +6,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
+use super::Language;
+
 /// Why a number from outside is no length or no angle.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum QuantityError {
@@ -104,9 +106,17 @@ impl Div<f64> for Cm {
     }
 }
 
+impl Cm {
+    /// The length with its unit as a language writes it.
+    #[must_use]
+    pub fn say(self, language: Language) -> String {
+        format!("{} {}", round_for_people(self.0), language.pick("см", "cm"))
+    }
+}
+
 impl fmt::Display for Cm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} см", round_for_people(self.0))
+        f.write_str(&self.say(Language::Russian))
     }
 }
 

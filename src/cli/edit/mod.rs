@@ -49,7 +49,7 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
     let mode = if args.dry_run { Mode::DryRun } else { Mode::Commit };
     let change = change_now(&common.user, args.reason.as_deref().unwrap_or_default());
     let edited = engine.edit(&source, format, &change, mode)?;
-    warn(&edited.warnings);
+    warn(&edited.warnings, common.lang);
     if common.json { say(&view(&edited).to_string()) } else { say(&told(&edited, common.lang)) }
 }
 

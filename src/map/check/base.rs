@@ -3,9 +3,9 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use crate::map::fault::{MapError, Record, Spot};
+use crate::map::fault::{COORDINATE, MapError, Record, Spot, WITHIN};
 use crate::map::{BaseVector, Orthoframe, TypeKind};
-use crate::units::{Cm, Point};
+use crate::units::{Bilingual, Cm, Point};
 
 use super::plane::{bounds, doubled_area, meeting, near_pairs};
 use super::{Checker, TOLERANCE, at};
@@ -22,7 +22,7 @@ impl Checker<'_> {
             let spot = Spot::of(Record::Orthoframe(frame.id));
             if !keys.insert(&frame.key) || frame.key.is_empty() {
                 let error = MapError::BadId {
-                    owner: "Ортофрейм".to_owned(),
+                    owner: ("Ортофрейм", "Orthoframe").into(),
                     id: frame.key.clone(),
                 };
                 self.fault(error, spot.clone());
@@ -40,7 +40,7 @@ impl Checker<'_> {
     }
 
     fn sizes(&mut self, frame: &Orthoframe, spot: &Spot) {
-        let owner = format!("Ортофрейм «{}»", frame.name);
+        let owner = Bilingual::named(("Ортофрейм", "Orthoframe"), &frame.name);
         self.type_exists(TypeKind::Orthoframe, frame.frame_type, &owner, spot);
         self.type_exists(TypeKind::Shape, frame.shape, &owner, spot);
         for vector in &frame.base {
@@ -48,14 +48,26 @@ impl Checker<'_> {
         }
         let height = frame.height.get();
         let fits = Cm::new(height).is_ok();
-        self.in_range("высота", height, fits, "от 0 до 100 км", spot.clone().field("height"));
+        self.in_range(
+            ("высота", "height"),
+            height,
+            fits,
+            ("от 0 до 100 км", "from 0 to 100 km"),
+            spot.clone().field("height"),
+        );
         if height < 0.0 {
             let error = MapError::NegativeHeight { name: frame.name.clone(), height: frame.height };
             self.fault(error, spot.clone().field("height"));
         }
         let scale = frame.roof_scale;
         let fits = (0.0..=100.0).contains(&scale);
-        self.in_range("roof_scale", scale, fits, "от 0 до 100", spot.clone().field("roof_scale"));
+        self.in_range(
+            "roof_scale",
+            scale,
+            fits,
+            ("от 0 до 100", "from 0 to 100"),
+            spot.clone().field("roof_scale"),
+        );
     }
 
     fn base(&mut self, frame: &Orthoframe, spot: &Spot) {
@@ -67,12 +79,13 @@ impl Checker<'_> {
         }
         if base.len() > MOST_VECTORS {
             let value = base.len() as f64;
-            self.in_range("число векторов Базы", value, false, "от 3 до 10000", spot.clone());
+            let what = ("число векторов Базы", "the number of vectors of the Base");
+            self.in_range(what, value, false, ("от 3 до 10000", "from 3 to 10000"), spot.clone());
             return;
         }
         let coordinates = base.iter().flat_map(|v| [v.start.x, v.start.y, v.end.x, v.end.y]);
         if let Some(value) = coordinates.into_iter().find(|&c| Cm::new(c).is_err()) {
-            self.in_range("координата", value, false, "в пределах ±100 км", spot.clone());
+            self.in_range(COORDINATE, value, false, WITHIN, spot.clone());
             return;
         }
         let faults_before = self.faults.len();
@@ -99,7 +112,7 @@ impl Checker<'_> {
         let mut ids = BTreeSet::new();
         for (i, vector) in base.iter().enumerate() {
             let spot = spot.clone().index(i);
-            let owner = || format!("Ортофрейм «{}»", frame.name);
+            let owner = || Bilingual::named(("Ортофрейм", "Orthoframe"), &frame.name);
             if !is_good_id(&vector.id) {
                 self.fault(MapError::BadId { owner: owner(), id: vector.id.clone() }, spot.clone());
             } else if !ids.insert(&vector.id) {

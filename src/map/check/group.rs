@@ -7,7 +7,7 @@ use crate::map::fault::{MapError, Record, Spot};
 use crate::map::{
     BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind,
 };
-use crate::units::{Cm, Deg, Frame, Point};
+use crate::units::{Bilingual, Cm, Deg, Frame, Point};
 
 use super::base::is_good_id;
 use super::plane::{Bounds, bounds, intersection, middle, near_pairs, touch};
@@ -15,7 +15,7 @@ use super::{ANGLE_TOLERANCE, Checker, MOST_OVERLAPS, OVERLAP, Short, TOLERANCE, 
 
 /// What Objects and Areas have in common.
 pub(super) struct Group<'w> {
-    pub(super) title: String,
+    pub(super) title: Bilingual,
     pub(super) record: Record,
     pub(super) items: &'w [Item],
     pub(super) links: &'w [ItemLink],
@@ -64,10 +64,14 @@ impl Offset {
     }
 }
 
-impl std::fmt::Display for Offset {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+impl Offset {
+    pub(super) fn in_words(&self) -> Bilingual {
         let Self { x, y, z, angle } = *self;
-        write!(f, "смещение ({}; {}; {}), угол {}°", Short(x), Short(y), Short(z), Short(angle))
+        let by = format!("({}; {}; {})", Short(x), Short(y), Short(z));
+        Bilingual::new(
+            format!("смещение {by}, угол {}°", Short(angle)),
+            format!("an offset of {by}, an angle of {}°", Short(angle)),
+        )
     }
 }
 
@@ -121,12 +125,12 @@ impl<'w> Checker<'w> {
         for object in self.world.objects.values() {
             let record = Record::Object(object.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &object.key, "Объект", &spot);
+            self.key(&mut keys, &object.key, ("Объект", "Object"), &spot);
             if self.is_broken(record) {
                 continue;
             }
             let group = Group {
-                title: format!("объект «{}»", object.name),
+                title: Bilingual::named(("объект", "object"), &object.name),
                 record,
                 items: &object.items,
                 links: &object.links,
@@ -145,12 +149,12 @@ impl<'w> Checker<'w> {
         for area in self.world.areas.values() {
             let record = Record::Area(area.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &area.key, "Помещение", &spot);
+            self.key(&mut keys, &area.key, ("Помещение", "Area"), &spot);
             if self.is_broken(record) {
                 continue;
             }
             let group = Group {
-                title: format!("помещение «{}»", area.name),
+                title: Bilingual::named(("помещение", "area"), &area.name),
                 record,
                 items: &area.items,
                 links: &area.links,
@@ -167,10 +171,10 @@ impl<'w> Checker<'w> {
         &mut self,
         keys: &mut BTreeSet<&'w str>,
         key: &'w str,
-        what: &str,
+        what: (&'static str, &'static str),
         spot: &Spot,
     ) {
-        let owner = what.to_owned();
+        let owner = what.into();
         if key.is_empty() || key.contains('.') {
             self.fault(MapError::BadId { owner, id: key.to_owned() }, spot.clone());
         } else if !keys.insert(key) {
@@ -197,7 +201,8 @@ impl<'w> Checker<'w> {
             }
             let exists = self.world.orthoframes.contains_key(&item.orthoframe);
             let id = item.orthoframe.0;
-            all_there &= self.exists(exists, &group.title, "Ортофрейм", id, spot.clone());
+            all_there &=
+                self.exists(exists, &group.title, ("Ортофрейм", "Orthoframe"), id, spot.clone());
             all_there &= self.frame_is_finite(&item.frame, &spot);
         }
         let bases = group.items.iter().filter(|item| item.is_base).count();
@@ -362,8 +367,8 @@ impl<'w> Checker<'w> {
             let error = MapError::LinkContradicts {
                 owner: owner(),
                 link: words,
-                claimed: claimed.to_string(),
-                found: found.to_string(),
+                claimed: claimed.in_words(),
+                found: found.in_words(),
             };
             self.contradiction(error, spot, place);
         }

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::map::fault::{MapError, Record, Spot};
 use crate::map::{BaseVector, Map, MapItem, MapLink, SideRef, TypeKind};
-use crate::units::{AreaId, Cm, DoorId, Frame};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, Frame};
 
 use super::group::{
     Body, Group, Offset, Openings, Parts, PlacedSide, openings, overlap, same_length,
@@ -20,7 +20,7 @@ impl<'w> Checker<'w> {
         for map in self.world.maps.values() {
             let record = Record::Map(map.id);
             let spot = Spot::of(record);
-            self.key(&mut keys, &map.key, "Карта", &spot);
+            self.key(&mut keys, &map.key, ("Карта", "Map"), &spot);
             for (i, item) in map.items.iter().enumerate() {
                 let count = placed.entry(item.area).or_default();
                 *count += 1;
@@ -43,7 +43,7 @@ impl<'w> Checker<'w> {
     }
 
     fn map(&mut self, map: &'w Map, spot: &Spot) {
-        let title = format!("карта «{}»", map.name);
+        let title = Bilingual::named(("карта", "map"), &map.name);
         self.type_exists(TypeKind::Map, map.map_type, &title, spot);
         if map.items.is_empty() {
             self.fault(MapError::NoItems { owner: title }, spot.clone());
@@ -53,7 +53,8 @@ impl<'w> Checker<'w> {
         for (i, item) in map.items.iter().enumerate() {
             let at = spot.clone().field("items").index(i);
             let exists = self.world.areas.contains_key(&item.area);
-            all_there &= self.exists(exists, &title, "помещение", item.area.0, at.clone());
+            all_there &=
+                self.exists(exists, &title, ("помещение", "area"), item.area.0, at.clone());
             all_there &= self.frame_is_finite(&item.frame, &at);
         }
         let bases = map.items.iter().filter(|item| item.is_base).count();
@@ -73,7 +74,7 @@ impl<'w> Checker<'w> {
     }
 
     /// The base Area stands with a corner of its base item at the origin of the Map.
-    fn map_origin(&mut self, map: &Map, title: &str, spot: &Spot) {
+    fn map_origin(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         for (i, item) in map.items.iter().enumerate().filter(|(_, item)| item.is_base) {
             let area = &self.world.areas[&item.area];
             let Some(base) = area.items.iter().find(|item| item.is_base) else { continue };
@@ -87,7 +88,7 @@ impl<'w> Checker<'w> {
                 .expect("a sound base has corners");
             if nearest.coords.norm() > TOLERANCE || frame.z.get().abs() > TOLERANCE {
                 let error = MapError::BaseItemOffOrigin {
-                    owner: title.to_owned(),
+                    owner: title.clone(),
                     item: area.name.clone(),
                     nearest: format!(
                         "({}; {}; {})",
@@ -105,7 +106,7 @@ impl<'w> Checker<'w> {
     fn map_side(
         &mut self,
         map: &Map,
-        title: &str,
+        title: &Bilingual,
         area: AreaId,
         side: &SideRef,
         spot: &Spot,
@@ -117,7 +118,7 @@ impl<'w> Checker<'w> {
         };
         let Some((index, item)) = found else {
             let error = MapError::UnknownReference {
-                what: "Помещение на этой карте",
+                what: ("Помещение на этой карте", "area on this map").into(),
                 name: area_title(self.world, area),
                 nearest: None,
             };
@@ -128,7 +129,7 @@ impl<'w> Checker<'w> {
             return None;
         }
         let group = Group {
-            title: title.to_owned(),
+            title: title.clone(),
             record: Record::Map(map.id),
             items: &self.world.areas[&area].items,
             links: &[],
@@ -141,7 +142,7 @@ impl<'w> Checker<'w> {
             .then(|| (vector, item.frame.compose(&inner.frame), index))
     }
 
-    fn map_link(&mut self, map: &Map, title: &str, link: &MapLink, spot: Spot) {
+    fn map_link(&mut self, map: &Map, title: &Bilingual, link: &MapLink, spot: Spot) {
         let from = spot.clone().field("from");
         let one = self.map_side(map, title, link.area, &link.side, &from);
         let to = spot.clone().field("to");
@@ -149,7 +150,7 @@ impl<'w> Checker<'w> {
         let (Some((one, frame, _)), Some((other, to_frame, to_index))) = (one, other) else {
             return;
         };
-        let owner = title.to_owned();
+        let owner = title.clone();
         let words = |area, side: &SideRef| {
             format!("{}.{}.{}", area_title(self.world, area), side.item, side.side)
         };
@@ -169,7 +170,7 @@ impl<'w> Checker<'w> {
         let found = PlacedSide::new(one, &frame).offset(&PlacedSide::new(other, &to_frame));
         let place = Spot::of(Record::Map(map.id)).field("items").index(to_index);
         if !claimed.agrees(&found) {
-            let (claimed, found) = (claimed.to_string(), found.to_string());
+            let (claimed, found) = (claimed.in_words(), found.in_words());
             let error = MapError::LinkContradicts { owner, link: words, claimed, found };
             self.contradiction(error, spot, place);
         } else if opening == Openings::Both && found.distance() > TOLERANCE {
@@ -194,7 +195,7 @@ impl<'w> Checker<'w> {
         bodies
     }
 
-    fn area_overlaps(&mut self, map: &Map, title: &str, spot: &Spot) {
+    fn area_overlaps(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         let mut owners = Vec::new();
         let mut bodies = Vec::new();
         for (i, item) in map.items.iter().enumerate() {
@@ -221,7 +222,7 @@ impl<'w> Checker<'w> {
         for ((i, j), p) in overlaps {
             let name = |i: usize| area_title(self.world, map.items[i].area);
             let error = MapError::AreasOverlap {
-                map: title.to_owned(),
+                map: title.clone(),
                 area: name(i),
                 other: name(j),
                 at: at(p),
@@ -231,7 +232,7 @@ impl<'w> Checker<'w> {
         }
     }
 
-    fn connected_areas(&mut self, map: &Map, title: &str, spot: &Spot) {
+    fn connected_areas(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
         let mut parts = Parts::new(map.items.len());
         let indices: BTreeMap<AreaId, usize> =
             map.items.iter().enumerate().map(|(i, item)| (item.area, i)).collect();
@@ -255,7 +256,7 @@ impl<'w> Checker<'w> {
         for (i, item) in map.items.iter().enumerate() {
             if !parts.joined(base, i) {
                 let area = area_title(self.world, item.area);
-                let error = MapError::AreasApart { map: title.to_owned(), area };
+                let error = MapError::AreasApart { map: title.clone(), area };
                 self.fault(error, spot.clone().field("items").index(i));
             }
         }
@@ -268,11 +269,11 @@ impl<'w> Checker<'w> {
         if self.is_broken(Record::Domain) {
             return;
         }
-        let owner = format!("домейн «{}»", domain.name);
+        let owner = Bilingual::named(("домейн", "domain"), &domain.name);
         for (i, item) in domain.maps.iter().enumerate() {
             let at = spot.clone().field("maps").index(i);
             let exists = self.world.maps.contains_key(&item.map);
-            self.exists(exists, &owner, "карта", item.map.0, at.clone());
+            self.exists(exists, &owner, ("карта", "map"), item.map.0, at.clone());
             let frame = &item.frame;
             let is_finite = self.frame_is_finite(frame, &at);
             if is_finite && item.is_base && *frame != Frame::IDENTITY {
@@ -309,8 +310,9 @@ impl<'w> Checker<'w> {
             let mut all_there = true;
             for stop in stops {
                 let exists = self.world.areas.contains_key(&stop.area);
-                let owner = format!("лифт «{name}»");
-                all_there &= self.exists(exists, &owner, "помещение", stop.area.0, at.clone());
+                let owner = Bilingual::named(("лифт", "lift"), name);
+                all_there &=
+                    self.exists(exists, &owner, ("помещение", "area"), stop.area.0, at.clone());
                 floors.extend(self.world.placement(stop.area).map(|(map, _)| map));
             }
             if all_there && floors.len() < 2 {

@@ -12,9 +12,9 @@ pub(crate) mod plane;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::units::{AreaId, Cm, Frame, MapId, OrFrId, Point, TypeId};
+use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
 
-use super::fault::{Fault, MapError, Record, Spot};
+use super::fault::{COORDINATE, Fault, MapError, Record, Spot, WITHIN};
 use super::{Item, TypeKind, World};
 
 /// Lengths and places that differ less are the same: half a millimetre, since people write round numbers.
@@ -91,34 +91,35 @@ impl Checker<'_> {
     fn exists(
         &mut self,
         exists: bool,
-        owner: &str,
-        what: &'static str,
+        owner: &Bilingual,
+        what: (&'static str, &'static str),
         id: u32,
         spot: Spot,
     ) -> bool {
         if !exists {
-            self.fault(MapError::DanglingId { owner: owner.to_owned(), what, id }, spot);
+            self.fault(MapError::DanglingId { owner: owner.clone(), what: what.into(), id }, spot);
         }
         exists
     }
 
-    fn type_exists(&mut self, kind: TypeKind, id: Option<TypeId>, owner: &str, spot: &Spot) {
+    fn type_exists(&mut self, kind: TypeKind, id: Option<TypeId>, owner: &Bilingual, spot: &Spot) {
         if let Some(id) = id {
             let exists = self.world.types.list(kind).entries.contains_key(&id);
-            self.exists(exists, owner, "тип", id.0, spot.clone().field("type"));
+            self.exists(exists, owner, ("тип", "type"), id.0, spot.clone().field("type"));
         }
     }
 
     /// A number that must be finite and within its range; the range is written as people write it.
     fn in_range(
         &mut self,
-        what: &'static str,
+        what: impl Into<Bilingual>,
         value: f64,
         fits: bool,
-        range: &'static str,
+        range: (&'static str, &'static str),
         spot: Spot,
     ) {
         if !value.is_finite() || !fits {
+            let (what, range) = (what.into(), range.into());
             self.fault(MapError::OutOfRange { what, value, range }, spot);
         }
     }
@@ -128,11 +129,8 @@ impl Checker<'_> {
         let numbers = [frame.x.get(), frame.y.get(), frame.z.get(), frame.angle.get()];
         let wrong = numbers.into_iter().find(|&n| Cm::new(n).is_err());
         if let Some(value) = wrong {
-            let range = "в пределах ±100 км";
-            self.fault(
-                MapError::OutOfRange { what: "координата", value, range },
-                spot.clone().field("at"),
-            );
+            let (what, range) = (COORDINATE.into(), WITHIN.into());
+            self.fault(MapError::OutOfRange { what, value, range }, spot.clone().field("at"));
         }
         wrong.is_none()
     }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use crate::map::fault::{MapError, Record, Spot};
 use crate::map::{Entity, TypeKind, World};
-use crate::units::name_key;
+use crate::units::{Bilingual, name_key};
 
 use super::Checker;
 
@@ -42,7 +42,7 @@ impl Checker<'_> {
         let nameless: Vec<_> = named.filter(|(_, name)| name.trim().is_empty()).collect();
         for (entity, _) in nameless {
             let at = Spot::of(record(entity)).field("name");
-            self.fault(MapError::NoName { what: kind(entity) }, at);
+            self.fault(MapError::NoName { what: kind(entity).into() }, at);
         }
     }
 
@@ -52,10 +52,15 @@ impl Checker<'_> {
         for entry in self.world.types.list(kind).entries.values() {
             let spot = Spot::of(Record::Type(kind, entry.id));
             if entry.name.trim().is_empty() {
-                self.fault(MapError::NoName { what: "тип" }, spot);
+                self.fault(MapError::NoName { what: ("тип", "type").into() }, spot);
             } else if let Some(&first) = bearers.get(&entry.name) {
-                let words =
-                    |id: crate::units::TypeId| format!("тип {} списка {}", id.0, kind.field());
+                let list = kind.field();
+                let words = |id: crate::units::TypeId| {
+                    Bilingual::new(
+                        format!("тип {} списка {list}", id.0),
+                        format!("type {} of the list {list}", id.0),
+                    )
+                };
                 let error = MapError::DuplicateName {
                     name: entry.name.clone(),
                     first: words(first),
@@ -79,18 +84,18 @@ fn record(entity: Entity) -> Record {
     }
 }
 
-fn kind(entity: Entity) -> &'static str {
+fn kind(entity: Entity) -> (&'static str, &'static str) {
     match entity {
-        Entity::Map(_) => "карта",
-        Entity::Area(_) => "помещение",
-        Entity::Door(_) => "дверь",
-        Entity::Replica(_) => "экземпляр",
-        Entity::Place(_) => "место",
+        Entity::Map(_) => ("карта", "map"),
+        Entity::Area(_) => ("помещение", "area"),
+        Entity::Door(_) => ("дверь", "door"),
+        Entity::Replica(_) => ("экземпляр", "replica"),
+        Entity::Place(_) => ("место", "place"),
     }
 }
 
-fn title(world: &World, entity: Entity) -> String {
-    format!("{} «{}»", kind(entity), world.name(entity))
+fn title(world: &World, entity: Entity) -> Bilingual {
+    Bilingual::named(kind(entity), world.name(entity))
 }
 
 /// The field that holds the name.

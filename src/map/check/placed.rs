@@ -1,8 +1,8 @@
 //! What stands in an Area (M4): replicas within its walls, places on its floor; and the robot's own numbers.
 
-use crate::map::fault::{MapError, Record, Spot};
+use crate::map::fault::{COORDINATE, MORE_THAN_0, MapError, Record, Spot, WITHIN};
 use crate::map::{Replica, RobotProfile, World};
-use crate::units::{AreaId, Cm, Frame, Point};
+use crate::units::{AreaId, Bilingual, Cm, Frame, Point};
 
 use super::group::Body;
 use super::plane::{
@@ -41,19 +41,24 @@ impl Checker<'_> {
             self.world.areas.keys().filter_map(|&id| Some((id, self.room(id)?))).collect();
         for replica in self.world.replicas.values() {
             let spot = Spot::of(Record::Replica(replica.id));
-            let owner = format!("«{}»", replica.name);
+            let owner = Bilingual::quoted(&replica.name);
             if replica.move_prob > 100 {
                 let value = f64::from(replica.move_prob);
                 let at = spot.clone().field("move_prob");
-                self.in_range("move_prob", value, false, "от 0 до 100", at);
+                self.in_range("move_prob", value, false, ("от 0 до 100", "from 0 to 100"), at);
             }
             let is_finite = self.frame_is_finite(&replica.frame, &spot);
             let world = self.world;
             let area = world.areas.contains_key(&replica.area);
-            self.exists(area, &owner, "помещение", replica.area.0, spot.clone());
+            self.exists(area, &owner, ("помещение", "area"), replica.area.0, spot.clone());
             let object = world.objects.get(&replica.object);
-            if !self.exists(object.is_some(), &owner, "объект", replica.object.0, spot.clone())
-            {
+            if !self.exists(
+                object.is_some(),
+                &owner,
+                ("объект", "object"),
+                replica.object.0,
+                spot.clone(),
+            ) {
                 continue;
             }
             self.replica_doors(replica, world, &spot);
@@ -79,7 +84,7 @@ impl Checker<'_> {
                 }
                 Some(door) if !self.is_broken(Record::Object(object.id)) => {
                     let error = MapError::UnknownReference {
-                        what: "Дверь этого объекта",
+                        what: ("Дверь этого объекта", "door of this object").into(),
                         name: door.name.clone(),
                         nearest: None,
                     };
@@ -87,7 +92,8 @@ impl Checker<'_> {
                 }
                 Some(_) => {}
                 None => {
-                    self.exists(false, &format!("«{}»", replica.name), "дверь", id.0, at);
+                    let owner = Bilingual::quoted(&replica.name);
+                    self.exists(false, &owner, ("дверь", "door"), id.0, at);
                 }
             }
         }
@@ -138,18 +144,18 @@ impl Checker<'_> {
     pub(super) fn places(&mut self) {
         for place in self.world.places.values() {
             let spot = Spot::of(Record::Place(place.id));
-            let owner = format!("место «{}»", place.name);
+            let owner = Bilingual::named(("место", "place"), &place.name);
             let area = self.world.areas.get(&place.area);
-            self.exists(area.is_some(), &owner, "помещение", place.area.0, spot.clone());
+            self.exists(area.is_some(), &owner, ("помещение", "area"), place.area.0, spot.clone());
             if let Some(replica) = place.serves {
                 let exists = self.world.replicas.contains_key(&replica);
                 let at = spot.clone().field("serves");
-                self.exists(exists, &owner, "экземпляр", replica.0, at);
+                self.exists(exists, &owner, ("экземпляр", "replica"), replica.0, at);
             }
             let at = spot.field("at");
             let wrong = [place.at.x, place.at.y].into_iter().find(|&c| Cm::new(c).is_err());
             if let Some(value) = wrong {
-                self.in_range("координата", value, false, "в пределах ±100 км", at);
+                self.in_range(COORDINATE, value, false, WITHIN, at);
             } else if let (Some(area), Some(room)) = (area, self.room(place.area))
                 && !room.polygons.iter().any(|polygon| contains(polygon, place.at))
             {
@@ -175,9 +181,9 @@ impl Checker<'_> {
         ];
         for (what, value, fits) in numbers {
             let range = if what == "step" || what == "clearance" {
-                "не меньше 0"
+                ("не меньше 0", "at least 0")
             } else {
-                "больше 0"
+                MORE_THAN_0
             };
             self.in_range(what, value, fits, range, spot.clone().field(what));
         }
@@ -186,31 +192,43 @@ impl Checker<'_> {
         }
         if let Some(start) = robot.start {
             let exists = self.world.places.contains_key(&start);
-            self.exists(exists, "робот", "место", start.0, spot.field("start"));
+            let (owner, what) = (("робот", "robot").into(), ("место", "place"));
+            self.exists(exists, &owner, what, start.0, spot.field("start"));
         }
     }
 }
 
 /// Why a footprint is none.
-fn footprint(robot: &RobotProfile) -> Result<(), String> {
+fn footprint(robot: &RobotProfile) -> Result<(), Bilingual> {
     let corners = &robot.footprint;
     let n = corners.len();
     if n == 0 {
         return Ok(());
     }
     if n < 3 {
-        return Err(format!("углов {n}, нужно не меньше 3"));
+        return Err(Bilingual::new(
+            format!("углов {n}, нужно не меньше 3"),
+            format!("it has {n} corners and needs at least 3"),
+        ));
     }
     for i in 0..n {
         let (a, b, c) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
         if (b - a).perp(&(c - b)) <= 0.0 {
-            return Err(format!(
-                "в углу ({}, {}) он не поворачивает влево, нужен выпуклый контур против часовой стрелки",
-                b.x, b.y
+            let at = format!("({}, {})", b.x, b.y);
+            return Err(Bilingual::new(
+                format!(
+                    "в углу {at} он не поворачивает влево, нужен выпуклый контур против часовой стрелки"
+                ),
+                format!(
+                    "at the corner {at} it does not turn left; a convex outline is needed, counter-clockwise"
+                ),
             ));
         }
         if (b - a).perp(&-a.coords) <= 0.0 {
-            return Err("центр (0, 0), вокруг которого робот поворачивается, не внутри".to_owned());
+            return Err(Bilingual::new(
+                "центр (0, 0), вокруг которого робот поворачивается, не внутри",
+                "the centre (0, 0), round which the robot turns, is not inside",
+            ));
         }
     }
     // Corners that each turn left may still run round twice.
@@ -221,13 +239,18 @@ fn footprint(robot: &RobotProfile) -> Result<(), String> {
         })
         .sum();
     if turns > 7.0 {
-        return Err("он пересекает сам себя".to_owned());
+        return Err(("он пересекает сам себя", "it crosses itself").into());
     }
     let reach = corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
     if robot.radius.get() < reach - 1e-6 {
-        return Err(format!(
-            "radius {} его не покрывает, нужно не меньше {reach:.2} (или уберите radius)",
-            robot.radius.get()
+        let radius = robot.radius.get();
+        return Err(Bilingual::new(
+            format!(
+                "radius {radius} его не покрывает, нужно не меньше {reach:.2} (или уберите radius)"
+            ),
+            format!(
+                "the radius {radius} does not cover it; at least {reach:.2} is needed (or remove radius)"
+            ),
         ));
     }
     Ok(())

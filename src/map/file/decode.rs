@@ -14,7 +14,7 @@ use serde::de::{
 
 use super::node::{Entry, Misprint, Node, Span, Value};
 use crate::map::fault::MapError;
-use crate::units::nearest_name;
+use crate::units::{Bilingual, nearest_name};
 
 /// Faults of one table after which its reading ends.
 const MOST_FAULTS: usize = 50;
@@ -83,7 +83,8 @@ impl std::error::Error for DecodeError {}
 
 impl de::Error for DecodeError {
     fn custom<T: fmt::Display>(message: T) -> Self {
-        Self::new(MapError::BadValue { message: message.to_string() })
+        let message = message.to_string();
+        Self::new(MapError::BadValue { message: Bilingual::new(message.clone(), message) })
     }
 
     fn invalid_type(found: Unexpected<'_>, expected: &dyn Expected) -> Self {
@@ -99,7 +100,7 @@ impl de::Error for DecodeError {
 
     fn invalid_length(length: usize, expected: &dyn Expected) -> Self {
         Self::new(MapError::WrongKind {
-            found: format!("список из {length} значений"),
+            found: list_of(length),
             expected: expected_words(&expected.to_string()),
         })
     }
@@ -126,40 +127,67 @@ impl de::Error for DecodeError {
 
     fn duplicate_field(field: &'static str) -> Self {
         Self::new(MapError::BadValue {
-            message: format!("поле «{field}» дано дважды")
+            message: Bilingual::new(
+                format!("поле «{field}» дано дважды"),
+                format!("the field “{field}” is given twice"),
+            ),
         })
     }
 }
 
-fn found_words(found: Unexpected<'_>) -> String {
+fn found_words(found: Unexpected<'_>) -> Bilingual {
     match found {
-        Unexpected::Bool(b) => format!("«{b}»"),
-        Unexpected::Unsigned(n) => format!("число {n}"),
-        Unexpected::Signed(n) => format!("число {n}"),
-        Unexpected::Float(x) => format!("число {x}"),
-        Unexpected::Str(text) => format!("текст «{}»", shortened(text)),
-        Unexpected::Seq => "список".to_owned(),
-        Unexpected::Map => "таблица".to_owned(),
-        Unexpected::Unit | Unexpected::Option => "пустое значение".to_owned(),
-        other => other.to_string(),
+        Unexpected::Bool(b) => Bilingual::quoted(&b.to_string()),
+        Unexpected::Unsigned(n) => a_number(n),
+        Unexpected::Signed(n) => a_number(n),
+        Unexpected::Float(x) => a_number(x),
+        Unexpected::Str(text) => a_text(text),
+        Unexpected::Seq => LIST.into(),
+        Unexpected::Map => TABLE.into(),
+        Unexpected::Unit | Unexpected::Option => NOTHING.into(),
+        other => Bilingual::new(other.to_string(), other.to_string()),
     }
 }
 
-/// serde's own words for what it wants, in Russian.
-fn expected_words(expected: &str) -> String {
+pub(super) fn a_number(number: impl fmt::Display) -> Bilingual {
+    Bilingual::new(format!("число {number}"), format!("the number {number}"))
+}
+
+pub(super) fn a_text(text: &str) -> Bilingual {
+    Bilingual::named(("текст", "the text"), &shortened(text))
+}
+
+pub(super) fn list_of(length: usize) -> Bilingual {
+    Bilingual::new(format!("список из {length} значений"), format!("a list of {length} values"))
+}
+
+/// What a number that is not finite, or larger than any building ([`Cm::LIMIT`](crate::units::Cm::LIMIT)), should be.
+pub(super) const MODEST_NUMBER: &str = "a number of modest size";
+pub(super) const TEXT: (&str, &str) = ("текст", "a text");
+pub(super) const NUMBER: (&str, &str) = ("число", "a number");
+pub(super) const BOOLEAN: (&str, &str) = ("true или false", "true or false");
+pub(super) const LIST: (&str, &str) = ("список", "a list");
+pub(super) const TABLE: (&str, &str) = ("таблица", "a table");
+pub(super) const NOTHING: (&str, &str) = ("пустое значение", "an empty value");
+pub(super) const TWO_OR_THREE: (&str, &str) =
+    ("два или три числа [x, y, z]", "two or three numbers [x, y, z]");
+
+/// What serde wants, in people's words.
+fn expected_words(expected: &str) -> Bilingual {
     let words = match expected {
-        "a string" | "a borrowed string" => "текст",
-        "f64" => "число",
-        "u32" | "u8" | "u64" | "i64" => "целое число не меньше нуля",
-        "a boolean" => "true или false",
-        "a sequence" => "список",
-        "a map" => "таблица",
-        "an array of length 2" => "два числа [x, y]",
-        _ if expected.starts_with("struct ") => "таблица",
-        _ if expected.contains("enum ") => "слово",
-        _ => expected,
+        "a string" | "a borrowed string" => TEXT,
+        "f64" => NUMBER,
+        MODEST_NUMBER => ("число от -10000000 до 10000000", "a number from -10000000 to 10000000"),
+        "u32" | "u8" | "u64" | "i64" => ("целое число не меньше нуля", "a whole number from 0 up"),
+        "a boolean" => BOOLEAN,
+        "a sequence" => LIST,
+        "a map" => TABLE,
+        "an array of length 2" => ("два числа [x, y]", "two numbers [x, y]"),
+        _ if expected.starts_with("struct ") => TABLE,
+        _ if expected.contains("enum ") => ("слово", "a word"),
+        _ => return Bilingual::new(expected.to_owned(), expected.to_owned()),
     };
-    words.to_owned()
+    words.into()
 }
 
 /// Longer words are nobody's slip of the pen, and comparing them takes long.

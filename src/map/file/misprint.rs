@@ -1,5 +1,7 @@
 //! What the TOML parser has to say, in Russian. A phrase that is not listed here is passed on as it is.
 
+use crate::units::Bilingual;
+
 const PHRASES: [(&str, &str); 41] = [
     ("`_` may only go between digits", "знак `_` может стоять только между цифрами"),
     ("cannot recurse further; max recursion depth met", "слишком глубокая вложенность"),
@@ -61,7 +63,11 @@ const EXPECTED: [(&str, &str); 13] = [
 ];
 
 /// A message of the parser: what is wrong, and perhaps after a comma what it expected.
-pub(super) fn in_russian(message: &str) -> String {
+pub(super) fn in_both(message: &str) -> Bilingual {
+    Bilingual::new(in_russian(message), message.to_owned())
+}
+
+fn in_russian(message: &str) -> String {
     let (wrong, expected) = message.split_once(", expected ").unwrap_or((message, ""));
     let wrong = look_up(&PHRASES, wrong);
     if expected.is_empty() {

@@ -22,7 +22,7 @@ use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
-use crate::units::Source;
+use crate::units::{Bilingual, Source};
 
 pub use edit::{EditReading, NextIds, edit, kinds};
 pub use schema::json_schema;
@@ -79,8 +79,9 @@ pub fn read(source: &Source, format: Format) -> Reading {
             return fail(vec![Fault::new(MapError::Empty, Vec::new())]);
         }
         _ => {
-            let expected = "таблица с полем format".to_owned();
-            let error = MapError::WrongKind { found: "значение".to_owned(), expected };
+            let expected = ("таблица с полем format", "a table with a field format").into();
+            let error =
+                MapError::WrongKind { found: ("значение", "a value").into(), expected };
             return fail(vec![Fault::new(error, Vec::new())]);
         }
     }
@@ -119,7 +120,8 @@ pub fn read_file(path: &Path) -> Reading {
     let fail = |error| Reading { world: None, faults: MapErrors::of(error) };
     let unreadable = |e: std::io::Error| {
         let path = path.to_string_lossy().into_owned();
-        fail(MapError::Unreadable { path, message: e.to_string() })
+        let message = Bilingual::new(e.to_string(), e.to_string());
+        fail(MapError::Unreadable { path, message })
     };
     match std::fs::metadata(path) {
         Err(e) => return unreadable(e),

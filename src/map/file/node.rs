@@ -9,8 +9,9 @@ use serde_saphyr::{Location, Spanned};
 use toml::de::{DeTable, DeValue};
 
 use super::Format;
-use super::misprint::in_russian;
+use super::misprint::in_both;
 use crate::map::fault::MapError;
+use crate::units::Bilingual;
 
 /// Bytes of the text.
 pub(super) type Span = Range<usize>;
@@ -89,7 +90,7 @@ fn parse_toml(text: &str) -> Result<Node, Vec<Misprint>> {
         return Err(errors
             .into_iter()
             .map(|e| Misprint {
-                error: MapError::Syntax { format: "TOML", message: in_russian(e.message()) },
+                error: MapError::Syntax { format: "TOML", message: in_both(e.message()) },
                 span: e.span(),
             })
             .collect());
@@ -158,7 +159,10 @@ fn parse_yaml(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
     let root: Spanned<Tree> = serde_saphyr::from_str_with_options(text, options).map_err(|e| {
         let e = e.without_snippet();
         vec![Misprint {
-            error: MapError::Syntax { format: name, message: e.to_string() },
+            error: MapError::Syntax {
+                format: name,
+                message: Bilingual::new(e.to_string(), e.to_string()),
+            },
             span: e.location().map(|at| span_in(text, at)),
         }]
     })?;

@@ -14,7 +14,8 @@ use super::schema::{
 use crate::map::fault::{Fault, MapError, Record, Spot};
 use crate::map::{TypeKind, TypeLists, World};
 use crate::units::{
-    AreaId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key, nearest_name,
+    AreaId, Bilingual, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId, name_key,
+    nearest_name,
 };
 
 const SECTIONS: [&str; 9] =
@@ -166,15 +167,16 @@ impl<'n> Reader<'n> {
     fn world(&mut self) -> World {
         self.top_level();
         let types = self.types();
-        let orthoframes = self.section("orthoframe", "Ортофрейм", OrFrId, Record::Orthoframe);
+        let orthoframes =
+            self.section("orthoframe", ("Ортофрейм", "Orthoframe"), OrFrId, Record::Orthoframe);
         self.names.orthoframes = self.index("orthoframe", &orthoframes);
-        let doors = self.section("door", "Дверь", DoorId, Record::Door);
+        let doors = self.section("door", ("Дверь", "Door"), DoorId, Record::Door);
         self.names.doors = self.index("door", &doors);
-        let objects = self.section("object", "Объект", ObjectId, Record::Object);
+        let objects = self.section("object", ("Объект", "Object"), ObjectId, Record::Object);
         self.names.objects = self.index("object", &objects);
-        let mut areas = self.section("area", "Помещение", AreaId, Record::Area);
+        let mut areas = self.section("area", ("Помещение", "Area"), AreaId, Record::Area);
         self.names.areas = self.index("area", &areas);
-        let maps = self.section("map", "Карта", MapId, Record::Map);
+        let maps = self.section("map", ("Карта", "Map"), MapId, Record::Map);
         self.names.maps = self.index("map", &maps);
         let replicas = self.replicas(&mut areas);
         let places = self.places(&mut areas);
@@ -257,7 +259,7 @@ impl<'n> Reader<'n> {
     fn section<Id: Copy, T: Deserialize<'n> + Keyed>(
         &mut self,
         section: &str,
-        what: &'static str,
+        what: (&'static str, &'static str),
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
     ) -> Vec<Raw<'n, Id, T>> {
@@ -267,8 +269,11 @@ impl<'n> Reader<'n> {
         {
             self.misprints(vec![Misprint {
                 error: MapError::WrongKind {
-                    found: "значение".to_owned(),
-                    expected: format!("таблицы [{section}.КЛЮЧ]"),
+                    found: ("значение", "a value").into(),
+                    expected: Bilingual::new(
+                        format!("таблицы [{section}.КЛЮЧ]"),
+                        format!("tables [{section}.KEY]"),
+                    ),
                 },
                 span: Some(entry.key_span.clone()),
             }]);
@@ -294,7 +299,7 @@ impl<'n> Reader<'n> {
                 records.push(Raw { id, key: entry.key.clone(), file, entry });
             } else {
                 let span = Some(entry.key_span.clone());
-                let error = MapError::DuplicateId { what, id: number };
+                let error = MapError::DuplicateId { what: what.into(), id: number };
                 self.misprints(vec![Misprint { error, span }]);
             }
         }
@@ -320,7 +325,7 @@ impl<'n> Reader<'n> {
     pub(super) fn follow<Id: Copy>(
         &mut self,
         index: impl Fn(&Names) -> &Index<Id>,
-        what: &'static str,
+        what: (&'static str, &'static str),
         name: &str,
         spot: Spot,
     ) -> Option<Id> {
@@ -333,7 +338,8 @@ impl<'n> Reader<'n> {
                 .flatten()
                 .map(str::to_owned);
             self.guesses_left = self.guesses_left.saturating_sub(1);
-            self.fault(MapError::UnknownReference { what, name: shortened(name), nearest }, spot);
+            let (what, name) = (what.into(), shortened(name));
+            self.fault(MapError::UnknownReference { what, name, nearest }, spot);
         }
         found
     }
@@ -346,11 +352,11 @@ impl<'n> Reader<'n> {
     ) -> Option<TypeId> {
         let name = name?;
         if self.names.types.contains_key(&kind) {
-            self.follow(|names| &names.types[&kind], "Тип", name, spot)
+            self.follow(|names| &names.types[&kind], ("Тип", "Type"), name, spot)
         } else {
             self.follow(
                 |names| names.types.values().next().expect("all kinds are indexed"),
-                "Тип",
+                ("Тип", "Type"),
                 name,
                 spot,
             )
@@ -394,7 +400,8 @@ impl<'n> Reader<'n> {
                 self.origins.insert(Record::Type(kind, id), origin);
                 let entries = &mut types.list_mut(kind).entries;
                 if entries.insert(id, type_entry(id, file)).is_some() {
-                    let error = MapError::DuplicateId { what: "Тип", id: number };
+                    let error =
+                        MapError::DuplicateId { what: ("Тип", "Type").into(), id: number };
                     self.misprints(vec![Misprint { error, span: Some(node.span.clone()) }]);
                 }
             }
@@ -412,7 +419,8 @@ impl<'n> Reader<'n> {
             .iter_mut()
             .map(|a| (a.id, a.entry, std::mem::take(&mut a.file.replicas)))
             .collect();
-        let (lines, index) = self.lines(lists, "replicas", "Экземпляр", ReplicaId, Record::Replica);
+        let (lines, index) =
+            self.lines(lists, "replicas", ("Экземпляр", "Replica"), ReplicaId, Record::Replica);
         self.names.replicas = index;
         lines
     }
@@ -423,7 +431,8 @@ impl<'n> Reader<'n> {
     ) -> Vec<(AreaId, PlaceId, PlaceFile)> {
         let lists: Vec<_> =
             areas.iter_mut().map(|a| (a.id, a.entry, std::mem::take(&mut a.file.places))).collect();
-        let (lines, index) = self.lines(lists, "places", "Место", PlaceId, Record::Place);
+        let (lines, index) =
+            self.lines(lists, "places", ("Место", "Place"), PlaceId, Record::Place);
         self.names.places = index;
         lines
     }
@@ -433,7 +442,7 @@ impl<'n> Reader<'n> {
         &mut self,
         lists: Vec<(AreaId, &'n Entry, Vec<T>)>,
         field: &str,
-        what: &'static str,
+        what: (&'static str, &'static str),
         id: impl Fn(u32) -> Id,
         record: impl Fn(Id) -> Record,
     ) -> (Vec<(AreaId, Id, T)>, Index<Id>) {
@@ -453,7 +462,7 @@ impl<'n> Reader<'n> {
             for (line, node) in list.into_iter().zip(read) {
                 let number = ids.next().expect("every line was numbered");
                 if !seen.insert(number) {
-                    let error = MapError::DuplicateId { what, id: number };
+                    let error = MapError::DuplicateId { what: what.into(), id: number };
                     self.misprints(vec![Misprint { error, span: Some(node.span.clone()) }]);
                     continue;
                 }

@@ -2,13 +2,14 @@
 
 use std::collections::BTreeMap;
 
+use super::decode::{TWO_OR_THREE, list_of};
 use super::read::{Origin, Raw, Reader};
 use super::schema::{
     AreaFile, At, DomainFile, DoorFile, DoorStateFile, ItemFile, ItemLinkFile, MountFile, Number,
     ObjectFile, OrthoframeFile, PlaceFile, PlanFile, ReplicaFile, RobotFile, SideTraitsFile,
     StatusFile, TypeFile,
 };
-use crate::map::fault::{MapError, Record, Spot};
+use crate::map::fault::{MORE_THAN_0, MapError, Record, Spot};
 use crate::map::{
     Area, BaseVector, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     DoorStatus, Face, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, Orthoframe,
@@ -33,7 +34,8 @@ impl Reader<'_> {
         let none_is_base = file.maps.iter().all(|m| !m.base);
         for (i, item) in file.maps.iter().enumerate() {
             let frame = self.frame(&item.at, item.angle, &spot("maps", i));
-            let map = self.follow(|n| &n.maps, "Карта", &item.map, spot("maps", i).field("map"));
+            let map =
+                self.follow(|n| &n.maps, ("Карта", "Map"), &item.map, spot("maps", i).field("map"));
             let is_base = item.base || (none_is_base && i == 0);
             domain_maps.extend(map.map(|map| DomainMap { map, frame, is_base }));
         }
@@ -45,7 +47,7 @@ impl Reader<'_> {
             let mut stops = Vec::new();
             for (j, stop) in lift.stops.iter().enumerate() {
                 let at = spot("lifts", i).field("stops").index(j);
-                let area = self.follow(|n| &n.areas, "Помещение", stop, at);
+                let area = self.follow(|n| &n.areas, ("Помещение", "Area"), stop, at);
                 stops.extend(area.map(|area| LiftStop { area }));
             }
             lifts.push((lift.name.clone(), stops));
@@ -83,7 +85,7 @@ impl Reader<'_> {
         robot.turn_rate = file.turn_rate.map_or(robot.turn_rate, |n| n.0);
         if let Some(start) = file.start {
             let spot = Spot::of(Record::Robot).field("start");
-            robot.start = self.follow(|n| &n.places, "Место", &start, spot);
+            robot.start = self.follow(|n| &n.places, ("Место", "Place"), &start, spot);
         }
         robot
     }
@@ -97,8 +99,8 @@ impl Reader<'_> {
             [x, y, z] => Frame::new(x.0, y.0, z.0, angle),
             _ => {
                 let error = MapError::WrongKind {
-                    found: format!("список из {} значений", at.0.len()),
-                    expected: "два или три числа [x, y, z]".to_owned(),
+                    found: list_of(at.0.len()),
+                    expected: TWO_OR_THREE.into(),
                 };
                 self.fault(error, spot.clone().field("at"));
                 Frame::IDENTITY
@@ -119,8 +121,11 @@ impl Reader<'_> {
                 None => {
                     let nearest = nearest_name(&side, base.iter().map(|v| v.id.as_str()));
                     let nearest = nearest.map(str::to_owned);
-                    let error =
-                        MapError::UnknownReference { what: "Сторона", name: side, nearest };
+                    let error = MapError::UnknownReference {
+                        what: ("Сторона", "Side").into(),
+                        name: side,
+                        nearest,
+                    };
                     self.fault(error, at);
                 }
             }
@@ -177,13 +182,15 @@ impl Reader<'_> {
             let (corners, radius) = (regular.corners, regular.radius.0);
             let at = |field| spot.clone().field("regular").field(field);
             if !(3..=360).contains(&corners) {
-                let (value, range) = (f64::from(corners), "от 3 до 360");
-                self.fault(MapError::OutOfRange { what: "corners", value, range }, at("corners"));
+                let (value, range) = (f64::from(corners), ("от 3 до 360", "from 3 to 360").into());
+                let error = MapError::OutOfRange { what: "corners".into(), value, range };
+                self.fault(error, at("corners"));
                 return Vec::new();
             }
             if radius <= 0.0 {
-                let (value, range) = (radius, "больше 0");
-                self.fault(MapError::OutOfRange { what: "radius", value, range }, at("radius"));
+                let (value, range) = (radius, MORE_THAN_0.into());
+                let error = MapError::OutOfRange { what: "radius".into(), value, range };
+                self.fault(error, at("radius"));
                 return Vec::new();
             }
             return lettered(&regular_corners(corners, radius));
@@ -311,7 +318,7 @@ impl Reader<'_> {
             let frame = self.frame(&file.at, file.angle, &at);
             let orthoframe = self.follow(
                 |n| &n.orthoframes,
-                "Ортофрейм",
+                ("Ортофрейм", "Orthoframe"),
                 &file.orthoframe,
                 at.field("orthoframe"),
             );
@@ -350,7 +357,11 @@ impl Reader<'_> {
 
     pub(super) fn face(&mut self, text: &str, spot: Spot) -> Option<(String, Face)> {
         let Some((item, face)) = text.rsplit_once('.') else {
-            let wanted = "«часть.roof», «часть.base» или «часть.сторона»";
+            let wanted = (
+                "«часть.roof», «часть.base» или «часть.сторона»",
+                "“part.roof”, “part.base” or “part.side”",
+            )
+                .into();
             self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
             return None;
         };
@@ -371,7 +382,7 @@ impl Reader<'_> {
             // Without items the group has a fault of its own.
             (None, []) => None,
             (None, _) => {
-                let wanted = "«часть.сторона»";
+                let wanted = ("«часть.сторона»", "“part.side”").into();
                 self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
                 None
             }
@@ -388,7 +399,7 @@ impl Reader<'_> {
         for (i, file) in files.iter().enumerate() {
             let at = spot.clone().field("doors").index(i);
             let side = self.side(&file.side, items, at.clone().field("side"));
-            let door = self.follow(|n| &n.doors, "Дверь", &file.door, at.field("door"));
+            let door = self.follow(|n| &n.doors, ("Дверь", "Door"), &file.door, at.field("door"));
             if let (Some(SideRef { item, side }), Some(door)) = (side, door) {
                 mounts.push(DoorMount { item, side, door, opens: file.opens.into() });
             }
@@ -405,20 +416,21 @@ impl Reader<'_> {
         let frame = self.frame(&file.at, file.angle, &spot);
         if file.move_prob > 100 {
             let error = MapError::OutOfRange {
-                what: "move_prob",
+                what: "move_prob".into(),
                 value: f64::from(file.move_prob),
-                range: "от 0 до 100",
+                range: ("от 0 до 100", "from 0 to 100").into(),
             };
             self.fault(error, spot.clone().field("move_prob"));
         }
         let mut door_states = BTreeMap::new();
         for (door, state) in file.doors.0 {
             let at = spot.clone().field("doors").key(&door);
-            let door = self.follow(|n| &n.doors, "Дверь", &door, at);
+            let door = self.follow(|n| &n.doors, ("Дверь", "Door"), &door, at);
             let DoorStateFile { state, opening } = state;
             door_states.extend(door.map(|door| (door, door_state(state, opening))));
         }
-        let object = self.follow(|n| &n.objects, "Объект", &file.object, spot.field("object"))?;
+        let object =
+            self.follow(|n| &n.objects, ("Объект", "Object"), &file.object, spot.field("object"))?;
         let replica = Replica {
             id,
             area,
@@ -438,7 +450,7 @@ impl Reader<'_> {
         let (area, id, file) = line;
         let serves = file.serves.and_then(|name| {
             let spot = Spot::of(Record::Place(id)).field("serves");
-            self.follow(|n| &n.replicas, "Экземпляр", &name, spot)
+            self.follow(|n| &n.replicas, ("Экземпляр", "Replica"), &name, spot)
         });
         let place = Place {
             id,
@@ -465,7 +477,8 @@ impl Reader<'_> {
         for (i, item) in file.items.iter().enumerate() {
             let at = spot.clone().field("items").index(i);
             let frame = self.frame(&item.at, item.angle, &at);
-            let area = self.follow(|n| &n.areas, "Помещение", &item.area, at.field("area"));
+            let area =
+                self.follow(|n| &n.areas, ("Помещение", "Area"), &item.area, at.field("area"));
             let is_base = item.base || (none_is_base && i == 0);
             items.extend(area.map(|area| MapItem { area, frame, is_base }));
         }
@@ -508,11 +521,15 @@ impl Reader<'_> {
         spot: Spot,
     ) -> Option<(AreaId, SideRef)> {
         let Some((name, side)) = text.split_once('.') else {
-            let wanted = "«помещение.сторона» или «помещение.часть.сторона»";
+            let wanted = (
+                "«помещение.сторона» или «помещение.часть.сторона»",
+                "“area.side” or “area.part.side”",
+            )
+                .into();
             self.fault(MapError::BadReference { text: text.to_owned(), wanted }, spot);
             return None;
         };
-        let area = self.follow(|n| &n.areas, "Помещение", name, spot.clone())?;
+        let area = self.follow(|n| &n.areas, ("Помещение", "Area"), name, spot.clone())?;
         let items = areas.get(&area).map_or(&[][..], |area| &area.items);
         Some((area, self.side(side, items, spot)?))
     }

@@ -9,13 +9,14 @@ use std::fmt;
 use std::marker::PhantomData;
 
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
-use serde::de::{MapAccess, Visitor};
+use serde::de::{Error as _, MapAccess, Unexpected, Visitor};
 use serde::ser::SerializeMap;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
+use super::decode::MODEST_NUMBER;
 use super::text::{Lines, Printed, line};
 use crate::map::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability};
-use crate::units::{Cm, QuantityError};
+use crate::units::Cm;
 
 /// The only format that this version reads and writes.
 pub(super) const FORMAT: u32 = 1;
@@ -30,14 +31,14 @@ pub fn json_schema() -> String {
 }
 
 /// A finite number of modest size: a length in cm or an angle in degrees. Whole numbers are written without a point.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(try_from = "f64")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Number(pub(super) f64);
 
-impl TryFrom<f64> for Number {
-    type Error = QuantityError;
-    fn try_from(value: f64) -> Result<Self, Self::Error> {
-        Cm::new(value).map(|cm| Self(cm.get()))
+impl<'de> Deserialize<'de> for Number {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let value = f64::deserialize(deserializer)?;
+        let refused = |_| D::Error::invalid_value(Unexpected::Float(value), &MODEST_NUMBER);
+        Cm::new(value).map(|cm| Self(cm.get())).map_err(refused)
     }
 }
 

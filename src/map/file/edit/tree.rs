@@ -50,15 +50,15 @@ impl Kind {
         }
     }
 
-    pub(super) fn title(self) -> &'static str {
+    pub(super) fn title(self) -> (&'static str, &'static str) {
         match self {
-            Self::Replica => "Экземпляр",
-            Self::Area => "Помещение",
-            Self::Door => "Дверь",
-            Self::Place => "Место",
-            Self::Map => "Карта",
-            Self::Object => "Объект",
-            Self::Orthoframe => "Ортофрейм",
+            Self::Replica => ("Экземпляр", "Replica"),
+            Self::Area => ("Помещение", "Area"),
+            Self::Door => ("Дверь", "Door"),
+            Self::Place => ("Место", "Place"),
+            Self::Map => ("Карта", "Map"),
+            Self::Object => ("Объект", "Object"),
+            Self::Orthoframe => ("Ортофрейм", "Orthoframe"),
         }
     }
 

@@ -109,11 +109,11 @@ impl Steps<'_> {
                 return Ok((area, Node { span: node.span.clone(), value: Value::Text(whole) }));
             }
         }
-        let wanted = "«помещение.сторона»";
+        let wanted = ("«помещение.сторона»", "“area.side”").into();
         let error = match text.split_once('.') {
             None => MapError::BadReference { text: shortened(text), wanted },
             Some((area, _)) => MapError::UnknownReference {
-                what: "Помещение",
+                what: ("Помещение", "Area").into(),
                 name: shortened(area),
                 nearest: self.tree.nearest(area, &[Kind::Area]),
             },

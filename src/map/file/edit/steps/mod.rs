@@ -14,7 +14,7 @@ use std::collections::BTreeSet;
 use super::NextIds;
 use super::tree::{Kind, Tree};
 use crate::map::fault::MapError;
-use crate::map::file::decode::{likely, shortened};
+use crate::map::file::decode::{NUMBER, likely, shortened};
 use crate::map::file::node::{Misprint, Node, Span, Value};
 use crate::map::file::schema::FORMAT;
 use crate::map::{Entity, World};
@@ -108,7 +108,10 @@ impl<'a> Steps<'a> {
         }
         let Some(list) = edits.entry("edit") else { return };
         if !matches!(list.node.value, Value::List(_)) {
-            self.misprints.push(*wrong_kind(&list.node, "список шагов [[edit]]"));
+            self.misprints.push(*wrong_kind(
+                &list.node,
+                ("список шагов [[edit]]", "a list of steps [[edit]]"),
+            ));
         }
         for node in list.node.elements() {
             if let Err(fault) = self.step(node) {
@@ -129,7 +132,10 @@ impl<'a> Steps<'a> {
         let Some(verb) = node.entries().iter().find(|e| verbs.contains(&e.key.as_str())) else {
             let expected = verbs.join(", ");
             return Err(match node.entries().first() {
-                None => wrong_kind(node, "шаг правки: таблица с глаголом"),
+                None => wrong_kind(
+                    node,
+                    ("шаг правки: таблица с глаголом", "a step of an edit: a table with a verb"),
+                ),
                 Some(first) => misprint(
                     MapError::UnknownVerb {
                         found: shortened(&first.key),
@@ -178,6 +184,6 @@ fn check_format(node: &Node) -> Done {
     match node.value {
         Value::Integer(n) if n == i64::from(FORMAT) => Ok(()),
         Value::Integer(n) => Err(misprint(MapError::Format { found: n.to_string() }, &node.span)),
-        _ => Err(wrong_kind(node, "число")),
+        _ => Err(wrong_kind(node, NUMBER)),
     }
 }

@@ -20,7 +20,8 @@ impl Steps<'_> {
         match found[..] {
             [only] => Ok(only),
             [] => {
-                let what = if let [kind] = kinds { kind.title() } else { "Имя" };
+                let what = if let [kind] = kinds { kind.title() } else { ("Имя", "Name") };
+                let what = what.into();
                 let nearest = self.tree.nearest(name, kinds);
                 let error = MapError::UnknownReference { what, name: shortened(name), nearest };
                 Err(misprint(error, &node.span))

@@ -21,7 +21,8 @@ impl Steps<'_> {
         for record in section.node.entries() {
             let known = self.tree.find(&record.key, &[kind]);
             if known.iter().any(|h| self.tree.key(*h) == record.key) {
-                let error = MapError::AlreadyThere { what: kind.title(), name: record.key.clone() };
+                let error =
+                    MapError::AlreadyThere { what: kind.title().into(), name: record.key.clone() };
                 self.misprints.push(*misprint(error, &record.key_span));
                 continue;
             }
@@ -78,7 +79,10 @@ impl Steps<'_> {
                 if let Some(name) = line.entry("name").and_then(|n| n.node.text())
                     && self.world.types.list(kind).named(name).is_some()
                 {
-                    let error = MapError::AlreadyThere { what: "Тип", name: shortened(name) };
+                    let error = MapError::AlreadyThere {
+                        what: ("Тип", "Type").into(),
+                        name: shortened(name),
+                    };
                     self.misprints.push(*misprint(error, &line.span));
                     continue;
                 }

@@ -5,6 +5,7 @@ use super::{GROUPS, Steps};
 use crate::map::fault::MapError;
 use crate::map::file::edit::tree::{Handle, Kind};
 use crate::map::file::node::{Entry, Node, Value};
+use crate::units::Bilingual;
 
 impl Steps<'_> {
     /// Takes a record out, with what only it gave a place: an Area's standing on its Map, a door's bindings.
@@ -14,7 +15,7 @@ impl Steps<'_> {
         let name = self.tree.reference(at);
         let users = self.users(at, &name);
         if !users.is_empty() {
-            let (what, by) = (at.kind.title(), users.join(", "));
+            let (what, by) = (at.kind.title().into(), Bilingual::list(&users));
             return Err(misprint(MapError::StillUsed { what, name, by }, step.span()));
         }
         self.change(at).value = Value::Nothing;
@@ -70,7 +71,7 @@ impl Steps<'_> {
     }
 
     /// What could not be without a record, and does not go with it.
-    fn users(&self, at: Handle, name: &str) -> Vec<String> {
+    fn users(&self, at: Handle, name: &str) -> Vec<Bilingual> {
         let is =
             |node: &Node, field: &str| node.entry(field).and_then(|e| e.node.text()) == Some(name);
         let lines = |owner: Handle, list: &str, field: &str| -> Vec<&Node> {
@@ -78,7 +79,7 @@ impl Steps<'_> {
             let nodes = nodes.map_or(&[][..], |e| e.node.elements());
             nodes.iter().filter(|n| is(n, field)).collect()
         };
-        let quoted = |name: &str| format!("«{name}»");
+        let quoted = Bilingual::quoted;
         match at.kind {
             Kind::Object => {
                 let areas = self.tree.all(Kind::Area).into_iter();
@@ -94,7 +95,7 @@ impl Steps<'_> {
                 let robot = self.tree.section("robot").iter().find(|e| e.key == "start");
                 let starts = robot.is_some_and(|e| e.node.text() == Some(name));
                 if starts {
-                    vec!["робот начинает отсюда".to_owned()]
+                    vec![("робот начинает отсюда", "the robot starts from here").into()]
                 } else {
                     Vec::new()
                 }

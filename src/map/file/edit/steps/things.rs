@@ -3,7 +3,7 @@
 use super::word::{Done, Step, misprint, number, numbers, table, written, wrong_kind};
 use super::{Steps, VERBS};
 use crate::map::fault::MapError;
-use crate::map::file::decode::shortened;
+use crate::map::file::decode::{BOOLEAN, shortened};
 use crate::map::file::edit::tree::{Handle, Kind, entry};
 use crate::map::file::node::{Entry, Node, Value};
 use crate::units::ReplicaId;
@@ -23,7 +23,7 @@ impl Steps<'_> {
     fn new_line(&mut self, kind: Kind, area: Handle, step: &Step<'_>, fields: &[&str]) -> Done {
         let name = step.what()?;
         if !self.tree.find(name, &[kind]).is_empty() {
-            let error = MapError::AlreadyThere { what: kind.title(), name: shortened(name) };
+            let error = MapError::AlreadyThere { what: kind.title().into(), name: shortened(name) };
             return Err(misprint(error, step.span()));
         }
         let mut entries = step.copies(fields);
@@ -65,7 +65,7 @@ impl Steps<'_> {
                 return Err(misprint(MapError::MissingField { field: "to" }, &step.verb.key_span));
             }
             (Some(_), Some(by)) => {
-                let message = "дайте либо to, либо by".to_owned();
+                let message = ("дайте либо to, либо by", "give either to or by").into();
                 return Err(misprint(MapError::BadValue { message }, &by.span));
             }
         };
@@ -109,12 +109,14 @@ impl Steps<'_> {
                         Ok(())
                     }
                     _ => {
-                        let message = "carry: на точке ничего не стоит".to_owned();
+                        let message =
+                            ("carry: на точке ничего не стоит", "carry: nothing stands on a place")
+                                .into();
                         Err(misprint(MapError::BadValue { message }, span))
                     }
                 }
             }
-            Some(node) => Err(wrong_kind(node, "true или false")),
+            Some(node) => Err(wrong_kind(node, BOOLEAN)),
         }
     }
 
@@ -128,7 +130,7 @@ impl Steps<'_> {
             (Some(to), None) => (number(to)?, to),
             (None, Some(by)) => ((before + number(by)?).rem_euclid(360.0), by),
             (Some(_), Some(by)) => {
-                let message = "дайте либо to, либо by".to_owned();
+                let message = ("дайте либо to, либо by", "give either to or by").into();
                 return Err(misprint(MapError::BadValue { message }, &by.span));
             }
             (None, None) => {

@@ -37,7 +37,10 @@ impl Steps<'_> {
         let properties = self.properties(step)?;
         if properties.entry(&name).is_none() {
             let nearest = None;
-            let error = MapError::UnknownReference { what: "Свойство", name, nearest };
+            let error =
+                MapError::UnknownReference {
+                    what: ("Свойство", "Property").into(), name, nearest
+                };
             return Err(misprint(error, &property.span));
         }
         properties.drop_entry(&name);
@@ -56,7 +59,7 @@ impl Steps<'_> {
         let mut record = self.change(at);
         if let Some(side) = side {
             record = side_of(record, side).ok_or_else(|| {
-                let (what, name, nearest) = ("Сторона", shortened(side), None);
+                let (what, name, nearest) = (("Сторона", "Side").into(), shortened(side), None);
                 misprint(MapError::UnknownReference { what, name, nearest }, step.span())
             })?;
         }

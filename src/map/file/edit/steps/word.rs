@@ -1,8 +1,11 @@
 //! One step of an edit file as it stands: its verb, its fields, and what is wrong with them.
 
 use crate::map::fault::MapError;
-use crate::map::file::decode::{likely, shortened};
+use crate::map::file::decode::{
+    LIST, NOTHING, NUMBER, TABLE, TEXT, TWO_OR_THREE, a_number, a_text, likely, shortened,
+};
 use crate::map::file::node::{Entry, Misprint, Node, Span, Value};
+use crate::units::Bilingual;
 
 /// A step's work, or its fault.
 pub(super) type Outcome<T> = Result<T, Box<Misprint>>;
@@ -53,37 +56,33 @@ pub(super) fn unknown_field(entry: &Entry, known: &[&str]) -> Box<Misprint> {
 }
 
 pub(super) fn text_of(node: &Node) -> Outcome<&str> {
-    node.text().ok_or_else(|| wrong_kind(node, "текст"))
+    node.text().ok_or_else(|| wrong_kind(node, TEXT))
 }
 
-pub(super) fn wrong_kind(node: &Node, expected: &str) -> Box<Misprint> {
+pub(super) fn wrong_kind(node: &Node, expected: (&'static str, &'static str)) -> Box<Misprint> {
     let found = match &node.value {
-        Value::Nothing => "пустое значение".to_owned(),
-        Value::Bool(b) => format!("«{b}»"),
-        Value::Integer(n) => format!("число {n}"),
-        Value::Float(x) => format!("число {x}"),
-        Value::Text(text) => format!("текст «{}»", shortened(text)),
-        Value::List(_) => "список".to_owned(),
-        Value::Table(_) => "таблица".to_owned(),
+        Value::Nothing => NOTHING.into(),
+        Value::Bool(b) => Bilingual::quoted(&b.to_string()),
+        Value::Integer(n) => a_number(n),
+        Value::Float(x) => a_number(x),
+        Value::Text(text) => a_text(text),
+        Value::List(_) => LIST.into(),
+        Value::Table(_) => TABLE.into(),
     };
-    misprint(MapError::WrongKind { found, expected: expected.to_owned() }, &node.span)
+    misprint(MapError::WrongKind { found, expected: expected.into() }, &node.span)
 }
 
 pub(super) fn number(node: &Node) -> Outcome<f64> {
     match node.value {
         Value::Integer(n) => Ok(n as f64),
         Value::Float(x) => Ok(x),
-        _ => Err(wrong_kind(node, "число")),
+        _ => Err(wrong_kind(node, NUMBER)),
     }
 }
 
 pub(super) fn numbers(node: &Node) -> Outcome<Vec<f64>> {
     let list: Vec<f64> = node.elements().iter().map(number).collect::<Result<_, _>>()?;
-    if (2..=3).contains(&list.len()) {
-        Ok(list)
-    } else {
-        Err(wrong_kind(node, "два или три числа [x, y, z]"))
-    }
+    if (2..=3).contains(&list.len()) { Ok(list) } else { Err(wrong_kind(node, TWO_OR_THREE)) }
 }
 
 /// A number as a person would have written it.

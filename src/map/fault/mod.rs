@@ -10,10 +10,18 @@ use miette::{
 use thiserror::Error;
 
 use crate::units::{
-    AreaId, Cm, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, Source, TypeId,
+    AreaId, Bilingual, Cm, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, Source, TypeId,
 };
 
 use super::TypeKind;
+
+mod english;
+
+pub use english::EnglishMapErrors;
+
+pub(super) const COORDINATE: (&str, &str) = ("координата", "a coordinate");
+pub(super) const WITHIN: (&str, &str) = ("в пределах ±100 км", "within ±100 km");
+pub(super) const MORE_THAN_0: (&str, &str) = ("больше 0", "more than 0");
 
 /// A map that cannot be read, or that contradicts itself. Points are `(x, y)` in cm.
 #[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
@@ -25,7 +33,7 @@ pub enum MapError {
         code(map::unreadable),
         help("проверьте путь к файлу; карта - текст в кодировке UTF-8")
     )]
-    Unreadable { path: String, message: String },
+    Unreadable { path: String, message: Bilingual },
     /// Larger than any building needs.
     #[error("файл карты слишком велик: {bytes} байт при пределе {limit}")]
     #[diagnostic(code(map::too_large), help("разделите карту на несколько файлов"))]
@@ -40,7 +48,7 @@ pub enum MapError {
     /// The notation itself is broken.
     #[error("ошибка записи {format}: {message}")]
     #[diagnostic(code(map::syntax), help("исправьте запись в этом месте; образец - maps/rb2.toml"))]
-    Syntax { format: &'static str, message: String },
+    Syntax { format: &'static str, message: Bilingual },
     /// Written for another version.
     #[error("неизвестная версия формата: {found}")]
     #[diagnostic(code(map::format), help("эта программа читает карты версии 1: `format = 1`"))]
@@ -56,7 +64,7 @@ pub enum MapError {
     /// A text where a number belongs, and the like.
     #[error("{found}, а нужно: {expected}")]
     #[diagnostic(code(map::wrong_kind), help("замените значение; нужно: {expected}"))]
-    WrongKind { found: String, expected: String },
+    WrongKind { found: Bilingual, expected: Bilingual },
     /// None of the words that may stand here.
     #[error("неизвестное слово «{word}»{}", perhaps(.nearest))]
     #[diagnostic(code(map::unknown_word), help("здесь может стоять одно из слов: {expected}"))]
@@ -64,15 +72,15 @@ pub enum MapError {
     /// A value of the right kind that makes no sense.
     #[error("негодное значение: {message}")]
     #[diagnostic(code(map::bad_value), help("исправьте значение"))]
-    BadValue { message: String },
+    BadValue { message: Bilingual },
     /// A number out of its range.
     #[error("{what} = {value}, а нужно {range}")]
     #[diagnostic(code(map::out_of_range), help("задайте {what} {range}"))]
-    OutOfRange { what: &'static str, value: f64, range: &'static str },
+    OutOfRange { what: Bilingual, value: f64, range: Bilingual },
     /// A name that nothing bears.
     #[error("{what} «{name}» не существует{}", perhaps(.nearest))]
     #[diagnostic(code(map::unknown_reference), help("исправьте имя или опишите: {what} «{name}»"))]
-    UnknownReference { what: &'static str, name: String, nearest: Option<String> },
+    UnknownReference { what: Bilingual, name: String, nearest: Option<String> },
     /// A name that several things bear, or that could be read in several ways.
     #[error("имя «{name}» можно понять по-разному: {candidates}")]
     #[diagnostic(code(map::ambiguous_name), help("назовите одно из них полностью"))]
@@ -80,34 +88,34 @@ pub enum MapError {
     /// "A.roof" and its like, misspelt.
     #[error("ссылка «{text}» непонятна")]
     #[diagnostic(code(map::bad_reference), help("запишите ссылку как {wanted}"))]
-    BadReference { text: String, wanted: &'static str },
+    BadReference { text: String, wanted: Bilingual },
     /// Two records of one kind with one id.
     #[error("{what}: номер {id} дан дважды")]
     #[diagnostic(code(map::duplicate_id), help("уберите поле id или дайте другой номер"))]
-    DuplicateId { what: &'static str, id: u32 },
+    DuplicateId { what: Bilingual, id: u32 },
     /// An id from another world.
     #[error("{owner}: ссылка на {what} с номером {id}, которого нет")]
     #[diagnostic(code(map::dangling_id), help("добавьте недостающую запись или уберите ссылку"))]
-    DanglingId { owner: String, what: &'static str, id: u32 },
+    DanglingId { owner: Bilingual, what: Bilingual, id: u32 },
     /// One name for two things.
     #[error("имя «{name}» носят двое: {first} и {second}")]
     #[diagnostic(code(map::duplicate_name), help("дайте каждому своё имя, например «{}-2»", name.trim()))]
-    DuplicateName { name: String, first: String, second: String },
+    DuplicateName { name: String, first: Bilingual, second: Bilingual },
     /// A record without a name.
     #[error("{what} без имени")]
     #[diagnostic(code(map::no_name), help("дайте имя в поле name"))]
-    NoName { what: &'static str },
+    NoName { what: Bilingual },
     /// A handle that references could not tell from something else.
     #[error("{owner}: негодное обозначение «{id}»")]
     #[diagnostic(
         code(map::bad_id),
         help("обозначение не пусто, не содержит точки и не равно base, roof, база, потолок")
     )]
-    BadId { owner: String, id: String },
+    BadId { owner: Bilingual, id: String },
     /// Two parts or sides with one id.
     #[error("{owner}: обозначение «{id}» дано дважды")]
     #[diagnostic(code(map::duplicate_part), help("обозначения частей и сторон не повторяются"))]
-    DuplicatePart { owner: String, id: String },
+    DuplicatePart { owner: Bilingual, id: String },
 
     /// None or several of the ways to give a base.
     #[error("Ортофрейм «{name}»: База задана {count} способами вместо одного")]
@@ -170,11 +178,11 @@ pub enum MapError {
     /// Nothing in it.
     #[error("{owner}: нет ни одной части")]
     #[diagnostic(code(map::no_items), help("перечислите части в поле items"))]
-    NoItems { owner: String },
+    NoItems { owner: Bilingual },
     /// None or several base items.
     #[error("{owner}: базовых частей {count}, а нужна одна")]
     #[diagnostic(code(map::base_item_count), help("отметьте `base = true` ровно одну часть"))]
-    BaseItemCount { owner: String, count: usize },
+    BaseItemCount { owner: Bilingual, count: usize },
     /// The base item stands off the origin.
     #[error(
         "{owner}: ни один угол базовой части «{item}» не стоит в начале координат; ближайший - {nearest}"
@@ -183,19 +191,19 @@ pub enum MapError {
         code(map::base_item_off_origin),
         help("сдвиньте часть так, чтобы её угол попал в [0, 0]")
     )]
-    BaseItemOffOrigin { owner: String, item: String, nearest: String },
+    BaseItemOffOrigin { owner: Bilingual, item: String, nearest: String },
     /// An id of an item that the group does not have.
     #[error("{owner}: части «{item}» нет")]
     #[diagnostic(code(map::unknown_item), help("есть части: {known}"))]
-    UnknownItem { owner: String, item: String, known: String },
+    UnknownItem { owner: Bilingual, item: String, known: String },
     /// An id of a side that the Orthoframe does not have.
     #[error("{owner}: у части «{item}» нет стороны «{side}»")]
     #[diagnostic(code(map::unknown_side), help("есть стороны: {known}"))]
-    UnknownSide { owner: String, item: String, side: String, known: String },
+    UnknownSide { owner: Bilingual, item: String, side: String, known: String },
     /// A horizontal face bound to a vertical one.
     #[error("{owner}: связь {link} соединяет горизонтальную грань с боковой")]
     #[diagnostic(code(map::link_faces), help("связывают Потолок с Базой или сторону со стороной"))]
-    LinkFaces { owner: String, link: String },
+    LinkFaces { owner: Bilingual, link: String },
     /// A link and the positions say different things.
     #[error(
         "{owner}: связь {link} и положения противоречат: по связи {claimed}, по положениям {found}"
@@ -204,54 +212,54 @@ pub enum MapError {
         code(map::link_contradicts),
         help("исправьте положение (at, angle) одной из частей или смещение (rel, angle) связи")
     )]
-    LinkContradicts { owner: String, link: String, claimed: String, found: String },
+    LinkContradicts { owner: Bilingual, link: String, claimed: Bilingual, found: Bilingual },
     /// A passage bound to a narrower one.
     #[error("{owner}: связь {link} соединяет проёмы разной ширины: {length} и {other}")]
     #[diagnostic(
         code(map::link_length),
         help("проницаемые и условно проницаемые стороны равны по длине")
     )]
-    LinkLength { owner: String, link: String, length: Cm, other: Cm },
+    LinkLength { owner: Bilingual, link: String, length: Cm, other: Cm },
     /// A door bound to a wall.
     #[error("{owner}: связь {link} соединяет грани разной проницаемости")]
     #[diagnostic(
         code(map::link_permeability),
         help("сделайте обе стороны проницаемыми или обе непроницаемыми")
     )]
-    LinkPermeability { owner: String, link: String },
+    LinkPermeability { owner: Bilingual, link: String },
     /// A passage that does not lie on the passage that it is bound to.
     #[error("{owner}: проёмы связи {link} не совпадают: между ними {distance}")]
     #[diagnostic(
         code(map::link_apart),
         help("совместите стороны: их концы должны лежать в одних точках")
     )]
-    LinkApart { owner: String, link: String, distance: Cm },
+    LinkApart { owner: Bilingual, link: String, distance: Cm },
     /// Two parts of an Area, or two solid parts of an Object, lie in one another.
     #[error("{owner}: части «{item}» и «{other}» накладываются, например в точке {at}")]
     #[diagnostic(
         code(map::items_overlap),
         help("раздвиньте части: они могут только соприкасаться")
     )]
-    ItemsOverlap { owner: String, item: String, other: String, at: String },
+    ItemsOverlap { owner: Bilingual, item: String, other: String, at: String },
     /// A part that nothing holds.
     #[error("{owner}: часть «{item}» не связана с остальными")]
     #[diagnostic(
         code(map::items_apart),
         help("добавьте связь в links или придвиньте часть вплотную")
     )]
-    ItemsApart { owner: String, item: String },
+    ItemsApart { owner: Bilingual, item: String },
 
     /// Two rooms in one place.
     #[error("{map}: помещения «{area}» и «{other}» накладываются, например в точке {at}")]
     #[diagnostic(code(map::areas_overlap), help("сдвиньте одно из помещений"))]
-    AreasOverlap { map: String, area: String, other: String, at: String },
+    AreasOverlap { map: Bilingual, area: String, other: String, at: String },
     /// A room bound to no other.
     #[error("{map}: помещение «{area}» не связано с остальными")]
     #[diagnostic(
         code(map::areas_apart),
         help("свяжите одну из его сторон с соседней в поле links карты")
     )]
-    AreasApart { map: String, area: String },
+    AreasApart { map: Bilingual, area: String },
     /// A room that stands in two places.
     #[error("помещение «{area}» поставлено на карты дважды")]
     #[diagnostic(code(map::area_twice), help("каждое помещение стоит на одной карте, один раз"))]
@@ -282,26 +290,26 @@ pub enum MapError {
             "дверь вешают на условно проницаемую сторону (permeability = \"conditional\"), проход - на проницаемую"
         )
     )]
-    DoorOnWrongSide { owner: String, door: String, side: String, why: &'static str },
+    DoorOnWrongSide { owner: Bilingual, door: String, side: String, why: Bilingual },
     /// A doorway in which no door hangs.
     #[error("{owner}: на условно проницаемой стороне {side} нет двери")]
     #[diagnostic(
         code(map::side_without_door),
         help("навесьте дверь в поле doors или измените permeability")
     )]
-    SideWithoutDoor { owner: String, side: String },
+    SideWithoutDoor { owner: Bilingual, side: String },
     /// Two doors in one doorway.
     #[error("{owner}: на стороне {side} две двери")]
     #[diagnostic(code(map::side_two_doors), help("оставьте на стороне одну дверь"))]
-    SideTwoDoors { owner: String, side: String },
+    SideTwoDoors { owner: Bilingual, side: String },
     /// A door that does not fit.
     #[error("{owner}: дверь «{door}» шириной {width} не входит в сторону {side} длиной {length}")]
     #[diagnostic(code(map::door_too_wide), help("сделайте дверь не шире стороны"))]
-    DoorTooWide { owner: String, door: String, width: Cm, side: String, length: Cm },
+    DoorTooWide { owner: Bilingual, door: String, width: Cm, side: String, length: Cm },
     /// A door higher than its wall.
     #[error("{owner}: дверь «{door}» высотой {height} выше стороны {side} высотой {wall}")]
     #[diagnostic(code(map::door_too_high), help("сделайте дверь не выше помещения"))]
-    DoorTooHigh { owner: String, door: String, height: Cm, side: String, wall: Cm },
+    DoorTooHigh { owner: Bilingual, door: String, height: Cm, side: String, wall: Cm },
     /// A door that hangs nowhere.
     #[error("дверь «{door}» нигде не навешена")]
     #[diagnostic(
@@ -329,14 +337,14 @@ pub enum MapError {
         code(map::door_direction),
         help("для одного помещения opens = \"inside\", для другого \"outside\"")
     )]
-    DoorDirection { door: String, way: &'static str },
+    DoorDirection { door: String, way: Bilingual },
     /// No leaves, or leaves in a passage.
     #[error("дверь «{door}»: {why}")]
     #[diagnostic(
         code(map::door_leaves),
         help("двери нужна хотя бы одна створка в leaves, проходу - ни одной")
     )]
-    DoorLeaves { door: String, why: &'static str },
+    DoorLeaves { door: String, why: Bilingual },
     /// Leaves that do not fill the door.
     #[error("дверь «{door}»: доли створок в сумме дают {sum}, а не 1")]
     #[diagnostic(code(map::leaf_shares), help("доли (share) всех створок в сумме равны 1"))]
@@ -347,7 +355,7 @@ pub enum MapError {
         code(map::door_state),
         help("у закрытой и запертой двери раскрытие 0, у проёма без створок - 100")
     )]
-    DoorState { door: String, opening: f64, status: &'static str },
+    DoorState { door: String, opening: f64, status: Bilingual },
 
     /// A thing that stands in another room.
     #[error("«{replica}» стоит вне своего помещения «{area}»: его середина в точке {at}")]
@@ -390,7 +398,7 @@ pub enum MapError {
             "перечислите углы выпуклого контура против часовой стрелки, [вперёд, влево] от центра, в см"
         )
     )]
-    BadFootprint { reason: String },
+    BadFootprint { reason: Bilingual },
 
     /// An edit file that says nothing.
     #[error("в файле правок ничего нет")]
@@ -413,11 +421,11 @@ pub enum MapError {
             "дайте новому другое имя; то, что есть, меняют шаги [[edit]]: move, turn, set, rename, remove"
         )
     )]
-    AlreadyThere { what: &'static str, name: String },
+    AlreadyThere { what: Bilingual, name: String },
     /// Something is to be removed that other things are made of, or stand by.
     #[error("{what} «{name}» ещё нужен: {by}")]
     #[diagnostic(code(map::still_used), help("сначала уберите то, что названо"))]
-    StillUsed { what: &'static str, name: String, by: String },
+    StillUsed { what: Bilingual, name: String, by: Bilingual },
     /// A door that hangs nowhere, or not there.
     #[error("дверь «{door}» там не навешена")]
     #[diagnostic(code(map::not_bound), help("уберите этот шаг или исправьте from"))]
@@ -537,6 +545,18 @@ impl Fault {
         Self { error, spots, spans: Vec::new() }
     }
 
+    fn labels_saying(
+        &self,
+        first: &'static str,
+        further: &'static str,
+    ) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let label = move |(i, span): (usize, &SourceSpan)| {
+            let words = if i == 0 { first } else { further };
+            LabeledSpan::new_with_span(Some(words.to_owned()), *span)
+        };
+        (!self.spans.is_empty()).then(|| Box::new(self.spans.iter().enumerate().map(label)) as _)
+    }
+
     /// A warning lets the map be used.
     #[must_use]
     pub fn is_warning(&self) -> bool {
@@ -563,11 +583,7 @@ impl Diagnostic for Fault {
         self.error.help()
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = |(i, span): (usize, &SourceSpan)| {
-            let words = if i == 0 { "здесь" } else { "и здесь" };
-            LabeledSpan::new_with_span(Some(words.to_owned()), *span)
-        };
-        (!self.spans.is_empty()).then(|| Box::new(self.spans.iter().enumerate().map(label)) as _)
+        self.labels_saying("здесь", "и здесь")
     }
 }
 
