@@ -9,7 +9,7 @@ use crate::engine::{
     uncertain_names,
 };
 use crate::language::report::Detail as Level;
-use crate::language::{Case, NounPhrase};
+use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
 
 use super::args::{Common, Detail, Lang, RouteMethod};
@@ -35,7 +35,7 @@ pub(super) fn open(common: &Common) -> Result<Engine, Failure> {
     } else {
         Engine::open_existing(&dir, rules.as_deref())?
     };
-    note_repairs(&engine);
+    note_repairs(&engine, common.lang);
     Ok(match common.as_of {
         Some(when) => engine.as_of(when)?,
         None => engine,
@@ -55,20 +55,27 @@ pub(super) fn note(text: &str) {
     eprintln!("{text}");
 }
 
-pub(super) fn note_repairs(engine: &Engine) {
+pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
     let opened = &engine.opened;
+    let store = lang.pick("Хранилище", "The store");
     if opened.torn_bytes > 0 {
-        note(&format!(
-            "Хранилище: последняя запись была прервана и не подтверждена; отброшено {} байт.",
-            opened.torn_bytes
-        ));
+        let bytes = opened.torn_bytes;
+        note(&match lang {
+            Lang::Ru => format!(
+                "{store}: последняя запись была прервана и не подтверждена; отброшено {bytes} байт."
+            ),
+            Lang::En => format!(
+                "{store}: the last record was cut off and not confirmed; {bytes} bytes are dropped."
+            ),
+        });
     }
-    for (what, why) in [
-        ("таблицы построены заново по журналу", &opened.tables_rebuilt),
-        ("журнал записан заново по таблицам", &opened.journal_renewed),
-    ] {
+    let tables = lang
+        .pick("таблицы построены заново по журналу", "the tables are built anew from the journal");
+    let journal = lang
+        .pick("журнал записан заново по таблицам", "the journal is written anew from the tables");
+    for (what, why) in [(tables, &opened.tables_rebuilt), (journal, &opened.journal_renewed)] {
         if let Some(why) = why {
-            note(&format!("Хранилище: {what}: {why}."));
+            note(&format!("{store}: {what}: {why}."));
         }
     }
 }
@@ -101,9 +108,10 @@ pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
         })
         .to_string());
     }
-    let mut lines = vec![format!("Карта исправна. {}", described(&world))];
+    let sound = common.lang.pick("Карта исправна.", "The map is sound.");
+    let mut lines = vec![format!("{sound} {}", described(&world, common.lang))];
     if !uncertain.is_empty() {
-        lines.push(guessed(&uncertain));
+        lines.push(guessed(&uncertain, common.lang));
     }
     say(&lines.join("\n"))
 }
@@ -112,7 +120,7 @@ pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
 const UNCERTAIN_SHOWN: usize = 20;
 
 /// «Формы 2 имён угаданы …», each with its genitive, where a wrong guess shows.
-fn guessed(uncertain: &[NounPhrase]) -> String {
+fn guessed(uncertain: &[NounPhrase], lang: Lang) -> String {
     let shown: Vec<String> = uncertain
         .iter()
         .take(UNCERTAIN_SHOWN)
@@ -120,12 +128,13 @@ fn guessed(uncertain: &[NounPhrase]) -> String {
         .collect();
     let more = match uncertain.len().saturating_sub(UNCERTAIN_SHOWN) {
         0 => String::new(),
-        more => format!(" и ещё {more}"),
+        more => format!(" {} {more}", lang.pick("и ещё", "and more:")),
     };
-    format!(
-        "Формы имён, угаданные по окончанию (карта может задать их полем forms; все формы: ortho words ИМЯ): {}{more}.",
-        shown.join(", ")
-    )
+    let head = lang.pick(
+        "Формы имён, угаданные по окончанию (карта может задать их полем forms; все формы: ortho words ИМЯ)",
+        "Russian forms of names guessed by their endings (the map may give them in the field forms; all forms: ortho words NAME)",
+    );
+    format!("{head}: {}{more}.", shown.join(", "))
 }
 
 pub(super) fn size(world: &World) -> serde_json::Value {
@@ -141,18 +150,31 @@ pub(super) fn size(world: &World) -> serde_json::Value {
 }
 
 /// «Дом РБ-2»: карт 1, помещений 4 …
-pub(super) fn described(world: &World) -> String {
-    format!(
-        "«{}»: карт {}, помещений {}, дверей и проходов {}, экземпляров {} (объектов {}, ортофреймов {}), точек {}.",
-        world.domain.name,
-        world.maps.len(),
-        world.areas.len(),
-        world.doors.len(),
-        world.replicas.len(),
-        world.objects.len(),
-        world.orthoframes.len(),
-        world.places.len(),
-    )
+pub(super) fn described(world: &World, lang: Lang) -> String {
+    let [maps, areas, doors] = [world.maps.len(), world.areas.len(), world.doors.len()];
+    let [replicas, objects] = [world.replicas.len(), world.objects.len()];
+    let [orthoframes, places] = [world.orthoframes.len(), world.places.len()];
+    let domain = &world.domain;
+    match lang {
+        Lang::Ru => format!(
+            "«{}»: карт {maps}, помещений {areas}, дверей и проходов {doors}, экземпляров {replicas} (объектов {objects}, ортофреймов {orthoframes}), точек {places}.",
+            domain.name
+        ),
+        Lang::En => {
+            let count = |number: usize, noun| english::count(number as u64, noun);
+            format!(
+                "“{}”: {}, {}, {} (passages among them), {} ({}, {}), {}.",
+                if domain.name_en.is_empty() { &domain.name } else { &domain.name_en },
+                count(maps, "map"),
+                count(areas, "room"),
+                count(doors, "door"),
+                count(replicas, "thing"),
+                count(objects, "object"),
+                count(orthoframes, "Orthoframe"),
+                count(places, "place"),
+            )
+        }
+    }
 }
 
 pub(super) fn relations(

@@ -39,7 +39,7 @@ pub(super) fn run(
     let imported = engine.import(&map, &change_now(&common.user, "demo"))?;
     if !common.json {
         let world = engine.world()?;
-        say(&format!("{} {}", common.lang.pick("Карта", "Map"), described(world)))?;
+        say(&format!("{} {}", common.lang.pick("Карта", "Map"), described(world, common.lang)))?;
         say(&match common.lang {
             Lang::Ru => format!("Записана в хранилище, ревизия {}.\n", imported.report.revision),
             Lang::En => format!("Stored as revision {}.\n", imported.report.revision),

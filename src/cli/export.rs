@@ -40,7 +40,7 @@ pub(super) fn run(common: &Common, args: &ExportArgs) -> Result<Answer, Failure>
     if common.json {
         return say(&json!({ "outcome": "exported", "files": names }).to_string());
     }
-    say(&format!("Записано: {}.", names.join(", ")))
+    say(&format!("{}: {}.", common.lang.pick("Записано", "Written"), names.join(", ")))
 }
 
 /// A picture and its YAML for every floor, or for the one that was named.

@@ -4,7 +4,7 @@ use serde_json::json;
 
 use crate::engine::{Engine, ImportOptions, change_now, read_building};
 
-use super::args::{Common, ImportArgs};
+use super::args::{Common, ImportArgs, Lang};
 use super::commands::{described, note, note_repairs, rules_dir, size, store_dir, warn};
 use super::fault::Failure;
 use super::{Answer, say};
@@ -28,7 +28,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     // The file is read before the store is opened or made, so that a faulty one leaves no trace.
     let read = read_building(&args.file, &options)?;
     let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
-    note_repairs(&engine);
+    note_repairs(&engine, common.lang);
     let reason = format!("импорт {}", args.file.display());
     let imported = engine.keep(read, &change_now(&common.user, &reason))?;
     warn(&imported.warnings, common.lang);
@@ -50,14 +50,19 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
     if !imported.reading.notes.is_empty() {
         note(&imported.reading.to_string());
     }
-    let what = match counts.total() {
-        0 => "ничего не изменилось".to_owned(),
-        _ => format!(
-            "записей создано {}, изменено {}, удалено {}",
-            counts.created, counts.changed, counts.deleted
-        ),
+    let (lang, revision) = (common.lang, imported.report.revision);
+    let [created, changed, deleted] = [counts.created, counts.changed, counts.deleted];
+    let what = match (counts.total(), lang) {
+        (0, _) => lang.pick("ничего не изменилось", "nothing changed").to_owned(),
+        (_, Lang::Ru) => {
+            format!("записей создано {created}, изменено {changed}, удалено {deleted}")
+        }
+        (_, Lang::En) => {
+            format!("{created} records created, {changed} changed, {deleted} deleted")
+        }
     };
-    say(&format!("{}\nРевизия {}: {what}.", described(world), imported.report.revision))
+    let head = lang.pick("Ревизия", "Revision");
+    say(&format!("{}\n{head} {revision}: {what}.", described(world, lang)))
 }
 
 /// The tables of an SQLite file, taken as they are: no reader, no assembler, the checks of a map file.
@@ -65,7 +70,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
 fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
     let rules = rules_dir(common);
     let mut engine = Engine::open(&store_dir(common), rules.as_deref())?;
-    note_repairs(&engine);
+    note_repairs(&engine, common.lang);
     let reason = format!("импорт {}", file.display());
     let report = engine.import_sqlite(file, &change_now(&common.user, &reason))?;
     let (world, counts) = (engine.world()?, report.counts);
@@ -81,5 +86,6 @@ fn tables(common: &Common, file: &std::path::Path) -> Result<Answer, Failure> {
         })
         .to_string());
     }
-    say(&format!("{}\nРевизия {}.", described(world), report.revision))
+    let head = common.lang.pick("Ревизия", "Revision");
+    say(&format!("{}\n{head} {}.", described(world, common.lang), report.revision))
 }

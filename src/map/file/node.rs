@@ -87,16 +87,55 @@ pub(super) fn parse(text: &str, format: Format) -> Result<Node, Vec<Misprint>> {
 fn parse_toml(text: &str) -> Result<Node, Vec<Misprint>> {
     let (table, errors) = DeTable::parse_recoverable(text);
     if !errors.is_empty() {
-        return Err(errors
-            .into_iter()
-            .map(|e| Misprint {
-                error: MapError::Syntax { format: "TOML", message: in_both(e.message()) },
-                span: e.span(),
-            })
-            .collect());
+        return Err(toml_faults(text));
     }
     let span = table.span();
     Ok(Node { span, value: toml_table(table.into_inner()) })
+}
+
+/// The first fault of a text, and of what stands behind it the first again: of a bracket that is never closed the
+/// parser would tell with every line that follows.
+fn toml_faults(text: &str) -> Vec<Misprint> {
+    let mut faults = Vec::new();
+    let mut start = 0;
+    while faults.len() < MOST_FAULTS {
+        let (_, errors) = DeTable::parse_recoverable(&text[start..]);
+        let begins = |e: &toml::de::Error| e.span().map_or(0, |span| span.start);
+        let Some(first) = errors.into_iter().min_by_key(begins) else { break };
+        let span = first.span().map(|span| span.start + start..span.end + start);
+        let behind = span.as_ref().map_or(text.len(), |span| span.start.max(start));
+        faults.push(Misprint {
+            error: MapError::Syntax { format: "TOML", message: in_both(first.message()) },
+            span,
+        });
+        let Some(next) = next_statement(text, behind) else { break };
+        start = next;
+    }
+    faults
+}
+
+/// Where the next line begins that looks like a header, or a key with its value, and is not indented.
+fn next_statement(text: &str, behind: usize) -> Option<usize> {
+    let is_key = |key: &str| {
+        let is_sign = |c: char| c.is_alphanumeric() || "_-.\"' ".contains(c);
+        !key.trim().is_empty() && key.chars().all(is_sign)
+    };
+    let is_statement = |line: &str| {
+        let code = line.split('#').next().unwrap_or(line).trim_end();
+        let inner = code.trim_start_matches('[').trim_end_matches(']');
+        let is_header = code.starts_with('[') && code.ends_with(']') && is_key(inner);
+        is_header
+            || !line.starts_with(char::is_whitespace)
+                && code.split_once('=').is_some_and(|(key, _)| is_key(key))
+    };
+    let mut at = behind + text[behind..].find('\n')? + 1;
+    for line in text[at..].split_inclusive('\n') {
+        if is_statement(line) {
+            return Some(at);
+        }
+        at += line.len();
+    }
+    None
 }
 
 fn toml_table(table: DeTable<'_>) -> Value {
@@ -135,6 +174,9 @@ fn toml_value(value: DeValue<'_>) -> Value {
         DeValue::Table(table) => toml_table(table),
     }
 }
+
+/// Faults of one text after which no more are looked for.
+const MOST_FAULTS: usize = 50;
 
 /// How deep tables may lie within tables: twice what the format needs. The reader's recursion takes much of the stack.
 const MOST_DEPTH: usize = 16;
