@@ -362,8 +362,10 @@ impl Forward<'_> {
     /// From each state on to any with fewer landmarks ahead, without looking back. Where no such state is near, the
     /// landmarks are found anew: those of the initial state do not tell what has come into the way since.
     fn descend(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
-        /// States looked at for one with less ahead.
+        /// States looked at for one with less ahead: fewer where each takes longer.
         const NEAR: u64 = 2_000;
+        const OPERATORS_LOOKED_AT: u64 = 10_000_000;
+        let near = NEAR.min(OPERATORS_LOOKED_AT / (self.task.operators.len() as u64).max(1));
         let mut state = self.initial();
         let mut plan = Vec::new();
         let mut least = u32::MAX;
@@ -375,7 +377,7 @@ impl Forward<'_> {
                 return Ok(None);
             }
             loop {
-                self.until = self.evaluated + NEAR;
+                self.until = self.evaluated + near;
                 let nearer = self.best_first(stage.clone(), Some(&landmarks), true)?;
                 let Some((path, next)) = nearer else { break };
                 plan.extend(path);
