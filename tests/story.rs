@@ -326,3 +326,17 @@ fn a_thing_that_is_gone_ends_the_mission_in_words() {
     assert!(!matches!(answer.ending, TaskEnding::Done | TaskEnding::AlreadyTrue));
     assert_eq!(told.plans, 1);
 }
+
+#[test]
+fn what_takes_the_last_way_away_is_said_and_not_what_the_rules_then_lack() {
+    let lab = Path::new(env!("CARGO_MANIFEST_DIR")).join("maps/lab.toml");
+    let mut world = World::load(lab).unwrap();
+    let stool = replica(&world, "Stool 1");
+    // Behind the doorway, which is as wide as the robot needs, and beside the wall.
+    world.replicas.get_mut(&stool).unwrap().frame = Frame::new(130.0, 20.0, 0.0, Deg::ZERO);
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let (answer, told) = carry_out("a stool", &engine, "Go to the Shelf 1", world);
+    let TaskEnding::Stuck(surprise) = &answer.ending else { panic!("{:?}", answer.ending) };
+    assert!(matches!(surprise, Surprise::NoWay { to, .. } if to == "Shelf 1"), "{surprise:?}");
+    assert_eq!(told.plans, 1, "a plan that is none is not told");
+}

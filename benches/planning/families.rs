@@ -4,10 +4,14 @@
 use std::fmt::Write;
 
 mod building;
+mod making;
+mod moving;
 mod random;
 mod transport;
 
 pub(crate) use building::buildings;
+use making::{barman, childsnack, floortile, openstacks, termes, woodworking};
+use moving::{elevators, grid, hiking, parking, sokoban, storage, tiles, transport, visitall};
 use random::Random;
 pub(crate) use transport::{
     depot, driverlog, logistics, miconic, mystery, rocket, tpp, zenotravel,
@@ -318,6 +322,44 @@ pub(crate) fn freecell(
     instance(format!("freecell-{ranks}x{suits}/{seed}"), domain, &all, &init, &goal)
 }
 
+/// Tasks out of reach of any proof, for a plan soon.
+pub(crate) fn soon() -> Vec<Instance> {
+    vec![
+        blocks(16, 3),
+        blocks(40, 1),
+        blocks(50, 1),
+        blocks(60, 1),
+        blocks(60, 2),
+        depot(6, 2, 20, 1),
+        depot(8, 3, 20, 2),
+        depot(8, 3, 20, 3),
+        driverlog(20, 4, 5, 15, 1),
+        driverlog(30, 6, 6, 30, 1),
+        freecell(13, 4, 4, 8, 1),
+        elevators(16, 30, 1),
+        elevators(24, 60, 1),
+        transport(50, 4, 20, 1),
+        parking(8, 14, 1),
+        parking(11, 20, 1),
+        parking(16, 30, 1),
+        storage(4, 5, 3, 15, 1),
+        storage(5, 5, 3, 20, 2),
+        sokoban(10, 4, 1),
+        visitall(40, 100, 1),
+        tiles(5, 1),
+        grid(10, 10, 10, 1),
+        hiking(2, 4, 1),
+        hiking(3, 6, 1),
+        barman(6, 8, 1),
+        barman(10, 15, 1),
+        openstacks(40, 12, 1),
+        woodworking(20, 4, 1),
+        childsnack(20, 4, 1),
+        floortile(5, 5, 1),
+        termes(5, 4, 4, 1),
+    ]
+}
+
 /// Tasks of about a hundred thousand ground actions.
 pub(crate) fn large() -> Vec<Instance> {
     vec![
@@ -389,6 +431,21 @@ pub(crate) fn all() -> Vec<Measured> {
         (tpp(5, 2, 2, 2, 1), 0.004),
         (tpp(6, 2, 2, 2, 2), 0.009),
         (tpp(8, 3, 2, 2, 3), 0.010),
+        (elevators(12, 12, 1), f64::INFINITY),
+        (transport(10, 2, 6, 1), f64::INFINITY),
+        (parking(5, 8, 1), f64::INFINITY),
+        (storage(3, 3, 1, 4, 1), f64::INFINITY),
+        (sokoban(8, 3, 1), f64::INFINITY),
+        (visitall(6, 100, 1), f64::INFINITY),
+        (tiles(3, 1), f64::INFINITY),
+        (grid(5, 5, 4, 1), f64::INFINITY),
+        (hiking(2, 4, 1), f64::INFINITY),
+        (barman(3, 2, 1), f64::INFINITY),
+        (openstacks(10, 4, 1), f64::INFINITY),
+        (woodworking(9, 2, 1), f64::INFINITY),
+        (childsnack(6, 2, 1), f64::INFINITY),
+        (floortile(4, 4, 1), f64::INFINITY),
+        (termes(4, 3, 2, 1), f64::INFINITY),
     ];
     let measured = |(instance, seconds): (Instance, f64)| Measured {
         instance,

@@ -3,8 +3,9 @@
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
 //! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
-//! strategy"); where it gets stuck, [search by width](super::novelty) goes next, and then best-first search, which counts
-//! landmarks besides; both miss nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
+//! strategy"); where it gets stuck, landmarks are followed one by one. Then [search by width](super::novelty) and
+//! best-first search, which counts landmarks besides, take turns; both miss nothing. The sequence found is rid of
+//! operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -71,7 +72,7 @@ struct Forward<'a> {
 }
 
 impl Forward<'_> {
-    /// Hill climbing, then width, then relaxed plans and landmarks.
+    /// Hill climbing, then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
         if self.effort == Effort::Small
             && let Some((operators, _)) = self.climb(self.initial())?
@@ -82,6 +83,12 @@ impl Forward<'_> {
         if self.effort == Effort::Small
             && let Some(landmarks) = &landmarks
             && let Some(operators) = self.climb_in_order(landmarks.goals_in_order())?
+        {
+            return Ok(Searched::Path(operators));
+        }
+        if self.effort == Effort::Small
+            && landmarks.is_some()
+            && let Some(operators) = self.descend()?
         {
             return Ok(Searched::Path(operators));
         }
@@ -102,7 +109,10 @@ impl Forward<'_> {
             }
             let more = FEW_STATES * times as u64;
             self.until = if by_width { self.evaluated + more } else { u64::MAX };
-            if let Some(operators) = self.best_first(landmarks.as_ref())? {
+            let state = self.initial();
+            let attained = landmarks.as_ref().map(|all| all.initially(&state)).unwrap_or_default();
+            let start = Stage { state, attained };
+            if let Some((operators, _)) = self.best_first(start, landmarks.as_ref(), false)? {
                 return Ok(Searched::Path(operators));
             }
             if !self.is_over() {
@@ -279,28 +289,38 @@ impl Forward<'_> {
     /// Two measures take turns: the length of a relaxed plan, and the landmarks ahead; with each, helpful operators
     /// have a queue of their own that goes first while progress is made (S. Richter, M. Westphal, 2010). The end of
     /// the relaxed plan counts as helpful. A successor is made when its turn comes: most never come to it.
+    ///
+    /// The end is the goal, or with `nearer` already fewer landmarks ahead than at first.
     fn best_first(
         &mut self,
+        start: Stage,
         landmarks: Option<&Landmarks>,
-    ) -> Result<Option<Vec<OperatorId>>, Limit> {
+        nearer: bool,
+    ) -> Result<Option<(Vec<OperatorId>, Stage)>, Limit> {
         let mut seen = Seen::default();
         let mut queues = Queues::new(if landmarks.is_some() { 2 } else { 1 });
-        let initial = self.initial();
-        let attained = landmarks.map(|all| all.initially(&initial)).unwrap_or_default();
-        let mut next = Some((initial, attained, None, Box::default()));
+        let ahead =
+            |stage: &Stage| landmarks.map_or(0, |all| all.ahead(&stage.attained, &stage.state));
+        let at_first = ahead(&start);
+        let mut next = Some((start, None, Box::default()));
         loop {
-            if let Some((state, attained, from, by)) = next.take()
-                && let Some(number) = seen.add(&state, attained, from, by)
+            if let Some((stage, from, by)) = next.take()
+                && let Some(number) = seen.add(&stage, from, by)
             {
                 let bytes = seen.bytes + queues.bytes;
-                if let Some(estimate) = self.estimate(&state, bytes)? {
-                    if estimate.distance == 0 {
-                        return Ok(Some(seen.path(number)));
+                if let Some(estimate) = self.estimate(&stage.state, bytes)? {
+                    let values = [estimate.distance, ahead(&stage)];
+                    if estimate.distance == 0 || nearer && values[1] < at_first {
+                        return Ok(Some((seen.path(number), stage)));
                     }
-                    let ahead =
-                        landmarks.map(|all| all.ahead(&seen.attained[number as usize], &state));
-                    let values = [estimate.distance, ahead.unwrap_or_default()];
-                    queues.push(values, number, self.successors(&estimate.helpful));
+                    let mut helpful = estimate.helpful;
+                    if let Some(landmarks) = landmarks {
+                        self.add_bringers(
+                            &landmarks.next(&stage.attained, &stage.state),
+                            &mut helpful,
+                        );
+                    }
+                    queues.push(values, number, self.successors(&helpful));
                     seen.relaxed_plans.insert(number, estimate.relaxed_plan);
                 }
             }
@@ -308,24 +328,74 @@ impl Forward<'_> {
             if self.is_over() {
                 return Ok(None);
             }
+            if by.is_none() && nearer {
+                continue;
+            }
             let path: Box<[OperatorId]> = match by {
                 Some(id) => [id].into(),
                 None => {
                     let Some(plan) = seen.relaxed_plans.remove(&from) else { continue };
-                    self.ahead(&seen.states[from as usize], &plan).1.into_boxed_slice()
+                    self.ahead(&seen.stages[from as usize].state, &plan).1.into_boxed_slice()
                 }
             };
-            let mut state = seen.states[from as usize].clone();
-            let mut attained = seen.attained[from as usize].clone();
+            let mut stage = seen.stages[from as usize].clone();
             for &id in &path {
-                self.carry_out(&mut state, id);
+                self.carry_out(&mut stage.state, id);
                 if let Some(landmarks) = landmarks {
-                    attained = landmarks.advance(&attained, &state);
+                    stage.attained = landmarks.advance(&stage.attained, &stage.state);
                 }
             }
-            next = Some((state, attained, Some(from), path));
+            next = Some((stage, Some(from), path));
         }
     }
+
+    /// Adds operators that the state looked at last allows and that bring a wanted fact.
+    fn add_bringers(&self, wanted: &[u64], helpful: &mut Vec<OperatorId>) {
+        let known: HashSet<OperatorId> = helpful.iter().copied().collect();
+        let brings = |id: &&OperatorId| {
+            let adds = &self.task.operator(**id).add_effects;
+            adds.iter().any(|fact| bits::has(wanted, fact.index())) && !known.contains(id)
+        };
+        helpful.extend(self.relaxed.applicable.iter().filter(brings));
+    }
+
+    /// From each state on to any with fewer landmarks ahead, without looking back. Where no such state is near, the
+    /// landmarks are found anew: those of the initial state do not tell what has come into the way since.
+    fn descend(&mut self) -> Result<Option<Vec<OperatorId>>, Limit> {
+        /// States looked at for one with less ahead: fewer where each takes longer.
+        const NEAR: u64 = 2_000;
+        const OPERATORS_LOOKED_AT: u64 = 10_000_000;
+        let near = NEAR.min(OPERATORS_LOOKED_AT / (self.task.operators.len() as u64).max(1));
+        let mut state = self.initial();
+        let mut plan = Vec::new();
+        let mut least = u32::MAX;
+        loop {
+            let Some(landmarks) = Landmarks::from(self.task, &state) else { return Ok(None) };
+            let mut stage = Stage { attained: landmarks.initially(&state), state };
+            let ahead = landmarks.ahead(&stage.attained, &stage.state);
+            if std::mem::replace(&mut least, ahead) <= ahead {
+                return Ok(None);
+            }
+            loop {
+                self.until = self.evaluated + near;
+                let nearer = self.best_first(stage.clone(), Some(&landmarks), true)?;
+                let Some((path, next)) = nearer else { break };
+                plan.extend(path);
+                stage = next;
+                if self.task.goal.iter().all(|&goal| holds(&stage.state, goal)) {
+                    return Ok(Some(plan));
+                }
+            }
+            state = stage.state;
+        }
+    }
+}
+
+/// A state, and which landmarks were attained on the way to it.
+#[derive(Clone)]
+struct Stage {
+    state: State,
+    attained: Attained,
 }
 
 /// Operators that a state allows, the helpful ones first.
@@ -338,8 +408,9 @@ struct Successors {
 /// A queue of one measure.
 #[derive(Default)]
 struct Queue {
-    /// Least value first, of these the oldest state; and which of its successors is next.
-    heap: BinaryHeap<Reverse<(u32, u32, u32)>>,
+    /// Least value first, of these the least by the other measure, of these the oldest state; and which of its
+    /// successors is next.
+    heap: BinaryHeap<Reverse<([u32; 2], u32, u32)>>,
     /// The queue with the least has its turn.
     turn: i64,
     /// Which measure it goes by.
@@ -381,7 +452,8 @@ impl Queues {
         self.successors.resize_with(number as usize, Successors::default);
         self.successors.push(successors);
         for queue in &mut self.queues {
-            queue.heap.push(Reverse((values[queue.measure], number, 0)));
+            let own = [values[queue.measure], values[1 - queue.measure]];
+            queue.heap.push(Reverse((own, number, 0)));
         }
     }
 
@@ -407,9 +479,7 @@ impl Queues {
 #[derive(Default)]
 struct Seen {
     numbers: HashMap<State, u32>,
-    states: Vec<State>,
-    /// Which landmarks were attained on the way.
-    attained: Vec<Attained>,
+    stages: Vec<Stage>,
     from: Vec<(Option<u32>, Box<[OperatorId]>)>,
     /// Of states whose relaxed plan was not yet followed.
     relaxed_plans: HashMap<u32, Vec<OperatorId>>,
@@ -418,21 +488,15 @@ struct Seen {
 
 impl Seen {
     /// The number of a state not met before.
-    fn add(
-        &mut self,
-        state: &State,
-        attained: Attained,
-        from: Option<u32>,
-        by: Box<[OperatorId]>,
-    ) -> Option<u32> {
-        let number = self.states.len() as u32;
-        if self.numbers.contains_key(state) {
+    fn add(&mut self, stage: &Stage, from: Option<u32>, by: Box<[OperatorId]>) -> Option<u32> {
+        let number = self.stages.len() as u32;
+        if self.numbers.contains_key(&stage.state) {
             return None;
         }
-        self.bytes += 2 * state.len() * 8 + attained.len() * 8 + by.len() * 4 + 160;
-        self.numbers.insert(state.clone(), number);
-        self.states.push(state.clone());
-        self.attained.push(attained);
+        let words = 2 * stage.state.len() + stage.attained.len();
+        self.bytes += words * 8 + by.len() * 4 + 160;
+        self.numbers.insert(stage.state.clone(), number);
+        self.stages.push(stage.clone());
         self.from.push((from, by));
         Some(number)
     }

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use super::bits::{has, members, put, unite, words};
 use super::relaxed::{State, holds};
-use crate::strips::{FactId, Task};
+use crate::strips::{FactId, Operator, Task};
 
 /// More facts than these make the sets too large.
 const MOST_FACTS: usize = 1 << 13;
@@ -25,8 +25,10 @@ pub(super) struct Landmarks {
     is_goal: Vec<bool>,
     /// Which landmarks must have been attained before one counts.
     before: Vec<Vec<u32>>,
-    /// Landmarks that directly need one.
-    needed_by: Vec<Vec<u32>>,
+    /// Landmarks that one directly needs to come about for the first time.
+    needs: Vec<Vec<u32>>,
+    /// The same for any time.
+    needs_again: Vec<Vec<u32>>,
     /// The goals, none before another that it would be undone for.
     in_order: Vec<FactId>,
 }
@@ -34,10 +36,17 @@ pub(super) struct Landmarks {
 impl Landmarks {
     /// None when there are too many facts, or the goal is out of reach.
     pub(super) fn of(task: &Task) -> Option<Self> {
+        let mut initial = vec![0; words(task.facts.len())].into_boxed_slice();
+        task.init.iter().for_each(|fact| put(&mut initial, fact.index()));
+        Self::from(task, &initial)
+    }
+
+    /// The landmarks of what is still to be done after some state; none as above.
+    pub(super) fn from(task: &Task, state: &State) -> Option<Self> {
         if task.facts.len() > MOST_FACTS {
             return None;
         }
-        let sets = Sets::new(task);
+        let sets = Sets::new(task, state);
         let mut all = vec![0; sets.words];
         for goal in &task.goal {
             let of_goal = sets.of_fact[goal.index()].as_ref()?;
@@ -48,31 +57,32 @@ impl Landmarks {
         for (n, fact) in facts.iter().enumerate() {
             number[fact.index()] = Some(n as u32);
         }
-        let mut first = vec![false; task.facts.len()];
-        task.init.iter().for_each(|fact| first[fact.index()] = true);
         let ways: Vec<Ways> =
-            facts.iter().map(|&f| sets.first_ways(task, f, first[f.index()])).collect();
+            facts.iter().map(|&f| sets.first_ways(task, f, holds(state, f))).collect();
         let mut needs: Vec<Vec<u32>> = vec![Vec::new(); facts.len()];
-        let mut needed_by: Vec<Vec<u32>> = vec![Vec::new(); facts.len()];
-        for n in (0..facts.len()).filter(|&n| !first[facts[n].index()]) {
-            for need in &ways[n].needs {
-                if let Some(need) = number[need.index()] {
-                    needs[n].push(need);
-                    needed_by[need as usize].push(n as u32);
+        // What holds at first was had, though as a goal it may have to be brought about once more.
+        let mut before = needs.clone();
+        for n in (0..facts.len()).filter(|&n| !holds(state, facts[n])) {
+            for (need, number) in ways[n].needs.iter().filter_map(|f| Some((f, number[f.index()]?)))
+            {
+                needs[n].push(number);
+                if !holds(state, *need) {
+                    before[n].push(number);
                 }
             }
         }
+        let needs_again: Vec<Vec<u32>> = (facts.iter())
+            .map(|&fact| sets.ways(task, fact).needs)
+            .map(|needs| needs.iter().filter_map(|need| number[need.index()]).collect())
+            .collect();
         let goals: Vec<u32> = task.goal.iter().filter_map(|goal| number[goal.index()]).collect();
         let mut is_goal = vec![false; facts.len()];
         goals.iter().for_each(|&goal| is_goal[goal as usize] = true);
-        let mut landmarks = Self { facts, is_goal, before: needs, needed_by, in_order: Vec::new() };
-        let direct = landmarks.before.clone();
-        let undoing = landmarks.undoing(&ways, &goals, &direct);
+        let mut landmarks =
+            Self { facts, is_goal, before, needs, needs_again, in_order: Vec::new() };
+        let undoing = landmarks.order(&ways, &goals);
         landmarks.in_order =
             in_order(&goals, &undoing).map(|goal| landmarks.facts[goal as usize]).collect();
-        for (later, earlier) in undoing {
-            landmarks.before[later as usize].push(earlier);
-        }
         Some(landmarks)
     }
 
@@ -81,19 +91,19 @@ impl Landmarks {
         &self.in_order
     }
 
-    /// Pairs of goals of which the first would be undone for the second; no cycles.
-    fn undoing(&self, ways: &[Ways], goals: &[u32], needs: &[Vec<u32>]) -> Vec<(u32, u32)> {
+    /// Orders goals that would be undone for another after that other, unless that leads in a circle, and tells of
+    /// these pairs.
+    fn order(&mut self, ways: &[Ways], goals: &[u32]) -> Vec<(u32, u32)> {
         if goals.len() > MOST_GOALS {
             return Vec::new();
         }
-        let mut after: Vec<Vec<usize>> = vec![Vec::new(); goals.len()];
         let mut pairs = Vec::new();
-        for later in 0..goals.len() {
-            for earlier in (0..goals.len()).filter(|&earlier| earlier != later) {
-                let undoes = self.undoes(ways, needs, goals[later], goals[earlier]);
-                if undoes && !leads_to(&after, later, earlier) {
-                    after[earlier].push(later);
-                    pairs.push((goals[later], goals[earlier]));
+        for &later in goals {
+            for &earlier in goals.iter().filter(|&&earlier| earlier != later) {
+                let undoes = self.undoes(ways, later, earlier);
+                if undoes && !leads_to(&self.before, earlier, later) {
+                    self.before[later as usize].push(earlier);
+                    pairs.push((later, earlier));
                 }
             }
         }
@@ -102,12 +112,12 @@ impl Landmarks {
 
     /// Whether a goal would be undone on the way to another that is attained after it: the other's last ways need
     /// what every way to the goal deletes, be it through facts that cannot hold beside the goal.
-    fn undoes(&self, ways: &[Ways], needs: &[Vec<u32>], goal: u32, other: u32) -> bool {
+    fn undoes(&self, ways: &[Ways], goal: u32, other: u32) -> bool {
         let goal = &ways[goal as usize];
         let mut open = vec![other];
         let mut seen = vec![other];
         while let Some(landmark) = open.pop() {
-            for &need in &needs[landmark as usize] {
+            for &need in &self.needs[landmark as usize] {
                 if goal.deletes.binary_search(&self.facts[need as usize]).is_ok() {
                     return true;
                 }
@@ -147,15 +157,48 @@ impl Landmarks {
         next
     }
 
-    /// How many landmarks are ahead: not attained, or lost and needed once more.
+    /// Facts whose coming about would count next, as bits: landmarks not attained with nothing before them open, and
+    /// those lost that are needed once more.
+    pub(super) fn next(&self, attained: &Attained, state: &State) -> Box<[u64]> {
+        let mut next = vec![0; state.len()].into_boxed_slice();
+        for (n, &fact) in self.facts.iter().enumerate() {
+            let open = || self.before[n].iter().all(|&before| has(attained, before as usize));
+            if !holds(state, fact) && !has(attained, n) && open() {
+                put(&mut next, fact.index());
+            }
+        }
+        next
+    }
+
+    /// How many landmarks are ahead: not attained, or lost and needed once more, be it only for another that was lost.
     pub(super) fn ahead(&self, attained: &Attained, state: &State) -> u32 {
-        let is_ahead = |n: usize, fact: FactId| {
-            let again = || {
-                self.is_goal[n] || self.needed_by[n].iter().any(|&by| !has(attained, by as usize))
+        let mut ahead = vec![0; attained.len()].into_boxed_slice();
+        let mut open: Vec<u32> = Vec::new();
+        for (n, &fact) in self.facts.iter().enumerate() {
+            if !has(attained, n) || self.is_goal[n] && !holds(state, fact) {
+                put(&mut ahead, n);
+                open.push(n as u32);
+            }
+        }
+        let mut count = open.len() as u32;
+        while let Some(landmark) = open.pop() {
+            let (known, held) =
+                (has(attained, landmark as usize), holds(state, self.facts[landmark as usize]));
+            // What holds and does not count yet will be undone and brought about once more.
+            let needs = match (known, held) {
+                (true, true) => continue,
+                (false, false) => &self.needs[landmark as usize],
+                _ => &self.needs_again[landmark as usize],
             };
-            !has(attained, n) || !holds(state, fact) && again()
-        };
-        self.facts.iter().enumerate().filter(|&(n, &fact)| is_ahead(n, fact)).count() as u32
+            for &need in needs {
+                if !has(&ahead, need as usize) && !holds(state, self.facts[need as usize]) {
+                    put(&mut ahead, need as usize);
+                    open.push(need);
+                    count += 1;
+                }
+            }
+        }
+        count
     }
 }
 
@@ -179,15 +222,15 @@ fn in_order(goals: &[u32], pairs: &[(u32, u32)]) -> impl Iterator<Item = u32> + 
 }
 
 /// Whether one node of a graph is reached from another.
-fn leads_to(after: &[Vec<usize>], from: usize, to: usize) -> bool {
-    let mut seen = vec![false; after.len()];
+fn leads_to(next: &[Vec<u32>], from: u32, to: u32) -> bool {
+    let mut seen = vec![false; next.len()];
     let mut open = vec![from];
     while let Some(node) = open.pop() {
         if node == to {
             return true;
         }
-        if !std::mem::replace(&mut seen[node], true) {
-            open.extend(&after[node]);
+        if !std::mem::replace(&mut seen[node as usize], true) {
+            open.extend(&next[node as usize]);
         }
     }
     false
@@ -197,6 +240,15 @@ fn leads_to(after: &[Vec<usize>], from: usize, to: usize) -> bool {
 struct Ways {
     needs: Vec<FactId>,
     deletes: Vec<FactId>,
+}
+
+impl Ways {
+    fn of<'a>(operators: impl Iterator<Item = &'a Operator> + Clone) -> Self {
+        Self {
+            needs: common(operators.clone().map(|operator| operator.preconditions.as_slice())),
+            deletes: common(operators.map(|operator| operator.del_effects.as_slice())),
+        }
+    }
 }
 
 fn common<'a>(mut lists: impl Iterator<Item = &'a [FactId]>) -> Vec<FactId> {
@@ -213,7 +265,7 @@ struct Sets {
 }
 
 impl Sets {
-    fn new(task: &Task) -> Self {
+    fn new(task: &Task, state: &State) -> Self {
         let words = words(task.facts.len());
         let mut added_by = vec![Vec::new(); task.facts.len()];
         let mut needed_by = vec![Vec::new(); task.facts.len()];
@@ -222,10 +274,10 @@ impl Sets {
             operator.preconditions.iter().for_each(|f| needed_by[f.index()].push(number as u32));
         }
         let mut sets = Self { words, of_fact: vec![None; task.facts.len()], added_by };
-        for &fact in &task.init {
+        for fact in members(state) {
             let mut own = vec![0; words];
-            put(&mut own, fact.index());
-            sets.of_fact[fact.index()] = Some(own.into());
+            put(&mut own, fact);
+            sets.of_fact[fact] = Some(own.into());
         }
         let mut waits = vec![true; task.operators.len()];
         let mut queue: VecDeque<u32> = (0..task.operators.len() as u32).collect();
@@ -282,27 +334,35 @@ impl Sets {
 
     /// A way that needs the fact itself is no first way to it, unless it held: a block is not taken off itself.
     fn first_ways(&self, task: &Task, fact: FactId, held: bool) -> Ways {
-        let first = || {
-            self.added_by[fact.index()].iter().filter_map(|&number| {
-                let operator = &task.operators[number as usize];
-                let before = held
-                    || operator.preconditions.iter().all(|need| {
-                        self.of_fact[need.index()]
-                            .as_ref()
-                            .is_some_and(|set| !has(set, fact.index()))
-                    });
-                before.then_some(operator)
-            })
+        let first = |operator: &&Operator| {
+            let before = |need: &FactId| {
+                let set = self.of_fact[need.index()].as_ref();
+                set.is_some_and(|set| !has(set, fact.index()))
+            };
+            held || operator.preconditions.iter().all(before)
         };
-        Ways {
-            needs: common(first().map(|operator| operator.preconditions.as_slice())),
-            deletes: common(first().map(|operator| operator.del_effects.as_slice())),
-        }
+        Ways::of(self.operators(task, fact).filter(first))
+    }
+
+    fn ways(&self, task: &Task, fact: FactId) -> Ways {
+        let possible = |operator: &&Operator| {
+            operator.preconditions.iter().all(|need| self.of_fact[need.index()].is_some())
+        };
+        Ways::of(self.operators(task, fact).filter(possible))
+    }
+
+    fn operators<'a>(
+        &'a self,
+        task: &'a Task,
+        fact: FactId,
+    ) -> impl Iterator<Item = &'a Operator> + Clone {
+        self.added_by[fact.index()].iter().map(|&number| &task.operators[number as usize])
     }
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::bits::take;
     use super::*;
     use crate::strips::Scenario;
     use crate::units::Source;
@@ -367,5 +427,65 @@ mod tests {
         let order: Vec<String> =
             landmarks.goals_in_order().iter().map(|&fact| task.fact(fact).to_string()).collect();
         assert_eq!(order, ["НА_(Б, В)", "НА_(А, Б)"]);
+    }
+
+    /// The state after operators, told by their names, and what was attained on the way.
+    fn after(task: &Task, landmarks: &Landmarks, names: &[&str]) -> (State, Attained) {
+        let mut state = state(task);
+        let mut attained = landmarks.initially(&state);
+        for name in names {
+            let named = |operator: &&Operator| operator.to_string() == *name;
+            let operator = task.operators.iter().find(named).expect("an operator of that name");
+            operator.del_effects.iter().for_each(|fact| take(&mut state, fact.index()));
+            operator.add_effects.iter().for_each(|fact| put(&mut state, fact.index()));
+            attained = landmarks.advance(&attained, &state);
+        }
+        (state, attained)
+    }
+
+    fn ahead_after(names: &[&str]) -> u32 {
+        let task = towers();
+        let landmarks = Landmarks::of(&task).unwrap();
+        let (state, attained) = after(&task, &landmarks, names);
+        landmarks.ahead(&attained, &state)
+    }
+
+    #[test]
+    fn what_held_at_first_keeps_nothing_waiting() {
+        let task = towers();
+        let landmarks = Landmarks::of(&task).unwrap();
+        let (state, attained) = after(&task, &landmarks, &["Снять_(А, Б)"]);
+        // Б is free because А stood on it, though А on Б will count only once Б is on В.
+        let free = landmarks.facts.iter().position(|&f| task.fact(f).to_string() == "СВОБОДЕН_(Б)");
+        let free = free.expect("Б must be free");
+        assert!(holds(&state, landmarks.facts[free]) && has(&attained, free));
+    }
+
+    #[test]
+    fn what_was_lost_is_ahead_once_more_with_all_that_it_needs() {
+        let cleared = ["Снять_(А, Б)", "Положить_(А)"];
+        let held = [&cleared[..], &["Взять_(Б)"]].concat();
+        let put_down = [&held[..], &["Положить_(Б)"]].concat();
+        let covered = [&put_down[..], &["Взять_(А)", "Поставить_(А, Б)"]].concat();
+        assert!(ahead_after(&cleared) < ahead_after(&[]));
+        assert_eq!(ahead_after(&cleared), ahead_after(&put_down));
+        // Б must be held once more, and free for that.
+        assert!(ahead_after(&covered) > ahead_after(&put_down));
+    }
+
+    #[test]
+    fn landmarks_of_a_later_state_tell_what_came_into_the_way() {
+        let mut task = towers();
+        let named = |name: &str| task.fact_ids().find(|&f| task.fact(f).to_string() == name);
+        task.goal = vec![named("НА_(Б, В)").expect("a goal of the towers")];
+        let landmarks = Landmarks::of(&task).unwrap();
+        let names = ["Снять_(А, Б)", "Поставить_(А, В)"];
+        let (later, _) = after(&task, &landmarks, &names);
+        let anew = Landmarks::from(&task, &later).unwrap();
+        let free = |landmarks: &Landmarks, state: &State| {
+            let ahead = landmarks.next(&landmarks.initially(state), state);
+            members(&ahead).any(|fact| task.facts[fact].to_string() == "СВОБОДЕН_(В)")
+        };
+        assert!(!free(&landmarks, &state(&task)) && free(&anew, &later));
     }
 }

@@ -95,8 +95,22 @@ pub enum Ending {
     AlreadyTrue,
     /// There is no plan, or none was found within the limits: see the outcome.
     NoPlan(Box<Planned>),
-    /// The last surprise taught nothing new, so that the next plan would fail in the same way.
+    /// The last surprise taught nothing new, so that the next plan would fail in the same way, or it took away the
+    /// last way there was.
     Stuck(Surprise),
+}
+
+impl Surprise {
+    /// Whether a way is given up for it, that the rules then know nothing of.
+    fn bars_a_way(&self) -> bool {
+        let is_jammed =
+            |refusal: &Refusal| matches!(refusal, Refusal::DoorJammed { by: Some(_), .. });
+        match self {
+            Self::NoWay { .. } => true,
+            Self::Refused { refusal, .. } => is_jammed(refusal),
+            _ => false,
+        }
+    }
 }
 
 /// A mission that cannot even be planned.
@@ -189,8 +203,15 @@ impl<'r> Mission<'r> {
     ) -> Result<Ending, MissionError> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
+        let mut given_up = None;
         loop {
             let (planned, now_learned) = self.plan_again(goal, learned.as_ref())?;
+            // The rules do not tell what is in the way where a way was given up, only that there is none.
+            if let (Outcome::NoPlan { .. }, Some(surprise)) =
+                (&planned.solved.outcome, given_up.take())
+            {
+                return Ok(Ending::Stuck(surprise));
+            }
             tell(&Event::Planned(&planned));
             let Outcome::Plan(plan) = &planned.solved.outcome else {
                 return Ok(Ending::NoPlan(Box::new(planned)));
@@ -209,6 +230,7 @@ impl<'r> Mission<'r> {
             if !self.learn(&surprise) {
                 return Ok(Ending::Stuck(surprise));
             }
+            given_up = surprise.bars_a_way().then_some(surprise);
             learned = now_learned.and_then(|learned| learned.after(&first(&plan.steps, done)));
         }
     }
