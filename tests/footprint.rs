@@ -327,7 +327,7 @@ fn spots(plan: &FloorPlan, random: &mut Random) -> Vec<Point> {
 #[test]
 fn no_straight_strait_is_missed() {
     let mut apart_still = 0;
-    for seed in 0..24 {
+    for seed in 0..12 {
         let mut random = Random(seed + 4000);
         let mut b = random_world(seed + 20);
         shaped(&mut b, (seed % 6) as usize, &mut random);
@@ -354,7 +354,7 @@ fn no_straight_strait_is_missed() {
             );
         }
     }
-    assert!(apart_still > 300, "{apart_still}");
+    assert!(apart_still > 100, "{apart_still}");
 }
 
 /// A closet as deep as a wall between two rooms: the robot passes two doorways on one line.
