@@ -7,7 +7,7 @@ use orthoframe::store::{Change, Store, Timestamp};
 use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
-use crate::floors::{Builder, p, rectangle, two_rooms};
+use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 
 /// `length` ahead and behind together, `width` across, its centre in the middle.
 fn long_robot(b: &mut Builder, length: f64, width: f64) {
@@ -43,11 +43,10 @@ fn apart(a: &[Point], b: &[Point], slack: f64) -> bool {
         || (b.len() == 2 && separates(&b.iter().rev().copied().collect::<Vec<_>>(), a))
 }
 
-/// Drives a route and looks at the robot's outline at every step and on every turn, against the scene itself.
-fn check_outline(plan: &FloorPlan, world: &World, route: &Route) {
+/// Everything solid that the robot meets.
+fn solids(plan: &FloorPlan, world: &World) -> Vec<Vec<Point>> {
     let robot = plan.robot();
-    let solids: Vec<Vec<Point>> = plan
-        .scene()
+    plan.scene()
         .replicas
         .values()
         .flat_map(|r| &r.prisms)
@@ -59,7 +58,13 @@ fn check_outline(plan: &FloorPlan, world: &World, route: &Route) {
             let leaves = door.map_or(vec![], |door| d.leaves(door).obstacles(door.state));
             leaves.into_iter().map(|leaf| leaf.counter_clockwise().corners)
         }))
-        .collect();
+        .collect()
+}
+
+/// Drives a route and looks at the robot's outline at every step and on every turn, against the scene itself.
+fn check_outline(plan: &FloorPlan, world: &World, route: &Route) {
+    let robot = plan.robot();
+    let solids = solids(plan, world);
     let clear_at = |at: Point, heading: f64| {
         let (sin, cos) = heading.sin_cos();
         let corner = |c: &Point| at + Vector::new(c.x * cos - c.y * sin, c.x * sin + c.y * cos);
@@ -269,5 +274,129 @@ fn a_leaf_stops_against_a_robot_in_its_way() {
         let mut robot = Simulator::new(b.world.clone(), MapId(1), stand);
         robot.set_door(door, DoorState::OPEN).unwrap();
         robot.set_door(door, DoorState::CLOSED).unwrap();
+    }
+}
+
+/// A convex outline about the centre, of the kind that the number asks for.
+fn shaped(b: &mut Builder, kind: usize, random: &mut Random) {
+    let corners: Vec<(f64, f64)> = match kind {
+        0 => vec![(-55., -20.), (55., -20.), (55., 20.), (-55., 20.)],
+        1 => vec![(60., 0.), (-30., 22.), (-30., -22.)],
+        2 => (0..6)
+            .map(|k| {
+                let a = std::f64::consts::TAU * f64::from(k) / 6.0;
+                (50. * a.cos(), 18. * a.sin())
+            })
+            .collect(),
+        3 => vec![(-20., -45.), (20., -45.), (20., 45.), (-20., 45.)],
+        // The centre lies aside.
+        4 => vec![(-70., -10.), (20., -10.), (20., 25.), (-70., 25.)],
+        _ => {
+            let n = 5 + (random.unit() * 4.0) as usize;
+            (0..n)
+                .map(|k| {
+                    let a = std::f64::consts::TAU * k as f64 / n as f64;
+                    (random.between(40., 60.) * a.cos(), random.between(14., 22.) * a.sin())
+                })
+                .collect()
+        }
+    };
+    let hull = convex_hull(corners.into_iter().map(|(x, y)| p(x, y)).collect());
+    let radius = hull.iter().map(|c| c.coords.norm()).fold(0.0, f64::max);
+    b.world.robot.footprint = hull;
+    b.world.robot.radius = Cm::of((radius * 100.0).ceil() / 100.0);
+}
+
+/// Places where a robot may turn, each within a piece of centre space that is more than a point.
+fn spots(plan: &FloorPlan, random: &mut Random) -> Vec<Point> {
+    let regions: Vec<Region> = plan.fragments().flat_map(|f| f.centre()).collect();
+    let mut found = Vec::new();
+    for region in regions.iter().filter(|r| r.area() > 25.0) {
+        let at = region.outer.bounds();
+        for _ in 0..60 {
+            let q = p(random.between(at.min.x, at.max.x), random.between(at.min.y, at.max.y));
+            if region.contains(q, 0.0) && region.contours().all(|c| c.border_distance(q) > 1.0) {
+                found.push(q);
+            }
+        }
+    }
+    found
+}
+
+/// Straight ways that the outline can drive between places where it can turn are ways that are found.
+#[test]
+fn no_straight_strait_is_missed() {
+    let mut apart_still = 0;
+    for seed in 0..12 {
+        let mut random = Random(seed + 4000);
+        let mut b = random_world(seed + 20);
+        shaped(&mut b, (seed % 6) as usize, &mut random);
+        let plan = build(&b);
+        let spots = spots(&plan, &mut random);
+        let solids = solids(&plan, &b.world);
+        for _ in 0..600.min(spots.len() * spots.len()) {
+            let mut spot = || spots[(random.unit() * spots.len() as f64) as usize];
+            let (from, to) = (spot(), spot());
+            if plan.are_joined(from, to) {
+                continue;
+            }
+            apart_still += 1;
+            let along = to - from;
+            let (sin, cos) = along.y.atan2(along.x).sin_cos();
+            // Both ways about, with a little to spare.
+            let sides =
+                plan.robot().footprint.iter().flat_map(|c| [c.coords * 1.05, c.coords * -1.05]);
+            let turned = sides.map(|c| Vector::new(c.x * cos - c.y * sin, c.x * sin + c.y * cos));
+            let swept = convex_hull(turned.flat_map(|v| [from + v, to + v]).collect());
+            assert!(
+                solids.iter().any(|solid| !apart(&swept, solid, 0.0)),
+                "seed {seed}: nothing stands between {from:?} and {to:?}"
+            );
+        }
+    }
+    assert!(apart_still > 100, "{apart_still}");
+}
+
+/// A closet as deep as a wall between two rooms: the robot passes two doorways on one line.
+#[test]
+fn a_threshold_area_is_passed_lengthwise() {
+    for depth in [15.0, 60.0, 150.0] {
+        let mut b = Builder::new();
+        let one = b.area(
+            "Один",
+            &[p(0., 0.), p(400., 0.), p(400., 120.), p(400., 180.), p(400., 300.), p(0., 300.)],
+            Frame::IDENTITY,
+            &[(2, Opening::Passage)],
+        );
+        let mid = b.area(
+            "Порог",
+            &rectangle(depth, 60.0),
+            Frame::new(400., 120., 0., Deg::ZERO),
+            &[(1, Opening::Passage), (3, Opening::Passage)],
+        );
+        let two = b.area(
+            "Два",
+            &[p(0., 0.), p(400., 0.), p(400., 300.), p(0., 300.), p(0., 180.), p(0., 120.)],
+            Frame::new(400. + depth, 0., 0., Deg::ZERO),
+            &[(4, Opening::Passage)],
+        );
+        b.link(one, 2, mid, 3);
+        b.link(mid, 1, two, 4);
+        long_robot(&mut b, 90.0, 50.0);
+        let mut plan = build(&b);
+        let to = p(600. + depth, 150.);
+        let route =
+            plan.route(&b.world, p(200., 150.), Target::Point(to), Method::Shortest).unwrap();
+        check_outline(&plan, &b.world, &route);
+        assert_eq!(route.doorways, [0, 1]);
+        // With something in the closet there is no way any more, and there is one when it is gone.
+        let box_in_it = b.put(mid, depth / 2.0 - 1.0, 5.0, 2.0, 20.0, 0.0, 100.0);
+        plan.rebuild(&b.world, &[box_in_it]);
+        let target = Target::Point(to);
+        assert!(plan.route(&b.world, p(200., 150.), target, Method::Shortest).is_err());
+        b.world.replicas.remove(&box_in_it);
+        plan.rebuild(&b.world, &[box_in_it]);
+        let again = plan.route(&b.world, p(200., 150.), target, Method::Shortest).unwrap();
+        assert_eq!(again, route);
     }
 }

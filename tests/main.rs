@@ -48,6 +48,7 @@ mod storeys;
 mod story;
 mod talk;
 mod talk_ways;
+mod tight_floors;
 mod ugly_floors;
 mod views;
 mod words;

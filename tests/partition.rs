@@ -290,3 +290,177 @@ fn passframes_are_few() {
     eprintln!("{looked_at} floors; of small ones {exact} Passframes, {least} pieces at least");
     assert!(looked_at > 25 && exact as f64 <= 1.1 * least as f64, "{exact} of {least}");
 }
+
+/// A hall of these corners with things of these corners in it, turned as a whole; the robot is small.
+fn hall(corners: &[Point], things: &[Vec<Point>], turn: f64) -> Builder {
+    let mut b = Builder::new();
+    let hall = b.area("Зал", corners, Frame::IDENTITY, &[]);
+    for corners in things {
+        let object = b.object(&[(corners, 0.0, 100.0)]);
+        b.place_object(hall, object, Frame::IDENTITY);
+    }
+    b.world.robot.radius = Cm::of(6.0);
+    b.moved(0.0, 0.0, turn)
+}
+
+/// A box of `w` × `d` about a point, turned.
+fn thing(x: f64, y: f64, w: f64, d: f64, turn: f64) -> Vec<Point> {
+    let frame = Frame::new(x, y, 0.0, Deg::of(turn));
+    let corners = [(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)];
+    corners.map(|(i, j)| frame.apply(p(i * w / 2.0, j * d / 2.0))).to_vec()
+}
+
+/// A star of so many tips.
+fn star(tips: usize, inner: f64) -> Vec<Point> {
+    let at = |k: usize| {
+        let radius = if k.is_multiple_of(2) { 500.0 } else { inner };
+        let (sin, cos) = (std::f64::consts::PI * k as f64 / tips as f64).sin_cos();
+        p(radius * cos, radius * sin)
+    };
+    (0..2 * tips).map(at).collect()
+}
+
+/// A corridor 60 wide that winds inwards.
+fn spiral(turns: usize) -> Vec<Point> {
+    let (mut left, mut right) = (Vec::new(), Vec::new());
+    let (mut at, mut along) = (p(0., 0.), Vector::new(1., 0.));
+    for k in 0..turns {
+        let across = Vector::new(-along.y, along.x);
+        let length = 900.0 - 100.0 * (k / 2) as f64;
+        if k == 0 {
+            right.push(at - across * 30.0);
+            left.push(at + across * 30.0);
+        }
+        at += along * length;
+        right.push(at - across * 30.0 + along * 30.0);
+        left.push(at + across * 30.0 - along * 30.0);
+        if k + 1 == turns {
+            // The end runs straight across.
+            let last = left.len() - 1;
+            left[last] = at + across * 30.0 + along * 30.0;
+        }
+        along = across;
+    }
+    left.reverse();
+    right.extend(left);
+    right
+}
+
+/// A comb whose teeth lean.
+fn comb(teeth: usize, lean: f64) -> Vec<Point> {
+    let mut corners = vec![p(0., 0.), p(100.0 * teeth as f64, 0.)];
+    for k in (0..teeth).rev() {
+        let x = 100.0 * k as f64;
+        corners.extend([
+            p(x + 80., 100.),
+            p(x + 80. + lean, 300.),
+            p(x + 20. + lean, 300.),
+            p(x + 20., 100.),
+        ]);
+    }
+    corners
+}
+
+fn corridors(kind: usize) -> Vec<Point> {
+    let of = |c: &[(f64, f64)]| c.iter().map(|&(x, y)| p(x, y)).collect();
+    match kind {
+        0 => of(&[(0., 0.), (800., 0.), (800., 150.), (150., 150.), (150., 700.), (0., 700.)]),
+        1 => of(&[
+            (0., 0.),
+            (900., 0.),
+            (900., 150.),
+            (520., 150.),
+            (520., 700.),
+            (370., 700.),
+            (370., 150.),
+            (0., 150.),
+        ]),
+        _ => of(&[
+            (0., 0.),
+            (900., 0.),
+            (900., 600.),
+            (750., 600.),
+            (750., 150.),
+            (150., 150.),
+            (150., 600.),
+            (0., 600.),
+        ]),
+    }
+}
+
+/// Boxes thrown into 1000 × 800, straight or turned.
+fn thrown(count: usize, seed: u64, turned: bool) -> Vec<Vec<Point>> {
+    let mut random = Random(seed);
+    (0..count)
+        .map(|_| {
+            let (x, y) = (random.between(80., 920.), random.between(80., 720.));
+            let (w, d) = (random.between(30., 140.), random.between(20., 80.));
+            let turn = if turned { random.between(0., 180.) } else { 0. };
+            thing(x, y, w, d, turn)
+        })
+        .collect()
+}
+
+#[test]
+fn shapes_of_every_sort_are_cut_into_few() {
+    let mut shapes: Vec<(String, Builder)> = Vec::new();
+    for turn in [0.0, 31.7] {
+        for teeth in [3, 6, 10] {
+            for lean in [0.0, 60.0] {
+                shapes.push((
+                    format!("comb {teeth} {lean} {turn}"),
+                    hall(&comb(teeth, lean), &[], turn),
+                ));
+            }
+        }
+        for (tips, inner) in [(5, 190.0), (7, 300.0), (12, 350.0)] {
+            shapes.push((format!("star {tips} {turn}"), hall(&star(tips, inner), &[], turn)));
+        }
+        for turns in [3, 6, 9] {
+            shapes.push((format!("spiral {turns} {turn}"), hall(&spiral(turns), &[], turn)));
+        }
+        for kind in 0..3 {
+            let desks = [
+                thing(300., 75., 60., 40., 23.),
+                thing(650., 60., 50., 50., 0.),
+                thing(75., 400., 40., 60., 71.),
+            ];
+            shapes.push((format!("corridor {kind} {turn}"), hall(&corridors(kind), &[], turn)));
+            shapes.push((format!("desks {kind} {turn}"), hall(&corridors(kind), &desks, turn)));
+        }
+        for (count, turned) in [(5, false), (5, true), (8, true)] {
+            for seed in 0..2 {
+                let room = rectangle(1000.0, 800.0);
+                let name = format!("room of {count} {turned} {seed} {turn}");
+                shapes.push((name, hall(&room, &thrown(count, seed, turned), turn)));
+            }
+        }
+    }
+    let mut looked_at = 0;
+    for (name, b) in shapes {
+        let plan = FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
+        for (region, frames) in plan.fragments().flat_map(counts) {
+            let fewer = (frames as f64 / 1.2).ceil() as usize - 1;
+            assert!(
+                fewer == 0 || !can_be_cut_into(&region, fewer),
+                "{name}: {frames} Passframes where {fewer} pieces do"
+            );
+            looked_at += 1;
+        }
+    }
+    assert!(looked_at > 40, "{looked_at}");
+}
+
+/// Turned by an odd angle, a comb has its teeth in one line still: one Passframe for each, and one for the back.
+#[test]
+fn a_turned_comb_is_cut_as_a_straight_one() {
+    for (teeth, lean) in [(3, 0.0), (10, 0.0), (10, 60.0)] {
+        for turn in [0.0, 17.3, 31.7, 45.0, 123.4] {
+            let b = hall(&comb(teeth, lean), &[], turn);
+            let plan = FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
+            let frames = plan.fragments().next().expect("the hall").passframes();
+            assert_eq!(frames.len(), teeth + 1, "{teeth} {lean} {turn}");
+            assert!(frames.iter().all(|f| f.polygon.is_convex(1e-9)));
+        }
+    }
+}

@@ -5,7 +5,7 @@ use orthoframe::map::*;
 use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
-use crate::floors::{Builder, p, two_rooms};
+use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 
 fn build(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
@@ -124,4 +124,179 @@ fn a_door_that_strikes_a_thing_is_not_all_that_is_asked_for() {
     let mut changed = b.world.clone();
     let after = plan.remedied(&mut changed, &remedy);
     assert!(after.route(&changed, from, target, Method::Shortest).is_ok(), "{remedy:?}");
+}
+
+/// Whether a thing stands on the floor of its room and in nothing else, looked at anew.
+fn has_room(b: &Builder, id: ReplicaId) -> bool {
+    let scene = Scene::of(&b.world, MapId(1));
+    let own = &scene.replicas[&id];
+    let base = &scene.areas[&own.area].prisms;
+    let apart = |p: &Polygon, q: &Polygon| {
+        let separates = |p: &Polygon, q: &Polygon| {
+            p.edges().any(|(u, v)| {
+                let out = Vector::new(v.y - u.y, u.x - v.x);
+                q.corners.iter().all(|c| (c - u).dot(&out) > 1e-9)
+            })
+        };
+        separates(p, q) || separates(q, p)
+    };
+    own.prisms.iter().all(|prism| {
+        prism.polygon.corners.iter().all(|&c| base.iter().any(|f| f.polygon.contains(c, 1e-6)))
+            && scene
+                .replicas
+                .values()
+                .filter(|r| r.id != id && r.area == own.area)
+                .all(|other| other.prisms.iter().all(|q| apart(&prism.polygon, &q.polygon)))
+    })
+}
+
+/// The least push in centimetres, of any thing that may move, that lets the robot from one place to the other: all
+/// are tried, as far as `most`.
+fn least_push(b: &Builder, from: Point, to: Point, most: f64) -> Option<(ReplicaId, Vector)> {
+    let mut trial = Builder::new();
+    trial.world = b.world.clone();
+    let mut plan = build(&b.world);
+    for step in 1..=(most as usize) {
+        for (&id, replica) in &b.world.replicas {
+            if replica.move_prob == 0 {
+                continue;
+            }
+            for turn in 0..16 {
+                let (sin, cos) = (std::f64::consts::PI * f64::from(turn) / 8.0).sin_cos();
+                let by = Vector::new(cos, sin) * step as f64;
+                let home = replica.frame;
+                trial.world.replicas.get_mut(&id).unwrap().frame =
+                    Frame::new(home.x.get() + by.x, home.y.get() + by.y, 0.0, home.angle);
+                if has_room(&trial, id) {
+                    plan.rebuild(&trial.world, &[id]);
+                    if plan.are_joined(from, to) {
+                        return Some((id, by));
+                    }
+                }
+                trial.world.replicas.get_mut(&id).unwrap().frame = home;
+            }
+            plan.rebuild(&trial.world, &[id]);
+        }
+    }
+    None
+}
+
+/// Two rooms joined by two open passages, things in and before them, all movable.
+fn cluttered(seed: u64) -> Builder {
+    let mut b = Builder::new();
+    let mut random = Random(seed + 900);
+    let side = |x: f64| {
+        [(x, 0.), (x, 60.), (x, 150.), (x, 250.), (x, 340.), (x, 400.)]
+            .map(|(x, y)| p(x, y))
+            .to_vec()
+    };
+    let mut left = vec![p(0., 0.)];
+    left.extend(side(300.));
+    left.push(p(0., 400.));
+    let mut right = vec![p(300., 400.)];
+    right.extend(side(0.).into_iter().rev());
+    right.push(p(300., 0.));
+    let one =
+        b.area("Один", &left, Frame::IDENTITY, &[(2, Opening::Passage), (4, Opening::Passage)]);
+    let frame = Frame::new(310., 0., 0., Deg::ZERO);
+    let two = b.area("Два", &right, frame, &[(2, Opening::Passage), (4, Opening::Passage)]);
+    b.link(one, 2, two, 4);
+    b.link(one, 4, two, 2);
+    let radius = 22.0;
+    b.world.robot.radius = Cm::of(radius);
+    for y in [105.0, 295.0] {
+        let free = random.between(10.0, 40.0);
+        let d = 80.0 - free;
+        let x = random.between(255.0, 290.0);
+        let low = y - 45.0 + random.between(0.0, free / 2.0);
+        let id = b.put(one, x.min(300.0 - 15.0), low, 12.0, d, 0.0, 100.0);
+        b.world.replicas.get_mut(&id).unwrap().move_prob = 60;
+        if random.unit() < 0.5 {
+            let (x, y) = (random.between(20., 80.), y - random.between(0.0, 40.0));
+            let id = b.put(
+                two,
+                x,
+                y,
+                random.between(10.0, 40.0),
+                random.between(10.0, 60.0),
+                0.0,
+                100.0,
+            );
+            b.world.replicas.get_mut(&id).unwrap().move_prob = 60;
+        }
+    }
+    b
+}
+
+/// A row of things from wall to wall with gaps of many widths.
+fn row(seed: u64) -> Builder {
+    let mut b = Builder::new();
+    let mut random = Random(seed + 300);
+    let hall = b.area("Зал", &rectangle(500.0, 400.0), Frame::IDENTITY, &[]);
+    b.world.robot.radius = Cm::of(22.0);
+    let mut y = random.between(0.0, 30.0);
+    while y < 380.0 {
+        let depth = random.between(25.0, 80.0).min(399.0 - y);
+        let x = 230.0 + random.between(-30.0, 30.0);
+        let turn = if random.unit() < 0.3 { random.between(-20.0, 20.0) } else { 0.0 };
+        let id = b.put(hall, x, y, 40.0, depth, turn, 100.0);
+        b.world.replicas.get_mut(&id).unwrap().move_prob = if random.unit() < 0.8 { 60 } else { 0 };
+        y += depth + random.between(6.0, 43.0);
+    }
+    b
+}
+
+#[test]
+fn no_push_is_shorter_than_the_one_named() {
+    let mut tried = 0;
+    for seed in 0..14 {
+        let (b, to) =
+            if seed < 8 { (cluttered(seed), p(560., 200.)) } else { (row(seed), p(440., 200.)) };
+        let plan = build(&b.world);
+        let (from, target) = (p(60., 200.), Target::Point(to));
+        let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
+        let remedy = plan.remedy(&b.world, from, target, &no);
+        let Some(Remedy::Move { by, .. }) = &remedy else { panic!("seed {seed}: {remedy:?} {no}") };
+        // The longer the push, the longer all shorter ones take.
+        if by.norm() < 9.5 {
+            tried += 1;
+            let less = least_push(&b, from, to, by.norm() - 0.5);
+            assert_eq!(less, None, "seed {seed}: {remedy:?} of {no}");
+        }
+    }
+    assert!(tried > 5, "{tried}");
+}
+
+/// What is told of a gap is what would let the robot through were it so much thinner: the widest of all gaps.
+#[test]
+fn the_gap_that_is_told_is_the_widest() {
+    let (mut told, mut widest) = (0, 0);
+    for seed in 0..30 {
+        let (mut b, from, to) = match seed % 3 {
+            0 => (cluttered(seed), p(60., 200.), p(560., 200.)),
+            1 => (row(seed), p(60., 200.), p(440., 200.)),
+            _ => (barred(seed), p(40., 150.), p(770., 150.)),
+        };
+        b.world.doors.values_mut().for_each(|d| d.state = DoorState::OPEN);
+        b.world.replicas.values_mut().for_each(|r| r.move_prob = 60);
+        let plan = build(&b.world);
+        let (Some(from), Some(to)) = (plan.standing_at(from), plan.standing_at(to)) else {
+            continue;
+        };
+        let target = Target::Point(to);
+        let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
+        let [Barrier::Gap { width, needed, .. }] = no.barriers() else { continue };
+        assert!((needed - plan.robot().passing_width()).abs() < 1e-9);
+        let (mut low, mut high) = (0.5, b.world.robot.radius.get());
+        while high - low > 0.02 {
+            let radius = f64::midpoint(low, high);
+            b.world.robot.radius = Cm::of(radius);
+            *(if build(&b.world).are_joined(from, to) { &mut low } else { &mut high }) = radius;
+        }
+        told += 1;
+        widest += usize::from((width - 2.0 * low).abs() < 0.1);
+        // Less is told only where the wider way has two gaps.
+        assert!(*width < 2.0 * low + 0.1, "seed {seed}: {no}, and {} passes", 2.0 * low);
+    }
+    assert!(told > 12 && widest + 3 > told, "{widest} of {told}");
 }

@@ -11,9 +11,9 @@ use thiserror::Error;
 use crate::map::{DoorKind, DoorState, DoorStatus, World};
 use crate::units::{AreaId, DoorId};
 
-use super::dead_zone::Surroundings;
 use super::doors::Doorway;
 use super::leaf::opening_of;
+use super::narrows::{Narrow, Narrows};
 use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;
@@ -74,13 +74,7 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
     let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
     let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
     let start = piece(from);
-    let mut between = Between {
-        plan,
-        world,
-        pieces: plan.network.pieces(),
-        gaps: HashMap::new(),
-        only_passing: true,
-    };
+    let mut between = Between::of(plan, world);
     let ends = [
         BTreeSet::from([plan.network.region(start)]),
         goals.iter().map(|&g| plan.network.region(g)).collect(),
@@ -100,20 +94,49 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
     NoRoute::Blocked { barriers, text }
 }
 
+/// All that stands between the region of a cell and those of some others with nothing else before or behind it, what
+/// lacks least first.
+pub(super) fn single(
+    plan: &FloorPlan,
+    world: &World,
+    from: CellKey,
+    to: &[CellKey],
+) -> Vec<Barrier> {
+    let goals: BTreeSet<u32> = to.iter().map(|&cell| plan.region(cell)).collect();
+    let mut between = Between::of(plan, world);
+    let mut ends = [BTreeSet::from([plan.region(from)]), goals];
+    let weight = |end: &BTreeSet<u32>| end.iter().map(|r| between.pieces[r].len()).sum::<usize>();
+    ends.sort_by_key(weight);
+    let around = ends[0].iter().flat_map(|&region| between.all_around(region));
+    let single = around.filter(|(other, _)| ends[1].contains(other));
+    let mut barriers: Vec<Barrier> = single.map(|(_, barrier)| barrier).collect();
+    barriers.sort_by(|a, b| a.lack(plan, world).total_cmp(&b.lack(plan, world)));
+    barriers
+}
+
 /// What stands between regions of the centre space, found as far as it is asked for.
 struct Between<'a> {
     plan: &'a FloorPlan,
     world: &'a World,
     pieces: BTreeMap<u32, Vec<Piece>>,
     /// By Fragment.
-    gaps: HashMap<u32, Vec<(u32, u32, Barrier)>>,
+    narrows: HashMap<u32, Narrows>,
+    /// Of Fragments with an open doorway between them.
+    side_by_side: HashMap<[u32; 2], Narrows>,
     /// Only over what opening, shutting or moving something can do away with.
     only_passing: bool,
 }
 
-/// The regions reached from one end, each with the region before it and what lies between; none for the first.
+/// How a region is reached: over what from which other, none for the first; and by how much all barriers up to it
+/// together would have to give way, in cm.
+struct Step {
+    before: Option<(u32, Barrier)>,
+    lack: f64,
+}
+
+/// The regions reached from one end.
 struct Reached {
-    by: BTreeMap<u32, Option<(u32, Barrier)>>,
+    by: BTreeMap<u32, Step>,
     rim: Vec<u32>,
 }
 
@@ -121,7 +144,7 @@ impl Reached {
     /// The barriers from the end to a region.
     fn barriers(&self, mut region: u32) -> Vec<Barrier> {
         let mut barriers = Vec::new();
-        while let Some((before, barrier)) = &self.by[&region] {
+        while let Some((before, barrier)) = &self.by[&region].before {
             barriers.push(barrier.clone());
             region = *before;
         }
@@ -130,17 +153,25 @@ impl Reached {
     }
 }
 
-impl Between<'_> {
-    /// The fewest barriers from the first set of regions to the second: breadth-first from both, a whole ring of
-    /// the smaller side at a time, so that a way out of a closet does not search the building.
+impl<'a> Between<'a> {
+    fn of(plan: &'a FloorPlan, world: &'a World) -> Self {
+        let pieces = plan.network.pieces();
+        let (narrows, side_by_side) = (HashMap::new(), HashMap::new());
+        Self { plan, world, pieces, narrows, side_by_side, only_passing: true }
+    }
+
+    /// The fewest barriers from the first set of regions to the second, of as few those that lack least: breadth-first
+    /// from both, a whole ring of the smaller side at a time, so that a way out of a closet does not search the building.
     fn fewest(&mut self, ends: [BTreeSet<u32>; 2]) -> Option<Vec<Barrier>> {
+        let first = |r: u32| (r, Step { before: None, lack: 0.0 });
         let mut sides = ends.map(|end| Reached {
-            by: end.iter().map(|&r| (r, None)).collect(),
+            by: end.iter().copied().map(first).collect(),
             rim: end.into_iter().collect(),
         });
         loop {
-            let met = sides[0].by.keys().find(|r| sides[1].by.contains_key(r));
-            if let Some(&met) = met {
+            let lack = |r: &u32| Some(sides[0].by[r].lack + sides[1].by.get(r)?.lack);
+            let met = sides[0].by.keys().filter_map(|r| Some((lack(r)?, *r)));
+            if let Some((_, met)) = met.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 let mut barriers = sides[0].barriers(met);
                 barriers.extend(sides[1].barriers(met).into_iter().rev());
                 return Some(barriers);
@@ -151,48 +182,96 @@ impl Between<'_> {
             let weight = |s: &Reached| s.rim.iter().map(|r| self.pieces[r].len()).sum::<usize>();
             let smaller = usize::from(weight(&sides[1]) < weight(&sides[0]));
             let side = &mut sides[smaller];
+            let mut ring: BTreeMap<u32, Step> = BTreeMap::new();
             for region in std::mem::take(&mut side.rim) {
                 for (next, barrier) in self.around(region) {
-                    side.by.entry(next).or_insert_with(|| {
-                        side.rim.push(next);
-                        Some((region, barrier))
-                    });
+                    let lack = side.by[&region].lack + barrier.lack(self.plan, self.world);
+                    let is_less = ring.get(&next).is_none_or(|known| lack < known.lack);
+                    if is_less && !side.by.contains_key(&next) {
+                        ring.insert(next, Step { before: Some((region, barrier)), lack });
+                    }
                 }
             }
+            side.rim.extend(ring.keys());
+            side.by.append(&mut ring);
         }
     }
 
-    /// The regions behind one barrier, and the barriers.
+    /// The regions behind one barrier, and the barriers: of several gaps in a row the narrowest of the widest way.
     fn around(&mut self, region: u32) -> Vec<(u32, Barrier)> {
+        let (plan, world, only_passing) = (self.plan, self.world, self.only_passing);
+        let counts = |barrier: &Barrier| !(only_passing && is_lasting(plan, world, barrier));
+        let mut found = self.behind(region, |narrows, piece| {
+            let widest = narrows.around(piece, |gap| counts(&gap_of(plan, piece.0, gap)));
+            widest.into_iter().map(|(other, gap)| (other, vec![gap])).collect()
+        });
+        found.retain(|(_, barrier)| counts(barrier));
+        found
+    }
+
+    /// As [`Self::around`], with every gap that lies between.
+    fn all_around(&mut self, region: u32) -> Vec<(u32, Barrier)> {
+        self.behind(region, |narrows, piece| {
+            let others = narrows.around(piece, |_| true).into_iter().map(|(other, _)| other);
+            others.map(|other| (other, narrows.all_between(piece, other))).collect()
+        })
+    }
+
+    fn behind(
+        &mut self,
+        region: u32,
+        gaps: impl for<'n> Fn(&'n Narrows, Piece) -> Vec<(Piece, Vec<&'n Narrow>)>,
+    ) -> Vec<(u32, Barrier)> {
         let plan = self.plan;
         let mut found = Vec::new();
-        for &(number, component) in &self.pieces[&region] {
+        for &piece in &self.pieces[&region] {
+            let (number, _) = piece;
             for &(index, side) in plan.doorways_at(number) {
                 if plan.is_passable(number, index) {
                     continue;
                 }
-                if let (Some(near), Some(far)) =
-                    (before(plan, index, side), before(plan, index, 1 - side))
-                    && near == (number, component)
-                {
-                    found.push((plan.network.region(far), barrier_at(plan, self.world, index)));
+                let ends = [side, 1 - side].map(|side| before(plan, index, side));
+                let [Some(near), Some(far)] = ends else { continue };
+                if let Some(barrier) = barrier_at(plan, self.world, index) {
+                    if near == piece {
+                        found.push((plan.network.region(far), barrier));
+                    }
+                    continue;
+                }
+                let both = [number.min(far.0), number.max(far.0)];
+                let narrows =
+                    self.side_by_side.entry(both).or_insert_with(|| Narrows::of(plan, &both));
+                let mut between = gaps(narrows, piece);
+                between.retain(|((to, _), _)| *to == far.0);
+                if between.is_empty() && near == piece {
+                    found.push((plan.network.region(far), clutter(plan, &plan.doorways()[index])));
+                }
+                for (other, between) in between {
+                    let other = plan.network.region(other);
+                    found.extend(between.into_iter().map(|gap| (other, gap_of(plan, number, gap))));
                 }
             }
-            let gaps = self.gaps.entry(number).or_insert_with(|| gaps(plan, number));
-            for (a, b, barrier) in gaps {
-                let other = match component {
-                    c if c == *a => *b,
-                    c if c == *b => *a,
-                    _ => continue,
-                };
-                found.push((plan.network.region((number, other)), barrier.clone()));
+            let narrows =
+                self.narrows.entry(number).or_insert_with(|| Narrows::of(plan, &[number]));
+            for (other, between) in gaps(narrows, piece) {
+                let other = plan.network.region(other);
+                found.extend(between.into_iter().map(|gap| (other, gap_of(plan, number, gap))));
             }
         }
-        found.retain(|(other, barrier)| {
-            *other != region && !(self.only_passing && is_lasting(plan, self.world, barrier))
-        });
+        found.retain(|(other, _)| *other != region);
         found
     }
+}
+
+/// A gap as a barrier, in or near a Fragment.
+fn gap_of(plan: &FloorPlan, number: u32, gap: &Narrow) -> Barrier {
+    let between = things(plan.scene(), &gap.between);
+    let stands_in = between.iter().find_map(|b| match b {
+        Blocker::Replica { replica, .. } => plan.scene().replicas.get(replica).map(|r| r.area),
+        _ => None,
+    });
+    let area = stands_in.or_else(|| plan.area_at(gap.middle)).unwrap_or(plan.floor(number).area);
+    Barrier::Gap { area, width: gap.width, needed: plan.robot().passing_width(), between }
 }
 
 /// The piece of centre space before a doorway, on one of its sides.
@@ -204,73 +283,49 @@ fn before(plan: &FloorPlan, index: usize, side: usize) -> Option<Piece> {
     Some((number, cells.component[cell as usize]))
 }
 
-/// What bars a doorway: what opening the door does not help comes first.
-fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Barrier {
+/// What of a doorway itself bars it, if it is not what stands there: what opening the door does not help comes first.
+fn barrier_at(plan: &FloorPlan, world: &World, index: usize) -> Option<Barrier> {
     let doorway = &plan.doorways()[index];
     let door = doorway.door.and_then(|d| world.doors.get(&d));
     let (height, needed) = (plan.robot().height.get(), plan.robot().passing_width());
     if let Some(door) = door.filter(|d| d.height.get() > 0.0 && d.height.get() < height) {
-        return Barrier::Low { door: door.id, height: door.height.get(), needed: height };
+        return Some(Barrier::Low { door: door.id, height: door.height.get(), needed: height });
     }
     if doorway.rise.abs() > plan.robot().step.get() {
-        return Barrier::Step { areas: doorway.areas, rise: doorway.rise };
+        return Some(Barrier::Step { areas: doorway.areas, rise: doorway.rise });
     }
     let narrow =
         |width: f64| Barrier::Narrow { door: doorway.door, areas: doorway.areas, width, needed };
     let widest = doorway.clear_width(door, DoorState::OPEN);
     if widest < needed {
-        return narrow(widest);
+        return Some(narrow(widest));
     }
     let state = door.map_or(DoorState::OPEN, |d| plan.door_state(world, d.id));
     if let Some(door) = door.filter(|d| d.kind != DoorKind::Passage && opening_of(state) <= 0.0) {
         let is_locked = state.status == DoorStatus::Locked;
         let status = if is_locked { DoorStatus::Locked } else { DoorStatus::Closed };
-        return Barrier::Door { door: door.id, status };
+        return Some(Barrier::Door { door: door.id, status });
     }
     let width = doorway.clear_width(door, state);
-    if width < needed { narrow(width) } else { clutter(plan, doorway, needed) }
+    (width < needed).then(|| narrow(width))
 }
 
-/// The things that stand in a doorway, or so close before it that the robot cannot pass it.
-fn clutter(plan: &FloorPlan, doorway: &Doorway, needed: f64) -> Barrier {
+/// The things that shut a doorway without a gap.
+fn clutter(plan: &FloorPlan, doorway: &Doorway) -> Barrier {
     let around = plan.reach() + 2.0;
     let mouth = doorway.rectangle(-around, doorway.gap + around, 0.0);
     let bounds = mouth.bounds();
-    let (right, left) = doorway.line();
-    let along = (left - right) / doorway.width().max(1e-9);
-    let (mut owners, mut taken) = (Vec::new(), vec![(doorway.width(), doorway.width())]);
-    for area in doorway.areas {
-        let fragment = plan.fragment(area);
-        for obstacle in fragment.iter().flat_map(|f| &f.obstacles) {
-            let at = obstacle.polygon.bounds();
-            if !at.meets(&bounds) || super::doors::distance(&obstacle.polygon, &mouth) > 0.0 {
-                continue;
-            }
-            owners.push(obstacle.blocker);
-            let part = obstacle.polygon.clone().within_convex(&mouth);
-            let places = part.corners.iter().map(|c| (c - right).dot(&along));
-            let ends =
-                places.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), t| (l.min(t), h.max(t)));
-            taken.push(ends);
-        }
-    }
-    taken.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let (mut free, mut until) = (0.0_f64, 0.0_f64);
-    for (from, to) in taken {
-        free = free.max(from - until);
-        until = until.max(to);
-    }
-    let between = things(plan.scene(), &owners);
-    let stands_in = between.iter().find_map(|b| match b {
+    let fragments = doorway.areas.into_iter().filter_map(|area| plan.fragment(area));
+    let owners = fragments.flat_map(|f| &f.obstacles).filter(|o| {
+        o.polygon.bounds().meets(&bounds) && super::doors::distance(&o.polygon, &mouth) <= 0.0
+    });
+    let owners: Vec<Blocker> = owners.map(|o| o.blocker).collect();
+    let by = things(plan.scene(), &owners);
+    let stands_in = by.iter().find_map(|b| match b {
         Blocker::Replica { replica, .. } => plan.scene().replicas.get(replica).map(|r| r.area),
         _ => None,
     });
-    let area = stands_in.unwrap_or(doorway.areas[0]);
-    if free > 0.0 && free < needed {
-        Barrier::Gap { area, width: free, needed, between }
-    } else {
-        Barrier::Enclosed { area, by: between }
-    }
+    Barrier::Enclosed { area: stands_in.unwrap_or(doorway.areas[0]), by }
 }
 
 /// Whether nothing that can be opened, shut or moved does away with a barrier.
@@ -292,42 +347,6 @@ fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
         Barrier::Enclosed { by, .. } => !by.iter().any(moves),
         Barrier::Low { .. } | Barrier::Step { .. } | Barrier::Apart { .. } => true,
     }
-}
-
-/// Dead zones between two pieces of one Fragment.
-pub(super) fn gaps(plan: &FloorPlan, number: u32) -> Vec<(u32, u32, Barrier)> {
-    let floor = plan.floor(number);
-    let mut found = Vec::new();
-    for zone in &floor.dead_zones {
-        let bounds = zone.outer.bounds().grown(2.0 * plan.reach());
-        let mut pieces = BTreeSet::new();
-        for cell in floor.cells.cells() {
-            let polygon = floor.cells.polygon(cell);
-            if polygon.bounds().meets(&bounds)
-                && super::doors::distance(&polygon, &zone.outer) <= plan.reach() * 1.02
-            {
-                pieces.insert(floor.cells.component[cell as usize]);
-            }
-        }
-        if pieces.len() < 2 {
-            continue;
-        }
-        let Surroundings { owners, gap: Some(width) } = plan.around(floor, zone) else { continue };
-        let between = things(plan.scene(), &owners);
-        let pieces: Vec<u32> = pieces.into_iter().collect();
-        for (i, &a) in pieces.iter().enumerate() {
-            for &b in &pieces[i + 1..] {
-                let barrier = Barrier::Gap {
-                    area: floor.area,
-                    width,
-                    needed: plan.robot().passing_width(),
-                    between: between.clone(),
-                };
-                found.push((a, b, barrier));
-            }
-        }
-    }
-    found
 }
 
 /// Everything solid around a piece.
@@ -358,6 +377,21 @@ fn enclosure(plan: &FloorPlan, start: Piece, goals: &BTreeSet<Piece>) -> Barrier
 }
 
 impl Barrier {
+    /// By how much what is there would have to give way, in cm: nothing for a door that only needs opening, and more than
+    /// any gap for what leaves none.
+    fn lack(&self, plan: &FloorPlan, world: &World) -> f64 {
+        const NO_GAP: f64 = 1e4;
+        match self {
+            Self::Door { .. } => 0.0,
+            Self::Narrow { .. } if !is_lasting(plan, world, self) => 0.0,
+            Self::Narrow { width, needed, .. } | Self::Gap { width, needed, .. } => {
+                (needed - width).max(0.0)
+            }
+            Self::Low { height, needed, .. } => needed - height,
+            Self::Enclosed { .. } | Self::Step { .. } | Self::Apart { .. } => NO_GAP,
+        }
+    }
+
     /// The barrier in Russian.
     #[must_use]
     pub fn describe(&self, world: &World) -> String {

@@ -15,12 +15,13 @@
 //! lines; centre space lies in it, at least the robot's radius and clearance (less [`SLACK`]) from everything.
 
 use std::collections::BTreeMap;
+use std::f64::consts::FRAC_PI_2;
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, DoorId, Point, ReplicaId};
+use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
 use super::buckets::Buckets;
 use super::dead_zone::dead_zones;
@@ -33,7 +34,7 @@ use super::offset::{grow, shrink};
 use super::on_demand::OnDemand;
 use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
-use super::scene::Scene;
+use super::scene::{Prism, Scene};
 use super::storey::{Storey, THIN};
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
@@ -143,7 +144,7 @@ impl FragmentFloor {
         let placed = &site.scene.areas[&area];
         let reach = site.reach();
         let bounds = placed.prisms.iter().fold(Bounds::EMPTY, |b, p| b.union(&p.bounds));
-        let grid = Grid::over(&bounds.grown(4.0 * reach + 200.0));
+        let grid = Grid::turned(&bounds.grown(4.0 * reach + 200.0), main_axis(&placed.prisms));
         let storey = Storey::of(site, placed);
         let open: Vec<_> = site.doorways_of(area).filter(|(_, d, _)| site.is_open(d)).collect();
 
@@ -266,6 +267,42 @@ impl FragmentFloor {
     pub fn obstacle_at(&self, p: Point) -> Option<&Obstacle> {
         self.obstacles.iter().find(|o| o.polygon.contains(p, 1e-6))
     }
+}
+
+/// The angle within a quarter turn at which most walls stand in line with others, in radians; of equals that of the
+/// longest walls.
+fn main_axis(prisms: &[Prism]) -> f64 {
+    /// Walls whose angles differ less are parallel: so much is left of turning a straight room.
+    const PARALLEL: f64 = 1e-7;
+    /// Parallel walls nearer to one line, in cm, are in line.
+    const IN_LINE: f64 = 1e-4;
+    let edges = prisms.iter().flat_map(|p| p.polygon.edges());
+    let mut walls: Vec<(f64, Point, Vector)> = edges
+        .map(|(a, b)| {
+            let angle = (b - a).y.atan2((b - a).x).rem_euclid(FRAC_PI_2);
+            // Just below a quarter turn is just below none.
+            (if FRAC_PI_2 - angle < PARALLEL { 0.0 } else { angle }, a, b - a)
+        })
+        .collect();
+    walls.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut best = (0, 0.0, 0.0);
+    for parallel in walls.chunk_by(|a, b| b.0 - a.0 < PARALLEL) {
+        let angle = parallel[0].0;
+        let axis = Vector::new(angle.cos(), angle.sin());
+        let line = |&(_, at, along): &(f64, Point, Vector)| {
+            let is_along = along.dot(&axis).abs() > along.perp(&axis).abs();
+            (is_along, if is_along { axis.perp(&at.coords) } else { axis.dot(&at.coords) })
+        };
+        let mut lines: Vec<(bool, f64)> = parallel.iter().map(line).collect();
+        lines.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let is_same = |w: &&[(bool, f64)]| w[0].0 == w[1].0 && w[1].1 - w[0].1 < IN_LINE;
+        let in_line = lines.windows(2).filter(is_same).count();
+        let length: f64 = parallel.iter().map(|wall| wall.2.norm()).sum();
+        if in_line > best.0 || (in_line == best.0 && length > best.1 * (1.0 + 1e-9)) {
+            best = (in_line, length, angle);
+        }
+    }
+    if best.2 < PARALLEL { 0.0 } else { best.2 }
 }
 
 impl Doorway {

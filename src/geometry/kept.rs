@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon, Region};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 4");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 5");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -220,7 +220,7 @@ macro_rules! kept_structs {
 
 kept_structs! {
     Polygon { corners }
-    Grid { origin, scale }
+    Grid { origin, scale, cos, sin }
     Region { outer, holes }
     Bounds { min, max }
     Obstacle { blocker, polygon, side, bottom, top }

@@ -268,6 +268,36 @@ impl Mesh {
         (from <= to).then_some((from, to))
     }
 
+    /// Where a segment that comes into a cell at a place leaves it: at which share of its length, over which edge; none
+    /// when it ends there.
+    pub(super) fn way_out(&self, cell: u32, a: Point, b: Point) -> Option<(f64, usize)> {
+        /// Edges in one line are left at one share of the length, but for rounding.
+        const SAME: f64 = 1e-10;
+        let ring = self.ring(cell);
+        let along = b - a;
+        // With how far the place lies from the edge, as a share of the edge.
+        let mut first: Option<(f64, usize, f64)> = None;
+        let mut u = self.vertices[ring[0] as usize];
+        for edge in 0..ring.len() {
+            let v = self.vertices[*ring.get(edge + 1).unwrap_or(&ring[0]) as usize];
+            let side = v - u;
+            let outwards = along.perp(&side);
+            if outwards > 0.0 {
+                let share = side.perp(&(a - u)) / outwards;
+                let least = first.map_or(1.0, |f| f.0);
+                if share < least + SAME && share < 1.0 {
+                    let on = (a + along * share - u).dot(&side) / side.norm_squared();
+                    let off = (-on).max(on - 1.0);
+                    if share < least - SAME || first.is_none_or(|f| off < f.2) {
+                        first = Some((share, edge, off));
+                    }
+                }
+            }
+            u = v;
+        }
+        first.map(|(share, edge, _)| (share, edge))
+    }
+
     /// The cells whose boxes come near segment `a`-`b`, written into `found`.
     pub(super) fn near_segment(&self, a: Point, b: Point, found: &mut Vec<u32>) {
         self.buckets().along(a, b, found);

@@ -20,6 +20,7 @@
 
 mod blocked;
 mod buckets;
+mod chain;
 pub mod contact;
 mod dead_zone;
 mod digest;
@@ -33,6 +34,7 @@ mod kept;
 mod leaf;
 mod lift;
 mod mesh;
+mod narrows;
 mod network;
 mod obstacle;
 mod offset;

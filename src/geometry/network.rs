@@ -142,12 +142,9 @@ impl Branches {
                 graph.add_edge(portal.from.0.into(), portal.to.0.into(), portal.doorway);
             }
         }
-        for strait in straits {
-            let [(one, _), (other, _)] = strait.cells;
-            let is_new =
-                strait.doorway.is_some_and(|d| !std::mem::replace(&mut is_joined[d], true));
-            if one != other && is_new {
-                graph.add_edge(one.into(), other.into(), strait.doorway.unwrap_or_default());
+        for &(doorway, [one, other]) in straits.iter().flat_map(|s| &s.doorways) {
+            if one != other && !std::mem::replace(&mut is_joined[doorway], true) {
+                graph.add_edge(one.into(), other.into(), doorway);
             }
         }
         let mut degree: Vec<usize> = graph.node_indices().map(|n| graph.edges(n).count()).collect();

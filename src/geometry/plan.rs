@@ -359,10 +359,16 @@ impl FloorPlan {
 
     /// Whether the robot can pass from a Fragment through a doorway as it stands.
     pub(super) fn is_passable(&self, number: u32, doorway: usize) -> bool {
-        let is_strait =
-            |s: &Strait| s.doorway == Some(doorway) && s.cells.iter().any(|cell| cell.0 == number);
+        let is_strait = |s: &Strait| {
+            s.doorways.iter().any(|&(index, sides)| index == doorway && sides.contains(&number))
+        };
         self.network.portals[number as usize].iter().any(|p| p.doorway == doorway)
             || self.network.straits.iter().any(is_strait)
+    }
+
+    /// Whether a Fragment has no place where the robot may turn as it likes.
+    pub(super) fn is_blind(&self, number: u32) -> bool {
+        self.floor(number).cells.components == 0
     }
 
     /// Whether a doorway stands open, is high enough and without a step; how wide does not matter.
@@ -373,7 +379,7 @@ impl FloorPlan {
     /// The doorways that the robot can pass as they stand.
     #[must_use]
     pub fn open_doorways(&self) -> BTreeSet<usize> {
-        let narrow = self.network.straits.iter().filter_map(|s| s.doorway);
+        let narrow = self.network.straits.iter().flat_map(|s| s.doorways.iter().map(|d| d.0));
         self.network.portals.iter().flatten().map(|p| p.doorway).chain(narrow).collect()
     }
 
@@ -401,6 +407,15 @@ impl FloorPlan {
         let count = self.fragments.len();
         self.straits.resize(count + self.doorways.len(), Vec::new());
         if !self.robot.footprint.is_empty() {
+            // Straits lead on through Fragments without a place to turn.
+            let mut open: Vec<usize> = crossed.iter().copied().collect();
+            while let Some(doorway) = open.pop() {
+                let sides = self.doorways[doorway].areas.iter().filter_map(|&a| self.number(a));
+                for number in sides.filter(|&n| self.is_blind(n as u32)) {
+                    let own = self.doorways_at(number as u32).iter().map(|d| d.0);
+                    open.extend(own.filter(|&d| crossed.insert(d)));
+                }
+            }
             for number in stale {
                 self.straits[number] = strait::within(self, number as u32);
             }
@@ -408,7 +423,7 @@ impl FloorPlan {
                 self.straits[count + doorway] = strait::through(self, world, doorway);
             }
         }
-        let straits = self.straits.iter().flatten().copied().collect();
+        let straits = self.straits.iter().flatten().cloned().collect();
         self.network.join(&self.fragments, self.doorways.len(), straits);
     }
 

@@ -11,7 +11,7 @@ use crate::map::{DoorKind, DoorState, World};
 use crate::units::{AreaId, DoorId, Frame, Point, ReplicaId, Vector};
 
 use super::Polygon;
-use super::blocked::{Barrier, NoRoute, gaps};
+use super::blocked::{Barrier, NoRoute};
 use super::leaf::{Strike, opening_of};
 use super::obstacle::Blocker;
 use super::plan::{DoorStates, FloorPlan};
@@ -46,9 +46,6 @@ const FURTHEST: f64 = 120.0;
 /// Pushes are told apart by this, in cm: what is said is rounded to it.
 const STEP: f64 = 1.0;
 
-/// So many things are tried besides those named in the way.
-const WORTH_TRYING: usize = 6;
-
 impl FloorPlan {
     /// The smallest change that opens a way where [`FloorPlan::route`] found none: doors that only need opening
     /// before things that need pushing, and the shortest push of the things that may move.
@@ -70,20 +67,15 @@ impl FloorPlan {
         if let Some((door, of)) = opened.shut(world, (from, target), no) {
             return Some(Remedy::Shut { door, of, open: doors });
         }
-        let mut best: Option<(f64, Remedy)> = None;
-        let mut things = movable(world, no);
-        things.extend(may_move(world, struck.into_iter()));
-        for replica in opened.beside(world, no, &things) {
-            let limit = best.as_ref().map_or(FURTHEST, |b| b.0 - STEP);
-            let push = opened.shortest_push(world, (from, target), jammed, replica, limit);
-            if let Some((way, by)) = push {
-                best = Some((way, Remedy::Move { replica, by, open: doors.clone() }));
-            }
+        let mut named = movable(world, no);
+        named.extend(may_move(world, struck.into_iter()));
+        let places = (from, target);
+        let things = opened.worth_pushing(world, places, jammed, &named);
+        if let Some((replica, by)) = opened.shortest_push(world, places, jammed, &things) {
+            return Some(Remedy::Move { replica, by, open: doors });
         }
-        best.map(|b| b.1).or_else(|| {
-            let replicas = opened.removal(world, (from, target), jammed, &things)?;
-            Some(Remedy::Remove { replicas, open: doors.clone() })
-        })
+        let replicas = opened.removal(world, places, jammed, &named)?;
+        Some(Remedy::Remove { replicas, open: doors })
     }
 
     /// The floor after a change that [`FloorPlan::remedy`] names, which is made in the world as well.
@@ -171,44 +163,61 @@ impl FloorPlan {
 
     /// The doors in the way that are shut, or not as wide open as they go.
     fn openable(&self, world: &World, no: &NoRoute) -> Vec<DoorId> {
-        let doors = no.barriers().iter().filter_map(|b| match *b {
-            Barrier::Door { door, .. } => Some(door),
-            Barrier::Narrow { door: Some(door), .. } => {
-                let model = world.doors.get(&door)?;
-                let ajar = opening_of(self.door_state(world, door)) < 100.0;
-                (ajar && model.kind != DoorKind::Passage).then_some(door)
-            }
-            _ => None,
-        });
-        doors.collect()
-    }
-
-    /// What may be pushed: the things in the way, and what stands at the other gaps of the same Fragments, since a
-    /// row of things has several and any will do; at the widest gaps first, where the least push is to be hoped for.
-    fn beside(&self, world: &World, no: &NoRoute, things: &BTreeSet<ReplicaId>) -> Vec<ReplicaId> {
-        let areas = no.barriers().iter().filter_map(|b| match b {
-            Barrier::Gap { area, .. } | Barrier::Enclosed { area, .. } => Some(*area),
-            _ => None,
-        });
-        let areas: BTreeSet<AreaId> = areas.collect();
-        let numbers = areas.into_iter().filter_map(|area| self.number(area));
-        let mut gaps: Vec<Barrier> =
-            numbers.flat_map(|n| gaps(self, n as u32)).map(|(.., gap)| gap).collect();
-        let width = |b: &Barrier| match b {
-            Barrier::Gap { width, .. } => *width,
-            _ => 0.0,
+        let is_ajar = |door: &DoorId| {
+            let opens = world.doors.get(door).is_some_and(|d| d.kind != DoorKind::Passage);
+            opens && opening_of(self.door_state(world, *door)) < 100.0
         };
-        gaps.sort_by(|a, b| width(b).total_cmp(&width(a)));
-        let others = gaps.iter().flat_map(|gap| may_move(world, blockers_of(gap)));
-        let mut found: Vec<ReplicaId> = Vec::new();
-        for id in others {
-            if found.len() < WORTH_TRYING && !found.contains(&id) {
-                found.push(id);
+        let mut doors: Vec<DoorId> = Vec::new();
+        for barrier in no.barriers() {
+            match *barrier {
+                Barrier::Door { door, .. } => doors.push(door),
+                Barrier::Narrow { door: Some(door), .. } if is_ajar(&door) => doors.push(door),
+                // A leaf that is ajar parts what lies behind it from its own room.
+                _ => doors.extend(blockers_of(barrier).filter_map(|b| match b {
+                    Blocker::DoorLeaf { door, .. } => Some(door).filter(is_ajar),
+                    _ => None,
+                })),
             }
         }
-        let named = things.iter().filter(|id| !found.contains(id)).copied().collect::<Vec<_>>();
-        found.extend(named);
-        found
+        let mut seen = BTreeSet::new();
+        doors.retain(|&door| seen.insert(door));
+        doors
+    }
+
+    /// What may be pushed: of what stands at any gap between here and there, at the widest first, and of what is named in
+    /// the way, the things without which there is a way. Wherever any other is pushed, there is none.
+    fn worth_pushing(
+        &self,
+        world: &World,
+        (from, target): (Point, Target),
+        jammed: &[DoorId],
+        named: &BTreeSet<ReplicaId>,
+    ) -> Vec<ReplicaId> {
+        let gaps = self.between(world, from, target);
+        let beside = gaps.iter().flat_map(|gap| may_move(world, blockers_of(gap)));
+        let mut seen = BTreeSet::new();
+        let once = beside.chain(named.iter().copied()).filter(|&id| seen.insert(id));
+        let helps = |&id: &ReplicaId| {
+            // Without the goal there is no way to it.
+            target == Target::Replica(id)
+                || self.leads_without(world, (from, target), jammed, &[id])
+        };
+        once.filter(helps).collect()
+    }
+
+    /// Whether there is a way once some things are gone.
+    fn leads_without(
+        &self,
+        world: &World,
+        (from, target): (Point, Target),
+        jammed: &[DoorId],
+        gone: &[ReplicaId],
+    ) -> bool {
+        let mut trial = world.clone();
+        gone.iter().for_each(|id| drop(trial.replicas.remove(id)));
+        let mut plan = self.clone();
+        plan.rebuild(&trial, gone);
+        plan.with_open(&trial, jammed).0.leads(&trial, from, target)
     }
 
     /// The first door among those in the way that opens it when it is shut, and the thing that it belongs to.
@@ -249,13 +258,7 @@ impl FloorPlan {
         jammed: &[DoorId],
         things: &BTreeSet<ReplicaId>,
     ) -> Option<Vec<ReplicaId>> {
-        let opens = |gone: &[ReplicaId]| {
-            let mut trial = world.clone();
-            gone.iter().for_each(|id| drop(trial.replicas.remove(id)));
-            let mut plan = self.clone();
-            plan.rebuild(&trial, gone);
-            plan.with_open(&trial, jammed).0.leads(&trial, from, target)
-        };
+        let opens = |gone: &[ReplicaId]| self.leads_without(world, (from, target), jammed, gone);
         let mut gone: Vec<ReplicaId> =
             things.iter().copied().filter(|&id| target != Target::Replica(id)).collect();
         if let Some(&one) = gone.iter().find(|&&id| opens(&[id])) {
@@ -273,41 +276,46 @@ impl FloorPlan {
         Some(gone)
     }
 
-    /// The shortest push of one thing that opens the way, in sixteen directions from its Area's own axes: along the
-    /// walls, and between.
+    /// The shortest push of one of the things that opens the way, in sixteen directions from its Area's own axes: along
+    /// the walls, and between.
     fn shortest_push(
         &self,
         world: &World,
         (from, target): (Point, Target),
         jammed: &[DoorId],
-        replica: ReplicaId,
-        limit: f64,
-    ) -> Option<(f64, Vector)> {
-        let area = world.replicas.get(&replica)?.area;
-        let home = self.scene().areas.get(&area)?.frame;
-        let mut trial = world.clone();
-        let mut plan = self.clone();
-        let steps = (limit / STEP).floor().max(0.0) as usize;
-        let mut opens = |step: usize| {
-            (0..16).find_map(|turn| {
+        things: &[ReplicaId],
+    ) -> Option<(ReplicaId, Vector)> {
+        let (mut trial, mut plan) = (world.clone(), self.clone());
+        // The thing that the plan has elsewhere than the world.
+        let mut pushed_last: Option<ReplicaId> = None;
+        let steps = (FURTHEST / STEP) as usize;
+        for (step, &id) in (1..=steps).flat_map(|step| things.iter().map(move |id| (step, id))) {
+            let Some(own) = world.replicas.get(&id) else { continue };
+            let Some(home) = self.scene().areas.get(&own.area).map(|area| area.frame) else {
+                continue;
+            };
+            for turn in 0..16 {
                 let angle = home.angle.radians() + f64::from(turn) * PI / 8.0;
                 let by = Vector::new(angle.cos(), angle.sin()) * (STEP * step as f64);
-                let own = &world.replicas[&replica].frame;
-                trial.replicas.get_mut(&replica)?.frame = pushed(own, &home, by);
-                if !self.has_room(&trial, replica, area) {
-                    return None;
+                trial.replicas.get_mut(&id)?.frame = pushed(&own.frame, &home, by);
+                if !self.has_room(&trial, id, own.area) {
+                    continue;
                 }
-                plan.rebuild(&trial, &[replica]);
+                let changed: Vec<ReplicaId> =
+                    pushed_last.replace(id).into_iter().chain([id]).collect();
+                plan.rebuild(&trial, &changed);
                 let opens = if jammed.is_empty() {
                     plan.leads(&trial, from, target)
                 } else {
                     plan.with_open(&trial, jammed).0.leads(&trial, from, target)
                 };
-                opens.then_some((STEP * step as f64, by))
-            })
-        };
-        // A push that opens a way is not bettered by a longer one: pushed on, the thing may stand in the next gap.
-        (1..=steps).find_map(&mut opens)
+                if opens {
+                    return Some((id, by));
+                }
+            }
+            trial.replicas.get_mut(&id)?.frame = own.frame;
+        }
+        None
     }
 
     /// Whether a thing, as it stands in `trial`, is on its Area's floor and in nothing else.

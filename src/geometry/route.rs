@@ -12,10 +12,8 @@ use crate::map::DoorKind;
 use crate::map::World;
 use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, Pose, ReplicaId, Vector};
 
-use super::blocked::{NoRoute, explain};
+use super::blocked::{Barrier, NoRoute, explain, single};
 use super::doors::Doorway;
-use super::floor::FragmentFloor;
-use super::nearest_on_segment;
 use super::network::Walkable;
 use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
@@ -127,6 +125,14 @@ impl FloorPlan {
         goals.iter().any(|goal| self.region(goal.anchor.cell) == region)
     }
 
+    /// What stands between two places with nothing else before or behind it, what lacks least first.
+    pub(super) fn between(&self, world: &World, from: Point, target: Target) -> Vec<Barrier> {
+        let Some(start) = self.anchor(from, None, None) else { return Vec::new() };
+        let goals = self.goals(world, &start, target).unwrap_or_default();
+        let ends: Vec<CellKey> = goals.iter().map(|goal| goal.anchor.cell).collect();
+        single(self, world, start.cell, &ends)
+    }
+
     /// A route that stays in the Fragments named.
     ///
     /// # Errors
@@ -185,7 +191,9 @@ impl FloorPlan {
         }
         match best {
             Some(mut route) => {
-                (route.chain, route.doorways) = self.chain(&route.points, &passed);
+                (route.chain, route.doorways) = self
+                    .walked(&route.points, start.cell.0)
+                    .unwrap_or_else(|| self.clipped(&route.points, &passed));
                 Ok(route)
             }
             None => {
@@ -560,75 +568,6 @@ impl FloorPlan {
         next.sort_by(|a, b| (b.0 - goal).norm().total_cmp(&(a.0 - goal).norm()));
         next
     }
-
-    /// The Passframes and doorways that a way passes.
-    fn chain(&self, points: &[Point], among: &[u32]) -> (Vec<(AreaId, PassframeId)>, Vec<usize>) {
-        let mut chain: Vec<(AreaId, PassframeId)> = Vec::new();
-        let mut doorways = Vec::new();
-        let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.floor(n)).collect();
-        let is_among = |&a: &AreaId| fragments.binary_search_by_key(&a, |f| f.area).is_ok();
-        let mut near: Vec<usize> = fragments
-            .iter()
-            .flat_map(|f| f.exits.iter().map(|e| e.doorway))
-            .chain(self.network.straits.iter().filter_map(|s| s.doorway))
-            .filter(|&d| self.doorways()[d].areas.iter().all(is_among))
-            .collect();
-        near.sort_unstable();
-        near.dedup();
-        // The Passframe in which the last leg ended: convex, so that a leg with both ends in it lies in it.
-        let mut last: Option<(&FragmentFloor, u32)> = None;
-        let (mut cells, mut passed, mut crossed) = (Vec::new(), Vec::new(), Vec::new());
-        for leg in points.windows(2) {
-            if last.is_some_and(|(f, cell)| leg.iter().all(|&p| f.frames.holds(cell, p, 0.0))) {
-                continue;
-            }
-            let length = (leg[1] - leg[0]).norm();
-            let reach = super::Bounds::of([leg[0], leg[1]]).grown(1.0);
-            passed.clear();
-            for fragment in fragments.iter().filter(|f| f.bounds.grown(100.0).meets(&reach)) {
-                fragment.frames.near_segment(leg[0], leg[1], &mut cells);
-                for &cell in &cells {
-                    let Some((from, to)) = fragment.frames.clip(cell, leg[0], leg[1]) else {
-                        continue;
-                    };
-                    if (to - from) * length > 1e-3 || length < 1e-3 {
-                        passed.push((from + to, *fragment, cell));
-                    }
-                }
-            }
-            passed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for &(_, fragment, cell) in &passed {
-                last = Some((fragment, cell));
-                let frame = (fragment.area, fragment.ids[cell as usize]);
-                if chain.last() != Some(&frame) {
-                    chain.push(frame);
-                }
-            }
-            crossed.clear();
-            let crossing = |i: usize| crossing(leg[0], leg[1], &self.doorways()[i]);
-            crossed.extend(near.iter().filter_map(|&i| Some((crossing(i)?, i))));
-            crossed.sort_by(|a, b| a.0.total_cmp(&b.0));
-            for &(_, doorway) in &crossed {
-                if doorways.last() != Some(&doorway) {
-                    doorways.push(doorway);
-                }
-            }
-        }
-        (chain, doorways)
-    }
-}
-
-/// Where, as a share of its length, a leg crosses a doorway's line.
-fn crossing(from: Point, to: Point, doorway: &Doorway) -> Option<f64> {
-    let (a, b) = doorway.line();
-    let side = |p: Point| (b - a).perp(&(p - a));
-    let (before, after) = (side(from), side(to));
-    if before * after > 0.0 || (before - after).abs() < 1e-9 {
-        return None;
-    }
-    let t = before / (before - after);
-    let p = from + (to - from) * t;
-    ((p - nearest_on_segment(p, a, b)).norm() < 0.01).then_some(t)
 }
 
 fn facing(from: Point, to: Point) -> Option<Deg> {

@@ -3,11 +3,13 @@
 //! The free floor is made for the disc that covers the footprint: there the robot may turn as it likes. Between two
 //! pieces of that floor, where they come close, a strait is looked for: one straight leg, from a place of one piece
 //! to a place of the other, along which the footprint is driven with its heading along the leg, forwards or backwards.
+//! Pieces of different Fragments are joined over every doorway on the line, also where a Fragment between them, such as
+//! a threshold or a narrow corridor, has no piece of its own.
 //!
 //! ```text
 //!   ┌────────┐
-//!   │        │           headings are tried every 15°, across every doorway and along every
-//!   └────────┘           edge that bounds a dead zone. Along each heading the
+//!   │        │           headings are tried every 15°, and straight across every gap
+//!   └────────┘           that the body may pass. Along each heading the
 //!  a ───[▭]──── b        floor is shrunk by the footprint turned that way (Minkowski), so that a
 //!   ┌────────┐           line in what is left is clear from one end to the other.
 //!   │        │
@@ -24,16 +26,14 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::f64::consts::PI;
 
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay_rule::OverlayRule;
-
 use crate::map::{RobotProfile, World};
 use crate::units::{Point, Vector};
 
 use super::doors::distance;
 use super::floor::{FragmentFloor, SLACK};
-use super::grid::{Contour, Grid, difference, overlay};
+use super::grid::{Contour, Grid, difference};
 use super::mesh::Mesh;
+use super::narrows::Narrows;
 use super::network::Piece;
 use super::plan::FloorPlan;
 use super::route::Anchor;
@@ -41,12 +41,12 @@ use super::search::CellKey;
 use super::{Bounds, Polygon, convex_hull};
 
 /// A straight leg between two pieces of centre space.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub(super) struct Strait {
     pub(super) ends: [Point; 2],
     pub(super) cells: [CellKey; 2],
-    /// The doorway that it passes, by its index in the plan.
-    pub(super) doorway: Option<usize>,
+    /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
+    pub(super) doorways: Vec<(usize, [u32; 2])>,
 }
 
 impl Strait {
@@ -139,97 +139,98 @@ fn length(points: &[Point]) -> f64 {
 
 /// Where straits are looked for: some floor, the Fragments whose centre space lies on it, and the place.
 struct Site<'a> {
-    floor: Vec<Contour>,
+    floor: &'a [Contour],
     grid: Grid,
-    fragments: Vec<(u32, &'a FragmentFloor)>,
+    fragments: &'a [(u32, &'a FragmentFloor)],
     place: Bounds,
-    doorway: Option<usize>,
     /// Headings worth trying besides the usual ones, as angles.
     headings: Vec<f64>,
 }
 
-/// The straits within a Fragment: past its dead zones.
+/// The straits within a Fragment.
 pub(super) fn within(plan: &FloorPlan, number: u32) -> Vec<Strait> {
-    let fragment = plan.floor(number);
-    if plan.robot().footprint.is_empty() || fragment.cells.components < 2 {
-        return Vec::new();
-    }
-    let reach = plan.reach();
-    let grid = fragment.grid;
-    let floor: Vec<Contour> =
-        fragment.raw.iter().flat_map(|r| r.contours()).map(|c| grid.contour(c)).collect();
-    let mut found = Vec::new();
-    for zone in &fragment.dead_zones {
-        let place = zone.outer.bounds().grown(reach);
-        let joins = fragment.cells.cells().filter(|&cell| {
-            let polygon = fragment.cells.polygon(cell);
-            polygon.bounds().meets(&place) && distance(&polygon, &zone.outer) <= 1.1 * reach
-        });
-        let mut components: Vec<u32> =
-            joins.map(|c| fragment.cells.component[c as usize]).collect();
-        components.sort_unstable();
-        components.dedup();
-        if components.len() < 2 {
-            continue;
-        }
-        let edges = zone.outer.edges().map(|(a, b)| b - a);
-        let long = edges.filter(|v| v.norm() > 10.0);
-        found.extend(best(
-            plan,
-            &Site {
-                floor: floor.clone(),
-                grid,
-                fragments: vec![(number, fragment)],
-                place,
-                doorway: None,
-                headings: long.map(|v| v.y.atan2(v.x)).collect(),
-            },
-        ));
-    }
-    found
+    let is_whole = plan.floor(number).cells.components < 2;
+    if plan.robot().footprint.is_empty() || is_whole { Vec::new() } else { join(plan, &[number]) }
 }
 
-/// The straits through an open doorway that the covering disc does not pass.
+/// The straits through an open doorway that the covering disc does not pass. Where the Fragment behind has no place for
+/// the disc, they lead on through its further doorways; each is found for the first doorway that it passes.
 pub(super) fn through(plan: &FloorPlan, world: &World, index: usize) -> Vec<Strait> {
-    let doorway = &plan.doorways()[index];
     if plan.robot().footprint.is_empty() || !plan.admits(world, index) {
         return Vec::new();
     }
-    let numbers: Vec<u32> =
-        doorway.areas.iter().filter_map(|&a| plan.number(a)).map(|n| n as u32).collect();
-    let [one, other] = numbers[..] else { return Vec::new() };
+    let sides = |index: usize| -> Option<[u32; 2]> {
+        let [one, other] = plan.doorways()[index].areas.map(|a| plan.number(a));
+        Some([one? as u32, other? as u32])
+    };
+    let Some([one, other]) = sides(index) else { return Vec::new() };
     if plan.network.portals[one as usize].iter().any(|p| p.doorway == index) {
         return Vec::new();
     }
-    let reach = plan.reach();
-    let place = Bounds::of([doorway.line().0, doorway.line().1])
-        .grown(doorway.gap / 2.0 + 2.0 * reach + 60.0);
-    let fragments = vec![(one, plan.floor(one)), (other, plan.floor(other))];
-    let bounds = fragments[0].1.bounds.union(&fragments[1].1.bounds);
-    let grid = Grid::over(&bounds.grown(4.0 * reach + 200.0));
-    let contours: Vec<Contour> = fragments
-        .iter()
-        .flat_map(|(_, f)| &f.raw)
-        .flat_map(|r| r.contours())
-        .map(|c| grid.contour(c))
-        .collect();
-    let joined = overlay(&contours, &[], OverlayRule::Subject, FillRule::Positive);
-    let out = doorway.out();
-    best(
-        plan,
-        &Site {
-            floor: joined.into_iter().flatten().collect(),
-            grid,
-            fragments,
-            place,
-            doorway: Some(index),
-            headings: vec![out.y.atan2(out.x)],
-        },
-    )
+    let (mut numbers, mut passed) = (vec![one, other], vec![(index, [one, other])]);
+    let mut k = 0;
+    while let Some(&number) = numbers.get(k) {
+        k += 1;
+        if !plan.is_blind(number) {
+            continue;
+        }
+        for &(next, _) in plan.doorways_at(number) {
+            let is_new = passed.iter().all(|&(known, _)| known != next);
+            if let Some(ends) = sides(next).filter(|_| is_new && plan.admits(world, next)) {
+                passed.push((next, ends));
+                numbers.extend(ends.iter().filter(|n| !numbers.contains(n)).collect::<Vec<_>>());
+            }
+        }
+    }
+    let mut found = join(plan, &numbers);
+    for strait in &mut found {
+        let [a, b] = strait.ends;
+        let crossed = passed.iter().filter(|&&(d, _)| {
+            let (right, left) = plan.doorways()[d].line();
+            super::doors::segment_distance(a, b, right, left) <= 0.0
+        });
+        strait.doorways = crossed.copied().collect();
+        strait.doorways.sort_unstable();
+    }
+    found.retain(|strait| strait.doorways.first().is_some_and(|&(first, _)| first == index));
+    found
+}
+
+/// The straits between the pieces of Fragments that lie side by side, or of one: through every gap that is wide enough
+/// for the body.
+fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
+    let fragments: Vec<(u32, &FragmentFloor)> =
+        numbers.iter().map(|&n| (n, plan.floor(n))).collect();
+    let narrows = Narrows::of(plan, numbers);
+    let around = 2.0 * plan.reach() + 60.0;
+    let mut sites: Vec<Site<'_>> = Vec::new();
+    for gap in narrows.parting(plan.robot().passing_width() - 4.0 * SLACK) {
+        let heading = (gap.along.y.atan2(gap.along.x) + PI / 2.0).rem_euclid(PI);
+        let near = gap.reach.grown(around / 2.0);
+        let holds = |s: &&mut Site<'_>| s.place.contains(near.min) && s.place.contains(near.max);
+        match sites.iter_mut().find(holds) {
+            Some(site) => site.headings.push(heading),
+            None => sites.push(Site {
+                floor: &narrows.floor,
+                grid: narrows.grid,
+                fragments: &fragments,
+                place: gap.reach.grown(around),
+                headings: vec![heading],
+            }),
+        }
+    }
+    let mut best: BTreeMap<(Piece, Piece), Strait> = BTreeMap::new();
+    for (pieces, strait) in sites.iter().flat_map(|site| self::best(plan, site)) {
+        let is_shorter = best.get(&pieces).is_none_or(|b| strait.length() < b.length());
+        if is_shorter {
+            best.insert(pieces, strait);
+        }
+    }
+    best.into_values().collect()
 }
 
 /// The shortest strait between every two pieces that a site joins.
-fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<Strait> {
+fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<((Piece, Piece), Strait)> {
     let mut headings: Vec<f64> = (0..12).map(|k| f64::from(k) * TURN).collect();
     headings.extend(site.headings.iter().map(|h| h.rem_euclid(PI)));
     headings.sort_by(f64::total_cmp);
@@ -247,8 +248,11 @@ fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<Strait> {
         }
     }
     // Of equals the one in the middle keeps furthest from both sides.
-    let middle = best.into_values().map(|found| found[found.len() / 2]);
-    middle.filter(|strait| is_clear(plan.robot(), site, strait)).collect()
+    let middle = best.into_iter().map(|(pieces, mut found)| {
+        let middle = found.len() / 2;
+        (pieces, found.swap_remove(middle))
+    });
+    middle.filter(|(_, strait)| is_clear(plan.robot(), site, strait)).collect()
 }
 
 /// Whether the body on its way along a strait touches nothing solid: asked of the things themselves, whatever the
@@ -301,7 +305,7 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
             let (from, to) = (from * length, to * length);
             let mut stands: Vec<(f64, f64, CellKey, Piece)> = Vec::new();
             let mut near = Vec::new();
-            for &(number, fragment) in &site.fragments {
+            for &(number, fragment) in site.fragments {
                 fragment.cells.near_segment(a, b, &mut near);
                 for &cell in &near {
                     let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
@@ -319,12 +323,15 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
                     continue;
                 }
                 let ends = [at(left + near.1 - FOOTHOLD), at(left + far.0 + FOOTHOLD)];
-                let strait = Strait { ends, cells: [near.2, far.2], doorway: site.doorway };
+                let strait = Strait { ends, cells: [near.2, far.2], doorways: Vec::new() };
                 found.push(if near.3 < far.3 {
                     ((near.3, far.3), strait)
                 } else {
-                    let turned =
-                        Strait { ends: [ends[1], ends[0]], cells: [far.2, near.2], ..strait };
+                    let turned = Strait {
+                        ends: [ends[1], ends[0]],
+                        cells: [far.2, near.2],
+                        doorways: Vec::new(),
+                    };
                     ((far.3, near.3), turned)
                 });
             }
@@ -339,7 +346,7 @@ fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
     let extent = body.iter().map(|v| v.norm()).fold(0.0, f64::max);
     let reach = site.place.grown(extent + 1.0);
     let mut blocked: Vec<Contour> = Vec::new();
-    for contour in &site.floor {
+    for contour in site.floor {
         let polygon = site.grid.polygon(contour);
         for (a, b) in polygon.edges() {
             if Bounds::of([a, b]).meets(&reach) {
@@ -349,7 +356,7 @@ fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
             }
         }
     }
-    Mesh::of(&site.grid, &difference(&site.floor, &blocked), 0)
+    Mesh::of(&site.grid, &difference(site.floor, &blocked), 0)
 }
 
 /// The footprint turned to a heading and back, with its clearance, as one convex polygon about the centre.
