@@ -6,7 +6,7 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::engine::{
-    Engine, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words,
+    Engine, Memory, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words,
     directive_in_words, name_in, surprise_in_words,
 };
 use crate::graphplan::Outcome;
@@ -68,10 +68,26 @@ pub(super) fn perform(
     engine: &mut Engine,
     task: &str,
 ) -> Result<TaskAnswer, Failure> {
-    let answer = perform_told(common, engine, task)?;
+    let parts = engine.orders_and_questions(task)?;
+    let (order, question) = match parts.as_deref() {
+        Some([order, question]) if engine.is_command(order)? => (order.as_str(), Some(question)),
+        _ => (task, None),
+    };
+    let answer = perform_told(common, engine, order)?;
     // A store that is only read keeps nothing.
     if !common.read_only && common.as_of.is_none() {
         engine.remember(&answer, std::time::SystemTime::now().into())?;
+    }
+    if let Some(question) = question {
+        let mut memory = Memory::default();
+        // What is asked may speak of where the robot was sent.
+        engine.understand_in(order, &mut memory)?;
+        say(&match engine.ask(question, &mut memory)? {
+            Ok(answer) if common.json => super::ask::view(engine, &answer)?.to_string(),
+            Err(unanswered) if common.json => super::ask::doubt(&unanswered).to_string(),
+            Ok(answer) => answer.text,
+            Err(unanswered) => unanswered.text,
+        })?;
     }
     Ok(answer)
 }

@@ -64,9 +64,12 @@ fn on_terminal(common: &Common, dialogue: &mut Dialogue) -> Result<Answer, Failu
     loop {
         match editor.readline("> ") {
             Ok(line) if line.trim().is_empty() => break,
-            Ok(line) => {
-                if !dialogue.hear(line.trim())? {
-                    break;
+            // What is pasted may be several lines.
+            Ok(text) => {
+                for line in text.lines() {
+                    if !dialogue.hear(line.trim())? {
+                        return Ok(Answer::Yes);
+                    }
                 }
             }
             Err(ReadlineError::Eof | ReadlineError::Interrupted) => break,
@@ -136,9 +139,9 @@ impl Dialogue {
             self.hear_one(order, shows)?;
             return Ok(true);
         }
-        if let Some(parts) = self.engine.question_and_order(line)? {
+        if let Some(parts) = self.engine.orders_and_questions(line)? {
             for part in parts {
-                self.hear_one(part, shows)?;
+                self.hear_one(&part, shows)?;
             }
             return Ok(true);
         }
@@ -166,7 +169,8 @@ impl Dialogue {
             }
             Err(unanswered) => {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
-                let not_understood = unanswered.doubt.kind() == "not_understood";
+                let kind = unanswered.doubt.kind();
+                let not_understood = kind != "ambiguous" && !line.contains('?');
                 let heard = || self.engine.understand_in(line, &mut self.memory.clone());
                 let commands = || match heard() {
                     // A question with such a verb in it stays a question.
@@ -176,7 +180,8 @@ impl Dialogue {
                 };
                 // «Дойдёшь ли ты до спальни?» asks, whatever its verb.
                 let asks = line.split_whitespace().nth(1).is_some_and(|word| word == "ли");
-                if not_understood && !asks && commands() {
+                let orders = not_understood && !asks;
+                if orders && (commands() || self.engine.orders_tersely(line)?) {
                     return self.command(line);
                 }
                 if let Some((at, verb)) = likely_verb(line) {

@@ -80,6 +80,29 @@ pub fn name_in(world: &World, name: &str, language: Language) -> String {
     }
 }
 
+/// What the names begin with of points that a task gives a name: at a window, on the floor of a room.
+const BY_WINDOW: &str = "Место-у-окна-в-";
+const ON_FLOOR: &str = "Место-на-полу-в-";
+
+/// A place of a plan as one tells a person, in the nominative.
+pub(super) fn place_in_words(world: &World, name: &str, language: Language) -> String {
+    let is_point = name.starts_with(BY_WINDOW) || name.starts_with(ON_FLOOR);
+    match is_point {
+        true => Words { world, language }.name(name, Case::Accusative),
+        false => name_in(world, name, language),
+    }
+}
+
+/// The name of the point at a window of a room, for the time of a task.
+pub(super) fn window_place(room: &str) -> String {
+    format!("{BY_WINDOW}{room}")
+}
+
+/// The name of the point on the floor of a room, for the time of a task.
+pub(super) fn floor_place(room: &str) -> String {
+    format!("{ON_FLOOR}{room}")
+}
+
 struct Words<'w> {
     world: &'w World,
     language: Language,
@@ -136,10 +159,10 @@ impl Words<'_> {
             },
             Deed::HandOver { thing, person } => match self.language {
                 Language::Russian => {
-                    format!("передать {} ({})", accusative(thing), self.person(person))
+                    format!("передать {} {}", accusative(thing), self.person(person, Case::Dative))
                 }
                 Language::English => {
-                    format!("give {} to {}", accusative(thing), self.person(person))
+                    format!("give {} to {}", accusative(thing), self.person(person, Case::Dative))
                 }
             },
             Deed::Switch { device, on } => {
@@ -153,8 +176,8 @@ impl Words<'_> {
             Deed::LookRound => pick("осмотреться", "look round").to_owned(),
             Deed::Seek(thing) => format!("{} {}", pick("найти", "look for"), accusative(thing)),
             Deed::Call(person) => match self.language {
-                Language::Russian => format!("позвать ({})", self.person(person)),
-                Language::English => format!("call {}", self.person(person)),
+                Language::Russian => format!("позвать {}", self.person(person, Case::Accusative)),
+                Language::English => format!("call {}", self.person(person, Case::Accusative)),
             },
         }
     }
@@ -171,9 +194,32 @@ impl Words<'_> {
 
     /// A name of the map; a place of the plan that the map has not is told by the thing that it is before.
     fn name(&self, name: &str, case: Case) -> String {
+        let points = [
+            (BY_WINDOW, ["окну", "окно"], "the window"),
+            (ON_FLOOR, ["свободному месту", "свободное место"], "the free floor"),
+        ];
+        for (prefix, [dative, other], english) in points {
+            let Some(room) = name.strip_prefix(prefix) else { continue };
+            let of = if case == Case::Dative { dative } else { other };
+            return match self.language {
+                Language::Russian => {
+                    let room = self.name(room, Case::Prepositional);
+                    format!("{of} {} {room}", russian::preposition(Preposition::V, &room))
+                }
+                Language::English => {
+                    format!("{english} in {}", self.name(room, Case::Prepositional))
+                }
+            };
+        }
         let known = name.strip_prefix(PLACE_BESIDE).unwrap_or(name);
         match (self.world.find(known).first(), self.language) {
             (Some(&entity), language) => named(self.world, entity).form(case, language),
+            (None, Language::Russian) if name == STARTING_POINT || name == ROBOT_PLACE => {
+                match case {
+                    Case::Dative => "исходной точке".to_owned(),
+                    _ => "исходную точку".to_owned(),
+                }
+            }
             (None, Language::English) if name == STARTING_POINT || name == ROBOT_PLACE => {
                 "its starting place".to_owned()
             }
@@ -203,10 +249,12 @@ impl Words<'_> {
         })
     }
 
-    fn person(&self, person: &str) -> String {
-        match self.language {
-            Language::English if person == OPERATOR => "the operator".to_owned(),
-            _ => person.to_owned(),
+    fn person(&self, person: &str, case: Case) -> String {
+        match (self.language, case) {
+            (Language::English, _) if person == OPERATOR => "the operator".to_owned(),
+            (Language::Russian, Case::Dative) if person == OPERATOR => "оператору".to_owned(),
+            (Language::Russian, _) if person == OPERATOR => "оператора".to_owned(),
+            _ => self.name(person, case),
         }
     }
 }

@@ -53,6 +53,9 @@ impl Engine {
                 Ok(fact(predicate::THING_ON, to.anchor))
             }
             (_, Entity::Place(_)) => Ok(fact(predicate::THING_AT_PLACE, to.anchor)),
+            (Relation::NextTo, Entity::Replica(anchor)) => {
+                self.laid_beside(name(thing), anchor, now, relations)
+            }
             (Relation::On | Relation::In | Relation::At, Entity::Area(area)) => {
                 self.laid_in_area(id, area, now, relations)
             }
@@ -61,6 +64,34 @@ impl Engine {
             }
             (_, anchor) => Err(RequestError::NotPutThere { name: name(anchor) }.into()),
         }
+    }
+
+    /// A thing that is to be beside another: on what that one stands on, else on the floor before it.
+    fn laid_beside(
+        &self,
+        thing: String,
+        anchor: ReplicaId,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let name = self.world()?.name(Entity::Replica(anchor)).to_owned();
+        let facts = facts_of_map(&now.world, relations);
+        let about = |predicate: &str, at: usize, give: usize| {
+            let found =
+                facts.iter().find(|f| f.predicate == predicate && f.arguments[at].name == name);
+            found.map(|f| f.arguments[give].name.clone())
+        };
+        let (predicate, where_to) = match about(predicate::THING_ON, 0, 1) {
+            Some(support) => (predicate::THING_ON, support),
+            None => {
+                let place = about(predicate::THING_AT_PLACE, 0, 1)
+                    .or_else(|| about(predicate::PLACE_BY, 1, 0))
+                    .ok_or(RequestError::NotAPlace { name })?;
+                (predicate::THING_AT_PLACE, place)
+            }
+        };
+        let args = vec![thing, where_to];
+        Ok(vec![GoalFact { predicate: predicate.to_owned(), args }])
     }
 
     /// Of a command that puts a thing into another: the names of both.

@@ -190,13 +190,30 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
     NoGoal { command: String },
 
-    /// Something that is to be put where nothing is put: beside a door, under a bed.
-    #[error("«{name}»: кладу я только на вещь, в вещь или в помещение, не под, не за и не рядом")]
+    /// Something that is to be put where nothing is put: under a bed.
+    #[error(
+        "«{name}»: кладу я на вещь, в вещь, рядом с ней или в помещение, но не под, не за и не перед"
+    )]
     #[diagnostic(
         code(engine::not_put_there),
         help("скажите, на что, во что или в какое помещение положить")
     )]
     NotPutThere { name: String },
+
+    /// A map that tells of no place where the robot charges.
+    #[error("на карте нет места для зарядки")]
+    #[diagnostic(
+        code(engine::no_charger),
+        help(
+            "место для зарядки – это место или вещь, в названии или типе которых есть «зарядка» или «charger»"
+        )
+    )]
+    NoCharger,
+
+    /// A map that does not tell where the robot begins.
+    #[error("на карте не указано, где место робота")]
+    #[diagnostic(code(engine::no_start), help("укажите start в разделе robot карты"))]
+    NoStart,
 
     /// A lift was called where there is none.
     #[error("на этом этаже нет лифта")]
@@ -386,9 +403,11 @@ impl RequestError {
                 format!("The robot's rules have no goal for this: {}.", called(command))
             }
             Self::NotPutThere { name } => format!(
-                "I put things onto or into what is named, or in rooms, and not under, behind or beside {}.",
+                "I put things onto, into or beside what is named, or in rooms, and not under, behind or in front of {}.",
                 called(name)
             ),
+            Self::NoCharger => "The map has no place to charge.".to_owned(),
+            Self::NoStart => "The map does not tell where the robot belongs.".to_owned(),
             Self::NoLift => "There is no lift on this floor.".to_owned(),
             Self::NotPortable { name } => format!("The robot does not carry {}.", called(name)),
             Self::NotHollow { name } => {

@@ -2,18 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::language::command::Command;
+use crate::language::command::{Command, Relation};
 use crate::map::{Entity, World};
-use crate::robot::{Belief, GoalFact, facts_of_map};
+use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
 
+use super::deeds::{floor_place, window_place};
 use super::memory::Now;
-use super::task::OPERATOR;
+use super::task::{OPERATOR, thing_of};
 use super::{Engine, Error, RequestError};
 
-/// Commands of one kind that are planned together, at most: «Принеси книгу и чашку». More are done one by one, since
-/// the best order of many is not worth the wait.
+/// Commands of one kind that are planned together, at most: «Закрой все двери». More are done one by one, since the
+/// best order of many is not worth the wait.
 const TOGETHER: usize = 3;
 
 impl Engine {
@@ -39,7 +40,14 @@ impl Engine {
             if is_only_gathered(commands, n) {
                 continue;
             }
-            let wanted = self.goals_of_one(command, here, now, relations, belief)?;
+            let mut wanted = self.goals_of_one(command, here, now, relations, belief)?;
+            // «Возьми тарелку и верни на место»: it lies there now, and will not then.
+            if let Command::PutBack(what) = command
+                && wanted.is_empty()
+                && commands[..n].iter().any(|before| thing_of(before) == Some(what.id))
+            {
+                wanted = self.put_back(what.id, belief)?;
+            }
             let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
             match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
                 (true, [facts]) => {
@@ -71,7 +79,10 @@ impl Engine {
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
             Command::GoTo { to, via } => {
-                let goal = vec![self.being_at(to.anchor, now, relations)?];
+                let goal = vec![match to.relation {
+                    Relation::AtWindow(window) => self.being_at_window(window, belief)?,
+                    _ => self.being_at(to.anchor, now, relations)?,
+                }];
                 match via {
                     Some(Entity::Door(door)) => {
                         let mut goals = self.through(*door, now, relations)?;
@@ -95,6 +106,14 @@ impl Engine {
                     _ => one(self.outside(now, relations)?),
                 }
             }
+            Command::Charge => {
+                let charger = self.charger(now)?;
+                one(self.being_at(charger, now, relations)?)
+            }
+            Command::GoHome => {
+                let start = world.robot.start.ok_or(RequestError::NoStart)?;
+                one(self.being_at(Entity::Place(start), now, relations)?)
+            }
             Command::ComeHere | Command::ComeBack => {
                 one(fact(predicate::ROBOT_AT_PLACE, vec![here.to_owned()]))
             }
@@ -103,7 +122,13 @@ impl Engine {
                 one(fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()]))
             }
             Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
+                if to.relation == Relation::NextTo {
+                    belief.beside.insert((name(what.id), name(to.anchor)));
+                }
                 vec![self.delivered(what.id, to, now, relations)?]
+            }
+            Command::SetDown { what, within } => {
+                vec![self.set_down(what.id, *within, now, relations, belief)?]
             }
             Command::Take { what } => {
                 self.portable(what.id)?;
@@ -138,6 +163,15 @@ impl Engine {
                 return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
             }
         })
+    }
+
+    /// A thing in the place where it is kept, though it lies there still.
+    fn put_back(&self, thing: Entity, belief: &mut Belief) -> Result<Vec<Vec<GoalFact>>, Error> {
+        let name = self.world()?.name(thing).to_owned();
+        let home = self.homes()?.remove(&name);
+        let home = home.ok_or_else(|| RequestError::Homeless { thing: name.clone() })?;
+        belief.homes.push((name.clone(), home));
+        Ok(vec![vec![fact(predicate::IN_ITS_PLACE, vec![name])]])
     }
 
     /// What is to be tidied, each thing a goal of its own.
@@ -199,6 +233,94 @@ impl Engine {
             }
         };
         Ok(fact(predicate, vec![name]))
+    }
+
+    /// The nearest place or thing that is for charging, by its name or its type.
+    fn charger(&self, now: &Now) -> Result<Entity, Error> {
+        const STEMS: [&str; 4] = ["заряд", "charg", "dock", "докстанц"];
+        let world = self.world()?;
+        let charges = |name: &str| {
+            let key = crate::units::name_key(name);
+            key.contains("док станц")
+                || key.split(' ').any(|w| STEMS.iter().any(|stem| w.starts_with(stem)))
+        };
+        let places = world.places.values();
+        let places = places.filter(|p| charges(&p.name) || charges(&p.name_en));
+        let of_kind = |object| {
+            let kind = world.objects.get(&object)?.object_type?;
+            let kind = world.types.object.get(Some(kind))?;
+            Some(charges(&kind.name) || charges(&kind.name_en))
+        };
+        let things = world.replicas.values().filter(|r| of_kind(r.object) == Some(true));
+        let all = places.map(|p| Entity::Place(p.id)).chain(things.map(|r| Entity::Replica(r.id)));
+        let far = |entity: Entity| (self.way_to(entity, now), entity);
+        let nearest = all.map(far).min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        Ok(nearest.ok_or(RequestError::NoCharger)?.1)
+    }
+
+    /// As near to the middle of a window as the robot can stand.
+    fn being_at_window(&self, window: u32, belief: &mut Belief) -> Result<GoalFact, Error> {
+        let world = self.world()?;
+        let window = &self.mind()?.lexicon.windows[window as usize];
+        let room = world.name(Entity::Area(window.area)).to_owned();
+        let unreached = || Error::from(RequestError::NotAPlace { name: window.name.clone() });
+        let (map, _) = world.placement(window.area).ok_or_else(unreached)?;
+        let at = nalgebra::center(&window.ends.0, &window.ends.1);
+        let at = self.around()?.floor(map)?.standing_in(window.area, at).ok_or_else(unreached)?;
+        let place = belief.name_point(window_place(&room), window.area, at);
+        Ok(fact(predicate::ROBOT_AT_PLACE, vec![place]))
+    }
+
+    /// A thing on the floor: of the room that is named, else where it lies, else where the robot stands.
+    fn set_down(
+        &self,
+        thing: Entity,
+        within: Option<Entity>,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<Vec<GoalFact>, Error> {
+        let id = self.portable(thing)?;
+        let world = self.world()?;
+        let name = world.name(thing).to_owned();
+        let facts = facts_of_map(&now.world, relations);
+        let area = match within {
+            Some(Entity::Area(area)) => Some(area),
+            Some(Entity::Place(place)) => {
+                let place = world.name(Entity::Place(place)).to_owned();
+                return Ok(vec![fact(predicate::THING_AT_PLACE, vec![name, place])]);
+            }
+            Some(other) => {
+                return Err(RequestError::NotPutThere { name: world.name(other).to_owned() }.into());
+            }
+            None => relations.area_of(id),
+        };
+        let lies = facts
+            .iter()
+            .find(|f| f.predicate == predicate::THING_AT_PLACE && f.arguments[0].name == name);
+        if let Some(lies) = lies.filter(|_| relations.area_of(id) == area) {
+            return Ok(vec![fact(
+                predicate::THING_AT_PLACE,
+                vec![name, lies.arguments[1].name.clone()],
+            )]);
+        }
+        let room = area.map(|area| world.name(Entity::Area(area)).to_owned());
+        let no_space = || {
+            let area = room.clone().unwrap_or_default();
+            Error::from(RequestError::NoSpace { thing: name.clone(), area })
+        };
+        let place = match (area, &room) {
+            (Some(area), Some(room)) => {
+                let (map, _) = world.placement(area).ok_or_else(no_space)?;
+                let at = self.around()?.floor(map)?.rest_in(area).ok_or_else(no_space)?;
+                belief.name_point(floor_place(room), area, at)
+            }
+            _ => match &belief.station {
+                Station::Place(here) => here.clone(),
+                Station::Door(_) => return Err(no_space()),
+            },
+        };
+        Ok(vec![fact(predicate::THING_AT_PLACE, vec![name.clone(), place])])
     }
 
     /// At the place from which a thing is reached: the one that serves it or what it stands on.
@@ -344,18 +466,16 @@ fn is_only_gathered(commands: &[Command<Entity>], at: usize) -> bool {
 }
 
 /// Whether two commands one after the other ask for the same to be done to different things: then their order is
-/// the planner's to choose.
+/// the planner's to choose. What is carried goes one by one through the one hand, so there is little to choose.
 fn are_done_together(first: &Command<Entity>, second: &Command<Entity>) -> bool {
-    use Command::{Bring, Close, Lock, Open, Put, SwitchOff, SwitchOn, Unlock};
-    match (first, second) {
-        (Bring { what: a, .. }, Bring { what: b, .. })
-        | (Put { what: a, .. }, Put { what: b, .. }) => a.id != b.id,
+    use Command::{Close, Lock, Open, SwitchOff, SwitchOn, Unlock};
+    matches!(
+        (first, second),
         (Open(_), Open(_))
-        | (Close(_), Close(_))
-        | (Lock(_), Lock(_))
-        | (Unlock(_), Unlock(_))
-        | (SwitchOn(_), SwitchOn(_))
-        | (SwitchOff(_), SwitchOff(_)) => true,
-        _ => false,
-    }
+            | (Close(_), Close(_))
+            | (Lock(_), Lock(_))
+            | (Unlock(_), Unlock(_))
+            | (SwitchOn(_), SwitchOn(_))
+            | (SwitchOff(_), SwitchOff(_))
+    )
 }

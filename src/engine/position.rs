@@ -291,7 +291,8 @@ pub(super) fn faced(
             nearest = Some((distance, what));
         }
     };
-    for replica in scene.replicas.values() {
+    // One faces a table, not the spoon on it.
+    for replica in scene.replicas.values().filter(|r| !world.has_trait(r.id, "portable")) {
         for prism in replica.prisms.iter().filter(|p| p.bottom < height && p.top > 10.0) {
             for (a, b) in prism.polygon.edges() {
                 if let Some(distance) = hit(pose.at, ray, a, b) {

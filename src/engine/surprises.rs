@@ -5,6 +5,7 @@ use crate::map::{Entity, World};
 use crate::robot::{Obstruction, Refusal, Surprise};
 
 use super::barriers::no_way_in_words;
+use super::deeds::place_in_words;
 use super::lexicon::named;
 
 /// What stood in the way, what the vehicle would not do, or what the map does not know.
@@ -31,7 +32,10 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         Surprise::Blocked { bump, .. } => {
             told("путь преграждает {}", "{} is in the way", bump.against)
         }
-        Surprise::NoWay { to, why } => format!("«{to}»: {}", no_way_in_words(world, why, language)),
+        Surprise::NoWay { to, why } => {
+            let to = place_in_words(world, to, language);
+            format!("«{to}»: {}", no_way_in_words(world, why, language))
+        }
         Surprise::NotSeen { thing, area } => match language {
             Language::Russian => format!("{}: «{thing}» не видно", said(Entity::Area(*area))),
             Language::English => format!("{thing} is not seen in {}", said(Entity::Area(*area))),

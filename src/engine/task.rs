@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::graphplan::Limits;
 use crate::language::Language;
-use crate::language::command::{Command, Listener, Misheard, Placement, Relation};
+use crate::language::command::{Command, Listener, Misheard, Placement, Relation, is_order};
 use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
@@ -254,16 +254,46 @@ impl Engine {
         sentence: &str,
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
+        let before = memory.clone();
+        let whole = self.understood(sentence, memory);
+        let (Err(Error::Misheard(misheard)), Some((told, order))) = (&whole, preamble(sentence))
+        else {
+            return whole;
+        };
+        if matches!(misheard, Misheard::WhichOf(_) | Misheard::Ambiguous { .. }) {
+            return whole;
+        }
+        // «Там темно, включи свет»: what is told is only what the order may speak of.
+        let mut after = before;
+        self.hear_of(told, &mut after)?;
+        match self.understood(order, &mut after) {
+            Err(Error::Misheard(Misheard::UnknownName { .. } | Misheard::NotUnderstood { .. })) => {
+                whole
+            }
+            understood => {
+                *memory = after;
+                understood
+            }
+        }
+    }
+
+    fn understood(
+        &self,
+        sentence: &str,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
         let settled = self.settle(sentence, memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),
             _ => None,
         };
-        let last = memory.last_things().into_iter().filter_map(entity).collect();
+        let last = settled.last.iter().copied().filter_map(entity).collect();
         let nearest = |all: &[Entity]| self.nearest(all);
         let meant = settled.meant.iter().copied().filter_map(entity).collect();
         let listener =
             Listener::new(self.forms()?).remembering(last).knowing(meant).choosing(&nearest);
+        let windows: Vec<(Entity, Option<u32>)> =
+            settled.meant.iter().filter_map(|thing| self.gone_to(*thing)).collect();
         let settled = settled.text;
         let mut commands = match listener.hear(&settled) {
             Ok(commands) => commands,
@@ -280,6 +310,7 @@ impl Engine {
                 return Err(misheard.into());
             }
         };
+        place_windows(&mut commands, &windows);
         if let [Command::ComeBack] = commands[..]
             && let Some(Thing::Entity(anchor)) = memory.place_left()
         {
@@ -294,6 +325,18 @@ impl Engine {
             memory.mention(&named);
         }
         Ok(commands)
+    }
+
+    /// Of what a command means, a room, or the room of a window with the window's number.
+    fn gone_to(&self, thing: Thing) -> Option<(Entity, Option<u32>)> {
+        match thing {
+            Thing::Entity(room @ Entity::Area(_)) => Some((room, None)),
+            Thing::Window(n) => {
+                let window = self.mind().ok()?.lexicon.windows.get(n as usize)?;
+                Some((Entity::Area(window.area), Some(n)))
+            }
+            _ => None,
+        }
     }
 
     /// Where the robot is, by what one can send it back to: a place of the map, else its room.
@@ -357,13 +400,39 @@ impl Engine {
     }
 }
 
+/// What only tells, and the order behind its mark.
+fn preamble(sentence: &str) -> Option<(&str, &str)> {
+    if is_order(sentence) {
+        return None;
+    }
+    let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
+    let dashes = sentence.match_indices(" - ");
+    marks
+        .chain(dashes)
+        .map(|(at, mark)| (&sentence[..at], sentence[at + mark.len()..].trim_start()))
+        .find(|(told, order)| !told.trim().is_empty() && is_order(order))
+}
+
+/// Windows have no names: a command that names a room for its window gets it back, in the order of the sentence.
+fn place_windows(commands: &mut [Command<Entity>], meant: &[(Entity, Option<u32>)]) {
+    let mut left = meant.to_vec();
+    for command in commands {
+        let Command::GoTo { to, .. } = command else { continue };
+        let Some(at) = left.iter().position(|(room, _)| *room == to.anchor) else { continue };
+        if let (_, Some(window)) = left.remove(at) {
+            to.relation = Relation::AtWindow(window);
+        }
+    }
+}
+
 /// What a command is about.
-fn thing_of(command: &Command<Entity>) -> Option<Entity> {
+pub(super) fn thing_of(command: &Command<Entity>) -> Option<Entity> {
     match command {
         Command::Bring { what, .. } | Command::Take { what } | Command::Put { what, .. } => {
             Some(what.id)
         }
-        Command::PutBack(what)
+        Command::SetDown { what, .. }
+        | Command::PutBack(what)
         | Command::Open(what)
         | Command::Close(what)
         | Command::Lock(what)

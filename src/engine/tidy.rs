@@ -28,6 +28,9 @@ impl Engine {
             Some(Entity::Area(area)) => {
                 now.world.replicas.values().any(|r| r.name == thing && r.area == area)
             }
+            Some(Entity::Map(map)) => now.world.replicas.values().any(|r| {
+                r.name == thing && world.placement(r.area).is_some_and(|(on, _)| on == map)
+            }),
             Some(entity) => lie_on.get(thing).is_some_and(|on| on == world.name(entity)),
         };
         let is_held = |thing: &str| now.held.as_ref().is_some_and(|held| held.name == thing);
@@ -57,7 +60,7 @@ impl Engine {
     }
 
     /// The names of all things that have a home, with its name.
-    fn homes(&self) -> Result<BTreeMap<String, String>, Error> {
+    pub(super) fn homes(&self) -> Result<BTreeMap<String, String>, Error> {
         let world = self.world()?;
         let mut homes = supports(world, self.relations()?);
         for replica in world.replicas.values() {

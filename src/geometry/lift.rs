@@ -195,6 +195,6 @@ impl FloorPlan {
     #[must_use]
     pub fn rest_in(&self, area: AreaId) -> Option<Point> {
         let middle = self.scene().areas.get(&area)?.prisms.first()?.polygon.centroid();
-        self.fragment(area)?.cells.nearest(middle, |_| true).map(|(at, _)| at)
+        self.standing_in(area, middle)
     }
 }

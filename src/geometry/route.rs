@@ -246,6 +246,21 @@ impl FloorPlan {
         self.anchor(p, None, None).map(|anchor| anchor.at)
     }
 
+    /// Where the robot's centre is when it stands in an Area as near to `p` as it fits, in the largest piece of floor
+    /// there: a pocket between things is no place to be sent to.
+    #[must_use]
+    pub fn standing_in(&self, area: AreaId, p: Point) -> Option<Point> {
+        let cells = &self.fragment(area)?.cells;
+        let mut pieces: BTreeMap<u32, f64> = BTreeMap::new();
+        for cell in cells.cells() {
+            *pieces.entry(cells.component[cell as usize]).or_default() +=
+                cells.polygon(cell).signed_area();
+        }
+        let (largest, _) = pieces.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let inside = |cell: u32| cells.component[cell as usize] == largest;
+        cells.nearest(p, inside).map(|(at, _)| at)
+    }
+
     /// The robot's centre at `p`, or as near as it fits; in a region of the floor if one is named.
     fn anchor(&self, p: Point, region: Option<u32>, within: Option<&[u32]>) -> Option<Anchor> {
         let admits = |number: u32| within.is_none_or(|w| w.contains(&number));

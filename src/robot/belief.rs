@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::geometry::{DoorStates, FloorPlan, Scene};
-use crate::map::{DoorState, DoorStatus, Entity, Replica, World, switch};
+use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
@@ -62,6 +62,8 @@ pub struct Belief {
     pub homes: Vec<(String, String)>,
     /// What is to be put into another thing, not onto it: by the names of both.
     pub into: BTreeSet<(String, String)>,
+    /// What is to be put beside another thing: by the names of both.
+    pub beside: BTreeSet<(String, String)>,
     /// The door at which the cabin of a lift stands, by the names of both; none where it was not seen.
     pub cabins: BTreeMap<String, String>,
     /// Of the robot's Map, and of those to which lifts lead.
@@ -103,9 +105,25 @@ impl Belief {
             found: BTreeSet::new(),
             homes: Vec::new(),
             into: BTreeSet::new(),
+            beside: BTreeSet::new(),
             cabins: BTreeMap::new(),
             floors,
         })
+    }
+
+    /// The name of a point of an Area for the time of the mission; that of its own place where the robot stands there.
+    pub fn name_point(&mut self, name: String, area: AreaId, at: Point) -> String {
+        if let Station::Place(here) = &self.station
+            && area == self.area
+            && (at - self.pose.at).norm() <= AT_PLACE
+        {
+            return here.clone();
+        }
+        if !self.spots.iter().any(|spot| spot.name == name) {
+            let pose = Pose { at, ..self.pose };
+            self.spots.push(Spot { name: name.clone(), area, pose });
+        }
+        name
     }
 
     /// The free floor of the Map on which the robot is.
@@ -166,6 +184,16 @@ impl Belief {
             Some(thing) => fact(predicate::ROBOT_HOLDS, &[(&thing.name, "предмет")]),
             None => fact(predicate::HAND_FREE, &[]),
         });
+        // What is in no place of the map is still a key.
+        let away = self.held.iter().chain(self.handed_over.iter().map(|(thing, _)| thing));
+        for thing in away {
+            if let Some((_, door)) = Mark::KeyOf.of(&thing.properties) {
+                let door = self.entity(door, |e| matches!(e, Entity::Door(_)).then_some(e));
+                let door = door.map(|e| self.world.name(e));
+                let args = |door| [(thing.name.as_str(), "предмет"), (door, "дверь")];
+                all.extend(door.map(|door| fact(predicate::KEY_FITS, &args(door))));
+            }
+        }
         for spot in &self.spots {
             let area = self.world.name(Entity::Area(spot.area));
             all.push(fact(predicate::PLACE_IN, &[(&spot.name, "место"), (area, "помещение")]));

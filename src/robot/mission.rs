@@ -14,7 +14,7 @@ use thiserror::Error;
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
-use super::placing::{spot_in, spot_on};
+use super::placing::{spot_in, spot_on, spot_on_floor};
 use super::solve::{Solved, solve_again};
 
 /// One fact that is to hold in the end.
@@ -134,7 +134,7 @@ pub struct Mission<'r> {
     relations: &'r RelationRules,
     limits: Limits,
     /// Of the plan in force.
-    places: Vec<PlanPlace>,
+    pub(super) places: Vec<PlanPlace>,
     joins: Vec<Join>,
     lifts: Vec<Lift>,
 }
@@ -355,7 +355,7 @@ impl<'r> Mission<'r> {
         Err(refused(refusal, drive))
     }
 
-    fn go(
+    pub(super) fn go(
         &mut self,
         name: &str,
         target: Target,
@@ -434,48 +434,6 @@ impl<'r> Mission<'r> {
         }
     }
 
-    /// Looks for a thing from here, then from each place of the Area in turn.
-    fn seek(&mut self, name: &str, drive: &mut dyn Drive, leg: &mut Leg) -> Result<(), Surprise> {
-        let thing = self.replica(name)?;
-        let area = self.belief.area;
-        let here = |p: &&PlanPlace| p.area == area && p.source != PlaceSource::Robot;
-        let places: Vec<String> = self.places.iter().filter(here).map(|p| p.name.clone()).collect();
-        let mut places = places.into_iter();
-        loop {
-            if let Some(seen) = drive.sees(thing) {
-                self.belief.learn(seen);
-                self.belief.found.insert(name.to_owned());
-                return Ok(());
-            }
-            let Some(place) = places.next() else {
-                return Err(Surprise::NotSeen { thing: name.to_owned(), area });
-            };
-            let target = self.place_target(&place)?;
-            let driven = leg.route.take();
-            match self.go(&place, target, &[area], drive, leg) {
-                Ok(()) => {
-                    self.belief.station = Station::Place(place);
-                    drive.look_round();
-                }
-                // One looks from elsewhere.
-                Err(Surprise::NoWay { .. }) => {}
-                Err(other) => return Err(other),
-            }
-            leg.route = match (driven, leg.route.take()) {
-                (Some(first), Some(next)) => Some(Route {
-                    points: first
-                        .points
-                        .into_iter()
-                        .chain(next.points.into_iter().skip(1))
-                        .collect(),
-                    length: first.length + next.length,
-                    ..next
-                }),
-                (first, next) => next.or(first),
-            };
-        }
-    }
-
     fn set_door(
         &mut self,
         name: &str,
@@ -510,19 +468,31 @@ impl<'r> Mission<'r> {
                 world.replicas.insert(replica.id, replica);
                 let within = self.belief.into.contains(&(thing.to_owned(), name.to_owned()));
                 let spot = if within { spot_in } else { spot_on };
-                let frame = spot(&world, self.belief.scene(), held, support, from.at)
+                let near = self.beside(thing).unwrap_or(from.at);
+                let frame = spot(&world, self.belief.scene(), held, support, near)
                     .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(support), seen: None })?;
                 (self.belief.world.replicas[&support].area, frame)
             }
             None => {
-                let frame = self.belief.scene().areas[&self.belief.area].frame;
-                let (at, heading) = (frame.invert(from.at), from.heading - frame.angle);
-                (self.belief.area, Frame::new(at.x, at.y, 0.0, heading))
+                let mut world = self.belief.world.clone();
+                let replica = self.belief.held.clone().expect("checked by held()");
+                world.replicas.insert(replica.id, replica);
+                let (scene, area) = (self.belief.scene(), self.belief.area);
+                let frame = spot_on_floor(&world, scene, held, area, from)
+                    .ok_or(Surprise::Refused { refusal: Refusal::NoRoom(held), seen: None })?;
+                (area, frame)
             }
         };
         drive.put(held, area, frame).map_err(|r| refused(r, drive))?;
         self.belief.set_down(area, frame);
         Ok(())
+    }
+
+    /// The middle of the thing beside which another is to be put.
+    fn beside(&self, thing: &str) -> Option<Point> {
+        let (_, other) = self.belief.beside.iter().find(|(what, _)| what == thing)?;
+        let placed = self.belief.scene().replicas.get(&self.replica(other).ok()?)?;
+        Some(nalgebra::center(&placed.bounds.min, &placed.bounds.max))
     }
 
     /// Changes the belief; false when the surprise says nothing that was not believed already.
@@ -547,7 +517,7 @@ impl<'r> Mission<'r> {
         }
     }
 
-    fn name_this_point(&mut self) {
+    pub(super) fn name_this_point(&mut self) {
         let Some((area, _)) = self.belief.floor().locate(self.belief.pose.at) else { return };
         self.belief.area = area;
         let name = format!("Остановка-{}", self.belief.spots.len() + 1);
@@ -559,7 +529,7 @@ impl<'r> Mission<'r> {
         self.belief.station = Station::Place(name);
     }
 
-    fn place_target(&self, name: &str) -> Result<Target, Surprise> {
+    pub(super) fn place_target(&self, name: &str) -> Result<Target, Surprise> {
         if let Some(spot) = self.belief.spots.iter().find(|s| s.name == name) {
             return Ok(Target::Point(spot.pose.at));
         }
@@ -611,7 +581,7 @@ impl<'r> Mission<'r> {
         self.entity(name, |e| if let Entity::Door(id) = e { Some(id) } else { None })
     }
 
-    fn replica(&self, name: &str) -> Result<ReplicaId, Surprise> {
+    pub(super) fn replica(&self, name: &str) -> Result<ReplicaId, Surprise> {
         self.entity(name, |e| if let Entity::Replica(id) = e { Some(id) } else { None })
     }
 

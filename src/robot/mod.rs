@@ -10,6 +10,7 @@ mod drive;
 mod eye;
 mod mission;
 mod placing;
+mod seek;
 mod simulator;
 mod solve;
 

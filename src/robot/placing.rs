@@ -2,7 +2,7 @@
 
 use crate::geometry::{Bounds, PlacedReplica, Polygon, Prism, Scene};
 use crate::map::{DoorStatus, Permeability, World};
-use crate::units::{Deg, Frame, Point, ReplicaId, Vector};
+use crate::units::{AreaId, Deg, Frame, Point, Pose, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
 const MARGIN: f64 = 1.0;
@@ -94,6 +94,52 @@ pub fn spot_in(
     }
     surfaces.sort_by(|a, b| b.height.total_cmp(&a.height));
     spot(world, scene, thing, placed, &surfaces, from)
+}
+
+/// The frame (in the Area that holds `from`) that sets a thing on the floor beside a robot: ahead of it, else as little
+/// aside as can be. `None` when there is room nowhere about.
+///
+/// # Panics
+/// When the thing is not of this world.
+#[must_use]
+pub(super) fn spot_on_floor(
+    world: &World,
+    scene: &Scene,
+    thing: ReplicaId,
+    area: AreaId,
+    from: Pose,
+) -> Option<Frame> {
+    /// Degrees between the directions that are tried.
+    const TURN: f64 = 15.0;
+    let shape = PlacedReplica::new(world, thing, Frame::IDENTITY);
+    let room = scene.areas.get(&area)?;
+    let half = (shape.bounds.max - shape.bounds.min) / 2.0;
+    let middle = shape.bounds.min + half;
+    let away = world.robot.radius.get() + half.norm() + MARGIN;
+    let height = shape.top - shape.bottom;
+    let floor = room.frame.z.get();
+    let is_free = |at: Point| {
+        let bounds = Bounds { min: at - half, max: at + half }.grown(MARGIN);
+        let corners = [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)];
+        corners.iter().all(|(x, y)| {
+            let corner = at + Vector::new(x * half.x, y * half.y);
+            room.prisms.iter().any(|p| p.polygon.contains(corner, 1e-6))
+        }) && scene
+            .replicas
+            .values()
+            .filter(|r| r.id != thing && r.bounds.meets(&bounds))
+            .flat_map(|r| &r.prisms)
+            .all(|p| p.top <= floor || p.bottom >= floor + height || !p.bounds.meets(&bounds))
+    };
+    let turns = (0..=(180.0 / TURN) as i32).flat_map(|n| [f64::from(n), -f64::from(n)]);
+    let spots = turns.map(|turn| {
+        let heading = (from.heading + Deg::of(turn * TURN)).radians();
+        from.at + Vector::new(heading.cos(), heading.sin()) * away
+    });
+    spots.into_iter().find(|&at| is_free(at)).map(|at| {
+        let origin = room.frame.invert(Point::origin() + (at - middle));
+        Frame::new(origin.x, origin.y, -shape.bottom, Deg::ZERO - room.frame.angle)
+    })
 }
 
 /// What a thing may be set down on.

@@ -5,7 +5,7 @@ use std::hash::Hash;
 use std::ops::Range;
 
 use super::grammar::{Argument, Item, Reference, Sentence, items};
-use super::vocabulary::{Link, Role, Verb, verbs};
+use super::vocabulary::{Haunt, Link, Role, Verb, verbs};
 use super::{Command, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::language::words::{Case, Hit};
 use crate::units::{Source, nearest_name};
@@ -28,16 +28,20 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
         has_named: false,
         open: RefCell::new(listener.meant.clone()),
     };
-    // «Стоп, не едь!» must stop, whatever else is in the sentence.
-    if items.iter().any(|item| matches!(item, Item::Verb(Verb::Stop, _))) {
+    // «Стоп, не едь!» must stop, whatever else is in the sentence; «подъедь к двери и остановись» only ends so.
+    let is_stop = |item: &Item<'_, T>| matches!(item, Item::Verb(Verb::Stop, _));
+    let ends_so =
+        matches!(&items[..], [first, .., Item::And, last] if is_stop(last) && !is_stop(first));
+    if items.iter().any(is_stop) && !ends_so {
         return Ok(vec![Command::Stop]);
     }
+    let items = if ends_so { &items[..items.len() - 2] } else { &items[..] };
     if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
         let (_, at) = reader.shown(words);
         return Err(Misheard::Forbidden { text: reader.source(), at });
     }
     let mut commands = Vec::new();
-    for clause in clauses(&items) {
+    for clause in clauses(items) {
         commands.extend(reader.clause(&clause)?);
     }
     Ok(commands)
@@ -50,6 +54,8 @@ struct Clause<'i, 's, T> {
     after: Vec<&'i Argument<'s, T>>,
     dangling: Option<&'i Range<usize>>,
     with_key: bool,
+    on_floor: bool,
+    haunt: Option<Haunt>,
 }
 
 /// Cuts the items before a second verb: at the «и» between the two, if the objects stand before their verbs.
@@ -75,8 +81,15 @@ fn clauses<'i, 's, T>(items: &'i [Item<'s, T>]) -> Vec<Clause<'i, 's, T>> {
 }
 
 fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
-    let mut clause =
-        Clause { verb: None, before: vec![], after: vec![], dangling: None, with_key: false };
+    let mut clause = Clause {
+        verb: None,
+        before: vec![],
+        after: vec![],
+        dangling: None,
+        with_key: false,
+        on_floor: false,
+        haunt: None,
+    };
     for item in items {
         match item {
             // «мне нужно принести»: the real verb wins.
@@ -87,6 +100,8 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
             Item::Argument(argument) => clause.before.push(argument),
             Item::Dangling(words) => clause.dangling = Some(words),
             Item::WithKey => clause.with_key = true,
+            Item::OnFloor => clause.on_floor = true,
+            Item::Haunt(haunt) => clause.haunt = Some(*haunt),
             Item::Verb(..) | Item::And | Item::Not(_) | Item::Filler => {}
         }
     }
@@ -111,6 +126,7 @@ struct Roles<T> {
     to: Option<Placement<T>>,
     via: Option<T>,
     to_me: bool,
+    on_floor: bool,
 }
 
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
@@ -136,9 +152,21 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             return Err(self.incomplete(dangling, question));
         }
         let verb = if clause.with_key && verb == Verb::Close { Verb::Lock } else { verb };
+        // «Вернись домой», "go to your charger"; «отнеси чашку домой» says no place that a thing is put.
+        match (verb, clause.haunt) {
+            (Verb::Charge, _) => return Ok(vec![Command::Charge]),
+            (Verb::GoTo | Verb::Return | Verb::Move | Verb::Get | Verb::Leave, Some(haunt)) => {
+                return Ok(vec![match haunt {
+                    Haunt::Charger => Command::Charge,
+                    Haunt::Home => Command::GoHome,
+                }]);
+            }
+            _ => {}
+        }
         let arguments: Vec<&Argument<'_, T>> =
             clause.before.iter().chain(&clause.after).copied().collect();
-        let roles = self.roles(verb, &arguments)?;
+        let mut roles = self.roles(verb, &arguments)?;
+        roles.on_floor = clause.on_floor;
         self.command(verb, words, roles)
     }
 
@@ -148,8 +176,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         words: &Range<usize>,
         roles: Roles<T>,
     ) -> Result<Vec<Command<T>>, Misheard> {
-        let Roles { mut objects, mut at, mut to, via, to_me } = roles;
+        let Roles { mut objects, mut at, mut to, via, to_me, on_floor } = roles;
+        let on_floor = on_floor
+            && matches!(verb, Verb::Put | Verb::Move | Verb::Clear | Verb::Leave | Verb::SetDown);
         let verb = match verb {
+            Verb::Put | Verb::Move | Verb::Clear | Verb::Leave if on_floor => Verb::SetDown,
+            // «Подожди в коридоре»
+            Verb::Wait if to.is_some() || at.is_some() => Verb::GoTo,
+            Verb::SetDown if !on_floor && (to.is_some() || at.is_some()) => Verb::Put,
             Verb::Move | Verb::Get if objects.is_empty() => Verb::GoTo,
             Verb::Move => Verb::Put,
             Verb::Get => Verb::Bring,
@@ -180,6 +214,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::CallLift => return Ok(vec![Command::CallLift]),
             Verb::Report => return Ok(vec![Command::Report]),
             Verb::Stop => return Ok(vec![Command::Stop]),
+            Verb::Charge => return Ok(vec![Command::Charge]),
             Verb::Leave => {
                 let place = at.map(|place| place.anchor).or_else(|| objects.pop());
                 return Ok(vec![Command::Leave(place)]);
@@ -223,6 +258,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         self.last.clone_from(&objects);
         self.has_named = true;
+        if verb == Verb::SetDown {
+            let within = to.or(at).map(|place| place.anchor);
+            let down = |id| Command::SetDown {
+                what: Thing { id, at: None, toward: None },
+                within: within.clone(),
+            };
+            return Ok(objects.into_iter().map(down).collect());
+        }
         if matches!(verb, Verb::Put | Verb::Clear) && to.is_none() {
             // "Put the book on the table": on and in are whither here.
             to = at.take();
@@ -266,6 +309,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 Verb::GoTo
                 | Verb::Move
                 | Verb::Get
+                | Verb::SetDown
+                | Verb::Charge
                 | Verb::Tidy
                 | Verb::CallOperator
                 | Verb::CallLift
@@ -284,7 +329,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
 
     /// Gives every argument its part. Places first, since they narrow what the thing may be.
     fn roles(&self, verb: Verb, arguments: &[&Argument<'_, T>]) -> Result<Roles<T>, Misheard> {
-        let mut roles = Roles { objects: vec![], at: None, to: None, via: None, to_me: false };
+        let mut roles =
+            Roles { objects: vec![], at: None, to: None, via: None, to_me: false, on_floor: false };
         let mut latest_is_to = None;
         for argument in arguments {
             let Some(link) = argument.link else {
@@ -339,7 +385,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                         None => vec![self.resolve(argument, &cases)?],
                     }
                 }
-                Reference::Known(_) if verb == Verb::Leave => {
+                // "Leave the room": whichever it is. What is left somewhere must be known.
+                Reference::Known(_)
+                    if verb == Verb::Leave && roles.at.is_none() && roles.to.is_none() =>
+                {
                     self.resolve(argument, &cases).into_iter().collect()
                 }
                 Reference::Them if !self.last.is_empty() => self.last.clone(),
@@ -496,6 +545,7 @@ fn by_verb(verb: Verb) -> Role {
         Verb::GoTo
         | Verb::Move
         | Verb::Put
+        | Verb::SetDown
         | Verb::Bring
         | Verb::Clear
         | Verb::Return
@@ -509,7 +559,7 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
     match verb {
         Verb::Bring | Verb::Need => ("что принести", "what to bring"),
         Verb::Take => ("что взять", "what to take"),
-        Verb::Put | Verb::Clear => ("что положить", "what to put"),
+        Verb::Put | Verb::SetDown | Verb::Clear => ("что положить", "what to put"),
         Verb::Open => ("что открыть", "what to open"),
         Verb::Close => ("что закрыть", "what to close"),
         Verb::Lock => ("что запереть", "what to lock"),
@@ -522,6 +572,7 @@ fn question(verb: Verb) -> (&'static str, &'static str) {
             ("куда ехать", "where to go")
         }
         Verb::Tidy
+        | Verb::Charge
         | Verb::CallOperator
         | Verb::CallLift
         | Verb::Report

@@ -18,7 +18,7 @@ use nom::error::ErrorKind;
 use nom::multi::{many0, many1};
 use nom::{IResult, Input, Needed, Parser};
 
-use super::vocabulary::{Link, Meaning, Verb, longest};
+use super::vocabulary::{Haunt, Link, Meaning, Verb, longest};
 use crate::language::words::{FormIndex, Hit, is_hyphen, word_ranges};
 use crate::units::name_key;
 
@@ -147,6 +147,8 @@ pub(super) enum Item<'s, T> {
     /// A link with nothing after it.
     Dangling(Range<usize>),
     WithKey,
+    OnFloor,
+    Haunt(Haunt),
     And,
     Not(Range<usize>),
     Filler,
@@ -193,6 +195,8 @@ fn control<'s, 't, T: Clone + Eq + Hash>(
     let item = match meaning {
         Meaning::Verb(verb) => Item::Verb(verb, words),
         Meaning::WithKey => Item::WithKey,
+        Meaning::OnFloor => Item::OnFloor,
+        Meaning::Haunt(haunt) => Item::Haunt(haunt),
         Meaning::And => Item::And,
         Meaning::Not => Item::Not(words),
         Meaning::Filler => Item::Filler,
@@ -226,9 +230,15 @@ fn argument<'s, 't, T: Clone + Eq + Hash>(
     let (rest, link) = opt(link).parse(input)?;
     let (rest, determiners) = many0(determiner).parse(rest)?;
     let from = rest.at;
-    let (rest, reference) = alt((personal, mistagged, postposed, known, unknown)).parse(rest)?;
-    let (link, words) = (link.map(|(link, _)| link), from..rest.at);
     let all = determiners.contains(&Meaning::All);
+    let named = alt((personal, mistagged, postposed, known, unknown)).parse(rest.clone());
+    // «Верни всё на место»: all that was spoken of.
+    let (rest, reference) = match named {
+        Err(_) if all => (rest, Reference::Them),
+        named => named?,
+    };
+    let from = from.min(rest.at.saturating_sub(1));
+    let (link, words) = (link.map(|(link, _)| link), from..rest.at);
     Ok((rest, Item::Argument(Argument { link, reference, words, all })))
 }
 

@@ -20,6 +20,7 @@
 mod assemble;
 mod grammar;
 mod misheard;
+mod spoken;
 mod verbs;
 mod vocabulary;
 
@@ -45,6 +46,8 @@ pub enum Relation {
     InFrontOf,
     NextTo,
     Between,
+    /// At a window of the Area that is the anchor: its number among the windows of the map.
+    AtWindow(u32),
 }
 
 /// A place told by a thing or an Area: «на стол», «в Комнату-Y», «у окна в кухне».
@@ -80,6 +83,10 @@ pub enum Command<T> {
     ComeHere,
     /// «Вернись»: to where the robot was when it was sent away.
     ComeBack,
+    /// «Зарядись»: to the nearest place where it charges.
+    Charge,
+    /// «Домой»: to the place where it begins.
+    GoHome,
     /// It stays where it is.
     Wait,
     /// To the person who asks, unless a place is given.
@@ -93,6 +100,11 @@ pub enum Command<T> {
     Put {
         what: Thing<T>,
         to: Placement<T>,
+    },
+    /// «Поставь на пол»: on the floor of what is named, else of the room where it is.
+    SetDown {
+        what: Thing<T>,
+        within: Option<T>,
     },
     /// «Верни на место»: to where it is kept.
     PutBack(Thing<T>),
@@ -163,6 +175,21 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
         }
         assemble::commands(text, self)
     }
+}
+
+/// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.
+pub(in crate::language) fn says_whither(word: &str) -> bool {
+    let found = vocabulary::longest(&std::iter::once(word));
+    found.is_some_and(|(_, meaning)| spoken::says_whither(meaning))
+}
+
+/// Whether a text names a place of the robot's own: «на базу».
+pub(in crate::language) fn has_haunt(text: &str) -> bool {
+    let keys = crate::language::words::word_keys(text);
+    (0..keys.len()).any(|n| {
+        let found = vocabulary::longest(&keys[n..].iter().map(String::as_str));
+        matches!(found, Some((_, vocabulary::Meaning::Haunt(_))))
+    })
 }
 
 /// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.

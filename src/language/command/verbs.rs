@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::spoken;
 use super::vocabulary::{Meaning, Verb, longest, verbs};
 use crate::language::words::word_ranges;
 use crate::units::name_key;
@@ -27,10 +28,12 @@ pub(in crate::language) enum Sort {
 impl Sort {
     fn of(verb: Verb) -> Self {
         match verb {
-            Verb::GoTo => Self::Go,
+            Verb::GoTo | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
             Verb::Bring | Verb::Get | Verb::Need | Verb::Take => Self::Carry,
-            Verb::Put | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => Self::Put,
+            Verb::Put | Verb::SetDown | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => {
+                Self::Put
+            }
             Verb::Open | Verb::Close | Verb::Lock | Verb::Unlock => Self::Door,
             Verb::SwitchOn | Verb::SwitchOff => Self::Switch,
             Verb::Find => Self::Find,
@@ -98,18 +101,14 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
 /// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
 #[must_use]
 pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
-    let text = match without_relatives(text) {
-        Cow::Borrowed(text) => repeated(text),
-        Cow::Owned(text) => Cow::Owned(repeated(&text).into_owned()),
-    };
-    match text {
-        Cow::Borrowed(text) => joined(text),
-        Cow::Owned(text) => Cow::Owned(joined(&text).into_owned()),
-    }
+    let text = spoken::plain(&joined(text));
+    let text = without_relatives(&text).into_owned();
+    let text = repeated(&text).into_owned();
+    Cow::Owned(joined(&text).into_owned())
 }
 
 /// Words of a relative clause that say no more than the preposition after them.
-const RELATIVE: [&str; 48] = [
+const RELATIVE: [&str; 69] = [
     "которая лежит",
     "который лежит",
     "которое лежит",
@@ -158,24 +157,47 @@ const RELATIVE: [&str; 48] = [
     "lying",
     "standing",
     "located",
+    "он",
+    "она",
+    "оно",
+    "они",
+    "он лежит",
+    "она лежит",
+    "он стоит",
+    "она стоит",
+    "они лежат",
+    "ту что",
+    "тот что",
+    "то что",
+    "те что",
+    "что",
+    "который",
+    "которая",
+    "которую",
+    "it s",
+    "it is",
+    "they are",
+    "the one",
 ];
 
 fn without_relatives(text: &str) -> Cow<'_, str> {
     let words = word_ranges(text);
     let keys = keys_of(text, &words);
     let mut gone: Vec<Range<usize>> = Vec::new();
-    for at in 1..keys.len() {
-        for length in (1..=3).rev() {
-            let Some(said) = keys.get(at..at + length) else { continue };
+    let mut at = 1;
+    while at < keys.len() {
+        let relative = (1..=3).rev().find(|&length| {
+            let said = keys.get(at..at + length);
             let before_place = matches!(
                 keys.get(at + length).and_then(|_| meaning_at(&keys, at + length)),
                 Some((_, Meaning::Link(_)))
             );
-            if before_place && RELATIVE.contains(&said.join(" ").as_str()) {
-                gone.push(words[at - 1].end..words[at + length - 1].end);
-                break;
-            }
+            before_place && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
+        });
+        if let Some(length) = relative {
+            gone.push(words[at - 1].end..words[at + length - 1].end);
         }
+        at += relative.unwrap_or(1);
     }
     if gone.is_empty() {
         return Cow::Borrowed(text);
@@ -187,10 +209,8 @@ fn without_relatives(text: &str) -> Cow<'_, str> {
     Cow::Owned(left)
 }
 
-/// «Подъедь к столу, потом к окну»: the verb once more before each place that only follows in time.
+/// «Подъедь к столу, потом к окну»: the verb once more before each place that only follows, in time or in a list.
 fn repeated(text: &str) -> Cow<'_, str> {
-    const THEN: [&str; 8] =
-        ["потом", "затем", "а потом", "и потом", "а затем", "then", "and then", "after that"];
     let words = word_ranges(text);
     let keys = keys_of(text, &words);
     let mut put: Vec<(usize, String)> = Vec::new();
@@ -206,12 +226,21 @@ fn repeated(text: &str) -> Cow<'_, str> {
                 verb = Some(words[at].start..words[at + taken - 1].end);
             }
             Some(Meaning::Verb(_)) => verb = None,
-            Some(Meaning::And) if THEN.contains(&keys[at..at + taken].join(" ").as_str()) => {
-                let next =
-                    (at + taken < keys.len()).then(|| meaning_at(&keys, at + taken)).flatten();
-                if let (Some(verb), Some((_, Meaning::Link(_)))) = (&verb, next) {
-                    put.push((words[at + taken].start, format!("{} ", &text[verb.clone()])));
+            Some(Meaning::And) => {
+                let mut next = at + taken;
+                let next_meaning = loop {
+                    match (next < keys.len()).then(|| meaning_at(&keys, next)).flatten() {
+                        Some((small, Meaning::Filler | Meaning::And)) => next += small,
+                        found => break found,
+                    }
+                };
+                if let (Some(verb), Some((_, link))) = (&verb, next_meaning)
+                    && spoken::says_whither(link)
+                {
+                    put.push((words[next].start, format!("{} ", &text[verb.clone()])));
                 }
+                at = next;
+                continue;
             }
             _ => {}
         }
@@ -428,7 +457,7 @@ mod tests {
             ("Switch all lights off and come back", "Switch off all lights and come back"),
             ("put the book on the shelf", "put the book on the shelf"),
             ("Put it down.", "Put down it."),
-            ("Switch everything off in the hall", "Switch off everything in the hall"),
+            ("Switch everything off in the hall", "Switch off all the things in the hall"),
             ("Верни её на место", "Верни на место её"),
             ("turn on the lamp", "turn on the lamp"),
             ("Принеси книгу, которая лежит на столе", "Принеси книгу на столе"),

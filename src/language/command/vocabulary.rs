@@ -15,6 +15,10 @@ pub(super) enum Meaning {
     Filler,
     /// «на ключ»: closing becomes locking.
     WithKey,
+    /// «на пол»: what is put goes onto no thing.
+    OnFloor,
+    /// «домой», «на зарядку»: a place of the robot's own.
+    Haunt(Haunt),
     And,
     /// «все двери»
     All,
@@ -39,6 +43,8 @@ pub(super) enum Verb {
     Need,
     Take,
     Put,
+    /// "put down": where a place is named it is put there, else on the floor.
+    SetDown,
     /// «убери»: puts away, or tidies a place.
     Clear,
     Open,
@@ -57,11 +63,20 @@ pub(super) enum Verb {
     Return,
     /// «верни на место»
     PutBack,
+    /// «зарядись»
+    Charge,
     /// «выйди»: out of the room in which the robot is.
     Leave,
     Wait,
     /// What people ask of robots and this one cannot do.
     Unable,
+}
+
+/// Places of the robot's own, that it knows without their names.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Haunt {
+    Charger,
+    Home,
 }
 
 /// A preposition: how the thing after it lies to the rest.
@@ -94,8 +109,8 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
         поднимись|поднимитесь|подняться|спускайся|спускайтесь|поднимайся|поднимайтесь|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
         take the elevator|take the lift|use the elevator|use the lift|ride the elevator|ride the lift|go up|go down|направляйся|направляйтесь|\
-        встань|встаньте|стань|подкати|подкатись|прокатись|доедь|доезжай|дойди|доберись|сгоняй|загляни|заскочи|приезжай|приедь|приди|проедь|проезжай|проследуй|\
-        go|go over|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|approach|going",
+        встань|встаньте|стань|подкати|подкатись|прокатись|двигай|дуй|доедь|доезжай|дойди|доберись|сгоняй|сбегай|слетай|смотайся|загляни|заскочи|приезжай|приедь|приди|проедь|проезжай|проследуй|\
+        go|go over|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|stand|go stand|approach|going",
     ),
     (
         Meaning::Verb(Verb::Return),
@@ -112,19 +127,19 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Wait),
-        "подожди|подождите|подождать|жди|ждите|обожди|побудь|постой|wait|hold on|stay|stand by",
+        "подожди|подождите|подождать|жди|ждите|обожди|побудь|постой|wait|hold on|stay",
     ),
     (
         Meaning::Verb(Verb::Unable),
         "объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
         почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
-        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|\
+        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|face|turn around|turn round|turn to|rotate|spin|развернись|повернись|повернись к|вытри|\
         repair|fix|buy|order|wake up|play|photograph|say|speak|slice|eat|boil|make",
     ),
     (
         Meaning::Verb(Verb::Move),
-        "перемести|переместите|переместить|передвинь|передвиньте|передвинуть|подвинь|подвиньте|сдвинь|сдвиньте|перетащи|перетащите|move|shift",
+        "перемести|переместите|переместить|передвинь|передвиньте|передвинуть|подвинь|подвиньте|сдвинь|сдвиньте|перетащи|перетащите|подтолкни|толкни|отодвинь|пододвинь|придвинь|move|shift|push|pull|drag|slide|shove",
     ),
     (Meaning::Verb(Verb::Get), "get|go get|go and get|go fetch|getting"),
     (
@@ -144,9 +159,10 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         Meaning::Verb(Verb::Put),
         "вези|везите|положи|положите|положил|поставил|отнёс|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
         отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переставьте|переложи|переложите|\
-        брось|бросьте|кинь|киньте|опусти|опустите|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|оставь|оставьте|\
-        put|place|put down|set|set down|lay|lay down|hang|drop|drop off|insert|putting|placing",
+        брось|бросьте|кинь|киньте|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|вынеси|вынесите|вывези|оставь|оставьте|\
+        put|place|set|lay|hang|drop|drop off|insert|putting|placing",
     ),
+    (Meaning::Verb(Verb::SetDown), "опусти|опустите|put down|set down|lay down"),
     (
         Meaning::Verb(Verb::Clear),
         "убери|уберите|убрать|убирай|спрячь|спрячьте|put away|clear|clear up|clear away|stow|hide",
@@ -169,11 +185,11 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::SwitchOn),
-        "включи|включил|включите|включить|включай|зажги|зажгите|зажечь|вруби|врубите|запусти|запустите|turn on|switch on|power on|power up|start|activate|turning on|switching on",
+        "включи|включил|включите|включить|включай|зажги|light up|зажгите|зажечь|вруби|врубите|запусти|запустите|turn on|switch on|power on|power up|start|activate|turning on|switching on",
     ),
     (
         Meaning::Verb(Verb::SwitchOff),
-        "выключи|выключил|выключите|выключить|отключи|отключите|погаси|погасите|погасить|потуши|потушите|потушить|туши|выключай|гаси|выруби|вырубите|отключить|turn off|switch off|power off|power down|shut off|shut down|deactivate|turn out|turning off|switching off",
+        "выключи|выключил|выключите|выключить|отключи|отключите|погаси|погасите|погасить|потуши|потушите|потушить|туши|выключай|гаси|выруби|вырубите|отключить|turn off|switch off|power off|power down|shut off|shut down|deactivate|turn out|turning off|switching off|kill",
     ),
     (
         Meaning::Verb(Verb::Find),
@@ -181,13 +197,13 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Tidy),
-        "приберись|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|убраться|приберите|разбери завалы|разложи всё по местам|tidy|tidy up|clean|clean up|clean out|straighten up|neaten",
+        "приберись|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|убраться|приберите|разбери завалы|разложи всё по местам|разложи все вещи по местам|разложи вещи по местам|расставь всё по местам|tidy|tidy up|clean|clean up|clean out|straighten up|neaten",
     ),
     (
         Meaning::Verb(Verb::CallOperator),
         "позови оператора|позовите оператора|вызови оператора|вызовите оператора|позвать оператора|вызвать оператора|\
         позвони оператору|свяжись с оператором|кликни оператора|крикни оператора|call operator|call the operator|call an operator|ask the operator|\
-        get the operator|fetch the operator|call for the operator|summon the operator|call for help|позови на помощь|зови оператора",
+        get the operator|fetch the operator|call for the operator|summon the operator|call for help|get help|alert the operator|ask the operator to come|на помощь|позови кого нибудь на помощь|tell the operator to come|скажи оператору|скажи оператору подойти|call someone|call somebody|call a human|call a person|call a man|get someone|get somebody|позови человека|позовите человека|позови кого нибудь|позовите кого нибудь|позови людей|вызови человека|позови помощь|зови на помощь|оператора сюда|оператор сюда|operator please|operator over here|позови на помощь|зови оператора",
     ),
     (
         Meaning::Verb(Verb::CallLift),
@@ -202,7 +218,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::Report),
         "доложи|доложите|доложить|доложи где находишься|доложи своё положение|доложи положение|доложи местоположение|доложи где ты находишься|доложи обстановку|доложи о состоянии|доложи где ты|отчитайся|сообщи где ты|сообщи где ты находишься|\
-        сообщи своё положение|сообщи положение|сообщи местоположение|где ты|где ты находишься|где ты сейчас|report|report your position|report position|report your location|report where you are|report back|where are you|\
+        сообщи своё положение|сообщи|сообщите|сообщи положение|сообщи местоположение|сообщи своё местоположение|доложи своё местоположение|где ты|где ты находишься|где ты сейчас|report|report your position|report position|report your location|report where you are|report back|where are you|\
         tell me where you are",
     ),
     (link(Relation::In, Role::WhereOrWhither), "в|во|внутрь"),
@@ -230,7 +246,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         Meaning::Filler,
         "пожалуйста|плиз|пж|plz|pls|find out|спасибо|заранее спасибо|thanks|thank you|будь так любезен|будь так любезна|будьте так любезны|будь любезен|будь любезна|будьте любезны|будьте так добры|\
         сначала|сперва|для начала|first|first of all|firstly|next|finally|наконец|после|заодно|давай|давайте|а ну|пора|слушай|эй|так|обратно|назад|back|back again|\
-        поближе|ближе|closer|поскорее|побыстрее|живо|немедленно|аккуратно|тихо|немного|чуть|просто|ещё|тоже|also|too|just|right now|immediately|gently|straight|away|over|\
+        поближе|ближе|closer|a bit|a little|at once|until i come|пока я не приду|again|as well|once more|снова|опять|да|стоит|лежит|находится|висит|стоят|лежат|where it belongs|side by side|if so|если да|в таком случае|тогда|a little bit|slightly|чуть чуть|немножко|чуток|поскорее|побыстрее|живо|немедленно|аккуратно|тихо|немного|чуть|просто|ещё|тоже|also|too|just|right now|immediately|gently|straight|away|over|\
         can you please|could you kindly|would you mind|would you kindly|be so kind as to|be so kind to|be so kind and|be a dear and|be so kind|be able to|do me a favour and|do me a favor and|behind you|behind yourself|from here|ok|okay|alright|so|let s|we|us|i d like you to|i would like you to|i want you to|i need you to|\
         хочу чтобы ты|хотел бы чтобы ты|хотелось бы|для нас|нужно чтобы ты|попрошу|попрошу тебя|сможешь|сможете|сумеешь|могла бы ты|ты можешь|ты можете|\
         будь другом|за собой|отсюда|здесь|любой|любую|любое|какую нибудь|any|some|one|one of the|какое нибудь|каких нибудь|одного|будь добр|будь добра|будьте добры|будь так добр|прошу|прошу тебя|прошу вас|если не трудно|можешь|можете|можно|мог бы ты|\
@@ -240,17 +256,36 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
     ),
     (link(Relation::Between, Role::WhereOrWhither), "между|between"),
+    (
+        Meaning::Verb(Verb::Charge),
+        "зарядись|зарядитесь|заряжайся|заряжайтесь|подзарядись|заряжаться|зарядиться|подзарядиться|подзаряжайся|charge|recharge|charge yourself|recharge yourself|charge up|charge your battery|charge your batteries|dock|dock yourself",
+    ),
+    (
+        Meaning::Haunt(Haunt::Charger),
+        "на зарядку|на подзарядку|к зарядке|на зарядную станцию|к зарядной станции|на док станцию|к док станции|to charger|to your charger|to the charger|to the charging station|to your charging station|to the charging point|to the dock|to your dock|to the docking station|to your docking station",
+    ),
+    (
+        Meaning::Haunt(Haunt::Home),
+        "домой|на базу|на свою базу|на исходную|на исходную позицию|в исходную точку|на исходное место|home|to base|to your base|back to base|to your starting point|to the starting point|to where you started|to your home|to your home position",
+    ),
+    (
+        Meaning::OnFloor,
+        "на пол|на полу|на землю|on floor|on the floor|onto the floor|to the floor|down on the floor|on the ground|onto the ground",
+    ),
     (Meaning::WithKey, "на ключ|на замок|with the key|with a key"),
     (
         Meaning::And,
-        "и|а|а затем|затем|потом|после этого|после чего|а потом|и потом|и затем|дальше|далее|then|and|and then|after that|afterwards|and after that|followed by",
+        "и|а|а затем|затем|потом|после этого|после чего|а потом|а оттуда|а уже оттуда|и потом|и затем|дальше|далее|then|and|and then|after that|afterwards|and after that|followed by",
     ),
     (
         Meaning::All,
-        "все|всю|всё|весь|всех|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
+        "все|всю|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
-    (Meaning::Me, "мне|меня|ко мне|до меня|сюда|me|to me|here|over here"),
+    (
+        Meaning::Me,
+        "мне|меня|ко мне|до меня|сюда|оператору|к оператору|to the operator|to operator|me|to me|here|over here",
+    ),
     (Meaning::Pronoun, "его|её|него|неё|ней|ним|ему|нему|нём|ей|ею|it|him|her"),
     (Meaning::Them, "их|них|им|ими|ними|them|both of them|all of them"),
 ];
@@ -299,9 +334,11 @@ fn taken<'k>(phrase: &[String], words: impl Iterator<Item = &'k str>) -> Option<
     None
 }
 
-/// A Russian verb in a form that orders or asks, found by its infinitive: «сгонять» as «сгоняй», «принесёшь» as «принеси».
+/// A Russian verb in a form that orders or asks, found by its infinitive: «сгонять» as «сгоняй», «принесёшь» as
+/// «принеси»; of another aspect by its stem, «вырубай» as «выруби».
 fn inflected(word: &str) -> Option<Meaning> {
     static INFINITIVES: OnceLock<HashMap<String, Meaning>> = OnceLock::new();
+    static STEMS: OnceLock<HashMap<String, Option<Meaning>>> = OnceLock::new();
     let infinitive = ordering_verb(word)?;
     let table = INFINITIVES.get_or_init(|| {
         let mut table: HashMap<String, Meaning> = HashMap::new();
@@ -313,7 +350,25 @@ fn inflected(word: &str) -> Option<Meaning> {
         }
         table
     });
-    table.get(&infinitive).copied()
+    // A stem that verbs of several meanings share tells nothing.
+    let stems = STEMS.get_or_init(|| {
+        let mut stems: HashMap<String, Option<Meaning>> = HashMap::new();
+        for (infinitive, meaning) in table {
+            let Some(stem) = stem_of(infinitive) else { continue };
+            let one = stems.entry(stem.to_owned()).or_insert(Some(*meaning));
+            *one = one.filter(|known| known == meaning);
+        }
+        stems
+    });
+    let known = table.get(&infinitive).copied();
+    known.or_else(|| stems.get(stem_of(&infinitive)?).copied().flatten())
+}
+
+/// What verbs of both aspects share: «включ» of «включить» and «включать», «откр» of «открыть» and «открывать».
+fn stem_of(infinitive: &str) -> Option<&str> {
+    const ENDINGS: [&str; 8] = ["ывать", "ивать", "авать", "ать", "ять", "ить", "ыть", "еть"];
+    let stem = ENDINGS.iter().find_map(|ending| infinitive.strip_suffix(ending))?;
+    (stem.chars().count() >= 4).then_some(stem)
 }
 
 /// All verbs, to offer the one that was meant.

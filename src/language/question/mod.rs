@@ -115,6 +115,8 @@ pub struct Memory {
     pub(super) spoken: Vec<Thing>,
     /// The things of the last answer.
     last: Vec<Thing>,
+    /// The last several things that an answer told, in its order: «вторую» counts them.
+    listed: Vec<Thing>,
     facts: Vec<Fact>,
     /// What was asked last, for «А чайник?»
     query: Option<Query>,
@@ -122,8 +124,8 @@ pub struct Memory {
     pending: Option<Pending>,
     /// A command that waits for the same.
     waiting: Option<settle::Waiting>,
-    /// The command that was understood last, with the words of what it was done to, for «А теперь другую».
-    ordered: Option<settle::Waiting>,
+    /// The command that was understood last, for «А теперь другую».
+    ordered: Option<settle::Ordered>,
     /// Where the robot was before it was last sent away.
     left: Option<Thing>,
 }
@@ -165,6 +167,9 @@ impl Memory {
             return;
         }
         self.last.clone_from(&answer.things);
+        if answer.things.len() > 1 {
+            self.listed.clone_from(&answer.things);
+        }
         for thing in answer.topic.iter().rev() {
             self.spoken.retain(|t| t != thing);
             self.spoken.insert(0, *thing);

@@ -50,7 +50,10 @@ pub(super) fn asks_to_tell(words: &[String]) -> bool {
 
 /// Whether these words of [`Mark::Can`] ask what may or can be done, and not the robot to do it.
 fn asks_leave(words: &[String]) -> bool {
-    const ROBOT: [&str; 10] = [
+    const ROBOT: [&str; 13] = [
+        "could you",
+        "would you",
+        "will you",
         "можешь",
         "можешь ли",
         "сможешь",

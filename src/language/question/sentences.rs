@@ -86,7 +86,7 @@ impl Asker<'_> {
     }
 
     /// Notes what a sentence names that asks nothing.
-    fn hear_of(&self, text: &str, memory: &mut Memory) {
+    pub fn hear_of(&self, text: &str, memory: &mut Memory) {
         let text = self.plain(text);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let named: Vec<Thing> = {

@@ -11,7 +11,13 @@ use crate::map::{Entity, World};
 use crate::units::MapId;
 
 /// A word, whether it means the storey above, and whether it says whither.
-const WORDS: [(&str, bool, bool); 20] = [
+const WORDS: [(&str, bool, bool); 26] = [
+    ("up one floor", true, true),
+    ("up a floor", true, true),
+    ("one floor higher", true, true),
+    ("down one floor", false, true),
+    ("down a floor", false, true),
+    ("one floor lower", false, true),
     ("наверху", true, false),
     ("наверх", true, true),
     ("вверх", true, true),

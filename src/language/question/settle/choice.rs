@@ -14,6 +14,9 @@ impl Settler<'_, '_> {
         within: &[Restriction],
     ) -> Result<Vec<Thing>, Doubt> {
         let knowledge = self.knowledge;
+        if let Some(at) = within.iter().position(|r| r.rel == Rel::Has) {
+            return self.bearing(noun, within, at);
+        }
         let either = |rel: Rel| {
             let within: Vec<Restriction> = within
                 .iter()
@@ -43,6 +46,25 @@ impl Settler<'_, '_> {
         if are_any && found.is_empty() {
             return Err(Doubt::not_understood(&noun.text));
         }
+        Ok(found)
+    }
+
+    /// «стол с вазой»: what bears or holds one of the things that it is said to be with.
+    fn bearing(&self, noun: &Noun, within: &[Restriction], at: usize) -> Result<Vec<Thing>, Doubt> {
+        let mut others = within.to_vec();
+        let with = others.remove(at);
+        let mut found = self.candidates(noun, &others)?;
+        let mut borne = Vec::new();
+        for anchor in &with.anchors {
+            borne.extend(self.knowledge.find(anchor, true)?);
+        }
+        let relations = self.knowledge.relations;
+        found.retain(|t| {
+            borne.iter().filter_map(|b| b.replica()).any(|b| match t.area() {
+                Some(area) => relations.area_of(b) == Some(area),
+                None => t.replica().is_some() && relations.support_of(b) == t.replica(),
+            })
+        });
         Ok(found)
     }
 

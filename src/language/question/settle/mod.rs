@@ -11,13 +11,14 @@ mod choice;
 mod object;
 mod place;
 mod reply;
+mod terse;
 mod words;
 
 use std::ops::Range;
 
 use object::More;
 use place::{Spot, case_of};
-pub(super) use reply::Waiting;
+pub(super) use reply::{Ordered, Waiting};
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
@@ -40,11 +41,13 @@ struct Edit {
     things: Vec<Thing>,
     /// What the command is done to, not a place.
     object: bool,
+    /// Of the place that says whither: its bytes with the preposition.
+    goal: Option<Range<usize>>,
 }
 
 impl Edit {
     fn deletion(at: &Range<usize>) -> Self {
-        Self { at: at.clone(), name: String::new(), things: Vec::new(), object: false }
+        Self { at: at.clone(), name: String::new(), things: Vec::new(), object: false, goal: None }
     }
 }
 
@@ -53,6 +56,8 @@ impl Edit {
 pub struct Settled {
     pub text: String,
     pub meant: Vec<Thing>,
+    /// What "them" means in it, the one that "it" means at the end.
+    pub last: Vec<Thing>,
 }
 
 impl Asker<'_> {
@@ -68,7 +73,7 @@ impl Asker<'_> {
     ) -> Result<Settled, Misread> {
         let waiting = memory.waiting.take();
         if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
-            return Ok(Settled { text: text.to_owned(), meant: Vec::new() });
+            return Ok(Settled { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
         let gathered = command::gathered(text);
         let language = crate::language::words::Language::of(text);
@@ -79,6 +84,8 @@ impl Asker<'_> {
             return Err(misread(Doubt::NoStorey { above }));
         }
         let text = self.with_kind(self.plain(&gathered).into_owned(), memory);
+        let text = self.with_noun(text, memory);
+        let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_deed(text, language).map_err(misread)?;
         // "Open the lab door" orders; it does not speak of the open one.
         let described = command::without_verbs(&text);
@@ -96,10 +103,16 @@ impl Asker<'_> {
         match settled {
             Ok(mut edits) => {
                 edits.sort_by_key(|edit| edit.at.start);
-                memory.ordered = edits.iter().find(|edit| edit.object).map(|edit| {
-                    let (at, candidates) = (edit.at.clone(), edit.things.clone());
-                    Waiting { text: text.clone(), at, candidates, language }
+                let object = edits.iter().find(|edit| edit.object);
+                let goal = edits.iter().rev().find_map(|edit| edit.goal.clone());
+                // «А теперь выключи» names nothing: the command before is what may be amended.
+                let amendable = (object.is_some() || goal.is_some()).then(|| Ordered {
+                    text: text.clone(),
+                    object: object.map(|edit| (edit.at.clone(), edit.things.clone())),
+                    goal,
+                    language,
                 });
+                memory.ordered = amendable.or(memory.ordered.take());
                 let meant = edits.iter().flat_map(|edit| edit.things.clone()).collect();
                 let mut settled = text;
                 let mut until = usize::MAX;
@@ -110,7 +123,8 @@ impl Asker<'_> {
                         settled.replace_range(edit.at, &edit.name);
                     }
                 }
-                Ok(Settled { text: settled, meant })
+                let last = self.spoken_of(&settled, memory);
+                Ok(Settled { text: settled, meant, last })
             }
             Err((doubt, at)) => {
                 if let Doubt::Ambiguous { candidates, .. } = &doubt {
@@ -244,9 +258,20 @@ impl Settler<'_, '_> {
         });
         let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
-        let name = self.knowledge.form(thing, case_of(spot.rel, true));
+        // A window has no name: it is told by its room.
+        let told = match (thing, self.knowledge.area_of(thing)) {
+            (Thing::Window(_), Some(room)) => Thing::Entity(Entity::Area(room)),
+            _ => thing,
+        };
+        let name = self.knowledge.form(told, case_of(spot.rel, true));
         let at = self.said(&spot.phrase.words);
-        edits.push(Edit { at, name, things: vec![thing], object: false });
+        edits.push(Edit {
+            at,
+            name,
+            things: vec![thing],
+            object: false,
+            goal: Some(spot.at.start..self.bytes(&spot.phrase.words).end),
+        });
         edits.extend(spot.attached.iter().map(Edit::deletion));
         Ok(Some(thing))
     }
@@ -268,120 +293,145 @@ impl Settler<'_, '_> {
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
-        let mut told_place: Option<Thing> = self.knowledge.memory.last_thing();
-        // The room into which an earlier clause sends the robot.
-        let mut gone_to: Option<AreaId> = None;
-        let count = clauses.len().max(1);
-        for clause in 0..count {
-            let sort = sort(clause);
-            let mut own: Vec<&Spot<'_>> = spots.iter().filter(|s| s.clause == clause).collect();
-            let objects: Vec<(usize, &Phrase)> = items
-                .iter()
-                .enumerate()
-                .filter_map(|(n, item)| match item {
-                    Item::Noun(phrase) if clause_at(self.bytes(&phrase.words).start) == clause => {
-                        Some((n, phrase))
-                    }
-                    _ => None,
-                })
-                .collect();
-            let goal = self.destination(sort, &own, !objects.is_empty());
-            let whither = match goal {
-                Some(goal) => self.whither(own.remove(goal), &mut own, sort, &mut edits)?,
-                None => None,
-            };
-            let says_there = objects.iter().any(|(_, p)| matches!(p.person, Some(Mark::There)));
-            // «Принеси оттуда» tells where it is, «принеси туда» whither.
-            let whence = |phrase: &Phrase| self.sentence.keys[phrase.words.start] == "оттуда";
-            let is_where = !matches!(sort, Sort::Go | Sort::Put | Sort::Carry)
-                || objects.iter().any(|(_, p)| p.person.is_some() && whence(p));
-            let there = told_place.filter(|_| says_there && is_where);
-            let there = there.and_then(|t| self.knowledge.area_of(t));
-            let mut skipped = None;
-            for (n, (at, phrase)) in objects.iter().enumerate() {
-                if skipped == Some(phrase.words.start) {
-                    continue;
+        let mut told = Told { place: self.knowledge.memory.last_thing(), gone_to: None };
+        for clause in 0..clauses.len().max(1) {
+            let own = spots.iter().filter(|s| s.clause == clause).collect();
+            let objects = items.iter().enumerate().filter_map(|(n, item)| match item {
+                Item::Noun(phrase) if clause_at(self.bytes(&phrase.words).start) == clause => {
+                    Some((n, phrase))
                 }
-                if let Some(Mark::There) = phrase.person {
-                    if there.is_some() {
-                        edits.push(Edit::deletion(&self.bytes(&phrase.words)));
-                    } else if let (Some(thing), None, Sort::Go | Sort::Put | Sort::Carry) =
-                        (told_place, goal, sort)
-                    {
-                        let to = self.knowledge.pick("к ", "to ");
-                        let name = self.knowledge.form(thing, Case::Dative);
-                        let at = self.bytes(&phrase.words);
-                        let name = format!("{to}{name}");
-                        edits.push(Edit { at, name, things: vec![thing], object: false });
-                    }
-                    continue;
-                }
-                if phrase.pronoun.is_some() || phrase.person.is_some() {
-                    continue;
-                }
-                // What cannot be done is not asked about either.
-                if matches!(sort, Sort::Other | Sort::Leave)
-                    && self.object(sort, phrase, &[], More::default()).is_err()
-                {
-                    continue;
-                }
-                let until = objects.get(n + 1).map_or(usize::MAX, |(next, _)| *next);
-                let mine: Vec<&&Spot<'_>> = own
-                    .iter()
-                    .filter(|s| s.item < until && (s.item > *at || n == 0))
-                    .filter(|s| !self.is_cut_off(&items, *at, s.item))
-                    .collect();
-                // «дверь coe_door»: a kind, and the name that tells which.
-                let apposed = objects.get(n + 1).filter(|(_, next)| {
-                    next.words.start == phrase.words.end
-                        && !self.is_parted(next.words.start)
-                        && self.names_one_of(next, phrase)
-                });
-                if apposed.is_some() {
-                    edits.push(Edit::deletion(&self.bytes(&phrase.words)));
-                    continue;
-                }
-                let more = More {
-                    value: self.value_after(&items, *at, phrase).map(|(value, _)| value),
-                    except: self.except_after(&items, *at).map(|except| except.noun.clone()),
-                    there,
-                    gone_to,
-                    like: objects[..n]
-                        .iter()
-                        .rev()
-                        .map(|(_, before)| before.noun.head.clone())
-                        .find(|head| !head.kinds.is_empty() && head.named.is_empty()),
-                };
-                if let Some(things) = self.object(sort, phrase, &mine, more)? {
-                    let name = self.knowledge.listed(&things, Case::Accusative);
-                    let mut said = self.said(&phrase.words);
-                    if let Some((_, words)) = self.value_after(&items, *at, phrase) {
-                        said.end = self.bytes(&words).end;
-                    }
-                    let end = said.end;
-                    edits.push(Edit { at: said, name, things: things.clone(), object: true });
-                    for spot in mine {
-                        edits.push(Edit::deletion(&spot.at));
-                        edits.extend(spot.attached.iter().map(Edit::deletion));
-                    }
-                    if let Some(except) = self.except_after(&items, *at) {
-                        edits.push(Edit::deletion(&(end..self.bytes(&except.words).end)));
-                        skipped = Some(except.words.start);
-                    }
-                    told_place = things.last().copied().or(told_place);
-                } else {
-                    self.left_standing(&mine, &mut edits);
-                }
-            }
-            if objects.is_empty() {
-                let own: Vec<&&Spot<'_>> = own.iter().collect();
-                self.left_standing(&own, &mut edits);
-            }
-            told_place = whither.or(told_place);
-            if sort == Sort::Go {
-                gone_to = whither.and_then(Thing::area).or(gone_to);
-            }
+                _ => None,
+            });
+            let clause = Clause { sort: sort(clause), items: &items, objects: objects.collect() };
+            self.settle_clause(&clause, own, &mut told, &mut edits)?;
         }
         Ok(edits)
     }
+
+    /// What one verb is done to, and whither.
+    fn settle_clause<'i>(
+        &self,
+        clause: &Clause<'i>,
+        mut own: Vec<&Spot<'i>>,
+        told: &mut Told,
+        edits: &mut Vec<Edit>,
+    ) -> Result<(), (Doubt, Range<usize>)> {
+        let Clause { sort, ref objects, .. } = *clause;
+        let goal = self.destination(sort, &own, !objects.is_empty());
+        let whither = match goal {
+            Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
+            None => None,
+        };
+        let there = self.area_of_there(clause, told);
+        let mut skipped = None;
+        for (n, (at, phrase)) in objects.iter().enumerate() {
+            if skipped == Some(phrase.words.start) {
+                continue;
+            }
+            if let Some(Mark::There) = phrase.person {
+                if there.is_some() {
+                    edits.push(Edit::deletion(&self.bytes(&phrase.words)));
+                } else if goal.is_none() && matches!(sort, Sort::Go | Sort::Put | Sort::Carry) {
+                    edits.extend(told.place.map(|thing| self.to_there(thing, phrase)));
+                }
+                continue;
+            }
+            // What cannot be done is not asked about either.
+            let is_idle = matches!(sort, Sort::Other | Sort::Leave)
+                && self.object(sort, phrase, &[], More::default()).is_err();
+            if phrase.pronoun.is_some() || phrase.person.is_some() || is_idle {
+                continue;
+            }
+            let until = objects.get(n + 1).map_or(usize::MAX, |(next, _)| *next);
+            let mine: Vec<&&Spot<'_>> = own
+                .iter()
+                .filter(|s| s.item < until && (s.item > *at || n == 0))
+                .filter(|s| !self.is_cut_off(clause.items, *at, s.item))
+                .collect();
+            // «дверь coe_door»: a kind, and the name that tells which.
+            let is_apposed = objects.get(n + 1).is_some_and(|(_, next)| {
+                next.words.start == phrase.words.end
+                    && !self.is_parted(next.words.start)
+                    && self.names_one_of(next, phrase)
+            });
+            if is_apposed {
+                edits.push(Edit::deletion(&self.bytes(&phrase.words)));
+                continue;
+            }
+            let except = self.except_after(clause.items, *at);
+            let value = self.value_after(clause.items, *at, phrase);
+            let more = More {
+                value: value.as_ref().map(|(value, _)| *value),
+                except: except.map(|except| except.noun.clone()),
+                there,
+                gone_to: told.gone_to,
+                like: objects[..n]
+                    .iter()
+                    .rev()
+                    .map(|(_, before)| before.noun.head.clone())
+                    .find(|head| !head.kinds.is_empty() && head.named.is_empty()),
+            };
+            let Some(things) = self.object(sort, phrase, &mine, more)? else {
+                self.left_standing(&mine, edits);
+                continue;
+            };
+            let name = self.knowledge.listed(&things, Case::Accusative);
+            let mut said = self.said(&phrase.words);
+            if let Some((_, words)) = value {
+                said.end = self.bytes(&words).end;
+            }
+            let end = said.end;
+            told.place = things.last().copied().or(told.place);
+            edits.push(Edit { at: said, name, things, object: true, goal: None });
+            for spot in mine {
+                edits.push(Edit::deletion(&spot.at));
+                edits.extend(spot.attached.iter().map(Edit::deletion));
+            }
+            if let Some(except) = except {
+                edits.push(Edit::deletion(&(end..self.bytes(&except.words).end)));
+                skipped = Some(except.words.start);
+            }
+        }
+        if objects.is_empty() {
+            let own: Vec<&&Spot<'_>> = own.iter().collect();
+            self.left_standing(&own, edits);
+        }
+        told.place = whither.or(told.place);
+        if sort == Sort::Go {
+            told.gone_to = whither.and_then(Thing::area).or(told.gone_to);
+        }
+        Ok(())
+    }
+
+    /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
+    fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
+        let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
+        let whence = |phrase: &Phrase| self.sentence.keys[phrase.words.start] == "оттуда";
+        let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
+            || clause.objects.iter().any(|(_, p)| p.person.is_some() && whence(p));
+        let is_said = clause.objects.iter().any(says);
+        told.place.filter(|_| is_said && is_where).and_then(|t| self.knowledge.area_of(t))
+    }
+
+    /// «туда»: to what was spoken of.
+    fn to_there(&self, thing: Thing, phrase: &Phrase) -> Edit {
+        let to = self.knowledge.pick("к ", "to ");
+        let name = format!("{to}{}", self.knowledge.form(thing, Case::Dative));
+        let at = self.bytes(&phrase.words);
+        Edit { at, name, things: vec![thing], object: false, goal: None }
+    }
+}
+
+/// A verb with the nouns that stand in its clause, each with its place among the items.
+struct Clause<'i> {
+    sort: Sort,
+    items: &'i [Item],
+    objects: Vec<(usize, &'i Phrase)>,
+}
+
+/// What the clauses before have told.
+struct Told {
+    place: Option<Thing>,
+    /// The room into which an earlier clause sends the robot.
+    gone_to: Option<AreaId>,
 }

@@ -8,6 +8,7 @@ use super::place::Spot;
 use crate::language::command::Sort;
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::ValueId;
@@ -54,7 +55,13 @@ impl Settler<'_, '_> {
             // "the second one", in the order in which they were told
             if let (Some(rank), None) = (noun.rank, &noun.best) {
                 let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
-                return Ok(self.spoken.get(at).map(|t| vec![*t]));
+                let listed = &self.knowledge.memory.listed;
+                let told = if listed.is_empty() { &self.spoken } else { listed };
+                return Ok(told.get(at).map(|t| vec![*t]));
+            }
+            // "the red one", and none of what was spoken of is: then of all that can be carried, say.
+            if self.candidates(&noun, &[]).is_ok_and(|found| found.is_empty()) {
+                noun.head = Head { anything: true, ..Head::default() };
             }
         }
         let noun = &noun;
@@ -94,7 +101,8 @@ impl Settler<'_, '_> {
             };
             found.retain(|t| !given(t));
         }
-        let able: Vec<Thing> = found.iter().copied().filter(|t| self.can(sort, *t)).collect();
+        let able: Vec<Thing> =
+            found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
         if !able.is_empty() {
             found = able;
         } else if matches!(sort, Sort::Switch | Sort::Door | Sort::Carry | Sort::Put) {
@@ -194,16 +202,18 @@ impl Settler<'_, '_> {
             _ => None,
         }
     }
+}
 
+impl Knowledge<'_> {
     /// Whether a verb of this sort can be done to a thing at all.
-    fn can(&self, sort: Sort, thing: Thing) -> bool {
-        let world = self.knowledge.world;
+    pub(super) fn can(&self, sort: Sort, thing: Thing) -> bool {
+        let world = self.world;
         let has = |wanted: &str| thing.replica().is_some_and(|id| world.has_trait(id, wanted));
         match (sort, thing) {
             (Sort::Carry | Sort::Put, _) => has("portable"),
             (Sort::Switch, _) => has("device"),
             (Sort::Door, Thing::Entity(Entity::Door(door))) => {
-                self.knowledge.relations.joins().iter().any(|j| j.door == Some(door))
+                self.relations.joins().iter().any(|j| j.door == Some(door))
                     && world.doors.get(&door).is_some_and(|d| !d.leaves.is_empty())
             }
             (Sort::Door, _) => false,

@@ -2,13 +2,14 @@
 
 use std::ops::Range;
 
-use super::choice::is_described;
+use super::choice::{is_described, with};
 use super::{Edit, Settler};
 use crate::language::command::{self, Sort};
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
 use crate::language::question::query::{Noun, Rel, Restriction, Thing};
 use crate::language::words::{Case, Language};
+use crate::map::Entity;
 
 /// A place that was said: the preposition, what follows it, and the places that tell where that is.
 pub(super) struct Spot<'i> {
@@ -39,6 +40,7 @@ impl Settler<'_, '_> {
                     name: self.knowledge.form(only, case),
                     things: vec![only],
                     object: false,
+                    goal: None,
                 });
                 edits.extend(spot.attached.iter().map(Edit::deletion));
             }
@@ -56,6 +58,7 @@ impl Settler<'_, '_> {
         for (n, item) in items.iter().enumerate() {
             let Item::Place { rel, nouns, .. } = item else { continue };
             let Some(phrase) = nouns.first() else { continue };
+            let rel = &self.having(*rel, phrase);
             if phrase.pronoun.is_some() || phrase.person.is_some() {
                 continue;
             }
@@ -94,16 +97,28 @@ impl Settler<'_, '_> {
         spots
     }
 
+    /// «стол с вазой» is not «со стола»: its case tells.
+    fn having(&self, rel: Rel, phrase: &Phrase) -> Rel {
+        let has = |case: Case| phrase.cases.iter().any(|r| r.has_case(case));
+        match rel {
+            Rel::From if has(Case::Instrumental) && !has(Case::Genitive) => Rel::Has,
+            rel => rel,
+        }
+    }
+
     /// Whether a place that follows another tells where that one is: «на столе в кухне», "the chair next to the bed".
     fn tells_where(&self, last: &Spot<'_>, rel: Rel, phrase: &Phrase, sort: Sort) -> bool {
         let area = |phrase: &Phrase| {
             let base = self.knowledge.base(&phrase.noun.head);
-            !base.is_empty() && base.iter().all(|t| t.area().is_some())
+            let is_storey = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
+            !base.is_empty() && base.iter().all(|t| t.area().is_some() || is_storey(t))
         };
         if sort == Sort::Door || self.is_whither(rel, phrase) == Some(true) {
             return false;
         }
         match rel {
+            // «в холле на втором этаже»
+            Rel::On if !last.within.is_empty() => area(phrase),
             Rel::In | Rel::On | Rel::At | Rel::From => area(phrase) && !area(last.phrase),
             Rel::To | Rel::Through => false,
             // A room is not told by what it is beside.
@@ -160,8 +175,27 @@ impl Settler<'_, '_> {
                 (one && has_object).then_some(0)
             }),
             Sort::Carry => told(true),
-            Sort::Door | Sort::Switch | Sort::Find | Sort::Leave | Sort::Other => None,
+            // "Go out to the hallway"; "leave the book on the bed"
+            Sort::Leave => told(true).or_else(|| {
+                let on = |n: &usize| has_object && matches!(spots[*n].rel, Rel::On | Rel::In);
+                open().filter(on)
+            }),
+            Sort::Door | Sort::Switch | Sort::Find | Sort::Other => None,
         }
+    }
+
+    /// The window that is meant where windows are: of several in one room the nearest, the robot's own room first.
+    fn window(&self, noun: &Noun) -> Option<Thing> {
+        let mut found = self.knowledge.find(noun, true).ok()?;
+        if found.is_empty() || !found.iter().all(|t| matches!(t, Thing::Window(_))) {
+            return None;
+        }
+        let here = self.here();
+        let own = |t: &Thing| self.knowledge.area_of(*t) == here;
+        if found.iter().any(own) {
+            found.retain(own);
+        }
+        self.nearest(&found)
     }
 
     /// The one thing that a place means, none where the words are left to be read as they are.
@@ -174,6 +208,10 @@ impl Settler<'_, '_> {
         let at = self.bytes(&spot.phrase.words);
         if self.is_strange(&spot.phrase.words) {
             return Ok(None);
+        }
+        let described = with(noun, within);
+        if let Some(window) = self.window(&described) {
+            return Ok(Some(window));
         }
         let mut found = self.candidates(noun, within).map_err(|doubt| (doubt, at.clone()))?;
         if noun.other {

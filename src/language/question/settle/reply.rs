@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::language::question::assemble;
-use crate::language::question::grammar::Sentence;
+use crate::language::question::grammar::{Item, Sentence};
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Thing};
 use crate::language::question::{Asker, Memory};
@@ -18,6 +18,17 @@ pub(in crate::language::question) struct Waiting {
     /// Bytes of the description.
     pub(super) at: Range<usize>,
     pub(super) candidates: Vec<Thing>,
+    pub(super) language: Language,
+}
+
+/// A command that was understood, for what amends it.
+#[derive(Debug, Clone)]
+pub(in crate::language::question) struct Ordered {
+    pub(super) text: String,
+    /// Bytes of what it was done to, and the things.
+    pub(super) object: Option<(Range<usize>, Vec<Thing>)>,
+    /// Bytes of whither, with the preposition.
+    pub(super) goal: Option<Range<usize>>,
     pub(super) language: Language,
 }
 
@@ -38,18 +49,43 @@ impl Asker<'_> {
     /// A command that waited to be told which thing was meant, with the thing that these words choose.
     #[must_use]
     pub fn resumed(&self, text: &str, memory: &Memory) -> Option<String> {
-        let Some(waiting) = memory.waiting.as_ref() else { return self.another(text, memory) };
+        let Some(waiting) = memory.waiting.as_ref() else {
+            let ordered = memory.ordered.as_ref()?;
+            let another = self.another(text, ordered, memory);
+            return another.or_else(|| self.amended(text, ordered, memory));
+        };
+        if let Some(narrowed) = self.narrowed(text, waiting) {
+            return Some(narrowed);
+        }
         let knowledge = self.knowledge(waiting.language, memory);
-        let chosen = self.chosen(text, waiting, &knowledge)?;
+        let Some(chosen) = self.chosen(text, waiting, &knowledge) else {
+            let ordered = memory.ordered.as_ref()?;
+            return self.amended(text, ordered, memory);
+        };
         let mut resumed = waiting.text.clone();
         resumed.replace_range(waiting.at.clone(), &knowledge.listed(&chosen, Case::Accusative));
         Some(resumed)
     }
 
     /// «А теперь другую», "now the other one": the last command, done to the nearest other thing of that kind.
-    fn another(&self, text: &str, memory: &Memory) -> Option<String> {
-        const SMALL: [&str; 10] =
-            ["а", "и", "теперь", "потом", "пожалуйста", "now", "and", "then", "please", "тоже"];
+    fn another(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
+        const SMALL: [&str; 15] = [
+            "нет",
+            "no",
+            "не ту",
+            "too",
+            "also",
+            "а",
+            "и",
+            "теперь",
+            "потом",
+            "пожалуйста",
+            "now",
+            "and",
+            "then",
+            "please",
+            "тоже",
+        ];
         const OTHER: [&str; 22] = [
             "другую",
             "другой",
@@ -74,9 +110,15 @@ impl Asker<'_> {
             "также другую",
             "остальную",
         ];
-        let ordered = memory.ordered.as_ref().filter(|_| !text.trim_end().ends_with('?'))?;
-        let keys = word_keys(text).into_iter();
-        let keys: Vec<String> = keys.skip_while(|key| SMALL.contains(&key.as_str())).collect();
+        if text.trim_end().ends_with('?') {
+            return None;
+        }
+        let (at, candidates) = ordered.object.clone()?;
+        let is_small = |key: &String| SMALL.contains(&key.as_str());
+        let mut keys: Vec<String> = word_keys(text).into_iter().skip_while(is_small).collect();
+        while keys.last().is_some_and(is_small) {
+            keys.pop();
+        }
         if !OTHER.contains(&keys.join(" ").as_str()) {
             return None;
         }
@@ -85,16 +127,31 @@ impl Asker<'_> {
             let object = self.world.replicas.get(&t.replica()?)?.object;
             self.world.objects.get(&object)?.object_type
         };
-        let wanted = ordered.candidates.last().and_then(kind)?;
+        let wanted = candidates.last().and_then(kind)?;
         let given = |t: &Thing| t.replica().is_some_and(|id| self.senses.holder(id).is_some());
         let all = self.world.replicas.keys().map(|id| Thing::Entity(Entity::Replica(*id)));
         let others =
-            all.filter(|t| kind(t) == Some(wanted) && !ordered.candidates.contains(t) && !given(t));
+            all.filter(|t| kind(t) == Some(wanted) && !candidates.contains(t) && !given(t));
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
         let next = others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
         let mut whole = ordered.text.clone();
-        whole.replace_range(ordered.at.clone(), &knowledge.listed(&[next], Case::Accusative));
+        whole.replace_range(at, &knowledge.listed(&[next], Case::Accusative));
         Some(whole)
+    }
+
+    /// «Какую дверь?» – «В спальню»: the room to which it leads, said of what was asked about.
+    fn narrowed(&self, text: &str, waiting: &Waiting) -> Option<String> {
+        let doors = |t: &Thing| matches!(t, Thing::Entity(Entity::Door(_)));
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let one_place =
+            matches!(&sentence.items()[..], [Item::Place { nouns, .. }] if nouns.len() == 1);
+        if !one_place || !waiting.candidates.iter().all(doors) {
+            return None;
+        }
+        let mut narrowed = waiting.text.clone();
+        narrowed.insert_str(waiting.at.end, &format!(" {}", text.trim_end_matches(['.', '!'])));
+        Some(narrowed)
     }
 
     fn chosen(
@@ -153,7 +210,11 @@ impl Asker<'_> {
 
 /// «ту, что на комоде», "the one that is on the dresser": what follows the pointing words tells which.
 fn without_pointing(text: &str) -> &str {
-    const POINTING: [&str; 22] = [
+    const POINTING: [&str; 26] = [
+        "к",
+        "ко",
+        "тому",
+        "том",
         "тот",
         "та",
         "то",

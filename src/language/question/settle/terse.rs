@@ -1,0 +1,344 @@
+//! Orders without a verb, «К холодильнику!», "The medicine, please", and orders that only amend the one before:
+//! «Нет, в спальню», "not that one, the red one", «а теперь на кухню».
+
+use super::{Ordered, Settler};
+use crate::language::command::{self, Sort};
+use crate::language::question::grammar::{Item, Sentence};
+use crate::language::question::vocabulary::{self, Mark};
+use crate::language::question::{Asker, Memory, Thing};
+use crate::language::words::{Case, Language, NounPhrase, word_keys, word_ranges};
+
+/// What is said before an amendment.
+const BEFORE: [&str; 41] = [
+    "нет",
+    "не",
+    "ой",
+    "стоп",
+    "постой",
+    "погоди",
+    "лучше",
+    "вернее",
+    "точнее",
+    "а",
+    "и",
+    "теперь",
+    "потом",
+    "затем",
+    "тогда",
+    "ладно",
+    "хорошо",
+    "тоже",
+    "ну",
+    "давай",
+    "пожалуйста",
+    "no",
+    "not",
+    "wait",
+    "sorry",
+    "rather",
+    "actually",
+    "i",
+    "mean",
+    "meant",
+    "and",
+    "now",
+    "then",
+    "oh",
+    "well",
+    "ok",
+    "okay",
+    "please",
+    "or",
+    "also",
+    "instead",
+];
+
+/// What was done wrong: "not that one", «не эту».
+const WRONG: [&str; 16] = [
+    "ту", "эту", "тот", "этот", "то", "это", "те", "эти", "её", "его", "that", "this", "one", "it",
+    "those", "there",
+];
+
+impl Asker<'_> {
+    /// A text without a verb as an order, where it names whither to go or something to be brought.
+    pub(super) fn with_verb(&self, text: String, memory: &Memory) -> String {
+        if text.trim_end().ends_with('?') || !command::clauses(&text).is_empty() {
+            return text;
+        }
+        if command::has_haunt(&text) {
+            return format!("{} {text}", Language::of(&text).pick("поезжай", "go"));
+        }
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let language = sentence.language;
+        let knowledge = self.knowledge(language, memory);
+        let strict = |_: &str| None;
+        let settler = Settler {
+            knowledge: &knowledge,
+            sentence: &sentence,
+            strict: &strict,
+            spoken: Vec::new(),
+        };
+        let is_room =
+            |things: &[Thing]| !things.is_empty() && things.iter().all(|t| t.area().is_some());
+        let verb = sentence.items().into_iter().find_map(|item| match item {
+            Item::Place { rel, nouns, .. } => {
+                let phrase = nouns.first()?;
+                let whither = settler.is_whither(rel, phrase) == Some(true);
+                whither.then(|| language.pick("поезжай", "go"))
+            }
+            Item::Noun(phrase) if phrase.person.is_none() && phrase.pronoun.is_none() => {
+                let base = knowledge.base(&phrase.noun.head);
+                let portable =
+                    |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
+                if base.iter().any(portable) {
+                    Some(language.pick("принеси", "bring"))
+                } else {
+                    is_room(&base).then(|| language.pick("поезжай", "go"))
+                }
+            }
+            _ => None,
+        });
+        match verb {
+            Some(verb) => format!("{verb} {text}"),
+            None => text,
+        }
+    }
+
+    /// Whether a text without a verb orders: it says whither, or asks kindly or shortly for what it names.
+    #[must_use]
+    pub fn orders_tersely(&self, text: &str) -> bool {
+        const URGES: [&str; 16] = [
+            "please",
+            "пожалуйста",
+            "мне",
+            "сюда",
+            "me",
+            "quick",
+            "quickly",
+            "быстро",
+            "срочно",
+            "here",
+            "now",
+            "скорее",
+            "живо",
+            "бы",
+            "плиз",
+            "fast",
+        ];
+        let keys = word_keys(text);
+        let urges = text.contains('!') || keys.iter().any(|key| URGES.contains(&key.as_str()));
+        let with = self.with_verb(self.plain(text).into_owned(), &Memory::default());
+        if command::clauses(&self.plain(text)).is_empty() && !command::clauses(&with).is_empty() {
+            let goes = with.starts_with("поезжай") || with.starts_with("go ");
+            return urges || (goes && keys.first().is_some_and(|key| command::says_whither(key)));
+        }
+        false
+    }
+
+    /// The last command with what these words put in the place of what it was done to, or of whither it went.
+    pub(super) fn amended(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        let mut at = 0;
+        let mut amends = false;
+        while let Some(key) = keys.get(at) {
+            let small = BEFORE.contains(&key.as_str());
+            let wrong = amends && at > 0 && (WRONG.contains(&key.as_str()) || key == "ее");
+            if !small && !wrong {
+                break;
+            }
+            // "not the red one, the white one": up to the mark all is what was wrong.
+            amends |= small;
+            at += 1;
+            if matches!(key.as_str(), "not" | "не") {
+                let mark = (at + 1..words.len()).find(|&n| {
+                    text[words[n - 1].end..words[n].start].contains([',', ';', '.', '–', '—'])
+                });
+                at = mark.unwrap_or(at);
+            }
+        }
+        // "the red one, please"
+        let mut until = words.len();
+        while until > at + 1 && BEFORE.contains(&keys[until - 1].as_str()) {
+            until -= 1;
+        }
+        let rest = &text[words.get(at)?.start..words.get(until.checked_sub(1)?)?.end];
+        if text.trim_end().ends_with('?') || !command::clauses(rest).is_empty() {
+            return None;
+        }
+        let plain = self.plain(rest);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let knowledge = self.knowledge(sentence.language, memory);
+        let strict = |_: &str| None;
+        let settler = Settler {
+            knowledge: &knowledge,
+            sentence: &sentence,
+            strict: &strict,
+            spoken: Vec::new(),
+        };
+        let items = sentence.items();
+        let lone =
+            matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
+        if !amends && !lone {
+            return None;
+        }
+        // What is said anew: of what it is done to, of whither.
+        let goal = items.iter().position(|item| match item {
+            Item::Place { rel, nouns, .. } => {
+                nouns.first().is_some_and(|p| settler.is_whither(*rel, p) == Some(true))
+            }
+            _ => false,
+        });
+        let (object, goal) = items.split_at(goal.unwrap_or(items.len()));
+        if goal.len() > 1 || items.is_empty() {
+            return None;
+        }
+        let starts = match goal.first() {
+            Some(Item::Place { nouns, .. }) => {
+                let link = command::link_before(&sentence.keys, nouns.first()?.words.start);
+                sentence.words.get(nouns.first()?.words.start - link)?.start
+            }
+            _ => plain.len(),
+        };
+        let (of_object, whither) = (plain[..starts].trim(), plain[starts..].trim());
+        let said = match object {
+            [] => None,
+            [Item::Noun(phrase), places @ ..]
+                if phrase.person.is_none()
+                    && phrase.pronoun.is_none()
+                    && places.iter().all(|item| matches!(item, Item::Place { .. })) =>
+            {
+                let kindless = phrase.noun.head.anything;
+                Some(self.amending(of_object, kindless, ordered, sentence.language)?)
+            }
+            [Item::Value(_)] => Some(self.amending(of_object, true, ordered, sentence.language)?),
+            _ => return None,
+        };
+        let mut whole = ordered.text.clone();
+        // From the end, so that the places before stay where they are.
+        match (&ordered.goal, whither.is_empty()) {
+            (_, true) => {}
+            (Some(goal), false) => whole.replace_range(goal.clone(), whither),
+            (None, false) => {
+                let (object, _) = ordered.object.as_ref()?;
+                whole = format!("{} {whither}", &whole[..object.end]);
+            }
+        }
+        if let Some(said) = said {
+            let (at, _) = ordered.object.clone()?;
+            if ordered.goal.as_ref().is_some_and(|goal| goal.start < at.start)
+                && !whither.is_empty()
+            {
+                return None;
+            }
+            whole.replace_range(at, &said);
+        }
+        Some(whole)
+    }
+
+    /// What a command is done to instead: «красную» is of the kind of what was meant.
+    fn amending(
+        &self,
+        said: &str,
+        kindless: bool,
+        ordered: &Ordered,
+        language: Language,
+    ) -> Option<String> {
+        if !kindless {
+            return Some(said.to_owned());
+        }
+        let (_, things) = ordered.object.as_ref()?;
+        let kind = things.last().and_then(|t| self.kind_of(*t, language))?;
+        let bare = said.strip_suffix(" ones").or(said.strip_suffix(" one")).unwrap_or(said);
+        Some(format!("{bare} {kind}"))
+    }
+
+    /// What a thing is called by its type; in Russian as an object of a verb.
+    fn kind_of(&self, thing: Thing, language: Language) -> Option<String> {
+        let object = self.world.replicas.get(&thing.replica()?)?.object;
+        let kind = self.world.types.object.get(self.world.objects.get(&object)?.object_type)?;
+        Some(match language {
+            Language::English if !kind.name_en.is_empty() => kind.name_en.to_lowercase(),
+            _ => {
+                let hints = crate::language::names::hints_of_type(kind);
+                let noun = NounPhrase::parse(&kind.name.to_lowercase(), &hints);
+                noun.case(Case::Accusative)
+            }
+        })
+    }
+
+    /// An adjective without its noun: «вторую» counts what was told, «красную» is of the kind of what was spoken of.
+    pub(super) fn with_noun(&self, mut text: String, memory: &Memory) -> String {
+        const ENDINGS: [&str; 7] = ["ую", "юю", "ый", "ий", "ой", "ое", "ее"];
+        let (words, keys) = (word_ranges(&text), word_keys(&text));
+        let ends = |n: usize| match words.get(n) {
+            Some(next) => {
+                let gap = !text[words[n - 1].end..next.start].trim().is_empty();
+                gap || matches!(keys[n].as_str(), "и" | "пожалуйста" | "мне")
+            }
+            None => true,
+        };
+        let adjective = |n: &usize| ENDINGS.iter().any(|ending| keys[*n].ends_with(ending));
+        let lone = (1..words.len()).filter(|n| ends(n + 1)).find(adjective);
+        let Some(n) = lone.filter(|_| !memory.last.is_empty()) else { return text };
+        let language = Language::of(&text);
+        let noun = match vocabulary::longest(&keys[n..]) {
+            Some((1, Mark::Rank(rank))) => {
+                let rank = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
+                let listed = if memory.listed.is_empty() { &memory.last } else { &memory.listed };
+                let told = listed.get(rank).copied();
+                let name = told.map(|t| self.knowledge(language, memory).form(t, Case::Accusative));
+                if let Some(name) = name {
+                    text.replace_range(words[n].clone(), &name);
+                }
+                return text;
+            }
+            _ => {
+                let value = self.mind.lexicon.values.longest(&keys[n..]);
+                let other = matches!(keys[n].as_str(), "другую" | "другой" | "другое");
+                let told = other || value.is_some_and(|(taken, _)| taken == 1);
+                let last = memory.last_things().into_iter().rev().find(|t| t.replica().is_some());
+                last.filter(|_| told).and_then(|t| self.kind_of(t, language))
+            }
+        };
+        if let Some(noun) = noun {
+            text.insert_str(words[n].end, &format!(" {noun}"));
+        }
+        text
+    }
+
+    /// What a pronoun means in a command: what was spoken of last, and of that only what its verb can be done to.
+    pub(super) fn spoken_of(&self, text: &str, memory: &Memory) -> Vec<Thing> {
+        let last = memory.last_things();
+        let sort = command::clauses(text).first().map_or(Sort::Other, |(_, sort)| *sort);
+        let knowledge = self.knowledge(Language::of(text), memory);
+        let fits = |t: &Thing| knowledge.can(sort, *t);
+        if last.iter().any(fits)
+            || matches!(sort, Sort::Go | Sort::Find | Sort::Leave | Sort::Other)
+        {
+            return last;
+        }
+        let earlier = memory.spoken.iter().find(|t| fits(t)).copied();
+        earlier.map_or(last, |thing| vec![thing])
+    }
+
+    /// «И в гостиной тоже включи»: what was switched last, where this says.
+    pub(super) fn with_object(&self, text: String, memory: &Memory) -> String {
+        let Some((object, ordered)) =
+            memory.ordered.as_ref().and_then(|o| Some((o.object.as_ref()?, o)))
+        else {
+            return text;
+        };
+        let [(_, Sort::Switch)] = command::clauses(&text)[..] else { return text };
+        let described = command::without_verbs(&text);
+        let sentence = Sentence::new(&described, &self.mind.lexicon);
+        let items = sentence.items();
+        let places = items.iter().any(|item| matches!(item, Item::Place { .. }));
+        let nouns = items.iter().any(|item| matches!(item, Item::Noun(_)));
+        if !places || nouns {
+            return text;
+        }
+        let said = &ordered.text[object.0.clone()];
+        let text = text.trim_end_matches(['.', '!']);
+        format!("{text} {said}")
+    }
+}
