@@ -89,7 +89,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Storeys, "этаж|ярус", "storey|level|floor"),
     (
         Extension::Building,
-        "дом|здание|квартира|карта|жильё",
+        "дом|здание|квартира|карта|жильё|модель|план",
         "house|building|flat|apartment|home|map|this place|premises",
     ),
     (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),

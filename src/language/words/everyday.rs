@@ -58,6 +58,10 @@ const SAME: &[&str] = &[
     "стеллаж|книжный шкаф|bookshelf|bookcase|shelving unit",
     "штора|занавеска|шторы|curtain|curtains|drapes",
     "столешница|counter|countertop|worktop",
+    "верстак|workbench",
+    "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",
+    "батарейка|батарея|аккумулятор|battery",
+    "табурет|табуретка|stool",
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
 ];
 

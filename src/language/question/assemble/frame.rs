@@ -31,6 +31,7 @@ impl<'s, 't> Frame<'s, 't> {
             spots: Vec::new(),
             links: Vec::new(),
             values: Vec::new(),
+            sizes: Vec::new(),
             property: None,
             you: false,
             me: false,
@@ -54,6 +55,12 @@ impl<'s, 't> Frame<'s, 't> {
                 }
                 Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
+                // «Назови комнаты и их площади»: their own, of what stands before.
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::They)
+                        && at > 0
+                        && items[at - 1] == Item::Mark(Mark::And)
+                        && frame.nouns.last().is_some_and(|s| s.noun.plural) => {}
                 Item::Noun(phrase) => {
                     let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
                     // "the green book and the red one"
@@ -103,6 +110,16 @@ impl<'s, 't> Frame<'s, 't> {
                         if me && matches!(rel, Rel::NextTo | Rel::To | Rel::Of) {
                             continue;
                         }
+                        // «дальше от меня»: nearness is told from where the robot is, as without «от меня».
+                        let compares = |item: &Item| {
+                            matches!(
+                                item,
+                                Item::Mark(Mark::Nearer(_) | Mark::Best(_) | Mark::BestTo(_))
+                            )
+                        };
+                        if me && *rel == Rel::From && items.iter().any(compares) {
+                            continue;
+                        }
                         // The robot does not know where the person stands.
                         if me {
                             let word = sentence.said(&words).to_owned();
@@ -111,6 +128,26 @@ impl<'s, 't> Frame<'s, 't> {
                         return Err(Doubt::not_understood(sentence.said(&words)));
                     }
                     let (rel, either) = (*rel, *either);
+                    // «кроме лампы на столе», «кроме тех, что на кухне»
+                    let behind = at > 0 && matches!(&items[at - 1], Item::Noun(_));
+                    if let (true, Some(except)) = (behind, frame.except.last_mut())
+                        && except.text == frame_text(&items[at - 1])
+                    {
+                        except.restrictions.push(Restriction { rel, anchors, negated: false });
+                        continue;
+                    }
+                    if std::mem::take(&mut without) {
+                        let head = Head { anything: true, ..Head::default() };
+                        let place = Restriction { rel, anchors, negated: false };
+                        let restrictions = vec![place];
+                        frame.except.push(Noun {
+                            head,
+                            plural: true,
+                            restrictions,
+                            ..Noun::default()
+                        });
+                        continue;
+                    }
                     let negated = std::mem::take(&mut not);
                     frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
                 }
@@ -126,6 +163,7 @@ impl<'s, 't> Frame<'s, 't> {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
                     }
                 }
+                Item::Size(size) => frame.sizes.push(*size),
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
         }
@@ -323,7 +361,10 @@ impl<'s, 't> Frame<'s, 't> {
             self.attach(&mut noun, spot);
         }
         noun.filters.extend(self.filters());
+        noun.sizes.extend(self.sizes.iter().copied());
         noun.except.extend(self.except.iter().cloned());
+        // «Что ещё на нём стоит?»
+        noun.other |= noun.head.anything && self.has(Mark::Other);
         if let Some(there) = &self.there {
             noun.restrictions.push(Restriction {
                 rel: Rel::In,
@@ -407,6 +448,22 @@ impl<'s, 't> Frame<'s, 't> {
         filters
     }
 
+    /// A comparative that nothing is compared with asks for the most: "Which of the windows is bigger?"
+    fn more_of_several(&self) -> Option<Extreme> {
+        let one = self.nouns.len() + self.spots.iter().filter(|s| s.rel == Rel::From).count() == 1;
+        let more = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::More(extreme) => Some(*extreme),
+            _ => None,
+        });
+        more.filter(|_| one && self.has(Mark::Which) && !self.has(Mark::Than))
+    }
+
+    /// «какой из двух шкафов», "which of the two chairs": the number tells how many there are to choose from.
+    fn chooses_of(&self) -> bool {
+        let of = |key: &String| ["из", "of"].contains(&key.as_str());
+        self.has(Mark::Which) && self.sentence.keys.iter().any(of)
+    }
+
     /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.
     fn with_best(&self, mut noun: Noun) -> Noun {
         let alone = self.marks.iter().find_map(|(mark, _)| match mark {
@@ -415,7 +472,12 @@ impl<'s, 't> Frame<'s, 't> {
             Mark::Nearer(Closeness::Farther) => Some(Extreme::Farthest),
             _ => None,
         });
+        // «Которое из окон больше?»: of several the most.
+        let alone = alone.or_else(|| self.more_of_several());
         if noun.best.is_none() {
+            if alone.is_some() && self.chooses_of() {
+                noun.count = None;
+            }
             // «Какая комната больше всего?» compares rooms; what is counted stands after it.
             let alone = alone.map(|extreme| match extreme {
                 Extreme::Most => Extreme::Biggest,
@@ -429,6 +491,10 @@ impl<'s, 't> Frame<'s, 't> {
                 Mark::Rank(rank) => Some(*rank),
                 _ => None,
             });
+        }
+        // "the nearest lift", though one of them is called just that
+        if noun.best.is_some() && !noun.head.kinds.is_empty() {
+            noun.head.named.clear();
         }
         let Some(best) = &mut noun.best else { return noun };
         if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
@@ -452,5 +518,13 @@ impl<'s, 't> Frame<'s, 't> {
             }
         }
         noun
+    }
+}
+
+/// The words of a noun among the items.
+fn frame_text(item: &Item) -> &str {
+    match item {
+        Item::Noun(phrase) => &phrase.noun.text,
+        _ => "",
     }
 }

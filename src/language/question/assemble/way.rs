@@ -25,10 +25,15 @@ impl Frame<'_, '_> {
             && self.nouns.iter().all(|s| self.is_rooms(&s.noun));
         let passed = self.has(Mark::HowMany)
             && self.has(Mark::Move)
-            && self.nouns.iter().all(|s| self.is_doors(&s.noun));
-        let by_rooms = self.asks() && through && goes;
+            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
+        // "Which doors do I pass on the way from the hall to the bedroom?"
+        let both = self.spot(&[Rel::From]).is_some() && self.spot(&[Rel::To, Rel::In]).is_some();
+        let by_doors = both
+            && self.has(Mark::HowGet)
+            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
+        let by_rooms = self.asks() && ((through && goes) || by_doors);
         if by_rooms || passed {
-            let to = self.spot_noun(&[Rel::To, Rel::In, Rel::On])?;
+            let to = self.spot_noun(&[Rel::To]).or_else(|| self.spot_noun(&[Rel::In, Rel::On]))?;
             let from = self.spot_noun(&[Rel::From]);
             return Some(Query::Way { from, to, detail: self.detail() });
         }
@@ -73,6 +78,11 @@ impl Frame<'_, '_> {
         let room = self.spot_noun(&TO);
         let (from, to) = match (from, room, ends.len()) {
             // "How far is the table from the bed?"
+            // "How far apart are the two wardrobes?"
+            (None, None, 1) if far && ends[0].plural => {
+                let pair = self.with_rest(ends[0].clone(), &[]);
+                return Some(Query::Distance { from: Some(pair.clone()), to: pair });
+            }
             (from, None, 1..) => {
                 let second = ends.get(1).cloned();
                 (
@@ -147,6 +157,14 @@ impl Frame<'_, '_> {
     pub(super) fn leads(&self) -> Option<Query> {
         let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
+        // «Куда попадёшь из кухни через Дверь-ВZ?»
+        let through = self.spots.iter().find(|s| s.rel == Rel::Through);
+        if let Some(through) = through.filter(|s| {
+            let leads = self.has(Mark::Lead) || self.has(Mark::Move);
+            leads && (asks_where || self.asks()) && self.is_doors(&s.nouns[0])
+        }) {
+            return Some(Query::Leads(through.nouns[0].clone()));
+        }
         let rooms = self.nouns.iter().any(|s| self.is_rooms(&s.noun) || self.is_area(&s.noun));
         let leads = self.has(Mark::Lead) || (self.has(Mark::Move) && self.asks());
         if !leads {

@@ -5,7 +5,7 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Best, Head, Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -148,6 +148,9 @@ impl Frame<'_, '_> {
         if let Some(nearest) = self.nearest_to(question) {
             return Some(nearest);
         }
+        if let Some(empty) = self.empty_rooms() {
+            return Some(empty);
+        }
         // «на чём», «в какой комнате»: a preposition right before the word that asks; or stranded at the end.
         let before = self.links.iter().find(|(_, at)| at + 1 == question);
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
@@ -169,7 +172,8 @@ impl Frame<'_, '_> {
                         || self.has(Mark::Have)
                         || of.noun.plural
                         || of.noun.indefinite;
-                    if general && !self.is_storeys(&asked.noun) {
+                    let spoken = of.noun.head.things.is_some();
+                    if general && !spoken && !self.is_storeys(&asked.noun) {
                         return Some(self.rooms_with(&asked.noun));
                     }
                     return Some(Query::RoomOf(of_noun));
@@ -240,9 +244,27 @@ impl Frame<'_, '_> {
         }
         let mut noun = Noun { plural: true, ..Noun::default() };
         noun.head.anything = true;
-        let something = !self.spots.is_empty() || !self.values.is_empty() || self.there.is_some();
+        let something = !self.spots.is_empty()
+            || !self.values.is_empty()
+            || !self.sizes.is_empty()
+            || self.there.is_some();
         let best = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::Nearer(_)));
         (something || best).then(|| Query::Find(self.with_rest(noun, &[])))
+    }
+
+    /// «В какой комнате ничего нет?», "Which room has nothing in it?"
+    fn empty_rooms(&self) -> Option<Query> {
+        let [only] = &self.nouns[..] else { return None };
+        let said = |key: &String| ["nothing", "ничего"].contains(&key.as_str());
+        let nothing = self.has(Mark::Anything) && self.sentence.keys.iter().any(said);
+        let rooms = self.is_rooms(&only.noun) && self.follows_which(only.at);
+        let value = self.lexicon.values.meaning("пустой")?;
+        (nothing && rooms && self.spots.is_empty()).then(|| {
+            let mut noun = Noun { plural: true, indefinite: true, ..only.noun.clone() };
+            noun.head.named.clear();
+            noun.filters.push(Filter::new(value, false));
+            Query::Find(noun)
+        })
     }
 
     /// "What is nearest to the sofa?": the only noun is what it is near to.

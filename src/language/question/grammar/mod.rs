@@ -9,6 +9,7 @@
 //! ```
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
+mod measures;
 mod relative;
 mod tokens;
 
@@ -24,7 +25,7 @@ use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
 use super::lexicon::KindId;
-use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction};
+use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
 use super::vocabulary::{Mark, Pronoun};
 use crate::language::words::{Case, Language, Number, Readings};
@@ -48,6 +49,7 @@ enum Tok {
     Value(ValueId),
     Property(u32),
     Number(u64),
+    Size(Sized),
     Unknown,
 }
 
@@ -94,6 +96,7 @@ pub(super) enum Item {
     Value(ValueId),
     Property(Property),
     Number(u64),
+    Size(Sized),
     /// Words that nothing knows.
     Unknown(Range<usize>),
 }
@@ -358,6 +361,7 @@ impl<'t> Sentence<'t> {
                 Modifier::A => noun.indefinite = true,
                 Modifier::All => noun.all = true,
                 Modifier::Other => noun.other = true,
+                Modifier::Same => noun.same = true,
                 Modifier::Number(count) => noun.count = Some(count),
                 Modifier::Value(value, negated) => {
                     noun.filters.push(Filter::new(value, negated));
@@ -388,6 +392,7 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::A) => Modifier::A,
             Tok::Mark(Mark::All) => Modifier::All,
             Tok::Mark(Mark::Other) => Modifier::Other,
+            Tok::Mark(Mark::Same) => Modifier::Same,
             Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
@@ -482,6 +487,10 @@ impl<'t> Sentence<'t> {
             return Ok((after, Some(next), None));
         }
         match self.language {
+            // «Сколько на столе книг?», «Сколько в доме этажей?»: the genitive is of what is counted.
+            Language::Russian if self.is_counted(input.0[0].from, next) => {
+                Ok((rest, Some(found), None))
+            }
             // «в Комнате-В книг»: a room is not owned by things.
             // «Нет ли на столе чашки?»: the genitive is of what is not there.
             Language::Russian
@@ -521,6 +530,17 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// Whether a genitive plural behind a place belongs to the «сколько» before it, which has no noun of its own.
+    fn is_counted(&self, place: u32, next: &Found) -> bool {
+        let before: Vec<&Token> = self.tokens.iter().filter(|t| t.to <= place).collect();
+        let Some(asks) = before.iter().rposition(|t| t.kind == Tok::Mark(Mark::HowMany)) else {
+            return false;
+        };
+        matches!(before.last().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))))
+            && before[asks..].iter().all(|t| !matches!(t.kind, Tok::Noun(_)))
+            && next.readings.iter().any(|r| r.has(Number::Plural, Case::Genitive))
+    }
+
     fn single<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let Some((first, rest)) = input.split_first() else { return fail(input) };
         let item = match first.kind {
@@ -528,6 +548,7 @@ impl<'t> Sentence<'t> {
             Tok::Value(value) => Item::Value(value),
             Tok::Property(n) => Item::Property(self.properties[n as usize].clone()),
             Tok::Number(number) => Item::Number(number),
+            Tok::Size(size) => Item::Size(size),
             Tok::Noun(_) | Tok::Unknown => return fail(input),
         };
         Ok((rest, item))
@@ -550,6 +571,7 @@ enum Modifier {
     A,
     All,
     Other,
+    Same,
     Number(u64),
     Value(ValueId, bool),
     /// «… или белые»: another value that will do.

@@ -130,6 +130,10 @@ impl Knowledge<'_> {
             return Err(Doubt::NotUnderstood { words: noun.text.clone() });
         }
         let mut found = self.base(&noun.head);
+        // "Is anything made of steel?" asks of doors as well.
+        if noun.head.anything && !noun.filters.is_empty() {
+            found.extend(self.members(&Extension::Doors));
+        }
         if noun.other {
             found.retain(|t| !self.memory.spoken.contains(t));
         }
@@ -150,7 +154,14 @@ impl Knowledge<'_> {
                 }
             }
             let before = found.clone();
-            found.retain(|t| related.contains(t) != restriction.negated);
+            // «стулья у стола»: whatever its kind is at furniture that stands no farther than a step.
+            let at: Vec<Thing> = match restriction.rel {
+                Rel::NextTo if !noun.head.kinds.is_empty() => {
+                    self.standing_at(restriction, &found, loose)?
+                }
+                _ => Vec::new(),
+            };
+            found.retain(|t| (related.contains(t) || at.contains(t)) != restriction.negated);
             // «стул у стола»: where none is right beside it, the one near it is meant.
             if found.is_empty()
                 && restriction.rel == Rel::NextTo
@@ -165,6 +176,10 @@ impl Knowledge<'_> {
         }
         for filter in &noun.filters {
             found.retain(|t| self.fits(*t, filter));
+        }
+        for size in &noun.sizes {
+            let fits = |t: &Thing| self.measure(size.extreme, *t).is_some_and(|m| size.admits(m));
+            found.retain(fits);
         }
         for except in &noun.except {
             let without = self.find(except, true)?;
@@ -199,6 +214,23 @@ impl Knowledge<'_> {
         let related = self.related_to(restriction, true).ok()?;
         let mut fitting = found.iter().filter(|t| related.contains(t));
         (fitting.next().is_some() && fitting.next().is_none()).then_some(related)
+    }
+
+    /// Those of some things that stand at the furniture that a restriction names.
+    fn standing_at(
+        &self,
+        restriction: &Restriction,
+        found: &[Thing],
+        loose: bool,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut at = Vec::new();
+        for noun in restriction.anchors.iter().filter(|n| !self.is_walls(n) && !self.is_floor(n)) {
+            let Ok(anchors) = self.anchors(restriction, noun, loose) else { continue };
+            for anchor in anchors.into_iter().filter(|a| a.replica().is_some()) {
+                at.extend(found.iter().copied().filter(|t| self.stands_at(*t, anchor)));
+            }
+        }
+        Ok(at)
     }
 
     /// The storey of this number, counted from the lowest that is not under the ground.

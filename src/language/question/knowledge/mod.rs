@@ -72,7 +72,13 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
         Rel::Leaning => LEANING,
         Rel::Has => HAS,
         Rel::Bears => BEARS,
-        Rel::Between | Rel::Outside | Rel::From | Rel::To | Rel::Through | Rel::Opens => &[],
+        Rel::Between
+        | Rel::Outside
+        | Rel::From
+        | Rel::To
+        | Rel::Through
+        | Rel::Opens
+        | Rel::Within(_) => &[],
     }
 }
 
