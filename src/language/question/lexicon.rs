@@ -442,6 +442,11 @@ impl Lexicon {
         self.kind_of(&extension).map_or(kind, |id| self.kind(id))
     }
 
+    /// Whether a kind's word is of what is not counted: «мебель».
+    pub(super) fn is_mass(&self, id: KindId) -> bool {
+        MASS.contains(&&*name_key(self.kind(id).phrase.name()))
+    }
+
     /// Whether something is a switch, by the name of its type.
     pub(super) fn is_switch(entry: &TypeEntry) -> bool {
         name_key(&entry.name) == "выключатель" || name_key(&entry.name_en) == "light switch"

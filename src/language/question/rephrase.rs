@@ -20,6 +20,9 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         one_of,
         storey_again,
         any_left,
+        your_side,
+        borne_on_it,
+        around,
         numbers_joined,
     ];
     for rule in rules {
@@ -174,6 +177,43 @@ fn storey_again(words: &Words<'_>) -> Option<String> {
         let said = &words.text[words.at[last].clone()];
         let noun = &words.text[words.at[floor].clone()];
         words.replaced(vec![(last..last + 1, format!("{said} {noun}"))])
+    })
+}
+
+/// "to your left", "on your right": to the left of you.
+fn your_side(words: &Words<'_>) -> Option<String> {
+    let side = (2..words.keys.len()).find(|&n| {
+        words.is(n, &["left", "right"])
+            && words.is(n - 1, &["your"])
+            && words.is(n - 2, &["to", "on"])
+    })?;
+    let said = &words.text[words.at[side].clone()];
+    Some(words.replaced(vec![(side - 2..side + 1, format!("to the {said} of you"))]))
+}
+
+/// "Which chair has something on it?": which is occupied.
+fn borne_on_it(words: &Words<'_>) -> Option<String> {
+    let has = (0..words.keys.len()).find(|&n| {
+        words.is(n, &["has", "have"])
+            && words.is(n + 1, &["something", "anything", "nothing"])
+            && words.is(n + 2, &["on", "in"])
+            && words.is(n + 3, &["it", "them"])
+    })?;
+    let be = if words.is(has, &["has"]) { "is" } else { "are" };
+    let state = if words.is(has + 1, &["nothing"]) { "empty" } else { "occupied" };
+    Some(words.replaced(vec![(has..has + 4, format!("{be} {state}"))]))
+}
+
+/// «Что тебя окружает?»: what is around you.
+fn around(words: &Words<'_>) -> Option<String> {
+    let verb = words.find(&["окружает", "окружают"])?;
+    let before = verb.checked_sub(1).filter(|n| words.is(*n, &["тебя", "его", "ее", "их", "вас"]));
+    Some(match before {
+        Some(whom) => {
+            let said = &words.text[words.at[whom].clone()];
+            words.replaced(vec![(whom..verb + 1, format!("вокруг {said}"))])
+        }
+        None => words.replaced(vec![(verb..verb + 1, "вокруг".to_owned())]),
     })
 }
 

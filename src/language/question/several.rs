@@ -101,6 +101,11 @@ fn begins(words: &[String]) -> bool {
             let next = vocabulary::longest(&words[taken..]);
             next.is_some_and(|(_, m)| matches!(m, Mark::Which | Mark::What))
         }
+        // "… and is it on?"
+        Mark::Be => {
+            let next = vocabulary::longest(&words[taken..]);
+            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_)))
+        }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,
         mark => is_asking(mark) && (words.len() > 1 || mark == Mark::Where),

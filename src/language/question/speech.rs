@@ -90,7 +90,21 @@ impl Knowledge<'_> {
 
     pub(super) fn gender(&self, thing: Thing) -> (Gender, Number) {
         let named = self.named(thing);
-        (named.phrase().gender(), named.phrase().number())
+        let name = named.phrase();
+        if Language::of(name.name()) == Language::Russian {
+            return (name.gender(), name.number());
+        }
+        // A foreign name goes by what it names: «Office door закрыта».
+        let gender = match thing {
+            Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => Gender::Feminine,
+            Thing::Entity(Entity::Area(_)) => Gender::Neuter,
+            _ => {
+                let kind = self.kind_name(thing).unwrap_or_default();
+                let kind = english::russian_of(&kind).first().copied().unwrap_or("предмет");
+                NounPhrase::parse(kind, &WordHints::default()).gender()
+            }
+        };
+        (gender, Number::Singular)
     }
 
     /// «находится», "is"

@@ -244,7 +244,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowBig(Dimension::Area),
-        "какой общей площади|общая площадь|какова общая площадь|какая общая площадь|what is the total floor area|total floor area|the total floor area|what is the total area|total area|the total area|какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area|площади|каковы площади",
+        "сколько места занимает|сколько места занимают|how much space does|how much room does|площади|какой общей площади|общая площадь|какова общая площадь|какая общая площадь|what is the total floor area|total floor area|the total floor area|what is the total area|total area|the total area|какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area|площади|каковы площади",
     ),
     (
         Mark::Exists,
@@ -266,7 +266,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -353,7 +353,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Moved,
-        "переставили|переставил|переставила|передвинули|передвинул|передвинула|перенесли|перенёс|переставляли|передвигали|двигали|перемещали|переместили|moved|been moved|relocated|rearranged|last moved",
+        "двигал|двигала|трогал|трогала|трогали|переносил|переносила|touched|переставили|переставил|переставила|передвинули|передвинул|передвинула|перенесли|перенёс|переставляли|передвигали|двигали|перемещали|переместили|moved|been moved|relocated|rearranged|last moved",
     ),
     (
         Mark::OnlyOne,
@@ -368,7 +368,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
     (
         Mark::All,
-        "everything|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|каждом|каждой|каждого|каждому|каждым|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
+        "everything|всей|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|каждом|каждой|каждого|каждому|каждым|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
     ),
     (
         Mark::Except,
@@ -393,7 +393,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Link(Rel::Above), "над|надо|сверху над|above|over|directly above|right above"),
     (
         Mark::Link(Rel::NextTo),
-        "вдоль|along|рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
+        "вдоль|along|against|up against|рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
     ),
     (
         Mark::Link(Rel::Near),
@@ -401,11 +401,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::LeftOf),
-        "слева от|слева|левее|по левую сторону от|с левой стороны от|по левую руку от|left of|to the left of|on the left of|on the left side of|to the left side of|at the left of|left to|on the left hand side of|on the left from|to the left from|left from",
+        "слева от|слева|левее|to the left|on the left|по левую сторону от|с левой стороны от|по левую руку от|left of|to the left of|on the left of|on the left side of|to the left side of|at the left of|left to|on the left hand side of|on the left from|to the left from|left from",
     ),
     (
         Mark::Link(Rel::RightOf),
-        "справа от|справа|правее|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
+        "справа от|справа|правее|to the right|on the right|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
     ),
     (
         Mark::Link(Rel::Behind),
@@ -577,7 +577,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\

@@ -204,6 +204,11 @@ impl Frame<'_, '_> {
             || self.has(Mark::Than)
             || self.has(Mark::Can)
             || self.has(Mark::Exists);
+        // «Что из мебели можно передвинуть?»: of both sorts at once nothing is listed.
+        let of = |s: &Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
+        if self.spots.iter().any(of) {
+            return None;
+        }
         // «Какие книги можно почитать?» asks for books that are such things.
         let own = self.lexicon.kinds_of_sort(sort);
         let covered = |noun: &Noun| noun.head.kinds.iter().all(|kind| own.contains(kind));

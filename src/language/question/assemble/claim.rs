@@ -12,8 +12,14 @@ use crate::language::question::vocabulary::Mark;
 impl Frame<'_, '_> {
     pub(super) fn why(&self) -> Query {
         let negated = self.has(Mark::WhyNot) || self.negated;
+        // «Почему она там?» asks of its place.
+        let there =
+            ["там", "there"].iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
         let about = match self.nouns.is_empty() && self.spots.is_empty() {
             true => None,
+            false if there && self.spots.is_empty() && self.values.is_empty() => {
+                self.first().map(Query::Where)
+            }
             false => self.exists_or_holds(),
         };
         Query::Why { negated, about: about.map(Box::new) }
@@ -86,6 +92,18 @@ impl Frame<'_, '_> {
         Some(Query::Exists { what, either, negated: none && !self.has(Mark::Exists) })
     }
 
+    /// «Холодильник на кухне или в коридоре?», "Is the TV above the cabinet or on it?"
+    fn either_place(&self) -> Option<Query> {
+        let or = self.place_of(Mark::Or)?;
+        let [only] = &self.nouns[..] else { return None };
+        let parted = self.spots.iter().any(|s| s.at < or) && self.spots.iter().any(|s| s.at > or);
+        if !parted || self.spots.len() != 2 || !self.values.is_empty() || self.negated {
+            return None;
+        }
+        let claims = self.spots.iter().flat_map(Spot::restrictions).map(Claim::Related).collect();
+        Some(Query::Choice { subject: only.noun.clone(), claims })
+    }
+
     pub(super) fn holds(&self) -> Option<Query> {
         let told = !self.spots.is_empty() || !self.values.is_empty() || !self.sizes.is_empty();
         if self.has(Mark::Anything) && self.nouns.is_empty() && told {
@@ -104,6 +122,9 @@ impl Frame<'_, '_> {
             noun.except.extend(self.except.iter().cloned());
             let claims = self.filters().into_iter().map(Claim::Value).collect();
             return Some(Query::Holds { subject: noun, claims, negated: self.negated });
+        }
+        if let Some(choice) = self.either_place() {
+            return Some(choice);
         }
         let at = self.nouns.iter().position(|s| s.nominative).unwrap_or(0);
         let first = self.nouns.get(at)?;

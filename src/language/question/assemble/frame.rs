@@ -13,6 +13,7 @@ use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::query::{
     Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction, Thing,
 };
+use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary::{Mark, Pronoun};
 use crate::language::report::Detail;
 
@@ -39,6 +40,7 @@ impl<'s, 't> Frame<'s, 't> {
             negated: false,
             except: Vec::new(),
         };
+        let items = &sides_shared(items)[..];
         let mut not = false;
         let mut without = false;
         for (at, item) in items.iter().enumerate() {
@@ -64,8 +66,11 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Noun(phrase) => {
                     let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
                     // "the green book and the red one"
-                    let joined =
-                        at > 0 && matches!(items[at - 1], Item::Mark(Mark::And | Mark::Or));
+                    let joined = at > 0
+                        && matches!(
+                            items[at - 1],
+                            Item::Mark(Mark::And | Mark::Or | Mark::As | Mark::Than)
+                        );
                     if let Some(before) = frame.nouns.last().filter(|_| joined)
                         && noun.head.anything
                         && !before.noun.head.kinds.is_empty()
@@ -98,7 +103,26 @@ impl<'s, 't> Frame<'s, 't> {
                         continue;
                     }
                     for phrase in nouns {
-                        anchors.extend(frame.noun(phrase, referent)?);
+                        // «над тумбой или на ней»: what the sentence has just named.
+                        if phrase.pronoun.is_some()
+                            && frame.has(Mark::Or)
+                            && let Some(before) = frame.spots.last()
+                        {
+                            anchors.extend(before.nouns.first().cloned());
+                            continue;
+                        }
+                        let mut noun = frame.noun(phrase, referent)?;
+                        // «рядом с красной», "next to the red one"
+                        if let (Some(noun), Some(before)) = (&mut noun, frame.nouns.last())
+                            && noun.head.anything
+                            && !noun.filters.is_empty()
+                            && !before.noun.head.kinds.is_empty()
+                            && !frame.is_area(&before.noun)
+                        {
+                            let kinds = before.noun.head.kinds.clone();
+                            noun.head = Head { kinds, ..Head::default() };
+                        }
+                        anchors.extend(noun);
                         if phrase.person == Some(Mark::You) {
                             anchors.push(things(vec![Thing::Robot], "you"));
                         }
@@ -365,6 +389,14 @@ impl<'s, 't> Frame<'s, 't> {
         noun.except.extend(self.except.iter().cloned());
         // «Что ещё на нём стоит?»
         noun.other |= noun.head.anything && self.has(Mark::Other);
+        if noun.other {
+            // "What else is in the room with the bed?": the bed is not asked for.
+            let places = noun.restrictions.iter().flat_map(|r| &r.anchors);
+            let having = places.flat_map(|place| &place.restrictions);
+            let named = having.filter(|r| matches!(r.rel, Rel::Has | Rel::Bears));
+            let named: Vec<Noun> = named.flat_map(|r| r.anchors.clone()).collect();
+            noun.except.extend(named);
+        }
         if let Some(there) = &self.there {
             noun.restrictions.push(Restriction {
                 rel: Rel::In,
@@ -393,6 +425,14 @@ impl<'s, 't> Frame<'s, 't> {
             match last {
                 Some(anchor) if self.is_area(anchor) => {
                     anchor.restrictions.extend(spot.restrictions())
+                }
+                // "on the table with the vase"
+                Some(anchor)
+                    if !anchor.head.kinds.is_empty()
+                        && self.spots.iter().any(|s| s.at + 1 == spot.at) =>
+                {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    anchor.restrictions.extend(spot.restrictions());
                 }
                 _ if area => noun.restrictions.extend(spot.restrictions()),
                 _ => {
@@ -436,8 +476,13 @@ impl<'s, 't> Frame<'s, 't> {
         let mut filters: Vec<Filter> = Vec::new();
         let mut last = None;
         for (value, at, negated) in &self.values {
+            let property = |value: ValueId| &self.lexicon.values.entry(value).property;
             let joined = at.checked_sub(1).is_some_and(|joint| {
-                last == joint.checked_sub(1) && self.marks.contains(&(Mark::Or, joint))
+                // «красная и синяя»: no thing is both.
+                let alike = filters.last().is_some_and(|f| property(f.value) == property(*value));
+                last == joint.checked_sub(1)
+                    && (self.marks.contains(&(Mark::Or, joint))
+                        || (alike && self.marks.contains(&(Mark::And, joint))))
             });
             match filters.last_mut() {
                 Some(before) if joined => before.or.push(*value),
@@ -527,4 +572,18 @@ fn frame_text(item: &Item) -> &str {
         Item::Noun(phrase) => &phrase.noun.text,
         _ => "",
     }
+}
+
+/// «слева или справа от кровати»: both sides are of the bed.
+fn sides_shared(items: &[Item]) -> Vec<Item> {
+    let mut items = items.to_vec();
+    for n in 0..items.len().saturating_sub(2) {
+        let [Item::Link(rel), Item::Mark(Mark::Or), Item::Place { nouns, either, .. }] =
+            &items[n..n + 3]
+        else {
+            continue;
+        };
+        items[n] = Item::Place { rel: *rel, nouns: nouns.clone(), either: *either };
+    }
+    items
 }

@@ -70,7 +70,8 @@ fn each_of(
                 | Mark::Alike
         )
     };
-    let shared = frame.spots.iter().any(|s| s.nouns[0].same);
+    let shared = frame.spots.iter().any(|s| s.nouns[0].same)
+        || frame.links.iter().any(|(rel, _)| matches!(rel, Rel::NextTo | Rel::Near));
     if shared || frame.marks.iter().any(|(mark, _)| together(mark)) {
         return None;
     }
@@ -226,6 +227,20 @@ impl Frame<'_, '_> {
         if way && self.spots.iter().any(|s| s.rel == Rel::Through && !door(s)) {
             return None;
         }
+        // «Стулья на кухне того же цвета, что стулья в гостиной?» compares two groups.
+        let groups = self.nouns.len() > 1 && {
+            let group = |s: &Subject| s.noun.plural && s.noun.head.named.is_empty();
+            self.nouns.iter().all(group)
+        };
+        if self.has(Mark::Same) && self.property.is_some() && groups {
+            return None;
+        }
+        // "What can be opened in the bedroom?" does not ask what is open.
+        let state = |value: ValueId| self.lexicon.values.entry(value).property == Property::State;
+        let done = self.asks() && self.has(Mark::Can) && !self.has(Mark::Move);
+        if done && self.values.iter().any(|(value, _, _)| state(*value)) {
+            return None;
+        }
         let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
         if fits && self.spot(&[Rel::Under]).is_some() {
             return None;
@@ -236,6 +251,7 @@ impl Frame<'_, '_> {
             .or_else(|| self.keys())
             .or_else(|| self.together())
             .or_else(|| self.difference())
+            .or_else(|| self.side_by_side())
             .or_else(|| self.way())
             .or_else(|| self.more_of())
             .or_else(|| self.most())

@@ -3,7 +3,7 @@
 //! Invariant: at least two things are compared, or one description of several.
 
 use super::Frame;
-use crate::language::question::query::{Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Claim, Noun, Query, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -51,10 +51,25 @@ impl Frame<'_, '_> {
         Query::Find(noun)
     }
 
+    /// «Диван и кресло стоят рядом?», "Are the sofa and the armchair next to each other?"
+    pub(super) fn side_by_side(&self) -> Option<Query> {
+        let (rel, _) = *self.links.iter().find(|(r, _)| matches!(r, Rel::NextTo | Rel::Near))?;
+        let [first, second] = &self.nouns[..] else { return None };
+        if self.asks() || !self.has(Mark::And) || self.has(Mark::Where) || !self.spots.is_empty() {
+            return None;
+        }
+        let anchors = vec![second.noun.clone()];
+        let claims = vec![Claim::Related(Restriction { rel, anchors, negated: false })];
+        Some(Query::Holds { subject: first.noun.clone(), claims, negated: self.negated })
+    }
+
     /// «Чем отличаются Шкаф-1 и Шкаф-2?», "What do the sofa and the bookshelf have in common?"
     pub(super) fn difference(&self) -> Option<Query> {
         let alike = self.has(Mark::Alike);
-        if !alike && !self.has(Mark::Differ) {
+        // «Тумбочки одинаковые?»: in nothing do they differ.
+        let alone = self.spots.is_empty() && self.links.is_empty() && self.values.is_empty();
+        let same = self.has(Mark::Same) && self.property.is_none() && !self.asks() && alone;
+        if !alike && !self.has(Mark::Differ) && !same {
             return None;
         }
         let mut of: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();

@@ -157,6 +157,17 @@ impl Frame<'_, '_> {
     pub(super) fn leads(&self) -> Option<Query> {
         let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
+        // «Из какой комнаты можно выйти на улицу?»
+        let exit = self.spots.iter().find(|s| self.is_exits(&s.nouns[0]));
+        let asked = self.nouns.iter().find(|s| self.is_rooms(&s.noun) && self.follows_which(s.at));
+        if let (Some(exit), Some(asked)) = (exit, asked)
+            && (self.has(Mark::Lead) || self.has(Mark::Move))
+        {
+            let anchors = vec![Noun { indefinite: true, ..exit.nouns[0].clone() }];
+            let mut rooms = Noun { plural: true, indefinite: true, ..asked.noun.clone() };
+            rooms.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: false });
+            return Some(Query::Find(rooms));
+        }
         // «Куда попадёшь из кухни через Дверь-ВZ?»
         let through = self.spots.iter().find(|s| s.rel == Rel::Through);
         if let Some(through) = through.filter(|s| {
@@ -205,7 +216,11 @@ impl Frame<'_, '_> {
                 noun.restrictions.push(Restriction { rel: Rel::Of, anchors, negated: false });
             }
             // «Какая дверь ведёт на улицу?»
-            if let Some(out) = self.spots.iter().find(|s| self.is_exits(&s.nouns[0])) {
+            let out = |s: &&Spot| {
+                self.is_exits(&s.nouns[0])
+                    || (matches!(s.rel, Rel::From | Rel::Outside) && self.is_building(&s.nouns[0]))
+            };
+            if let Some(out) = self.spots.iter().find(out) {
                 noun.head.kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
                 return Some(Query::Find(self.with_rest(noun, &[out.at])));
             }

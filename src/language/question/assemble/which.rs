@@ -24,7 +24,7 @@ impl Frame<'_, '_> {
         let Some(counted) = counted else {
             // «Сколько в комнате чёрных?», "how many are on the table"
             let mut noun = Noun { plural: true, ..Noun::default() };
-            let of = self.spot(&[Rel::Of]).filter(|s| !self.is_area(&s.nouns[0]));
+            let of = self.spot(&[Rel::Of, Rel::From]).filter(|s| !self.is_area(&s.nouns[0]));
             if let Some(of) = of {
                 return Some(Query::Count(self.with_rest(of.nouns[0].clone(), &[of.at])));
             }
@@ -302,6 +302,10 @@ impl Frame<'_, '_> {
         noun.plural = true;
         let others = self.nouns.iter().filter(|s| s.noun != *rooms && !self.is_building(&s.noun));
         let others: Vec<&Subject> = others.collect();
+        // "Which rooms on the first floor have no chairs?": the storey is of the rooms.
+        for spot in self.spots.iter().filter(|s| self.is_of_storey(s)) {
+            noun.restrictions.extend(spot.restrictions());
+        }
         // "Which rooms have a bed or a fridge?": either will do.
         if self.has(Mark::Or) && others.len() > 1 {
             let anchors = others
@@ -323,10 +327,18 @@ impl Frame<'_, '_> {
     /// A noun with the values and places of the sentence.
     fn narrowed(&self, mut noun: Noun) -> Noun {
         noun.filters.extend(self.filters());
-        for spot in &self.spots {
+        for spot in self.spots.iter().filter(|s| !self.is_of_storey(s)) {
             self.attach(&mut noun, spot);
         }
         noun
+    }
+
+    fn is_of_storey(&self, spot: &super::Spot) -> bool {
+        let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Map(_));
+        let noun = &spot.nouns[0];
+        matches!(spot.rel, Rel::In | Rel::On)
+            && (self.is_storeys(noun)
+                || (!noun.head.named.is_empty() && noun.head.named.iter().all(named)))
     }
 
     /// "Everything in Room V except the chairs": a list, where no verb makes it a claim.

@@ -9,6 +9,7 @@
 //! ```
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
+mod governed;
 mod measures;
 mod relative;
 mod tokens;
@@ -227,7 +228,10 @@ impl<'t> Sentence<'t> {
     fn place<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let (rest, mark) = self.mark(input, |m| matches!(m, Mark::Link(_)))?;
         let Mark::Link(rel) = mark else { return fail(input) };
-        let Ok((rest, first)) = self.phrase(rest) else { return Ok((rest, Item::Link(rel))) };
+        let Ok((rest, first)) = self.phrase(rest).or_else(|_| self.valued(rest)) else {
+            return Ok((rest, Item::Link(rel)));
+        };
+        let rel = self.having(&input.0[0], &first).unwrap_or(rel);
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
@@ -396,6 +400,10 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
+            // "the smaller wardrobe": of two the one that is so.
+            Tok::Mark(Mark::More(extreme)) if self.is_the_more(first, rest) => {
+                Modifier::Best(extreme)
+            }
             Tok::Number(count) => Modifier::Number(count),
             // «Закрыта дверь?» says it of the door; it does not tell which.
             Tok::Value(_) if self.is_predicate(first) => return fail(input),
@@ -483,7 +491,7 @@ impl<'t> Sentence<'t> {
             text: self.said(&words).to_owned(),
             ..Noun::default()
         };
-        if names && self.language == Language::Russian {
+        if names && (self.language == Language::Russian || found.is_storey) {
             return Ok((after, Some(next), None));
         }
         match self.language {
@@ -528,17 +536,6 @@ impl<'t> Sentence<'t> {
             }
             _ => Ok((rest, Some(found), None)),
         }
-    }
-
-    /// Whether a genitive plural behind a place belongs to the «сколько» before it, which has no noun of its own.
-    fn is_counted(&self, place: u32, next: &Found) -> bool {
-        let before: Vec<&Token> = self.tokens.iter().filter(|t| t.to <= place).collect();
-        let Some(asks) = before.iter().rposition(|t| t.kind == Tok::Mark(Mark::HowMany)) else {
-            return false;
-        };
-        matches!(before.last().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))))
-            && before[asks..].iter().all(|t| !matches!(t.kind, Tok::Noun(_)))
-            && next.readings.iter().any(|r| r.has(Number::Plural, Case::Genitive))
     }
 
     fn single<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {

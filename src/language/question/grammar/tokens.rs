@@ -79,7 +79,9 @@ impl<'t> Sentence<'t> {
         // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
         let article = matches!(
             before,
-            Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany))
+            Some(Tok::Mark(
+                Mark::The | Mark::A | Mark::Which | Mark::All | Mark::Same | Mark::HowMany
+            ))
         );
         let noun_wins = named == longest
             && match mark {
@@ -313,6 +315,7 @@ impl<'t> Sentence<'t> {
                             | Mark::What
                             | Mark::HowMany
                             | Mark::All
+                            | Mark::Same
                             | Mark::Best(_)
                     )
             )

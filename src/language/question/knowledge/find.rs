@@ -8,7 +8,7 @@ use crate::language::question::Doubt;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
-use crate::units::{ObjectId, ReplicaId, Vector};
+use crate::units::{AreaId, ObjectId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 impl Knowledge<'_> {
@@ -142,6 +142,14 @@ impl Knowledge<'_> {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
                 Ok(related) => related,
             };
+            // "Which floor has the lamp?"
+            let mut related = related;
+            if restriction.rel == Rel::Has && !found.is_empty() && found.iter().all(|t| is_map(*t))
+            {
+                let areas: Vec<AreaId> = related.iter().filter_map(|t| t.area()).collect();
+                let maps = areas.into_iter().filter_map(|area| self.world.placement(area));
+                related.extend(maps.map(|(map, _)| Thing::Entity(Entity::Map(map))));
+            }
             // "What is in the kitchen" asks for things, "what is next to the kitchen" may ask for rooms.
             if noun.head.anything
                 && !restriction.negated
@@ -152,6 +160,10 @@ impl Knowledge<'_> {
                     found = rooms.collect();
                     continue;
                 }
+            }
+            // "What is between the kitchen and the bedroom?" asks for doors.
+            if noun.head.anything && restriction.rel == Rel::Between && !restriction.negated {
+                found.extend(related.iter().filter(|t| self.gate(**t).is_some()));
             }
             let before = found.clone();
             // «стулья у стола»: whatever its kind is at furniture that stands no farther than a step.
@@ -207,7 +219,7 @@ impl Knowledge<'_> {
         restriction: &Restriction,
         found: &[Thing],
     ) -> Option<HashSet<Thing>> {
-        let one = !noun.plural && !noun.all && !noun.indefinite && !noun.head.kinds.is_empty();
+        let one = !noun.plural && !noun.all && !noun.head.kinds.is_empty();
         if !one || restriction.negated || noun.head.things.is_some() {
             return None;
         }
@@ -361,7 +373,14 @@ impl Knowledge<'_> {
         };
         if let (Some(a), Some(b)) = (a.area(), b.area()) {
             let joins = |g: &&Gate| g.areas.contains(&a) && g.areas.contains(&b);
-            return Ok(self.gates().iter().filter(joins).map(|g| g.thing).collect());
+            let gates = self.gates().iter().filter(joins).map(|g| g.thing);
+            // Between two rooms are their doors, and the rooms that both lead to.
+            let next = |area: AreaId| -> HashSet<Thing> {
+                let room = Thing::Entity(Entity::Area(area));
+                self.related(Rel::Near, room).into_iter().collect()
+            };
+            let rooms = &next(a) & &next(b);
+            return Ok(gates.chain(rooms).collect());
         }
         let (Some(a), Some(b)) = (a.replica(), b.replica()) else { return Ok(HashSet::new()) };
         let between = self.relations.standing_between(a, b);
