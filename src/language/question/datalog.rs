@@ -174,7 +174,7 @@ impl Rule<'_, '_> {
                 }
                 (thing, String::new())
             }
-            Query::Size { of, .. } | Query::Free(of) | Query::Describe(of) => {
+            Query::Size { of, .. } | Query::Free(of) | Query::Sees(of) | Query::Describe(of) => {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
             Query::Distance { from, to }

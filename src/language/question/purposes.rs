@@ -52,7 +52,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "вещь для питья",
         "thing to drink from",
-        "из чего попить|из чего выпить|пить|пьют|попить чаю|выпить чаю|попить кофе|выпить кофе|попить чай|drink from|drink out of|drink tea|drink coffee|drink",
+        "из чего попить|из чего выпить|пить|пьют|пить чай|пить чаю|пить кофе|попить чаю|выпить чаю|попить кофе|выпить кофе|попить чай|drink from|drink out of|drink tea|drink coffee|drink",
         "cup|mug|glass|wine glass|water glass|чашка|кружка|стакан|бокал",
     ),
     sort(

@@ -236,6 +236,7 @@ pub struct Best {
 }
 
 /// What is said of a subject.
+#[expect(clippy::large_enum_variant, reason = "a question has one or two of them, read once")]
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Claim {
     Related(Restriction),
@@ -377,6 +378,8 @@ pub enum Query {
     /// Nothing is asked: a greeting, thanks.
     Courtesy(Courtesy),
     WhatDoYouSee,
+    /// Whether one of such things is in the robot's view.
+    Sees(Noun),
     WhatDoYouHold,
     Describe(Noun),
     /// Of the last answer, or of a claim.
@@ -430,6 +433,7 @@ impl Query {
             | Self::Free(noun)
             | Self::LastSeen(noun)
             | Self::Before(noun)
+            | Self::Sees(noun)
             | Self::Describe(noun) => noun.each(act),
             Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
@@ -528,6 +532,7 @@ impl Query {
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
+            Self::Sees(_) => "sees",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
             Self::Why { .. } => "why",

@@ -77,13 +77,13 @@ impl Asker<'_> {
     fn last_head(&self, part: &str) -> Option<String> {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let nouns = sentence.items().into_iter().filter_map(|item| match item {
+        let mut nouns = sentence.items().into_iter().filter_map(|item| match item {
             Item::Noun(phrase) if phrase.person.is_none() && phrase.pronoun.is_none() => {
                 Some(phrase.words)
             }
             _ => None,
         });
-        let words = nouns.last()?;
+        let words = nouns.next_back()?;
         Some(sentence.said(&(words.end.checked_sub(1)?..words.end)).to_owned())
     }
 

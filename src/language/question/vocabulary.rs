@@ -196,7 +196,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::HowFar,
         "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
-        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres|how many meters|how many centimetres",
+        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres is it|how many meters is it|how many metres|how many meters|how many centimetres",
     ),
     (
         Mark::HowGet,
@@ -372,7 +372,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Except,
-        "кроме|помимо|не считая|за исключением|исключая|если не считать|except|except for|apart from|other than|aside from",
+        "besides|кроме|помимо|не считая|за исключением|исключая|если не считать|except|except for|apart from|other than|aside from",
     ),
     (
         Mark::Other,
@@ -393,7 +393,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Link(Rel::Above), "над|надо|сверху над|above|over|directly above|right above"),
     (
         Mark::Link(Rel::NextTo),
-        "вдоль|along|against|up against|рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
+        "вдоль|along|against|up against|рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|nearby",
     ),
     (
         Mark::Link(Rel::Near),

@@ -112,6 +112,7 @@ impl Knowledge<'_> {
             Query::Help => self.help(),
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
+            Query::Sees(noun) => self.sees(noun)?,
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,

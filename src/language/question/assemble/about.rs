@@ -97,6 +97,19 @@ impl Frame<'_, '_> {
 
     /// "Which key opens the lab?", «От какой двери ключ?», "What does Key 1 open?"
     pub(super) fn keys(&self) -> Option<Query> {
+        // «Чем открыть лабораторию?»
+        let with_what = self.sentence.keys.first().is_some_and(|key| key == "чем");
+        if let ([door], true, true) = (&self.nouns[..], self.has(Mark::Opens), with_what)
+            && (self.is_area(&door.noun) || self.is_doors(&door.noun))
+        {
+            let anchors = vec![door.noun.clone()];
+            let opens = Restriction { rel: Rel::Opens, anchors, negated: false };
+            let head = Head { anything: true, ..Head::default() };
+            let restrictions = vec![opens];
+            let noun =
+                Noun { head, plural: true, indefinite: true, restrictions, ..Noun::default() };
+            return Some(Query::Find(noun));
+        }
         let key = self.nouns.iter().find(|s| self.is_key(&s.noun))?;
         let from = self.links.iter().any(|(rel, _)| matches!(rel, Rel::From | Rel::To));
         let open = self.lexicon.values.meaning("открытый");
@@ -311,6 +324,7 @@ impl Frame<'_, '_> {
             && self.values.is_empty()
             && (self.asks()
                 || self.has(Mark::How)
+                || self.sentence.keys.iter().any(|key| key == "чего")
                 || self.place_of(Mark::MadeOf) == Some(0)
                 || !self.links.is_empty())
         {

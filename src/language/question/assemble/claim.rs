@@ -36,6 +36,18 @@ impl Frame<'_, '_> {
         let none = self.has(Mark::Not)
             && self.values.is_empty()
             && self.nouns.iter().any(|s| !s.nominative);
+        // «Ты видишь кресло?»: in view, not on the map.
+        let key = |word: &str| self.sentence.keys.iter().any(|key| key == word);
+        let from_here = key("see") && key("from");
+        let plain = self.spots.is_empty()
+            && self.values.is_empty()
+            && (from_here || !self.has(Mark::Exists));
+        if let ([only], true, true) = (&self.nouns[..], self.has(Mark::See) || from_here, plain)
+            && !self.is_area(&only.noun)
+            && !self.asks()
+        {
+            return Some(Query::Sees(only.noun.clone()));
+        }
         let seen = self.has(Mark::See) && !self.nouns.is_empty();
         let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none;
         if !exists {

@@ -102,11 +102,31 @@ impl Frame<'_, '_> {
             (None, Some(to), 1..) if far => (Some(ends[0].clone()), to),
             (from, Some(to), _) => (from, to),
             (Some(from), None, 0) if far => (None, from),
+            // «Как выйти из спальни?»: by its doors.
+            (Some(from), None, 0) if how && self.is_area(&from) => {
+                let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
+                let out = Restriction { rel: Rel::From, anchors: vec![from], negated: false };
+                let head = Head { kinds, ..Head::default() };
+                let restrictions = vec![out];
+                return Some(Query::Find(Noun {
+                    head,
+                    plural: true,
+                    restrictions,
+                    ..Noun::default()
+                }));
+            }
             _ => return None,
         };
+        // "… to the wardrobe in the bedroom"
+        let mut to = to;
+        let goal = self.spots.iter().find(|s| s.rel == Rel::To && s.nouns[0] == to);
+        let room = goal.and_then(|goal| self.spots.iter().find(|s| s.at == goal.at + 1));
+        let room = room.filter(|s| s.rel == Rel::In && self.is_area(&s.nouns[0]));
+        if let Some(room) = room.filter(|_| !self.is_area(&to)) {
+            to.restrictions.extend(room.restrictions());
+        }
         let from = from.filter(|noun| !robot(noun));
         // Of several ways out the nearest is meant.
-        let mut to = to;
         if self.is_exits(&to) && to.best.is_none() {
             to.best = Some(Best { extreme: Extreme::Nearest, anchor: None });
         }

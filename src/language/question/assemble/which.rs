@@ -5,7 +5,7 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -181,6 +181,11 @@ impl Frame<'_, '_> {
                 return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
             }
             return Some(Query::Anchor { rel, of: of_noun, what: None });
+        }
+        // "What are you standing next to?"
+        if let (Some(rel), None, true, true) = (link, other, self.you, self.spots.is_empty()) {
+            let of = super::things(vec![Thing::Robot], "you");
+            return Some(Query::Anchor { rel, of, what: asked.map(|s| s.noun.clone()) });
         }
         if let Some(asked) = asked.or(other) {
             let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
@@ -360,7 +365,10 @@ impl Frame<'_, '_> {
                 noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
             return Some(Query::Describe(self.with_rest(noun, &without)));
         }
-        if !self.has(Mark::List) {
+        let shows = ["show", "покажи", "покажите"];
+        let shown = self.sentence.keys.iter().any(|key| shows.contains(&key.as_str()))
+            && self.first().is_some_and(|noun| noun.plural);
+        if !self.has(Mark::List) && !shown {
             return None;
         }
         let mut noun = self.first().unwrap_or_default();

@@ -58,6 +58,16 @@ impl Sentence<'_> {
             && next.readings.iter().any(|r| r.has(Number::Plural, Case::Genitive))
     }
 
+    /// «Что за комната Комната-Z?»: with a nominative «за» puts nothing behind anything.
+    pub(super) fn is_what_sort(&self, link: &Token, phrase: &Phrase) -> bool {
+        let what = self.tokens.iter().rev().find(|t| t.to <= link.from).map(|t| t.kind);
+        self.keys[link.from as usize] == "за"
+            && what == Some(Tok::Mark(Mark::What))
+            && !phrase.cases.is_empty()
+            && phrase.cases.iter().all(|r| !r.has_case(Case::Instrumental))
+            && phrase.nominative
+    }
+
     /// "the smaller wardrobe": a comparative right before its noun.
     pub(super) fn is_the_more(&self, more: &Token, rest: Tokens<'_>) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.to <= more.from);

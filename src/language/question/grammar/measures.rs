@@ -77,10 +77,8 @@ impl Sentence<'_> {
     /// «выше двух метров», "wider than 80 cm"
     fn compared(&self, at: usize) -> Option<(usize, Tok)> {
         let not = usize::from(["не", "not"].contains(&self.keys[at].as_str()));
-        let (word, extreme) = match vocabulary::longest(self.keys.get(at + not..)?)? {
-            (word, Mark::More(extreme)) => (word, extreme),
-            _ => return None,
-        };
+        let said = vocabulary::longest(self.keys.get(at + not..)?)?;
+        let (word, Mark::More(extreme)) = said else { return None };
         let extreme = match extreme {
             Extreme::Most => Extreme::Biggest,
             Extreme::Fewest => Extreme::Smallest,

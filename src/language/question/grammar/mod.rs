@@ -231,6 +231,9 @@ impl<'t> Sentence<'t> {
         let Ok((rest, first)) = self.phrase(rest).or_else(|_| self.valued(rest)) else {
             return Ok((rest, Item::Link(rel)));
         };
+        if self.is_what_sort(&input.0[0], &first) {
+            return Ok((rest, Item::Noun(first)));
+        }
         let rel = self.having(&input.0[0], &first).unwrap_or(rel);
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
