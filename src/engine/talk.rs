@@ -1,6 +1,6 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use crate::geometry::{Eye, Method};
+use crate::geometry::{Barrier, Eye, Method, NoRoute};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
@@ -10,7 +10,7 @@ use crate::language::question::{
 };
 use crate::language::report::Detail;
 use crate::language::words::{word_keys, word_ranges};
-use crate::map::{Entity, World};
+use crate::map::{DoorStatus, Entity, World};
 use crate::robot::starting_pose;
 use crate::semantics::{Profile, Relations, derive};
 use crate::store::Seen;
@@ -357,6 +357,12 @@ impl RobotSenses<'_> {
     }
 }
 
+/// Whether one closed door that is not locked is all that shuts a way off.
+fn only_shut(no: &NoRoute) -> bool {
+    let NoRoute::Blocked { barriers, .. } = no else { return false };
+    matches!(&barriers[..], [Barrier::Door { status: DoorStatus::Closed, .. }])
+}
+
 impl Senses for RobotSenses<'_> {
     fn robot(&self) -> Option<(MapId, Pose)> {
         self.engine.robot_pose()
@@ -406,7 +412,12 @@ impl Senses for RobotSenses<'_> {
                 Ok(route) => length += route.length,
                 Err(no) => {
                     let world = around.world().map_err(|e| e.to_string())?;
-                    return Err(no_way_in_words(world, no, language));
+                    let why = no_way_in_words(world, no, language);
+                    // A door that is shut and no more can be opened.
+                    return Err(match only_shut(no) {
+                        true => format!("{why}, {}", pick("но не на замок", "but not locked")),
+                        false => why,
+                    });
                 }
             }
         }

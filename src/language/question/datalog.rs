@@ -119,6 +119,7 @@ impl Rule<'_, '_> {
                     match claim {
                         Claim::Related(restriction) => self.restriction(&thing, restriction),
                         Claim::Value(filter) => self.filter(&thing, filter),
+                        Claim::Size(_) => self.measured = true,
                         Claim::Kind(noun) => self.kinds(&thing, noun),
                     }
                 }
@@ -173,7 +174,7 @@ impl Rule<'_, '_> {
                 }
                 (thing, String::new())
             }
-            Query::Size { of, .. } | Query::Free(of) | Query::Describe(of) => {
+            Query::Size { of, .. } | Query::Free(of) | Query::Sees(of) | Query::Describe(of) => {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
             Query::Distance { from, to }
@@ -190,6 +191,10 @@ impl Rule<'_, '_> {
             Query::Closer { what, near, than, .. } => {
                 let terms = [what, near, than].map(|n| self.noun(n));
                 (terms.join(", "), pick("расстояния сравниваются", "distances are compared"))
+            }
+            Query::Together { of, .. } | Query::Differ { of, .. } => {
+                let terms: Vec<String> = of.iter().map(|n| self.noun(n)).collect();
+                (terms.join(", "), pick("по местам и значениям", "by places and values"))
             }
             Query::WhichMore { of, .. } | Query::Same { of, .. } | Query::MoreOf { of, .. } => {
                 let terms = [&of[0], &of[1]].map(|n| self.noun(n));
@@ -253,6 +258,8 @@ impl Rule<'_, '_> {
         for filter in &noun.filters {
             self.filter(&term, filter);
         }
+        let at = |r: &Restriction| r.rel == Rel::NextTo && !noun.head.kinds.is_empty();
+        self.measured |= !noun.sizes.is_empty() || noun.restrictions.iter().any(at);
         for except in &noun.except {
             let other = self.noun(except);
             self.atoms.push(format!("{term} != {other}"));

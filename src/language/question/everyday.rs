@@ -5,7 +5,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::lexicon::Lexicon;
+use super::lexicon::{Lexicon, Meaning};
 use super::vocabulary;
 use crate::language::words::{
     Case, Language, NounPhrase, Number, WordHints, everyday, word_ranges,
@@ -62,7 +62,10 @@ pub(super) fn plain<'t>(text: &'t str, lexicon: &Lexicon) -> Cow<'t, str> {
                 replaced.push((words[at].start..words[at + n - 1].end, word));
                 at += n;
             }
-            None => at += 1,
+            None => {
+                replaced.extend(with_head(text, &words, at, lexicon));
+                at += 1;
+            }
         }
     }
     if replaced.is_empty() {
@@ -124,6 +127,31 @@ fn turned(
     }
     let turned = format!("{} {}", &text[next.clone()], &text[words[at].clone()]);
     is_name(&turned, lexicon).then(|| (words[at].start..next.end, turned))
+}
+
+/// «сколько дверей, кроме входной»: an adjective for a name whose noun the sentence has already.
+fn with_head(
+    text: &str,
+    words: &[Range<usize>],
+    at: usize,
+    lexicon: &Lexicon,
+) -> Option<(Range<usize>, String)> {
+    let said = &text[words[at].clone()];
+    if Language::of(said) != Language::Russian || said.chars().count() < 4 {
+        return None;
+    }
+    let others = words.iter().enumerate().filter(|(n, _)| *n != at);
+    let kinds = others.flat_map(|(_, word)| lexicon.nouns.find(&text[word.clone()]));
+    let kinds = kinds.filter_map(|hit| match hit.id {
+        Meaning::Kind(kind) => Some(*kind),
+        Meaning::Entity(_) => None,
+    });
+    let mut forms = kinds.flat_map(|kind| lexicon.kind(kind).phrase.all_forms());
+    let whole = forms.find_map(|(_, _, form)| {
+        let whole = format!("{said} {form}");
+        is_name(&whole, lexicon).then_some(whole)
+    })?;
+    Some((words[at].clone(), whole))
 }
 
 /// Adjectives of rooms, without their endings.

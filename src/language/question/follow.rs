@@ -1,7 +1,7 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
-use super::grammar::Sentence;
-use super::vocabulary::Pronoun;
+use super::grammar::{Item, Sentence};
+use super::vocabulary::{Mark, Pronoun};
 use super::{Asker, Claim, Extension, Head, Memory, Noun, Query, Thing, assemble};
 use crate::map::Entity;
 
@@ -12,7 +12,7 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
-        if !begins.iter().any(|b| key.starts_with(b)) {
+        if !begins.iter().any(|b| key.starts_with(b)) && !self.asks_extreme_only(text) {
             return None;
         }
         if let Some(query) = self.another_asked(&key, last, memory) {
@@ -44,6 +44,22 @@ impl Asker<'_> {
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// «Какая самая маленькая?», "Which is the biggest one?": a superlative and no noun.
+    fn asks_extreme_only(&self, text: &str) -> bool {
+        let text = self.plain(text);
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        let small = |item: &Item| match item {
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Which | Mark::What | Mark::Be | Mark::The | Mark::Best(_) | Mark::One
+            ),
+            Item::Noun(phrase) => phrase.noun.head.anything && phrase.noun.best.is_some(),
+            _ => false,
+        };
+        let asks = matches!(items.first(), Some(Item::Mark(Mark::Which)));
+        asks && items.len() > 1 && items.iter().all(small)
     }
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
@@ -115,11 +131,18 @@ impl Asker<'_> {
             }
             _ => return None,
         };
-        // "Where is the nearest chair? And the farthest?"
+        // "Where is the nearest chair? And the farthest?", «Сколько комнат? Какая самая большая?»
         if noun.best.is_some() {
             asked.best = noun.best;
             asked.rank = noun.rank;
-            return Some(query);
+            asked.plural = false;
+            asked.count = None;
+            asked.indefinite = true;
+            let asked = asked.clone();
+            return Some(match query {
+                Query::Where(_) => Query::Where(asked),
+                _ => Query::Find(asked),
+            });
         }
         if noun.restrictions.is_empty() && noun.filters.is_empty() {
             return None;

@@ -89,7 +89,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Storeys, "этаж|ярус", "storey|level|floor"),
     (
         Extension::Building,
-        "дом|здание|квартира|карта|жильё",
+        "дом|здание|квартира|карта|жильё|модель|план",
         "house|building|flat|apartment|home|map|this place|premises",
     ),
     (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),
@@ -440,6 +440,11 @@ impl Lexicon {
             other => other,
         };
         self.kind_of(&extension).map_or(kind, |id| self.kind(id))
+    }
+
+    /// Whether a kind's word is of what is not counted: «мебель».
+    pub(super) fn is_mass(&self, id: KindId) -> bool {
+        MASS.contains(&&*name_key(self.kind(id).phrase.name()))
     }
 
     /// Whether something is a switch, by the name of its type.

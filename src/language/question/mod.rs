@@ -392,7 +392,10 @@ impl Asker<'_> {
         }
         let outcome = self.answer(text, language, memory);
         if let Err(unanswered) = &outcome
-            && matches!(unanswered.0, Doubt::NotUnderstood { .. } | Doubt::Unknown { .. })
+            && matches!(
+                unanswered.0,
+                Doubt::NotUnderstood { .. } | Doubt::Unknown { .. } | Doubt::NoReferent { .. }
+            )
             && let Some(answer) = self.after_preamble(text, memory)
         {
             return Ok(answer);

@@ -38,9 +38,9 @@ pub(super) const SORTS: &[Sort] = &[
         "tomato|potato|lettuce|carrot|cucumber|bell pepper|onion|cabbage|помидор|картофель|салат|морковь|огурец|лук|капуста",
     ),
     sort(
-        "продукт|еда|пища|съестное|продукт питания",
+        "продукт|еда|пища|съестное|съедобное|продукт питания",
         "food item|food|foodstuff|groceries",
-        "есть съестное|поесть|съесть|покушать|кушать|скушать|перекусить|закусить|есть|eat|have a snack|have a bite|snack on",
+        "есть съестное|поесть|едят|обедают|обедать|ужинать|завтракать|пообедать|поужинать|позавтракать|eat lunch|have lunch|have dinner|have breakfast|съесть|покушать|кушать|скушать|перекусить|закусить|есть|eat|have a snack|have a bite|snack on",
         "fruit|vegetable|bread|egg|cheese|meat|pie|cake|cereal|chips|cupcake|cookie|chocolate|candy bar|candy|sandwich|pancake|pudding|salmon|chicken|milk|sugar|хлеб|яйцо|сыр|мясо|пирог|кекс|чипсы|печенье|шоколад|конфета|бутерброд|молоко|сахар",
     ),
     sort(
@@ -52,7 +52,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "вещь для питья",
         "thing to drink from",
-        "из чего попить|из чего выпить|пить|пьют|попить чаю|выпить чаю|попить кофе|выпить кофе|попить чай|drink from|drink out of|drink tea|drink coffee|drink",
+        "из чего попить|из чего выпить|пить|пьют|пить чай|пить чаю|пить кофе|попить чаю|выпить чаю|попить кофе|выпить кофе|попить чай|drink from|drink out of|drink tea|drink coffee|drink",
         "cup|mug|glass|wine glass|water glass|чашка|кружка|стакан|бокал",
     ),
     sort(
@@ -102,6 +102,18 @@ pub(super) const SORTS: &[Sort] = &[
         "place to wash",
         "помыться|умыться|мыться|принять душ|принять ванну|take a shower|have a shower|take a bath|have a bath|wash myself|wash",
         "shower|bathtub|bath|sink|shower cabin|душ|ванна|раковина|душевая кабина",
+    ),
+    sort(
+        "вещь для резки",
+        "thing to cut with",
+        "порезать|резать|нарезать|разрезать|отрезать|cut|slice|chop|cut with|slice with",
+        "knife|scissors|butter knife|нож|ножницы",
+    ),
+    sort(
+        "место для еды",
+        "place to eat at",
+        "",
+        "dining table|обеденный стол|kitchen table|кухонный стол",
     ),
     sort(
         "вещь для готовки",
@@ -189,6 +201,13 @@ pub(super) fn done_out_of(sort: u16) -> u16 {
     let is_drink = SORTS.get(usize::from(sort)).is_some_and(|s| s.english.starts_with("drink|"));
     let cups = SORTS.iter().position(|s| s.english == "thing to drink from");
     cups.filter(|_| is_drink).and_then(|n| u16::try_from(n).ok()).unwrap_or(sort)
+}
+
+/// «Где можно поесть?» asks for a table, «что поесть» for food: the sort of where a deed is done.
+pub(super) fn done_at(sort: u16) -> u16 {
+    let is_food = SORTS.get(usize::from(sort)).is_some_and(|s| s.english.starts_with("food item|"));
+    let tables = SORTS.iter().position(|s| s.english == "place to eat at");
+    tables.filter(|_| is_food).and_then(|n| u16::try_from(n).ok()).unwrap_or(sort)
 }
 
 /// A verb of [`SORTS`] with the number of its sort.

@@ -40,6 +40,8 @@ pub enum Rel {
     Bears,
     /// Of a key: to a door, or to a room by its door.
     Opens,
+    /// «в метре от стола», "within 50 cm of the door": not farther than so many cm, surface to surface.
+    Within(u32),
 }
 
 /// What a superlative compares.
@@ -169,6 +171,25 @@ impl Filter {
     }
 }
 
+/// «выше двух метров», "larger than 20 m²": what a superlative would compare, against a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sized {
+    pub extreme: Extreme,
+    /// cm; of areas cm²
+    pub than: u64,
+    pub negated: bool,
+}
+
+impl Sized {
+    /// Whether a measure is beyond the number, or not where that is denied.
+    #[must_use]
+    pub fn admits(self, measure: f64) -> bool {
+        let less = matches!(self.extreme, Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest);
+        let than = self.than as f64;
+        (if less { measure < than } else { measure > than }) != self.negated
+    }
+}
+
 /// A relation to other things.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Restriction {
@@ -196,7 +217,10 @@ pub struct Noun {
     pub quantity: Quantity,
     /// «вторая по величине»: the place in the order of the superlative; none is the first.
     pub rank: Option<u64>,
+    /// «в одной комнате», "on the same desk": one for all that are spoken of.
+    pub same: bool,
     pub filters: Vec<Filter>,
+    pub sizes: Vec<Sized>,
     pub restrictions: Vec<Restriction>,
     pub best: Option<Best>,
     /// «кроме лампы»
@@ -212,10 +236,12 @@ pub struct Best {
 }
 
 /// What is said of a subject.
+#[expect(clippy::large_enum_variant, reason = "a question has one or two of them, read once")]
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Claim {
     Related(Restriction),
     Value(Filter),
+    Size(Sized),
     Kind(Noun),
 }
 
@@ -314,6 +340,17 @@ pub enum Query {
         property: Property,
         of: Noun,
     },
+    /// Are all in one room, on one table.
+    Together {
+        of: Vec<Noun>,
+        rel: Rel,
+        place: Noun,
+    },
+    /// In what two things differ, or what they have in common.
+    Differ {
+        of: Vec<Noun>,
+        alike: bool,
+    },
     /// How much of it is free.
     Free(Noun),
     /// Where one can sit, lie, put something.
@@ -341,6 +378,8 @@ pub enum Query {
     /// Nothing is asked: a greeting, thanks.
     Courtesy(Courtesy),
     WhatDoYouSee,
+    /// Whether one of such things is in the robot's view.
+    Sees(Noun),
     WhatDoYouHold,
     Describe(Noun),
     /// Of the last answer, or of a claim.
@@ -376,7 +415,7 @@ impl Claim {
         match self {
             Self::Related(restriction) => restriction.anchors.iter_mut().for_each(|a| a.each(act)),
             Self::Kind(noun) => noun.each(act),
-            Self::Value(_) => {}
+            Self::Value(_) | Self::Size(_) => {}
         }
     }
 }
@@ -394,8 +433,15 @@ impl Query {
             | Self::Free(noun)
             | Self::LastSeen(noun)
             | Self::Before(noun)
+            | Self::Sees(noun)
             | Self::Describe(noun) => noun.each(act),
-            Self::Exists { what, .. } => what.iter_mut().for_each(|n| n.each(act)),
+            Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
+                what.iter_mut().for_each(|n| n.each(act));
+            }
+            Self::Together { of, place, .. } => {
+                of.iter_mut().for_each(|n| n.each(act));
+                place.each(act);
+            }
             Self::Holds { subject, claims, .. } | Self::Choice { subject, claims } => {
                 subject.each(act);
                 claims.iter_mut().for_each(|c| c.each(act));
@@ -472,6 +518,8 @@ impl Query {
             Self::Larger { .. } => "larger",
             Self::MoreOf { .. } => "more_of",
             Self::Same { .. } | Self::SameAll { .. } => "same",
+            Self::Together { .. } => "together",
+            Self::Differ { .. } => "differ",
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
             Self::LastSeen(_) => "last_seen",
@@ -484,6 +532,7 @@ impl Query {
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
+            Self::Sees(_) => "sees",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",
             Self::Why { .. } => "why",

@@ -20,6 +20,10 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         one_of,
         storey_again,
         any_left,
+        your_side,
+        borne_on_it,
+        around,
+        numbers_joined,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -144,7 +148,7 @@ fn up_or_down(words: &Words<'_>) -> Option<String> {
 
 /// «одну из тарелок»: one plate, whichever.
 fn one_of(words: &Words<'_>) -> Option<String> {
-    const ONE: [&str; 8] = ["один", "одна", "одно", "одну", "одного", "одной", "любую", "любой"];
+    const ONE: [&str; 6] = ["один", "одна", "одно", "одну", "любую", "любой"];
     let one = (0..words.keys.len()).find(|n| words.is(*n, &ONE) && words.is(*n + 1, &["из"]))?;
     (one + 2 < words.keys.len()).then(|| {
         let said = &words.text[words.at[one].clone()];
@@ -176,6 +180,59 @@ fn storey_again(words: &Words<'_>) -> Option<String> {
     })
 }
 
+/// "to your left", "on your right": to the left of you.
+fn your_side(words: &Words<'_>) -> Option<String> {
+    let side = (2..words.keys.len()).find(|&n| {
+        words.is(n, &["left", "right"])
+            && words.is(n - 1, &["your"])
+            && words.is(n - 2, &["to", "on"])
+    })?;
+    let said = &words.text[words.at[side].clone()];
+    Some(words.replaced(vec![(side - 2..side + 1, format!("to the {said} of you"))]))
+}
+
+/// "Which chair has something on it?": which is occupied.
+fn borne_on_it(words: &Words<'_>) -> Option<String> {
+    let has = (0..words.keys.len()).find(|&n| {
+        words.is(n, &["has", "have"])
+            && words.is(n + 1, &["something", "anything", "nothing"])
+            && words.is(n + 2, &["on", "in"])
+            && words.is(n + 3, &["it", "them"])
+    })?;
+    let be = if words.is(has, &["has"]) { "is" } else { "are" };
+    let state = if words.is(has + 1, &["nothing"]) { "empty" } else { "occupied" };
+    Some(words.replaced(vec![(has..has + 4, format!("{be} {state}"))]))
+}
+
+/// «Что тебя окружает?»: what is around you.
+fn around(words: &Words<'_>) -> Option<String> {
+    let verb = words.find(&["окружает", "окружают"])?;
+    let before = verb.checked_sub(1).filter(|n| words.is(*n, &["тебя", "его", "ее", "их", "вас"]));
+    Some(match before {
+        Some(whom) => {
+            let said = &words.text[words.at[whom].clone()];
+            words.replaced(vec![(whom..verb + 1, format!("вокруг {said}"))])
+        }
+        None => words.replaced(vec![(verb..verb + 1, "вокруг".to_owned())]),
+    })
+}
+
+/// «Стулья 3 и 4», "chairs 3 and 4": the noun said again before the second number.
+fn numbers_joined(words: &Words<'_>) -> Option<String> {
+    let number = |n: usize| words.keys.get(n).is_some_and(|key| key.parse::<u32>().is_ok());
+    let noun = |n: usize| words.keys[n].chars().all(char::is_alphabetic);
+    let joint = (2..words.keys.len()).find(|&n| {
+        words.is(n, &["и", "или", "and", "or"])
+            && number(n - 1)
+            && noun(n - 2)
+            && number(n + 1)
+            && words.keys[n - 2].chars().count() > 2
+    })?;
+    let said = &words.text[words.at[joint - 2].clone()];
+    let second = &words.text[words.at[joint + 1].clone()];
+    Some(words.replaced(vec![(joint + 1..joint + 2, format!("{said} {second}"))]))
+}
+
 /// "Do I have any apples left?"
 fn any_left(words: &Words<'_>) -> Option<String> {
     let last = words.keys.len() - 1;
@@ -200,6 +257,8 @@ mod tests {
         check("Это далеко?", "Как далеко туда?");
         check("Теперь спускайся!", "Теперь спускайся вниз!");
         check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
+        check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");
+        check("4 стула и 2 стола", "4 стула и 2 стола");
         check("", "");
     }
 }

@@ -1,6 +1,7 @@
 //! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
 
 use super::grammar::{Item, Sentence};
+use super::vocabulary::Mark;
 use super::{Answer, Asker, Memory, Thing, Unanswered, opening, several};
 use crate::language::words::{Language, word_keys};
 
@@ -19,13 +20,71 @@ impl Asker<'_> {
         let parts = several::parts(text)?;
         let mut after = memory.clone();
         let mut answers = Vec::new();
-        for part in parts {
-            let answer = self.answer(part, language, &after).ok()?;
+        let last = parts.last().copied().unwrap_or_default();
+        for (n, part) in parts.iter().enumerate() {
+            let answer = match n > 0 && self.lacks_subject(part) {
+                // «…, и в какой они комнате?»
+                true => {
+                    let pronoun = if language == Language::Russian { "они" } else { "they" };
+                    let whole = format!("{} {pronoun}", part.trim_end_matches(['?', '.', ' ']));
+                    self.answer(&whole, language, &after).ok()?
+                }
+                false => match self.answer(part, language, &after) {
+                    Ok(answer) => answer,
+                    // «Сколько чёрных и сколько белых стульев?»: the noun stands once, at the end.
+                    Err(_) => {
+                        let whole = format!("{part} {}", self.last_head(last)?);
+                        self.answer(&whole, language, &after).ok()?
+                    }
+                },
+            };
             after.learn(&answer);
             answers.push(answer);
         }
         *memory = after;
         Some(Answer::joined(answers, language))
+    }
+
+    /// Whether a question names nothing that it is about: "in which room", «какого цвета».
+    fn lacks_subject(&self, part: &str) -> bool {
+        let text = self.plain(part);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let items = sentence.items();
+        let asks_of = |n: usize| {
+            n > 0
+                && matches!(items[n - 1], Item::Mark(Mark::Which | Mark::What))
+                && matches!(&items[n], Item::Noun(p) if p.noun.head.kinds.iter().any(|k| self.mind.lexicon.is_area(*k)))
+        };
+        let small = |n: usize| match &items[n] {
+            Item::Mark(mark) => matches!(
+                mark,
+                Mark::Where
+                    | Mark::Which
+                    | Mark::What
+                    | Mark::Be
+                    | Mark::HowBig(_)
+                    | Mark::MadeOf
+                    | Mark::HowFar
+            ),
+            Item::Link(_) | Item::Property(_) => true,
+            Item::Noun(_) => asks_of(n),
+            _ => false,
+        };
+        !items.is_empty() && (0..items.len()).all(small)
+    }
+
+    /// The head of the last noun of a question, as it was said.
+    fn last_head(&self, part: &str) -> Option<String> {
+        let text = self.plain(part);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let mut nouns = sentence.items().into_iter().filter_map(|item| match item {
+            Item::Noun(phrase) if phrase.person.is_none() && phrase.pronoun.is_none() => {
+                Some(phrase.words)
+            }
+            _ => None,
+        });
+        let words = nouns.next_back()?;
+        Some(sentence.said(&(words.end.checked_sub(1)?..words.end)).to_owned())
     }
 
     /// "I lost my cup. Where is it?": the last sentence asks; those before it are questions too, or tell what it is

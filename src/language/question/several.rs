@@ -7,17 +7,25 @@ use crate::language::words::{word_keys, word_ranges};
 pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     let words = word_ranges(text);
     let keys = word_keys(text);
-    let cuts: Vec<usize> = (1..keys.len())
-        .filter(|&n| is_joint(&keys[n]) && asks(&keys[..n]) && begins(&keys[n + 1..]))
-        .collect();
+    // A joint is left out; behind a comma alone the next question begins at once.
+    let cut = |n: usize| {
+        let comma = text[words[n - 1].end..words[n].start].contains(',');
+        let joint = is_joint(&keys[n]) && begins(&keys[n + 1..]);
+        let anew = comma && begins_anew(&keys[n..]);
+        (asks(&keys[..n]) && (joint || anew)).then(|| match joint {
+            true => (words[n].start, words[n].end),
+            false => (words[n].start, words[n].start),
+        })
+    };
+    let cuts: Vec<(usize, usize)> = (1..keys.len()).filter_map(cut).collect();
     if cuts.is_empty() {
         return None;
     }
     let mut parts = Vec::new();
     let mut from = 0;
-    for cut in cuts {
-        parts.push(text[from..words[cut].start].trim_matches([' ', ',']));
-        from = words[cut].end;
+    for (end, next) in cuts {
+        parts.push(text[from..end].trim_matches([' ', ',']));
+        from = next;
     }
     parts.push(text[from..].trim());
     parts.iter().all(|part| !part.is_empty()).then_some(parts)
@@ -73,6 +81,18 @@ fn asks(words: &[String]) -> bool {
     (0..words.len()).any(|n| vocabulary::longest(&words[n..]).is_some_and(|(_, m)| is_asking(m)))
 }
 
+/// Whether words behind a comma ask anew, which a relative clause does not: «…, на каком этаже», «…, сколько».
+fn begins_anew(words: &[String]) -> bool {
+    match vocabulary::longest(words) {
+        Some((taken, Mark::Link(_))) => {
+            let next = words.get(taken).map(String::as_str);
+            next.is_some_and(|w| w.starts_with("как") || w == "what")
+        }
+        Some((_, Mark::HowMany)) => true,
+        _ => false,
+    }
+}
+
 /// Whether a part begins with what asks, after a preposition or a small word: «и в какой она комнате».
 fn begins(words: &[String]) -> bool {
     let Some((taken, mark)) = vocabulary::longest(words) else { return false };
@@ -81,9 +101,14 @@ fn begins(words: &[String]) -> bool {
             let next = vocabulary::longest(&words[taken..]);
             next.is_some_and(|(_, m)| matches!(m, Mark::Which | Mark::What))
         }
+        // "… and is it on?"
+        Mark::Be => {
+            let next = vocabulary::longest(&words[taken..]);
+            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_)))
+        }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,
-        mark => is_asking(mark) && words.len() > 1,
+        mark => is_asking(mark) && (words.len() > 1 || mark == Mark::Where),
     }
 }
 
@@ -134,6 +159,9 @@ mod tests {
             "Where is the kettle and how many cups are there?",
             Some(&["Where is the kettle", "how many cups are there?"]),
         );
+        check("Где чашка, на каком этаже?", Some(&["Где чашка", "на каком этаже?"]));
+        check("How many cups are there and where?", Some(&["How many cups are there", "where?"]));
+        check("Где стул, на котором лежит книга?", None);
         check("Где стол и стул?", None);
         check("Что между столом и шкафом?", None);
         assert_eq!(without_tag("The sofa isn't brown, is it?"), "The sofa isn't brown");

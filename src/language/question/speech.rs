@@ -2,6 +2,7 @@
 
 use crate::language::names::named;
 use crate::language::report::Named;
+use crate::language::words::length;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::words::{
     Case, Gender, Language, NounPhrase, Number, WordHints, alternatives, english, enumerate,
@@ -89,7 +90,21 @@ impl Knowledge<'_> {
 
     pub(super) fn gender(&self, thing: Thing) -> (Gender, Number) {
         let named = self.named(thing);
-        (named.phrase().gender(), named.phrase().number())
+        let name = named.phrase();
+        if Language::of(name.name()) == Language::Russian {
+            return (name.gender(), name.number());
+        }
+        // A foreign name goes by what it names: «Office door закрыта».
+        let gender = match thing {
+            Thing::Entity(Entity::Door(_)) | Thing::Opening(_) => Gender::Feminine,
+            Thing::Entity(Entity::Area(_)) => Gender::Neuter,
+            _ => {
+                let kind = self.kind_name(thing).unwrap_or_default();
+                let kind = english::russian_of(&kind).first().copied().unwrap_or("предмет");
+                NounPhrase::parse(kind, &WordHints::default()).gender()
+            }
+        };
+        (gender, Number::Singular)
     }
 
     /// «находится», "is"
@@ -148,6 +163,9 @@ impl Knowledge<'_> {
                 Rel::Of => "of",
                 Rel::Has | Rel::Bears => "with",
                 Rel::Opens => "for",
+                Rel::Within(reach) => {
+                    return format!("within {} of {name}", length(f64::from(reach), self.language));
+                }
             };
             return format!("{before} {name}");
         }
@@ -185,6 +203,10 @@ impl Knowledge<'_> {
             Rel::At => with(Preposition::U, Case::Genitive),
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
             Rel::Opens => with(Preposition::Ot, Case::Genitive),
+            Rel::Within(reach) => {
+                let far = length(f64::from(reach), self.language);
+                format!("не дальше {far} {}", with(Preposition::Ot, Case::Genitive))
+            }
         }
     }
 
@@ -310,7 +332,7 @@ impl Knowledge<'_> {
         if let (false, [only]) = (noun.head.named.is_empty(), &noun.head.named[..]) {
             return self.form(Thing::Entity(*only), Case::Genitive);
         }
-        if noun.head.anything {
+        if noun.head.anything && noun.filters.is_empty() {
             return self.pick("ничего", "nothing").to_owned();
         }
         match self.language {
@@ -323,7 +345,7 @@ impl Knowledge<'_> {
 
     /// Where a description says its things are: «в Комнате-В на столах».
     pub(super) fn restrictions(&self, noun: &Noun) -> String {
-        let mut parts: Vec<String> = Vec::new();
+        let mut parts: Vec<String> = noun.sizes.iter().map(|size| self.size_words(*size)).collect();
         for restriction in &noun.restrictions {
             let mut anchors: Vec<Thing> = Vec::new();
             let mut text = String::new();
@@ -442,6 +464,10 @@ impl Knowledge<'_> {
             Rel::LeftOf => format!("слева {}", with(Preposition::Ot, Case::Genitive)),
             Rel::RightOf => format!("справа {}", with(Preposition::Ot, Case::Genitive)),
             Rel::Near => format!("недалеко {}", with(Preposition::Ot, Case::Genitive)),
+            Rel::Within(reach) => {
+                let far = length(f64::from(reach), self.language);
+                format!("не дальше {far} {}", with(Preposition::Ot, Case::Genitive))
+            }
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
             _ => with(Preposition::V, if walls { Case::Locative } else { Case::Prepositional }),
         }

@@ -21,6 +21,8 @@ pub enum Property {
     Temperature,
     Owner,
     Brand,
+    /// What kind of thing it is, by its type.
+    Kind,
     /// Any other, under the key of its name on the map.
     Other(String),
 }
@@ -68,6 +70,7 @@ const NAMES: &[(Property, &str)] = &[
         "температура|temperature|температуры|how hot|how cold|how warm|насколько горячий|насколько тёплый",
     ),
     (Property::Owner, "владелец|owner|хозяин|владельца"),
+    (Property::Kind, "тип|type|типа|тип у|разновидность"),
     (Property::Brand, "марка|brand|фирма|марки|бренд"),
 ];
 
@@ -157,7 +160,13 @@ const VALUES: &[(Property, &str, &str, &str)] = &[
     (Property::State, "чистый", "чист|чиста|чисто|чисты", "clean"),
     (Property::State, "сломанный", "сломан|сломана|сломано|сломаны", "broken"),
     (Property::State, "полный", "полон|полна|полно|полны", "full"),
-    (Property::State, "пустой", "пуст|пуста|пусто|пусты", "empty|unoccupied|vacant|not occupied"),
+    (Property::Weight, "тяжёлый", "тяжёл|тяжела|тяжело|тяжелы", "heavy"),
+    (
+        Property::State,
+        "пустой",
+        "пуст|пуста|пусто|пусты|свободный|свободная|свободное|свободные|свободного|свободную|свободных|свободном",
+        "empty|unoccupied|vacant|not occupied",
+    ),
     (Property::State, "занятый", "занят|занята|занято|заняты", "occupied|busy|in use"),
     (Property::Surface, "мягкий", "мягок|мягка|мягко|мягки", "soft"),
     (Property::Surface, "твёрдый", "твёрд|тверда|твёрдо", "hard|rigid"),

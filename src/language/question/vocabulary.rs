@@ -81,6 +81,12 @@ pub(super) enum Mark {
     Not,
     /// «без», "without": not having.
     Without,
+    /// «нельзя»: not and can.
+    Cannot,
+    /// «отличаются», "differ"
+    Differ,
+    /// «общего», "in common"
+    Alike,
     /// «сразу», "directly": from room to room.
     Directly,
     /// «чем занят»: what is on it or in it
@@ -173,7 +179,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::How, "как|how|каким образом"),
     (
         Mark::Move,
-        "идти|ехать|пройти мне|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
+        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
     ),
     (Mark::As, "as|что и|как и|с чем"),
     (
@@ -190,7 +196,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::HowFar,
         "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
-        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres|how many meters|how many centimetres",
+        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres is it|how many meters is it|how many metres|how many meters|how many centimetres",
     ),
     (
         Mark::HowGet,
@@ -208,7 +214,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Why,
-        "почему|отчего|с чего ты взял|с чего ты это взял|откуда ты знаешь|откуда это известно|откуда ты это знаешь|откуда известно|почему ты так думаешь|почему ты так решил|почему так|почему это так|почему да|докажи|объясни|обоснуй|поясни|\
+        "почему|отчего|с чего ты взял|с чего ты это взял|откуда ты знаешь|откуда это известно|откуда ты это знаешь|откуда известно|почему ты думаешь что|почему ты считаешь что|почему ты решил что|с чего ты взял что|откуда ты знаешь что|почему ты так думаешь|почему ты так решил|why do you think that|why do you think|why do you believe|why do you say that|почему так|почему это так|почему да|докажи|объясни|обоснуй|поясни|\
         why|why so|why is that|why is that so|how do you know|how do you know that|how come|explain|explain why|explain that|prove it|why do you think so|why do you say so|why do you say that|why is it so|why yes",
     ),
     (
@@ -238,7 +244,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowBig(Dimension::Area),
-        "какой общей площади|общая площадь|какова общая площадь|какая общая площадь|what is the total floor area|total floor area|the total floor area|what is the total area|total area|the total area|какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area",
+        "сколько места занимает|сколько места занимают|how much space does|how much room does|площади|какой общей площади|общая площадь|какова общая площадь|какая общая площадь|what is the total floor area|total floor area|the total floor area|what is the total area|total area|the total area|какой площади|какова площадь|какая площадь|площадь|what is the area of|what is the floor area of|what floor area|floor area|the floor area of|how spacious|what area|площади|каковы площади",
     ),
     (
         Mark::Exists,
@@ -260,7 +266,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -274,7 +280,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me about|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая",
+        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me everything about|tell me all about|tell me everything you know about|everything about|tell me about|расскажи всё про|расскажи всё о|расскажи всё об|расскажи мне про|расскажи мне о|расскажи мне об|что есть про|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая",
     ),
     (
         Mark::List,
@@ -323,6 +329,15 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Not,
         "can t|cannot|cant|couldn t|won t|не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|isnt|arent|doesnt|dont",
     ),
+    (Mark::Cannot, "нельзя|невозможно|can t one|can t i|can t you|impossible to"),
+    (
+        Mark::Differ,
+        "чем отличается|чем отличаются|чем различаются|в чём разница между|в чём отличие|в чём различие между|какая разница между|чем же отличаются|отличается|отличаются|what is the difference between|what s the difference between|the difference between|difference between|differ|differs|different from",
+    ),
+    (
+        Mark::Alike,
+        "что общего у|что общего между|что общего|have in common|has in common|in common",
+    ),
     (Mark::Without, "без|without|with no|without any|without a|безо"),
     (
         Mark::Directly,
@@ -338,7 +353,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Moved,
-        "переставили|переставил|переставила|передвинули|передвинул|передвинула|перенесли|перенёс|переставляли|передвигали|двигали|перемещали|переместили|moved|been moved|relocated|rearranged|last moved",
+        "двигал|двигала|трогал|трогала|трогали|переносил|переносила|touched|переставили|переставил|переставила|передвинули|передвинул|передвинула|перенесли|перенёс|переставляли|передвигали|двигали|перемещали|переместили|moved|been moved|relocated|rearranged|last moved",
     ),
     (
         Mark::OnlyOne,
@@ -353,9 +368,12 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
     (
         Mark::All,
-        "everything|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
+        "everything|всей|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|каждом|каждой|каждого|каждому|каждым|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
     ),
-    (Mark::Except, "кроме|помимо|не считая|except|except for|apart from|other than|aside from"),
+    (
+        Mark::Except,
+        "besides|кроме|помимо|не считая|за исключением|исключая|если не считать|except|except for|apart from|other than|aside from",
+    ),
     (
         Mark::Other,
         "другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|the other|remaining|the rest of",
@@ -375,7 +393,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Link(Rel::Above), "над|надо|сверху над|above|over|directly above|right above"),
     (
         Mark::Link(Rel::NextTo),
-        "рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|besides the|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|besides|nearby",
+        "вдоль|along|against|up against|рядом с|рядом со|рядом|возле|около|у|подле|бок о бок с|сбоку от|по соседству с|вплотную к|next to|beside|by|alongside|adjacent to|at the side of|to the side of|right next to|directly next to|nearby",
     ),
     (
         Mark::Link(Rel::Near),
@@ -383,11 +401,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::LeftOf),
-        "слева от|слева|левее|по левую сторону от|с левой стороны от|по левую руку от|left of|to the left of|on the left of|on the left side of|to the left side of|at the left of|left to|on the left hand side of|on the left from|to the left from|left from",
+        "слева от|слева|левее|to the left|on the left|по левую сторону от|с левой стороны от|по левую руку от|left of|to the left of|on the left of|on the left side of|to the left side of|at the left of|left to|on the left hand side of|on the left from|to the left from|left from",
     ),
     (
         Mark::Link(Rel::RightOf),
-        "справа от|справа|правее|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
+        "справа от|справа|правее|to the right|on the right|по правую сторону от|с правой стороны от|по правую руку от|right of|to the right of|on the right of|on the right side of|to the right side of|at the right of|right to|on the right hand side of|on the right from|to the right from|right from",
     ),
     (
         Mark::Link(Rel::Behind),
@@ -540,7 +558,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::More(Extreme::Longest), "длиннее|longer"),
     (
         Mark::Same,
-        "такого же|такой же|такая же|такое же|такие же|того же|тот же|та же|одного|одинакового|одинаковые|одинаковый|same|the same",
+        "такого же|такой же|такая же|такое же|такие же|того же|тот же|та же|той же|том же|тем же|ту же|те же|тех же|одного|одной|одном|одних|одинакового|одинаковые|одинаковый|same|the same|one and the same",
     ),
     (Mark::Pronoun(Pronoun::He), "он|его|ему|него|нему|ним|нём|him"),
     (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
@@ -551,7 +569,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::One, "one|ones"),
     (
         Mark::A,
-        "one of the|one of my|one of|any of the|any of|any|at least one of the|at least one|some of the|a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно",
+        "какой нибудь|каком нибудь|какого нибудь|какому нибудь|каким нибудь|какую нибудь|каком либо|какого либо|одной из|одном из|одного из|одних из|one of the|one of my|one of|any of the|any of|any|at least one of the|at least one|some of the|a|an|some|какой нибудь|какая нибудь|какое нибудь|какие нибудь|какую нибудь|какой либо|хоть один|хоть одна|хоть какой нибудь|хотя бы один|один|одна|одно",
     ),
     (
         Mark::The,
@@ -559,7 +577,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|друг от друга|from each other|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\

@@ -15,7 +15,13 @@ const SAID: usize = 4;
 impl Knowledge<'_> {
     pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
         let facts = match about {
-            Some(query) => self.answer(query)?.facts,
+            Some(query) => {
+                let answer = self.answer(query)?;
+                if answer.facts.is_empty() {
+                    return Ok(self.why_plain(&answer));
+                }
+                answer.facts
+            }
             None => self.memory.facts.clone(),
         };
         let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
@@ -42,6 +48,19 @@ impl Knowledge<'_> {
         let mut draft = Draft::plain(Said::Found, text);
         draft.rest_on(fact.clone());
         Ok(draft)
+    }
+
+    /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
+    fn why_plain(&self, answer: &super::Answer) -> Draft {
+        let text = answer.text.trim_end_matches('.');
+        let rest =
+            ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
+        let text = rest.unwrap_or(text);
+        let text = match self.is_russian() {
+            true => format!("по карте так: {text}"),
+            false => format!("by the map it is so: {text}"),
+        };
+        Draft::plain(Said::Found, text).on(answer.things.clone())
     }
 
     /// The measurements that a fact comes from, or what it lacks.

@@ -38,7 +38,7 @@ const SAME: &[&str] = &[
     "журнальный стол|журнальный столик|кофейный столик|coffee table",
     "письменный стол|рабочий стол|desk|writing desk",
     "входная дверь|парадная дверь|парадная|entrance door|front door|main door|entry door",
-    "телефон|мобильник|мобильный|смартфон|сотовый|phone|cellphone|cell phone|mobile phone|smartphone|telephone|mobile",
+    "телефон|мобильник|мобильный телефон|сотовый телефон|мобильный|смартфон|сотовый|phone|cellphone|cell phone|mobile phone|smartphone|telephone|mobile",
     "картина|картинка|painting|picture",
     "растение|цветок|комнатное растение|plant|houseplant|house plant|flower",
     "кран|tap|faucet",
@@ -58,6 +58,10 @@ const SAME: &[&str] = &[
     "стеллаж|книжный шкаф|bookshelf|bookcase|shelving unit",
     "штора|занавеска|шторы|curtain|curtains|drapes",
     "столешница|counter|countertop|worktop",
+    "верстак|workbench",
+    "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",
+    "батарейка|батарея|аккумулятор|battery",
+    "табурет|табуретка|stool",
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
 ];
 

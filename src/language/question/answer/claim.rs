@@ -10,7 +10,7 @@ use crate::language::question::query::{Claim, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Number, enumerate};
-use crate::map::Entity;
+use crate::map::{DoorStatus, Entity};
 
 impl Knowledge<'_> {
     /// Whether a claim holds of a thing, with the fact that says so or would have to.
@@ -36,6 +36,10 @@ impl Knowledge<'_> {
                     }),
                 };
                 Ok((holds, fact.into_iter().collect(), Vec::new()))
+            }
+            Claim::Size(size) => {
+                let measure = self.measure(size.extreme, thing);
+                Ok((measure.is_some_and(|m| size.admits(m)), Vec::new(), Vec::new()))
             }
             Claim::Kind(noun) => {
                 let of_kind = self.find(noun, true)?;
@@ -91,6 +95,11 @@ impl Knowledge<'_> {
         if let Some(&hit) = anchors.iter().find(|a| self.holds(restriction.rel, thing, **a)) {
             let fact = self.fact(restriction.rel, thing, hit);
             return Ok((true, fact.into_iter().collect(), vec![hit]));
+        }
+        if restriction.rel == Rel::NextTo
+            && let Some(&hit) = anchors.iter().find(|a| self.stands_at(thing, **a))
+        {
+            return Ok((true, Vec::new(), vec![hit]));
         }
         let fact = anchors.first().and_then(|a| self.missing(restriction.rel, thing, *a));
         Ok((false, fact.into_iter().collect(), anchors))
@@ -242,13 +251,14 @@ impl Knowledge<'_> {
                 .map(|c| match c {
                     Claim::Value(filter) => {
                         let entry = self.lexicon().values.entry(filter.value);
-                        match self.is_russian() {
-                            true => self.lexicon().values.predicate(
+                        match (self.is_russian(), things) {
+                            (true, [only]) => self.value(filter.value, *only),
+                            (true, _) => self.lexicon().values.predicate(
                                 filter.value,
                                 crate::language::Gender::Masculine,
-                                if things.len() > 1 { Number::Plural } else { Number::Singular },
+                                Number::Plural,
                             ),
-                            false => format!("{} {}", self.is(things), entry.english),
+                            (false, _) => format!("{} {}", self.is(things), entry.english),
                         }
                     }
                     Claim::Related(r) => {
@@ -256,6 +266,7 @@ impl Knowledge<'_> {
                         noun.restrictions.push(r.clone());
                         format!("{} {}", self.is(things), self.restrictions(&noun))
                     }
+                    Claim::Size(size) => self.size_words(*size),
                     Claim::Kind(noun) => self.none_of(noun),
                 })
                 .collect();
@@ -358,6 +369,14 @@ impl Knowledge<'_> {
                     }
                 }
             }
+            Claim::Size(size) => {
+                let own = self.measure_words(size.extreme, thing);
+                match self.is_russian() {
+                    _ if own.is_empty() => self.pick("– без размера", "has no size").to_owned(),
+                    true => format!("– {own}"),
+                    false => format!("is {own}"),
+                }
+            }
             Claim::Kind(noun) => {
                 let (phrase, english) = self.kind_phrase(noun);
                 let name =
@@ -379,7 +398,17 @@ impl Knowledge<'_> {
             a.is_some_and(|a| g.areas.contains(&a)) && b.is_some_and(|b| g.areas.contains(&b))
         });
         let gates: Vec<Thing> = joins.map(|g| g.thing).collect();
-        let by = if gates.is_empty() { String::new() } else { format!(" ({})", self.list(&gates)) };
+        // «(Дверь-КY, закрыта)»: through a closed door no one goes at once.
+        let told = |gate: &Thing| {
+            let shut = self.statuses(*gate).into_iter().find(|(s, _)| *s != DoorStatus::Open);
+            let value = shut.and_then(|(status, _)| self.lexicon().values.of_door(status));
+            match value {
+                Some(value) => format!("{}, {}", self.name(*gate), self.value(value, *gate)),
+                None => self.name(*gate),
+            }
+        };
+        let gates: Vec<String> = gates.iter().map(told).collect();
+        let by = if gates.is_empty() { String::new() } else { format!(" ({})", gates.join("; ")) };
         if !self.is_russian() {
             let not = if holds { "" } else { " not directly" };
             return format!("is{not} connected to {}{by}", self.name(other));

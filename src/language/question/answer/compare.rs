@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Closeness, Extreme, Noun, Thing};
+use crate::language::question::query::{Closeness, Extreme, Noun, Sized, Thing};
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Said};
 use crate::language::words::{Case, russian};
@@ -21,6 +21,12 @@ impl Knowledge<'_> {
             let text =
                 self.pick("такого нет: все остальные равны", "there is none: the others are equal");
             return Draft::new(Said::Nothing, text.to_owned());
+        }
+        let unordered = Noun { best: None, rank: None, ..noun.clone() };
+        if found.is_empty() && self.find(&unordered, false).is_ok_and(|all| !all.is_empty()) {
+            let text =
+                self.pick("сравнить их карта не даёт", "the map does not let them be compared");
+            return Draft::new(Said::Unknown, text.to_owned());
         }
         let Some(&first) = found.first() else {
             let text = self.nothing_found(noun, &self.restrictions(noun));
@@ -71,7 +77,21 @@ impl Knowledge<'_> {
         Draft::new(Said::Found, text).with(found)
     }
 
-    fn measure_words(&self, extreme: Extreme, thing: Thing) -> String {
+    /// «выше 2 м», "wider than 80 cm"
+    pub(in crate::language::question) fn size_words(&self, size: Sized) -> String {
+        let than = match size.extreme {
+            Extreme::Biggest | Extreme::Smallest => area(size.than as f64, self.language),
+            _ => length(size.than as f64, self.language),
+        };
+        let not = if size.negated { self.pick("не ", "not ") } else { "" };
+        let word = self.comparative(size.extreme);
+        match self.is_russian() {
+            true => format!("{not}{word} {than}"),
+            false => format!("{not}{word} than {than}"),
+        }
+    }
+
+    pub(super) fn measure_words(&self, extreme: Extreme, thing: Thing) -> String {
         let Some(measure) = self.measure(extreme, thing) else { return String::new() };
         let is_area = thing.area().is_some();
         match extreme {

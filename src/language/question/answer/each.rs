@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::query::{Head, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::words::enumerate;
 
@@ -27,6 +27,40 @@ impl Knowledge<'_> {
         let mut noun = noun.clone();
         noun.restrictions.remove(at);
         Ok(Some((noun, rooms)))
+    }
+
+    /// "What is on each nightstand?": of every one by itself.
+    pub(super) fn found_by_each(&self, noun: &Noun) -> Result<Option<String>, Doubt> {
+        const SHOWN: usize = 12;
+        let Some(at) = noun.restrictions.iter().position(|r| {
+            !r.negated && matches!(&r.anchors[..], [only] if only.all && only.head.named.is_empty())
+        }) else {
+            return Ok(None);
+        };
+        let restriction = &noun.restrictions[at];
+        let each = self.find(&restriction.anchors[0], true)?;
+        if each.len() < 2 || each.len() > SHOWN {
+            return Ok(None);
+        }
+        let mut parts = Vec::new();
+        for place in each {
+            let mut own = noun.clone();
+            own.restrictions[at].anchors[0] = Noun {
+                head: Head { things: Some(vec![place]), ..Head::default() },
+                ..Noun::default()
+            };
+            let found = self.find(&own, true)?;
+            let here = self.place(restriction.rel, &[place]);
+            parts.push(match (found.is_empty(), self.is_russian()) {
+                (false, true) => format!("{here} {} {}", self.is(&found), self.list(&found)),
+                (false, false) => format!("{} {} {here}", self.list(&found), self.is(&found)),
+                (true, true) if own.head.anything => format!("{here} ничего нет"),
+                (true, true) => format!("{here} нет {}", self.none_of(&own)),
+                (true, false) if own.head.anything => format!("there is nothing {here}"),
+                (true, false) => format!("there are no {} {here}", self.none_of(&own)),
+            });
+        }
+        Ok(Some(parts.join("; ")))
     }
 
     /// What fits a description, by room.

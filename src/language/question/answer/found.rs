@@ -3,7 +3,7 @@
 //! Invariant: the things of the answer are those that the description finds, whatever the sentence leaves out.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
+use crate::language::question::knowledge::{Frame, Knowledge};
 use crate::language::question::lexicon::{Extension, KindId};
 use crate::language::question::query::{Extreme, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
@@ -32,8 +32,17 @@ impl Knowledge<'_> {
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
         }
+        if let Some(text) = self.keys_for(noun, &found) {
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
         if let Some(text) = self.neighbours(noun, &found) {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
+        if let Some(text) = self.found_by_each(noun)? {
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+        }
+        if let Some(text) = self.out_of_sight(noun, &found) {
+            return Ok(Draft::new(Said::Unknown, text));
         }
         let place = self.restrictions(noun);
         let anchors = self.anchor_things(noun);
@@ -70,6 +79,8 @@ impl Knowledge<'_> {
                         false => format!("{list} {leads} {place}"),
                     }
                 }
+                // «Выше 2 м Шкаф-1 и Шкаф-2»
+                (true, false) if !noun.sizes.is_empty() => format!("{place}{frame} {list}"),
                 (true, false) => format!("{place}{frame} {} {list}", self.is(&found)),
                 (false, true) => {
                     if general {
@@ -96,6 +107,46 @@ impl Knowledge<'_> {
         let rooms = noun.restrictions.iter().any(|r| r.rel == Rel::Near);
         let kind = !noun.head.kinds.is_empty() && noun.head.named.is_empty();
         found.len() == 1 && told && kind && !placed && !rooms
+    }
+
+    /// Left and right of what has no front are told from where the robot is: of what is in another room, they are not.
+    fn out_of_sight(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let side = noun
+            .restrictions
+            .iter()
+            .find(|r| matches!(r.rel, Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf))?;
+        let anchors = self.find(side.anchors.first()?, true).ok()?;
+        let [anchor] = anchors[..] else { return None };
+        let away = self.frame(anchor) == Frame::Viewer
+            && anchor != Thing::Robot
+            && self.area_of(anchor) != self.area_of(Thing::Robot);
+        (found.is_empty() && away).then(|| match self.is_russian() {
+            true => format!(
+                "у {} нет лицевой стороны, а с моего места туда не видно",
+                self.form(anchor, crate::language::Case::Genitive)
+            ),
+            false => format!(
+                "{} has no front side, and I cannot see there from where I am",
+                self.name(anchor)
+            ),
+        })
+    }
+
+    /// «Ключ-1 подходит к Лаборатории», "Key 1 opens the laboratory"
+    fn keys_for(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let opens = noun.restrictions.iter().find(|r| r.rel == Rel::Opens && !r.negated)?;
+        let what = self.find(opens.anchors.first()?, true).ok()?;
+        let (&key, &door) = (found.first()?, what.first()?);
+        let several = found.len() > 1;
+        let list = self.list(found);
+        Some(match self.is_russian() {
+            true => {
+                let verb = if several { "открывают" } else { "открывает" };
+                format!("{list} {verb} {}", self.form(door, crate::language::Case::Accusative))
+            }
+            false if several => format!("{list} open {}", self.name(door)),
+            false => format!("{} opens {}", self.name(key), self.name(door)),
+        })
     }
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
@@ -187,7 +238,13 @@ impl Knowledge<'_> {
         let measured = noun.restrictions.iter().find(|r| {
             matches!(
                 r.rel,
-                Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf | Rel::NextTo | Rel::Near
+                Rel::LeftOf
+                    | Rel::RightOf
+                    | Rel::Behind
+                    | Rel::InFrontOf
+                    | Rel::NextTo
+                    | Rel::Near
+                    | Rel::Within(_)
             )
         });
         let anchor =
@@ -249,7 +306,7 @@ impl Knowledge<'_> {
 
     pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
         let frame = self.frame_of(noun);
-        let general = noun.head.anything;
+        let general = noun.head.anything && noun.filters.is_empty();
         match (self.is_russian(), general) {
             (true, true) => format!("{place}{frame} ничего нет"),
             (false, true) => format!("there is nothing {place}{frame}"),
@@ -376,7 +433,7 @@ impl Knowledge<'_> {
         let blank = if place.is_empty() { String::new() } else { format!("{place} ") };
         if things.is_empty() {
             let none = self.none_of(noun);
-            return match (self.is_russian(), noun.head.anything) {
+            return match (self.is_russian(), noun.head.anything && noun.filters.is_empty()) {
                 (true, true) => format!("{blank}ничего нет"),
                 (false, true) => format!("there is nothing {place}"),
                 (true, false) if place.is_empty() => format!("на карте нет {none}"),

@@ -10,6 +10,7 @@ mod place;
 mod property;
 mod senses;
 mod size;
+mod together;
 mod usable;
 mod way;
 
@@ -37,6 +38,10 @@ impl Draft {
 
     pub(super) fn plain(said: Said, text: String) -> Self {
         Self::new(said, text)
+    }
+
+    pub(super) fn on(self, things: Vec<Thing>) -> Self {
+        self.with(things)
     }
 
     pub(super) fn rest_on(&mut self, fact: Fact) {
@@ -91,6 +96,8 @@ impl Knowledge<'_> {
             Query::MoreOf { of, extreme, asks } => self.more_of(of, *extreme, *asks)?,
             Query::Same { property, of } => self.same(property, of)?,
             Query::SameAll { property, of } => self.same_all(property, of)?,
+            Query::Together { of, rel, place } => self.together(of, *rel, place)?,
+            Query::Differ { of, alike } => self.differ(of, *alike)?,
             Query::Free(noun) => self.free(noun)?,
             Query::Place { use_for, what, within } => {
                 self.usable(*use_for, what.as_ref(), within)?
@@ -105,6 +112,7 @@ impl Knowledge<'_> {
             Query::Help => self.help(),
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
+            Query::Sees(noun) => self.sees(noun)?,
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,

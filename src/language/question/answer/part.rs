@@ -51,7 +51,14 @@ impl Knowledge<'_> {
             kinds.iter().any(|e| matches!(e, Extension::Part(id) if Some(*id) == kind))
         };
         let parts = object.items.iter().filter(is_of).count();
-        let doors = if kinds.iter().any(door) { object.doors.len() } else { 0 };
+        // A wardrobe's double door is two to those who open it.
+        let leaves = |m: &crate::map::DoorMount| {
+            self.world.doors.get(&m.door).map_or(1, |d| d.leaves.len().max(1))
+        };
+        let doors = match kinds.iter().any(door) {
+            true => object.doors.iter().map(leaves).sum(),
+            false => 0,
+        };
         let things = self.find(noun, true)?;
         if parts + doors == 0 && (!things.is_empty() || kinds.iter().any(door)) {
             return Ok(None);

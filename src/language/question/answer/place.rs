@@ -394,8 +394,8 @@ impl Knowledge<'_> {
             found.retain(|t| kinds.contains(t));
         }
         let facts: Vec<Fact> = found.iter().filter_map(|y| self.fact(rel, thing, *y)).collect();
-        if let (Thing::Robot, [only]) = (thing, &found[..]) {
-            let place = self.place(Rel::In, &[*only]);
+        if thing == Thing::Robot && !found.is_empty() {
+            let place = self.place(rel, &found);
             let text = match self.is_russian() {
                 true => format!("я нахожусь {place}"),
                 false => format!("I am {place}"),

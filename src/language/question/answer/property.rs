@@ -42,6 +42,16 @@ impl Knowledge<'_> {
             let name = self.name(thing);
             let own: Vec<_> =
                 self.values(thing).into_iter().filter(|(p, _, _)| p == property).collect();
+            if let (Property::Kind, true, Some(kind)) =
+                (property, own.is_empty(), self.sort_name(thing))
+            {
+                known = true;
+                parts.push(match self.is_russian() {
+                    true => format!("{name}: тип – {kind}"),
+                    false => format!("the type of {name} is {kind}"),
+                });
+                continue;
+            }
             if own.is_empty() {
                 parts.push(self.no_property(property, thing));
                 continue;
@@ -74,9 +84,6 @@ impl Knowledge<'_> {
                     true,
                     Property::Colour | Property::State | Property::Surface | Property::Orientation,
                 ) => {
-                    let dash =
-                        if words.ends_with(['н', 'т', 'а', 'о', 'ы']) { "" } else { "– " };
-                    let _ = dash;
                     format!("{name} {words}")
                 }
                 (true, Property::Material) => format!("{name} {words}"),
@@ -167,6 +174,16 @@ impl Knowledge<'_> {
                 parts.iter().map(|p| sentence(p)).collect::<Vec<_>>().join(" "),
             )
             .with(vec![thing])
+        })
+    }
+
+    /// The type of a thing; of a door the sort of door that it is.
+    fn sort_name(&self, thing: Thing) -> Option<String> {
+        let Thing::Entity(Entity::Door(id)) = thing else { return self.kind_name(thing) };
+        let entry = self.world.types.door.get(self.world.doors.get(&id)?.door_type)?;
+        Some(match self.is_russian() || entry.name_en.is_empty() {
+            true => crate::language::question::lexicon::lower_first(&entry.name),
+            false => entry.name_en.clone(),
         })
     }
 

@@ -40,6 +40,30 @@ impl Knowledge<'_> {
         Ok(Draft::new(Said::Found, text).with(vec![thing]))
     }
 
+    /// «да, я вижу Кресло-1»
+    pub(super) fn sees(&self, noun: &Noun) -> Result<Draft, Doubt> {
+        let meant = self.find(noun, true)?;
+        if meant.is_empty() {
+            return Err(self.none_such(noun));
+        }
+        let seen: Vec<Thing> = self
+            .senses
+            .visible()
+            .into_iter()
+            .map(|id| Thing::Entity(Entity::Replica(id)))
+            .collect();
+        let found: Vec<Thing> = meant.iter().copied().filter(|t| seen.contains(t)).collect();
+        let text = match (found.is_empty(), self.is_russian()) {
+            (false, true) => format!("да, я вижу {}", self.names(&found, Case::Accusative)),
+            (false, false) => format!("yes, I see {}", self.list(&found)),
+            (true, true) => format!("нет, отсюда я не вижу {}", self.none_of(noun)),
+            (true, false) => format!("no, I do not see {} from here", self.list(&meant)),
+        };
+        let said = if found.is_empty() { Said::No } else { Said::Yes };
+        let topic = if found.is_empty() { meant } else { found };
+        Ok(Draft::new(said, text).with(topic))
+    }
+
     pub(super) fn before(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let thing = self.one(noun)?;
         let past = thing.replica().map(|id| self.senses.past(id)).unwrap_or_default();

@@ -24,7 +24,21 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn size(&self, dimension: Dimension, of: &Noun) -> Result<Draft, Doubt> {
-        let thing = self.one(of)?;
+        const SHOWN: usize = 20;
+        let found = self.definite(of)?;
+        if let [only] = found[..] {
+            return Ok(self.size_of(dimension, only));
+        }
+        let drafts = found.iter().take(SHOWN).map(|thing| self.size_of(dimension, *thing).text);
+        let mut parts: Vec<String> = drafts.collect();
+        let more = found.len().saturating_sub(SHOWN);
+        if more > 0 {
+            parts.push(self.pick("и так далее", "and so on").to_owned());
+        }
+        Ok(Draft::new(Said::Found, parts.join("; ")).with(found))
+    }
+
+    fn size_of(&self, dimension: Dimension, thing: Thing) -> Draft {
         let name = self.name(thing);
         let lang = self.language;
         let extent = match thing {
@@ -113,10 +127,10 @@ impl Knowledge<'_> {
                     }
                     false => format!("the map does not give the size of {name}"),
                 };
-                return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
+                return Draft::new(Said::Unknown, text).with(vec![thing]);
             }
         };
-        Ok(Draft::new(Said::Found, text).with(vec![thing]).number(number))
+        Draft::new(Said::Found, text).with(vec![thing]).number(number)
     }
 
     /// Heights of the rooms of a storey, the lowest first, cm.

@@ -86,8 +86,15 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn say_distance(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
-        let from = from.map(|noun| self.one(noun)).transpose()?;
-        let to = self.one(to)?;
+        let (from, to) = match from {
+            // "How far apart are the two wardrobes?"
+            Some(from) if from == to && to.plural => match self.find(to, false)?[..] {
+                [a, b] => (Some(a), b),
+                [] => return Err(self.none_such(to)),
+                ref several => return Err(self.ambiguous(to, several)),
+            },
+            from => (from.map(|noun| self.one(noun)).transpose()?, self.one(to)?),
+        };
         let start = from.unwrap_or(Thing::Robot);
         let straight = self.distance(start, to);
         let areas = |t: Thing| match self.gate(t) {

@@ -97,6 +97,19 @@ impl Frame<'_, '_> {
 
     /// "Which key opens the lab?", «От какой двери ключ?», "What does Key 1 open?"
     pub(super) fn keys(&self) -> Option<Query> {
+        // «Чем открыть лабораторию?»
+        let with_what = self.sentence.keys.first().is_some_and(|key| key == "чем");
+        if let ([door], true, true) = (&self.nouns[..], self.has(Mark::Opens), with_what)
+            && (self.is_area(&door.noun) || self.is_doors(&door.noun))
+        {
+            let anchors = vec![door.noun.clone()];
+            let opens = Restriction { rel: Rel::Opens, anchors, negated: false };
+            let head = Head { anything: true, ..Head::default() };
+            let restrictions = vec![opens];
+            let noun =
+                Noun { head, plural: true, indefinite: true, restrictions, ..Noun::default() };
+            return Some(Query::Find(noun));
+        }
         let key = self.nouns.iter().find(|s| self.is_key(&s.noun))?;
         let from = self.links.iter().any(|(rel, _)| matches!(rel, Rel::From | Rel::To));
         let open = self.lexicon.values.meaning("открытый");
@@ -161,6 +174,14 @@ impl Frame<'_, '_> {
         if let Some(query) = self.which_free() {
             return Some(query);
         }
+        // "Is there enough room on the desk for the vase?"
+        let named = ["для", "for"].iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
+        let what = self.spot_noun(&[Rel::To]).or_else(|| self.first()).filter(|_| named);
+        let on = self.spots.iter().filter(|s| s.rel == Rel::On && !self.is_area(&s.nouns[0]));
+        let within: Vec<Restriction> = on.flat_map(Spot::restrictions).collect();
+        if let (Some(what), false) = (what.filter(|noun| !self.is_area(noun)), within.is_empty()) {
+            return Some(Query::Place { use_for: Use::Put, what: Some(what), within });
+        }
         let place = self.spots.first().map(|s| s.nouns[0].clone()).or_else(|| self.first())?;
         if self.is_area(&place) && self.spots.len() < 2 {
             // "free chairs in the kitchen", «свободно ли в комнате» are no questions about a top.
@@ -183,14 +204,24 @@ impl Frame<'_, '_> {
             Mark::Deed(sort) => Some(*sort),
             _ => None,
         })?;
-        let sort = if self.has(Mark::MadeOf) { purposes::done_out_of(sort) } else { sort };
+        let sort = match () {
+            () if self.has(Mark::MadeOf) => purposes::done_out_of(sort),
+            () if self.has(Mark::Where) && self.nouns.is_empty() => purposes::done_at(sort),
+            () => sort,
+        };
         let asks = self.has(Mark::Where)
             || self.asks()
             || self.has(Mark::Anything)
             || self.has(Mark::Help)
             || self.has(Mark::MadeOf)
+            || self.has(Mark::Than)
             || self.has(Mark::Can)
             || self.has(Mark::Exists);
+        // «Что из мебели можно передвинуть?»: of both sorts at once nothing is listed.
+        let of = |s: &Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
+        if self.spots.iter().any(of) {
+            return None;
+        }
         // «Какие книги можно почитать?» asks for books that are such things.
         let own = self.lexicon.kinds_of_sort(sort);
         let covered = |noun: &Noun| noun.head.kinds.iter().all(|kind| own.contains(kind));
@@ -200,6 +231,11 @@ impl Frame<'_, '_> {
                 Noun { head, ..Noun::default() }
             }
             [only] if only.noun.head.anything || covered(&only.noun) => only.noun.clone(),
+            // «Чем порезать хлеб?»: what the deed is done to limits nothing.
+            [only] if self.has(Mark::Than) && !self.is_things(&only.noun) => {
+                let head = Head { kinds: own, ..Head::default() };
+                Noun { head, ..Noun::default() }
+            }
             [only] if self.is_things(&only.noun) => {
                 let head = Head { kinds: own, ..Head::default() };
                 Noun { head, ..only.noun.clone() }
@@ -288,6 +324,7 @@ impl Frame<'_, '_> {
             && self.values.is_empty()
             && (self.asks()
                 || self.has(Mark::How)
+                || self.sentence.keys.iter().any(|key| key == "чего")
                 || self.place_of(Mark::MadeOf) == Some(0)
                 || !self.links.is_empty())
         {
@@ -297,6 +334,16 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn property(&self) -> Option<Query> {
+        // «Чей это зонт?», "Whose umbrella is this?"
+        let whose = ["чей", "чья", "чье", "чьи", "whose"];
+        if self.sentence.keys.iter().any(|key| whose.contains(&key.as_str()))
+            && let Some(of) = self.first().filter(|noun| !self.is_area(noun))
+        {
+            return Some(Query::Property {
+                property: Property::Owner,
+                of: self.with_rest(of, &[]),
+            });
+        }
         let (property, at) = self.property.clone()?;
         // «Одного ли цвета стулья?» is for another rule.
         if self.has(Mark::Same) {

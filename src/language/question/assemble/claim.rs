@@ -12,21 +12,42 @@ use crate::language::question::vocabulary::Mark;
 impl Frame<'_, '_> {
     pub(super) fn why(&self) -> Query {
         let negated = self.has(Mark::WhyNot) || self.negated;
-        let about = match self.nouns.is_empty() {
+        // «Почему она там?» asks of its place.
+        let there =
+            ["там", "there"].iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
+        let about = match self.nouns.is_empty() && self.spots.is_empty() {
             true => None,
+            false if there && self.spots.is_empty() && self.values.is_empty() => {
+                self.first().map(Query::Where)
+            }
             false => self.exists_or_holds(),
         };
         Query::Why { negated, about: about.map(Box::new) }
     }
 
     fn exists_or_holds(&self) -> Option<Query> {
-        self.holds().or_else(|| self.exists())
+        // «Почему нельзя попасть в лабораторию?»
+        let moves = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
+        let way = || if moves { self.way() } else { None };
+        way().or_else(|| self.holds()).or_else(|| self.exists())
     }
 
     pub(super) fn exists(&self) -> Option<Query> {
         let none = self.has(Mark::Not)
             && self.values.is_empty()
             && self.nouns.iter().any(|s| !s.nominative);
+        // «Ты видишь кресло?»: in view, not on the map.
+        let key = |word: &str| self.sentence.keys.iter().any(|key| key == word);
+        let from_here = key("see") && key("from");
+        let plain = self.spots.is_empty()
+            && self.values.is_empty()
+            && (from_here || !self.has(Mark::Exists));
+        if let ([only], true, true) = (&self.nouns[..], self.has(Mark::See) || from_here, plain)
+            && !self.is_area(&only.noun)
+            && !self.asks()
+        {
+            return Some(Query::Sees(only.noun.clone()));
+        }
         let seen = self.has(Mark::See) && !self.nouns.is_empty();
         let exists = self.has(Mark::Exists) || self.has(Mark::Have) || seen || none;
         if !exists {
@@ -41,6 +62,18 @@ impl Frame<'_, '_> {
         // "Does the kitchen have a fridge?"
         if self.has(Mark::Have) && subjects.len() > 1 {
             let owner = subjects.remove(0);
+            // "Do any of the rooms have two doors?" asks for such a room.
+            if self.is_rooms(&owner.noun) && owner.noun.indefinite {
+                let mut rooms = owner.noun.clone();
+                let having = subjects.iter().map(|s| Noun { indefinite: true, ..s.noun.clone() });
+                rooms.restrictions.extend(having.map(|anchor| Restriction {
+                    rel: Rel::Has,
+                    anchors: vec![anchor],
+                    negated: false,
+                }));
+                let what = vec![Noun { plural: true, ..self.with_rest(rooms, &[]) }];
+                return Some(Query::Exists { what, either: false, negated: self.negated });
+            }
             if !self.is_building(&owner.noun) {
                 let rel = if self.is_area(&owner.noun) { Rel::In } else { Rel::On };
                 within.push(Restriction { rel, anchors: vec![owner.noun.clone()], negated: false });
@@ -61,7 +94,8 @@ impl Frame<'_, '_> {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
             noun.head.anything = true;
             noun.restrictions = within;
-            if self.spots.is_empty() && self.there.is_none() && self.values.is_empty() {
+            let told = self.spots.is_empty() && self.there.is_none() && self.values.is_empty();
+            if told && self.sizes.is_empty() {
                 return None;
             }
             what.push(self.with_rest(noun, &[]));
@@ -70,12 +104,39 @@ impl Frame<'_, '_> {
         Some(Query::Exists { what, either, negated: none && !self.has(Mark::Exists) })
     }
 
+    /// «Холодильник на кухне или в коридоре?», "Is the TV above the cabinet or on it?"
+    fn either_place(&self) -> Option<Query> {
+        let or = self.place_of(Mark::Or)?;
+        let [only] = &self.nouns[..] else { return None };
+        let parted = self.spots.iter().any(|s| s.at < or) && self.spots.iter().any(|s| s.at > or);
+        if !parted || self.spots.len() != 2 || !self.values.is_empty() || self.negated {
+            return None;
+        }
+        let claims = self.spots.iter().flat_map(Spot::restrictions).map(Claim::Related).collect();
+        Some(Query::Choice { subject: only.noun.clone(), claims })
+    }
+
     pub(super) fn holds(&self) -> Option<Query> {
-        if self.has(Mark::Anything) && self.nouns.is_empty() && !self.spots.is_empty() {
+        let told = !self.spots.is_empty() || !self.values.is_empty() || !self.sizes.is_empty();
+        if self.has(Mark::Anything) && self.nouns.is_empty() && told {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
             noun.head.anything = true;
             let what = vec![self.with_rest(noun, &[])];
             return Some(Query::Exists { what, either: false, negated: self.negated });
+        }
+        // "Is everything in the kitchen made of wood?"
+        if self.has(Mark::All) && self.nouns.is_empty() && !self.values.is_empty() {
+            let mut noun = Noun { plural: true, all: true, ..Noun::default() };
+            noun.head.anything = true;
+            for spot in &self.spots {
+                self.attach(&mut noun, spot);
+            }
+            noun.except.extend(self.except.iter().cloned());
+            let claims = self.filters().into_iter().map(Claim::Value).collect();
+            return Some(Query::Holds { subject: noun, claims, negated: self.negated });
+        }
+        if let Some(choice) = self.either_place() {
+            return Some(choice);
         }
         let at = self.nouns.iter().position(|s| s.nominative).unwrap_or(0);
         let first = self.nouns.get(at)?;
@@ -128,8 +189,8 @@ impl Frame<'_, '_> {
         for (value, _, _) in &self.values {
             claims.push(Claim::Value(Filter::new(*value, false)));
         }
-        for (n, other) in self.nouns.iter().enumerate().filter(|(n, _)| *n != at) {
-            let _ = n;
+        claims.extend(self.sizes.iter().copied().map(Claim::Size));
+        for (_, other) in self.nouns.iter().enumerate().filter(|(n, _)| *n != at) {
             // "Does Door VZ join Room V and Room Z?"
             if self.has(Mark::Lead) && self.is_area(&other.noun) {
                 let anchors = vec![other.noun.clone()];
@@ -171,6 +232,7 @@ impl Frame<'_, '_> {
             for claim in &claims {
                 match claim {
                     Claim::Value(filter) => noun.filters.push(filter.clone()),
+                    Claim::Size(size) => noun.sizes.push(*size),
                     Claim::Related(place) => noun.restrictions.push(place.clone()),
                     Claim::Kind(_) => {
                         return Some(Query::Holds { subject, claims, negated: self.negated });

@@ -31,7 +31,13 @@ impl Frame<'_, '_> {
         });
         let counted = self.nouns.iter().find(|s| counts(&s.noun)).or_else(|| {
             // «Где стульев больше всего?»
-            alone.and_then(|_| self.nouns.iter().find(|s| s.noun.plural && !self.is_area(&s.noun)))
+            let storeys = |s: &&Subject| self.is_storeys(&s.noun);
+            let on_storeys = self.nouns.iter().any(|s| storeys(&s) && self.follows_which(s.at));
+            alone.and_then(|_| {
+                self.nouns.iter().find(|s| {
+                    s.noun.plural && (!self.is_area(&s.noun) || (on_storeys && !storeys(s)))
+                })
+            })
         })?;
         let extreme = counted.noun.best.as_ref().map(|b| b.extreme).or(alone)?;
         let mut what = Noun { best: None, plural: true, indefinite: true, ..counted.noun.clone() };
@@ -68,7 +74,8 @@ impl Frame<'_, '_> {
             Mark::More(Extreme::Smallest | Extreme::Fewest) => Some((Extreme::Fewest, *at)),
             _ => None,
         })?;
-        let is_counted = |s: &&Subject| s.noun.plural && !self.is_area(&s.noun);
+        let mass = |noun: &Noun| noun.head.kinds.iter().any(|k| self.lexicon.is_mass(*k));
+        let is_counted = |s: &&Subject| (s.noun.plural || mass(&s.noun)) && !self.is_area(&s.noun);
         let counted: Vec<&Subject> = self.nouns.iter().filter(is_counted).collect();
         // Places that are compared, or rooms that stand without a preposition.
         let in_places = self.spots.iter().filter(|s| matches!(s.rel, Rel::In | Rel::On));

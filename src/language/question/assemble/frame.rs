@@ -13,6 +13,7 @@ use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::query::{
     Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction, Thing,
 };
+use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary::{Mark, Pronoun};
 use crate::language::report::Detail;
 
@@ -31,6 +32,7 @@ impl<'s, 't> Frame<'s, 't> {
             spots: Vec::new(),
             links: Vec::new(),
             values: Vec::new(),
+            sizes: Vec::new(),
             property: None,
             you: false,
             me: false,
@@ -38,6 +40,7 @@ impl<'s, 't> Frame<'s, 't> {
             negated: false,
             except: Vec::new(),
         };
+        let items = &sides_shared(items)[..];
         let mut not = false;
         let mut without = false;
         for (at, item) in items.iter().enumerate() {
@@ -54,11 +57,20 @@ impl<'s, 't> Frame<'s, 't> {
                 }
                 Item::Mark(Mark::Except) => without = true,
                 Item::Mark(mark) => frame.marks.push((*mark, at)),
+                // «Назови комнаты и их площади»: their own, of what stands before.
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::They)
+                        && at > 0
+                        && items[at - 1] == Item::Mark(Mark::And)
+                        && frame.nouns.last().is_some_and(|s| s.noun.plural) => {}
                 Item::Noun(phrase) => {
                     let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
                     // "the green book and the red one"
-                    let joined =
-                        at > 0 && matches!(items[at - 1], Item::Mark(Mark::And | Mark::Or));
+                    let joined = at > 0
+                        && matches!(
+                            items[at - 1],
+                            Item::Mark(Mark::And | Mark::Or | Mark::As | Mark::Than)
+                        );
                     if let Some(before) = frame.nouns.last().filter(|_| joined)
                         && noun.head.anything
                         && !before.noun.head.kinds.is_empty()
@@ -91,7 +103,26 @@ impl<'s, 't> Frame<'s, 't> {
                         continue;
                     }
                     for phrase in nouns {
-                        anchors.extend(frame.noun(phrase, referent)?);
+                        // «над тумбой или на ней»: what the sentence has just named.
+                        if phrase.pronoun.is_some()
+                            && frame.has(Mark::Or)
+                            && let Some(before) = frame.spots.last()
+                        {
+                            anchors.extend(before.nouns.first().cloned());
+                            continue;
+                        }
+                        let mut noun = frame.noun(phrase, referent)?;
+                        // «рядом с красной», "next to the red one"
+                        if let (Some(noun), Some(before)) = (&mut noun, frame.nouns.last())
+                            && noun.head.anything
+                            && !noun.filters.is_empty()
+                            && !before.noun.head.kinds.is_empty()
+                            && !frame.is_area(&before.noun)
+                        {
+                            let kinds = before.noun.head.kinds.clone();
+                            noun.head = Head { kinds, ..Head::default() };
+                        }
+                        anchors.extend(noun);
                         if phrase.person == Some(Mark::You) {
                             anchors.push(things(vec![Thing::Robot], "you"));
                         }
@@ -103,6 +134,16 @@ impl<'s, 't> Frame<'s, 't> {
                         if me && matches!(rel, Rel::NextTo | Rel::To | Rel::Of) {
                             continue;
                         }
+                        // «дальше от меня»: nearness is told from where the robot is, as without «от меня».
+                        let compares = |item: &Item| {
+                            matches!(
+                                item,
+                                Item::Mark(Mark::Nearer(_) | Mark::Best(_) | Mark::BestTo(_))
+                            )
+                        };
+                        if me && *rel == Rel::From && items.iter().any(compares) {
+                            continue;
+                        }
                         // The robot does not know where the person stands.
                         if me {
                             let word = sentence.said(&words).to_owned();
@@ -111,6 +152,26 @@ impl<'s, 't> Frame<'s, 't> {
                         return Err(Doubt::not_understood(sentence.said(&words)));
                     }
                     let (rel, either) = (*rel, *either);
+                    // «кроме лампы на столе», «кроме тех, что на кухне»
+                    let behind = at > 0 && matches!(&items[at - 1], Item::Noun(_));
+                    if let (true, Some(except)) = (behind, frame.except.last_mut())
+                        && except.text == frame_text(&items[at - 1])
+                    {
+                        except.restrictions.push(Restriction { rel, anchors, negated: false });
+                        continue;
+                    }
+                    if std::mem::take(&mut without) {
+                        let head = Head { anything: true, ..Head::default() };
+                        let place = Restriction { rel, anchors, negated: false };
+                        let restrictions = vec![place];
+                        frame.except.push(Noun {
+                            head,
+                            plural: true,
+                            restrictions,
+                            ..Noun::default()
+                        });
+                        continue;
+                    }
                     let negated = std::mem::take(&mut not);
                     frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
                 }
@@ -126,6 +187,7 @@ impl<'s, 't> Frame<'s, 't> {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
                     }
                 }
+                Item::Size(size) => frame.sizes.push(*size),
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
         }
@@ -323,7 +385,18 @@ impl<'s, 't> Frame<'s, 't> {
             self.attach(&mut noun, spot);
         }
         noun.filters.extend(self.filters());
+        noun.sizes.extend(self.sizes.iter().copied());
         noun.except.extend(self.except.iter().cloned());
+        // «Что ещё на нём стоит?»
+        noun.other |= noun.head.anything && self.has(Mark::Other);
+        if noun.other {
+            // "What else is in the room with the bed?": the bed is not asked for.
+            let places = noun.restrictions.iter().flat_map(|r| &r.anchors);
+            let having = places.flat_map(|place| &place.restrictions);
+            let named = having.filter(|r| matches!(r.rel, Rel::Has | Rel::Bears));
+            let named: Vec<Noun> = named.flat_map(|r| r.anchors.clone()).collect();
+            noun.except.extend(named);
+        }
         if let Some(there) = &self.there {
             noun.restrictions.push(Restriction {
                 rel: Rel::In,
@@ -352,6 +425,14 @@ impl<'s, 't> Frame<'s, 't> {
             match last {
                 Some(anchor) if self.is_area(anchor) => {
                     anchor.restrictions.extend(spot.restrictions())
+                }
+                // "on the table with the vase"
+                Some(anchor)
+                    if !anchor.head.kinds.is_empty()
+                        && self.spots.iter().any(|s| s.at + 1 == spot.at) =>
+                {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    anchor.restrictions.extend(spot.restrictions());
                 }
                 _ if area => noun.restrictions.extend(spot.restrictions()),
                 _ => {
@@ -395,8 +476,13 @@ impl<'s, 't> Frame<'s, 't> {
         let mut filters: Vec<Filter> = Vec::new();
         let mut last = None;
         for (value, at, negated) in &self.values {
+            let property = |value: ValueId| &self.lexicon.values.entry(value).property;
             let joined = at.checked_sub(1).is_some_and(|joint| {
-                last == joint.checked_sub(1) && self.marks.contains(&(Mark::Or, joint))
+                // «красная и синяя»: no thing is both.
+                let alike = filters.last().is_some_and(|f| property(f.value) == property(*value));
+                last == joint.checked_sub(1)
+                    && (self.marks.contains(&(Mark::Or, joint))
+                        || (alike && self.marks.contains(&(Mark::And, joint))))
             });
             match filters.last_mut() {
                 Some(before) if joined => before.or.push(*value),
@@ -407,6 +493,22 @@ impl<'s, 't> Frame<'s, 't> {
         filters
     }
 
+    /// A comparative that nothing is compared with asks for the most: "Which of the windows is bigger?"
+    fn more_of_several(&self) -> Option<Extreme> {
+        let one = self.nouns.len() + self.spots.iter().filter(|s| s.rel == Rel::From).count() == 1;
+        let more = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::More(extreme) => Some(*extreme),
+            _ => None,
+        });
+        more.filter(|_| one && self.has(Mark::Which) && !self.has(Mark::Than))
+    }
+
+    /// «какой из двух шкафов», "which of the two chairs": the number tells how many there are to choose from.
+    fn chooses_of(&self) -> bool {
+        let of = |key: &String| ["из", "of"].contains(&key.as_str());
+        self.has(Mark::Which) && self.sentence.keys.iter().any(of)
+    }
+
     /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.
     fn with_best(&self, mut noun: Noun) -> Noun {
         let alone = self.marks.iter().find_map(|(mark, _)| match mark {
@@ -415,7 +517,12 @@ impl<'s, 't> Frame<'s, 't> {
             Mark::Nearer(Closeness::Farther) => Some(Extreme::Farthest),
             _ => None,
         });
+        // «Которое из окон больше?»: of several the most.
+        let alone = alone.or_else(|| self.more_of_several());
         if noun.best.is_none() {
+            if alone.is_some() && self.chooses_of() {
+                noun.count = None;
+            }
             // «Какая комната больше всего?» compares rooms; what is counted stands after it.
             let alone = alone.map(|extreme| match extreme {
                 Extreme::Most => Extreme::Biggest,
@@ -429,6 +536,10 @@ impl<'s, 't> Frame<'s, 't> {
                 Mark::Rank(rank) => Some(*rank),
                 _ => None,
             });
+        }
+        // "the nearest lift", though one of them is called just that
+        if noun.best.is_some() && !noun.head.kinds.is_empty() {
+            noun.head.named.clear();
         }
         let Some(best) = &mut noun.best else { return noun };
         if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
@@ -453,4 +564,26 @@ impl<'s, 't> Frame<'s, 't> {
         }
         noun
     }
+}
+
+/// The words of a noun among the items.
+fn frame_text(item: &Item) -> &str {
+    match item {
+        Item::Noun(phrase) => &phrase.noun.text,
+        _ => "",
+    }
+}
+
+/// «слева или справа от кровати»: both sides are of the bed.
+fn sides_shared(items: &[Item]) -> Vec<Item> {
+    let mut items = items.to_vec();
+    for n in 0..items.len().saturating_sub(2) {
+        let [Item::Link(rel), Item::Mark(Mark::Or), Item::Place { nouns, either, .. }] =
+            &items[n..n + 3]
+        else {
+            continue;
+        };
+        items[n] = Item::Place { rel: *rel, nouns: nouns.clone(), either: *either };
+    }
+    items
 }

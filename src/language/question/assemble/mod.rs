@@ -7,13 +7,14 @@ mod about;
 mod claim;
 mod compare;
 mod frame;
+mod together;
 mod way;
 mod which;
 
 use super::Doubt;
 use super::grammar::{Item, Sentence};
 use super::lexicon::Lexicon;
-use super::query::{Head, Noun, Query, Rel, Restriction, Thing};
+use super::query::{Head, Noun, Query, Rel, Restriction, Sized, Thing};
 use super::values::{Property, ValueId};
 use super::vocabulary::{Mark, Pronoun};
 
@@ -65,9 +66,13 @@ fn each_of(
                 | Mark::BestTo(_)
                 | Mark::Why
                 | Mark::WhyNot
+                | Mark::Differ
+                | Mark::Alike
         )
     };
-    if frame.marks.iter().any(|(mark, _)| together(mark)) {
+    let shared = frame.spots.iter().any(|s| s.nouns[0].same)
+        || frame.links.iter().any(|(rel, _)| matches!(rel, Rel::NextTo | Rel::Near));
+    if shared || frame.marks.iter().any(|(mark, _)| together(mark)) {
         return None;
     }
     let at = items.windows(3).position(|window| {
@@ -82,8 +87,10 @@ fn each_of(
     {
         nouns.insert(0, nouns[0] - 1);
     }
-    let plural = |n: &usize| matches!(&items[*n], Item::Noun(p) if p.noun.plural);
-    if nouns.iter().all(plural) {
+    // «Стулья 3» is one chair by its name.
+    let plural = |n: &usize| matches!(&items[*n], Item::Noun(p) if p.noun.plural && p.noun.head.named.len() != 1);
+    let counts = frame.has(Mark::HowMany) && frame.property.is_none();
+    if nouns.iter().all(plural) && !counts {
         return None;
     }
     let mut queries = Vec::new();
@@ -128,7 +135,7 @@ pub(super) fn fragment(
         matches!(
             mark,
             Mark::The | Mark::A | Mark::Be | Mark::Hang | Mark::One | Mark::Best(_) | Mark::And
-        )
+        ) || (*mark == Mark::Which && frame.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_))))
     };
     if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
@@ -187,6 +194,7 @@ struct Frame<'s, 't> {
     spots: Vec<Spot>,
     links: Vec<(Rel, usize)>,
     values: Vec<(ValueId, usize, bool)>,
+    sizes: Vec<Sized>,
     property: Option<(Property, usize)>,
     /// The robot is spoken to.
     you: bool,
@@ -211,6 +219,28 @@ impl Frame<'_, '_> {
             return Some(self.why());
         }
         // «Влезет ли коробка под кровать?»: the room under things is not known.
+        // A way that must or must not lead through a room is not looked for.
+        let way = self.has(Mark::HowGet)
+            || self.has(Mark::HowFar)
+            || ((self.has(Mark::Can) || self.has(Mark::How)) && self.has(Mark::Move));
+        let door = |spot: &Spot| self.is_doors(&spot.nouns[0]);
+        if way && self.spots.iter().any(|s| s.rel == Rel::Through && !door(s)) {
+            return None;
+        }
+        // «Стулья на кухне того же цвета, что стулья в гостиной?» compares two groups.
+        let groups = self.nouns.len() > 1 && {
+            let group = |s: &Subject| s.noun.plural && s.noun.head.named.is_empty();
+            self.nouns.iter().all(group)
+        };
+        if self.has(Mark::Same) && self.property.is_some() && groups {
+            return None;
+        }
+        // "What can be opened in the bedroom?" does not ask what is open.
+        let state = |value: ValueId| self.lexicon.values.entry(value).property == Property::State;
+        let done = self.asks() && self.has(Mark::Can) && !self.has(Mark::Move);
+        if done && self.values.iter().any(|(value, _, _)| state(*value)) {
+            return None;
+        }
         let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
         if fits && self.spot(&[Rel::Under]).is_some() {
             return None;
@@ -219,6 +249,9 @@ impl Frame<'_, '_> {
             .or_else(|| self.people())
             .or_else(|| self.kinds())
             .or_else(|| self.keys())
+            .or_else(|| self.together())
+            .or_else(|| self.difference())
+            .or_else(|| self.side_by_side())
             .or_else(|| self.way())
             .or_else(|| self.more_of())
             .or_else(|| self.most())

@@ -25,10 +25,15 @@ impl Frame<'_, '_> {
             && self.nouns.iter().all(|s| self.is_rooms(&s.noun));
         let passed = self.has(Mark::HowMany)
             && self.has(Mark::Move)
-            && self.nouns.iter().all(|s| self.is_doors(&s.noun));
-        let by_rooms = self.asks() && through && goes;
+            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
+        // "Which doors do I pass on the way from the hall to the bedroom?"
+        let both = self.spot(&[Rel::From]).is_some() && self.spot(&[Rel::To, Rel::In]).is_some();
+        let by_doors = both
+            && self.has(Mark::HowGet)
+            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
+        let by_rooms = self.asks() && ((through && goes) || by_doors);
         if by_rooms || passed {
-            let to = self.spot_noun(&[Rel::To, Rel::In, Rel::On])?;
+            let to = self.spot_noun(&[Rel::To]).or_else(|| self.spot_noun(&[Rel::In, Rel::On]))?;
             let from = self.spot_noun(&[Rel::From]);
             return Some(Query::Way { from, to, detail: self.detail() });
         }
@@ -73,6 +78,11 @@ impl Frame<'_, '_> {
         let room = self.spot_noun(&TO);
         let (from, to) = match (from, room, ends.len()) {
             // "How far is the table from the bed?"
+            // "How far apart are the two wardrobes?"
+            (None, None, 1) if far && ends[0].plural => {
+                let pair = self.with_rest(ends[0].clone(), &[]);
+                return Some(Query::Distance { from: Some(pair.clone()), to: pair });
+            }
             (from, None, 1..) => {
                 let second = ends.get(1).cloned();
                 (
@@ -92,11 +102,31 @@ impl Frame<'_, '_> {
             (None, Some(to), 1..) if far => (Some(ends[0].clone()), to),
             (from, Some(to), _) => (from, to),
             (Some(from), None, 0) if far => (None, from),
+            // «Как выйти из спальни?»: by its doors.
+            (Some(from), None, 0) if how && self.is_area(&from) => {
+                let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
+                let out = Restriction { rel: Rel::From, anchors: vec![from], negated: false };
+                let head = Head { kinds, ..Head::default() };
+                let restrictions = vec![out];
+                return Some(Query::Find(Noun {
+                    head,
+                    plural: true,
+                    restrictions,
+                    ..Noun::default()
+                }));
+            }
             _ => return None,
         };
+        // "… to the wardrobe in the bedroom"
+        let mut to = to;
+        let goal = self.spots.iter().find(|s| s.rel == Rel::To && s.nouns[0] == to);
+        let room = goal.and_then(|goal| self.spots.iter().find(|s| s.at == goal.at + 1));
+        let room = room.filter(|s| s.rel == Rel::In && self.is_area(&s.nouns[0]));
+        if let Some(room) = room.filter(|_| !self.is_area(&to)) {
+            to.restrictions.extend(room.restrictions());
+        }
         let from = from.filter(|noun| !robot(noun));
         // Of several ways out the nearest is meant.
-        let mut to = to;
         if self.is_exits(&to) && to.best.is_none() {
             to.best = Some(Best { extreme: Extreme::Nearest, anchor: None });
         }
@@ -147,6 +177,25 @@ impl Frame<'_, '_> {
     pub(super) fn leads(&self) -> Option<Query> {
         let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
+        // «Из какой комнаты можно выйти на улицу?»
+        let exit = self.spots.iter().find(|s| self.is_exits(&s.nouns[0]));
+        let asked = self.nouns.iter().find(|s| self.is_rooms(&s.noun) && self.follows_which(s.at));
+        if let (Some(exit), Some(asked)) = (exit, asked)
+            && (self.has(Mark::Lead) || self.has(Mark::Move))
+        {
+            let anchors = vec![Noun { indefinite: true, ..exit.nouns[0].clone() }];
+            let mut rooms = Noun { plural: true, indefinite: true, ..asked.noun.clone() };
+            rooms.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: false });
+            return Some(Query::Find(rooms));
+        }
+        // «Куда попадёшь из кухни через Дверь-ВZ?»
+        let through = self.spots.iter().find(|s| s.rel == Rel::Through);
+        if let Some(through) = through.filter(|s| {
+            let leads = self.has(Mark::Lead) || self.has(Mark::Move);
+            leads && (asks_where || self.asks()) && self.is_doors(&s.nouns[0])
+        }) {
+            return Some(Query::Leads(through.nouns[0].clone()));
+        }
         let rooms = self.nouns.iter().any(|s| self.is_rooms(&s.noun) || self.is_area(&s.noun));
         let leads = self.has(Mark::Lead) || (self.has(Mark::Move) && self.asks());
         if !leads {
@@ -187,7 +236,11 @@ impl Frame<'_, '_> {
                 noun.restrictions.push(Restriction { rel: Rel::Of, anchors, negated: false });
             }
             // «Какая дверь ведёт на улицу?»
-            if let Some(out) = self.spots.iter().find(|s| self.is_exits(&s.nouns[0])) {
+            let out = |s: &&Spot| {
+                self.is_exits(&s.nouns[0])
+                    || (matches!(s.rel, Rel::From | Rel::Outside) && self.is_building(&s.nouns[0]))
+            };
+            if let Some(out) = self.spots.iter().find(out) {
                 noun.head.kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
                 return Some(Query::Find(self.with_rest(noun, &[out.at])));
             }

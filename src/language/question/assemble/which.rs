@@ -5,7 +5,7 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Best, Head, Noun, Query, Rel, Restriction};
+use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction, Thing};
 use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
@@ -24,7 +24,7 @@ impl Frame<'_, '_> {
         let Some(counted) = counted else {
             // «Сколько в комнате чёрных?», "how many are on the table"
             let mut noun = Noun { plural: true, ..Noun::default() };
-            let of = self.spot(&[Rel::Of]).filter(|s| !self.is_area(&s.nouns[0]));
+            let of = self.spot(&[Rel::Of, Rel::From]).filter(|s| !self.is_area(&s.nouns[0]));
             if let Some(of) = of {
                 return Some(Query::Count(self.with_rest(of.nouns[0].clone(), &[of.at])));
             }
@@ -148,6 +148,9 @@ impl Frame<'_, '_> {
         if let Some(nearest) = self.nearest_to(question) {
             return Some(nearest);
         }
+        if let Some(empty) = self.empty_rooms() {
+            return Some(empty);
+        }
         // «на чём», «в какой комнате»: a preposition right before the word that asks; or stranded at the end.
         let before = self.links.iter().find(|(_, at)| at + 1 == question);
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
@@ -169,7 +172,8 @@ impl Frame<'_, '_> {
                         || self.has(Mark::Have)
                         || of.noun.plural
                         || of.noun.indefinite;
-                    if general && !self.is_storeys(&asked.noun) {
+                    let spoken = of.noun.head.things.is_some();
+                    if general && !spoken && !self.is_storeys(&asked.noun) {
                         return Some(self.rooms_with(&asked.noun));
                     }
                     return Some(Query::RoomOf(of_noun));
@@ -177,6 +181,11 @@ impl Frame<'_, '_> {
                 return Some(Query::Anchor { rel, of: of_noun, what: Some(asked.noun.clone()) });
             }
             return Some(Query::Anchor { rel, of: of_noun, what: None });
+        }
+        // "What are you standing next to?"
+        if let (Some(rel), None, true, true) = (link, other, self.you, self.spots.is_empty()) {
+            let of = super::things(vec![Thing::Robot], "you");
+            return Some(Query::Anchor { rel, of, what: asked.map(|s| s.noun.clone()) });
         }
         if let Some(asked) = asked.or(other) {
             let others: Vec<&Subject> = self.nouns.iter().filter(|s| s.at != asked.at).collect();
@@ -240,9 +249,27 @@ impl Frame<'_, '_> {
         }
         let mut noun = Noun { plural: true, ..Noun::default() };
         noun.head.anything = true;
-        let something = !self.spots.is_empty() || !self.values.is_empty() || self.there.is_some();
+        let something = !self.spots.is_empty()
+            || !self.values.is_empty()
+            || !self.sizes.is_empty()
+            || self.there.is_some();
         let best = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_) | Mark::Nearer(_)));
         (something || best).then(|| Query::Find(self.with_rest(noun, &[])))
+    }
+
+    /// «В какой комнате ничего нет?», "Which room has nothing in it?"
+    fn empty_rooms(&self) -> Option<Query> {
+        let [only] = &self.nouns[..] else { return None };
+        let said = |key: &String| ["nothing", "ничего"].contains(&key.as_str());
+        let nothing = self.has(Mark::Anything) && self.sentence.keys.iter().any(said);
+        let rooms = self.is_rooms(&only.noun) && self.follows_which(only.at);
+        let value = self.lexicon.values.meaning("пустой")?;
+        (nothing && rooms && self.spots.is_empty()).then(|| {
+            let mut noun = Noun { plural: true, indefinite: true, ..only.noun.clone() };
+            noun.head.named.clear();
+            noun.filters.push(Filter::new(value, false));
+            Query::Find(noun)
+        })
     }
 
     /// "What is nearest to the sofa?": the only noun is what it is near to.
@@ -280,6 +307,10 @@ impl Frame<'_, '_> {
         noun.plural = true;
         let others = self.nouns.iter().filter(|s| s.noun != *rooms && !self.is_building(&s.noun));
         let others: Vec<&Subject> = others.collect();
+        // "Which rooms on the first floor have no chairs?": the storey is of the rooms.
+        for spot in self.spots.iter().filter(|s| self.is_of_storey(s)) {
+            noun.restrictions.extend(spot.restrictions());
+        }
         // "Which rooms have a bed or a fridge?": either will do.
         if self.has(Mark::Or) && others.len() > 1 {
             let anchors = others
@@ -301,10 +332,18 @@ impl Frame<'_, '_> {
     /// A noun with the values and places of the sentence.
     fn narrowed(&self, mut noun: Noun) -> Noun {
         noun.filters.extend(self.filters());
-        for spot in &self.spots {
+        for spot in self.spots.iter().filter(|s| !self.is_of_storey(s)) {
             self.attach(&mut noun, spot);
         }
         noun
+    }
+
+    fn is_of_storey(&self, spot: &super::Spot) -> bool {
+        let named = |e: &crate::map::Entity| matches!(e, crate::map::Entity::Map(_));
+        let noun = &spot.nouns[0];
+        matches!(spot.rel, Rel::In | Rel::On)
+            && (self.is_storeys(noun)
+                || (!noun.head.named.is_empty() && noun.head.named.iter().all(named)))
     }
 
     /// "Everything in Room V except the chairs": a list, where no verb makes it a claim.
@@ -326,7 +365,10 @@ impl Frame<'_, '_> {
                 noun.or_else(|| spot.map(|s| (s.nouns[0].clone(), vec![s.at])))?;
             return Some(Query::Describe(self.with_rest(noun, &without)));
         }
-        if !self.has(Mark::List) {
+        let shows = ["show", "покажи", "покажите"];
+        let shown = self.sentence.keys.iter().any(|key| shows.contains(&key.as_str()))
+            && self.first().is_some_and(|noun| noun.plural);
+        if !self.has(Mark::List) && !shown {
             return None;
         }
         let mut noun = self.first().unwrap_or_default();

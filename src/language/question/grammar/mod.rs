@@ -9,6 +9,8 @@
 //! ```
 //! A name is the longest run of words that the lexicon knows; it wins over the vocabulary where it is longer.
 
+mod governed;
+mod measures;
 mod relative;
 mod tokens;
 
@@ -24,7 +26,7 @@ use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
 use super::lexicon::KindId;
-use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction};
+use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
 use super::vocabulary::{Mark, Pronoun};
 use crate::language::words::{Case, Language, Number, Readings};
@@ -48,6 +50,7 @@ enum Tok {
     Value(ValueId),
     Property(u32),
     Number(u64),
+    Size(Sized),
     Unknown,
 }
 
@@ -94,6 +97,7 @@ pub(super) enum Item {
     Value(ValueId),
     Property(Property),
     Number(u64),
+    Size(Sized),
     /// Words that nothing knows.
     Unknown(Range<usize>),
 }
@@ -224,7 +228,13 @@ impl<'t> Sentence<'t> {
     fn place<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let (rest, mark) = self.mark(input, |m| matches!(m, Mark::Link(_)))?;
         let Mark::Link(rel) = mark else { return fail(input) };
-        let Ok((rest, first)) = self.phrase(rest) else { return Ok((rest, Item::Link(rel))) };
+        let Ok((rest, first)) = self.phrase(rest).or_else(|_| self.valued(rest)) else {
+            return Ok((rest, Item::Link(rel)));
+        };
+        if self.is_what_sort(&input.0[0], &first) {
+            return Ok((rest, Item::Noun(first)));
+        }
+        let rel = self.having(&input.0[0], &first).unwrap_or(rel);
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
@@ -358,6 +368,7 @@ impl<'t> Sentence<'t> {
                 Modifier::A => noun.indefinite = true,
                 Modifier::All => noun.all = true,
                 Modifier::Other => noun.other = true,
+                Modifier::Same => noun.same = true,
                 Modifier::Number(count) => noun.count = Some(count),
                 Modifier::Value(value, negated) => {
                     noun.filters.push(Filter::new(value, negated));
@@ -388,9 +399,14 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::A) => Modifier::A,
             Tok::Mark(Mark::All) => Modifier::All,
             Tok::Mark(Mark::Other) => Modifier::Other,
+            Tok::Mark(Mark::Same) => Modifier::Same,
             Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
+            // "the smaller wardrobe": of two the one that is so.
+            Tok::Mark(Mark::More(extreme)) if self.is_the_more(first, rest) => {
+                Modifier::Best(extreme)
+            }
             Tok::Number(count) => Modifier::Number(count),
             // «Закрыта дверь?» says it of the door; it does not tell which.
             Tok::Value(_) if self.is_predicate(first) => return fail(input),
@@ -478,10 +494,14 @@ impl<'t> Sentence<'t> {
             text: self.said(&words).to_owned(),
             ..Noun::default()
         };
-        if names && self.language == Language::Russian {
+        if names && (self.language == Language::Russian || found.is_storey) {
             return Ok((after, Some(next), None));
         }
         match self.language {
+            // «Сколько на столе книг?», «Сколько в доме этажей?»: the genitive is of what is counted.
+            Language::Russian if self.is_counted(input.0[0].from, next) => {
+                Ok((rest, Some(found), None))
+            }
             // «в Комнате-В книг»: a room is not owned by things.
             // «Нет ли на столе чашки?»: the genitive is of what is not there.
             Language::Russian
@@ -528,6 +548,7 @@ impl<'t> Sentence<'t> {
             Tok::Value(value) => Item::Value(value),
             Tok::Property(n) => Item::Property(self.properties[n as usize].clone()),
             Tok::Number(number) => Item::Number(number),
+            Tok::Size(size) => Item::Size(size),
             Tok::Noun(_) | Tok::Unknown => return fail(input),
         };
         Ok((rest, item))
@@ -550,6 +571,7 @@ enum Modifier {
     A,
     All,
     Other,
+    Same,
     Number(u64),
     Value(ValueId, bool),
     /// «… или белые»: another value that will do.

@@ -28,6 +28,7 @@ impl<'t> Sentence<'t> {
             at = sentence.token(at, lexicon);
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
+        sentence.drop_asking_particle();
         for token in &sentence.tokens {
             if let Tok::Value(value) = token.kind {
                 let property = lexicon.values.entry(value).property.clone();
@@ -43,6 +44,9 @@ impl<'t> Sentence<'t> {
             let (from, to) = (at as u32, at as u32 + 1);
             self.tokens.push(Token { from, to, kind: Tok::Value(value) });
             return at + 1;
+        }
+        if let Some(taken) = self.measured(at) {
+            return at + taken;
         }
         if let Some(taken) = self.quantity(at) {
             return at + taken;
@@ -75,7 +79,9 @@ impl<'t> Sentence<'t> {
         // "the place", "any space": after an article a noun is meant; a verb or adverb otherwise.
         let article = matches!(
             before,
-            Some(Tok::Mark(Mark::The | Mark::A | Mark::Which | Mark::All | Mark::HowMany))
+            Some(Tok::Mark(
+                Mark::The | Mark::A | Mark::Which | Mark::All | Mark::Same | Mark::HowMany
+            ))
         );
         let noun_wins = named == longest
             && match mark {
@@ -102,6 +108,10 @@ impl<'t> Sentence<'t> {
                 push(self, n, Tok::Mark(Mark::Not));
                 push(self, n, Tok::Mark(Mark::Link(Rel::Has)))
             }
+            (Some((n, Mark::Cannot)), _, _) if n == longest => {
+                push(self, n, Tok::Mark(Mark::Not));
+                push(self, n, Tok::Mark(Mark::Can))
+            }
             (Some((n, Mark::OnlyOne)), _, _) if n == longest => {
                 push(self, n, Tok::Mark(Mark::Number(Quantity::Exactly)));
                 push(self, n, Tok::Number(1))
@@ -126,6 +136,22 @@ impl<'t> Sentence<'t> {
                 push(self, n, Tok::Property(number))
             }
             _ => push(self, 1, Tok::Unknown),
+        }
+    }
+
+    /// «Во всех ли комнатах …»: within a noun phrase «ли» only asks, as it does behind a verb.
+    fn drop_asking_particle(&mut self) {
+        let within = (1..self.tokens.len()).find(|&n| {
+            let (before, token) = (self.tokens[n - 1].kind, self.tokens[n]);
+            let next = self.tokens.get(n + 1).map(|t| t.kind);
+            self.keys[token.from as usize] == "ли"
+                && matches!(before, Tok::Mark(Mark::All | Mark::Link(_) | Mark::Same))
+                && matches!(next, Some(Tok::Noun(_) | Tok::Value(_)))
+                && n >= 2
+                && matches!(self.tokens[n - 2].kind, Tok::Mark(Mark::Link(_)))
+        });
+        if let Some(n) = within {
+            self.tokens.remove(n);
         }
     }
 
@@ -199,7 +225,16 @@ impl<'t> Sentence<'t> {
                     .contains(&&self.text[self.words[last].clone()])
                 && gap(last) == " "
                 && last + 1 < self.words.len();
-            if !small {
+            // "Where does the TV stand?" asks with a verb that names take too.
+            let after =
+                |n: usize| at >= n && ["do", "does", "did"].contains(&self.keys[at - n].as_str());
+            let asks = |key: &String| ["where", "what", "which"].contains(&key.as_str());
+            let verb = taken > 1
+                && at + taken == self.words.len()
+                && ["stand", "lie"].contains(&self.keys[last].as_str())
+                && (after(1) || after(2))
+                && self.keys[..at].iter().any(asks);
+            if !(small || verb) {
                 return taken;
             }
             end = last;
@@ -280,6 +315,7 @@ impl<'t> Sentence<'t> {
                             | Mark::What
                             | Mark::HowMany
                             | Mark::All
+                            | Mark::Same
                             | Mark::Best(_)
                     )
             )

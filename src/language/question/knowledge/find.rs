@@ -8,7 +8,7 @@ use crate::language::question::Doubt;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
-use crate::units::{ObjectId, ReplicaId, Vector};
+use crate::units::{AreaId, ObjectId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
 impl Knowledge<'_> {
@@ -130,6 +130,10 @@ impl Knowledge<'_> {
             return Err(Doubt::NotUnderstood { words: noun.text.clone() });
         }
         let mut found = self.base(&noun.head);
+        // "Is anything made of steel?" asks of doors as well.
+        if noun.head.anything && !noun.filters.is_empty() {
+            found.extend(self.members(&Extension::Doors));
+        }
         if noun.other {
             found.retain(|t| !self.memory.spoken.contains(t));
         }
@@ -138,6 +142,14 @@ impl Knowledge<'_> {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
                 Ok(related) => related,
             };
+            // "Which floor has the lamp?"
+            let mut related = related;
+            if restriction.rel == Rel::Has && !found.is_empty() && found.iter().all(|t| is_map(*t))
+            {
+                let areas: Vec<AreaId> = related.iter().filter_map(|t| t.area()).collect();
+                let maps = areas.into_iter().filter_map(|area| self.world.placement(area));
+                related.extend(maps.map(|(map, _)| Thing::Entity(Entity::Map(map))));
+            }
             // "What is in the kitchen" asks for things, "what is next to the kitchen" may ask for rooms.
             if noun.head.anything
                 && !restriction.negated
@@ -149,8 +161,19 @@ impl Knowledge<'_> {
                     continue;
                 }
             }
+            // "What is between the kitchen and the bedroom?" asks for doors.
+            if noun.head.anything && restriction.rel == Rel::Between && !restriction.negated {
+                found.extend(related.iter().filter(|t| self.gate(**t).is_some()));
+            }
             let before = found.clone();
-            found.retain(|t| related.contains(t) != restriction.negated);
+            // «стулья у стола»: whatever its kind is at furniture that stands no farther than a step.
+            let at: Vec<Thing> = match restriction.rel {
+                Rel::NextTo if !noun.head.kinds.is_empty() => {
+                    self.standing_at(restriction, &found, loose)?
+                }
+                _ => Vec::new(),
+            };
+            found.retain(|t| (related.contains(t) || at.contains(t)) != restriction.negated);
             // «стул у стола»: where none is right beside it, the one near it is meant.
             if found.is_empty()
                 && restriction.rel == Rel::NextTo
@@ -165,6 +188,10 @@ impl Knowledge<'_> {
         }
         for filter in &noun.filters {
             found.retain(|t| self.fits(*t, filter));
+        }
+        for size in &noun.sizes {
+            let fits = |t: &Thing| self.measure(size.extreme, *t).is_some_and(|m| size.admits(m));
+            found.retain(fits);
         }
         for except in &noun.except {
             let without = self.find(except, true)?;
@@ -192,13 +219,30 @@ impl Knowledge<'_> {
         restriction: &Restriction,
         found: &[Thing],
     ) -> Option<HashSet<Thing>> {
-        let one = !noun.plural && !noun.all && !noun.indefinite && !noun.head.kinds.is_empty();
+        let one = !noun.plural && !noun.all && !noun.head.kinds.is_empty();
         if !one || restriction.negated || noun.head.things.is_some() {
             return None;
         }
         let related = self.related_to(restriction, true).ok()?;
         let mut fitting = found.iter().filter(|t| related.contains(t));
         (fitting.next().is_some() && fitting.next().is_none()).then_some(related)
+    }
+
+    /// Those of some things that stand at the furniture that a restriction names.
+    fn standing_at(
+        &self,
+        restriction: &Restriction,
+        found: &[Thing],
+        loose: bool,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut at = Vec::new();
+        for noun in restriction.anchors.iter().filter(|n| !self.is_walls(n) && !self.is_floor(n)) {
+            let Ok(anchors) = self.anchors(restriction, noun, loose) else { continue };
+            for anchor in anchors.into_iter().filter(|a| a.replica().is_some()) {
+                at.extend(found.iter().copied().filter(|t| self.stands_at(*t, anchor)));
+            }
+        }
+        Ok(at)
     }
 
     /// The storey of this number, counted from the lowest that is not under the ground.
@@ -329,7 +373,14 @@ impl Knowledge<'_> {
         };
         if let (Some(a), Some(b)) = (a.area(), b.area()) {
             let joins = |g: &&Gate| g.areas.contains(&a) && g.areas.contains(&b);
-            return Ok(self.gates().iter().filter(joins).map(|g| g.thing).collect());
+            let gates = self.gates().iter().filter(joins).map(|g| g.thing);
+            // Between two rooms are their doors, and the rooms that both lead to.
+            let next = |area: AreaId| -> HashSet<Thing> {
+                let room = Thing::Entity(Entity::Area(area));
+                self.related(Rel::Near, room).into_iter().collect()
+            };
+            let rooms = &next(a) & &next(b);
+            return Ok(gates.chain(rooms).collect());
         }
         let (Some(a), Some(b)) = (a.replica(), b.replica()) else { return Ok(HashSet::new()) };
         let between = self.relations.standing_between(a, b);

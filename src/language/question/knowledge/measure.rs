@@ -101,8 +101,11 @@ impl Knowledge<'_> {
             Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
             Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
             _ => {
-                let gate = self.gate(thing)?;
-                let width = (gate.ends.1 - gate.ends.0).norm();
+                let ends = match thing {
+                    Thing::Window(n) => self.lexicon().windows[n as usize].ends,
+                    _ => self.gate(thing)?.ends,
+                };
+                let width = (ends.1 - ends.0).norm();
                 return matches!(
                     extreme,
                     Extreme::Widest | Extreme::Narrowest | Extreme::Biggest | Extreme::Smallest

@@ -72,7 +72,13 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
         Rel::Leaning => LEANING,
         Rel::Has => HAS,
         Rel::Bears => BEARS,
-        Rel::Between | Rel::Outside | Rel::From | Rel::To | Rel::Through | Rel::Opens => &[],
+        Rel::Between
+        | Rel::Outside
+        | Rel::From
+        | Rel::To
+        | Rel::Through
+        | Rel::Opens
+        | Rel::Within(_) => &[],
     }
 }
 
@@ -171,7 +177,12 @@ impl Knowledge<'_> {
         match self.relations.symbols().subject(symbol) {
             Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
             Some(_) => None,
-            None => self.gates().iter().find(|g| g.name == symbol).map(|g| g.thing),
+            None => {
+                let gate = self.gates().iter().find(|g| g.name == symbol).map(|g| g.thing);
+                let windows = &self.lexicon().windows;
+                let window = || windows.iter().position(|w| !w.name.is_empty() && w.name == symbol);
+                gate.or_else(|| window().map(|n| Thing::Window(n as u32)))
+            }
         }
     }
 

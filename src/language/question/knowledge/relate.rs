@@ -13,6 +13,8 @@ use std::collections::{BTreeSet, HashSet};
 
 /// What stands this far from a door is at it, cm.
 const AT_DOOR: f64 = 100.0;
+/// Furniture this far from other furniture stands at it, whatever their sizes: a chair at a table, cm.
+const AT_FURNITURE: f64 = 60.0;
 
 impl Knowledge<'_> {
     /// What lies to a thing as a preposition says.
@@ -45,13 +47,13 @@ impl Knowledge<'_> {
                 Thing::Entity(Entity::Door(_)) | Thing::Opening(_),
             ) => {
                 let Some(gate) = self.gate(anchor) else { return Vec::new() };
-                self.within_reach(&gate.areas, |id| {
+                self.within_reach(AT_DOOR, &gate.areas, |id| {
                     self.relations.distance_to_segment(id, gate.ends)
                 })
             }
             (Rel::Near | Rel::NextTo | Rel::At | Rel::Under, Thing::Window(n)) => {
                 let window = &self.lexicon().windows[n as usize];
-                self.within_reach(&[window.area], |id| {
+                self.within_reach(AT_DOOR, &[window.area], |id| {
                     self.relations.distance_to_segment(id, window.ends)
                 })
             }
@@ -59,7 +61,20 @@ impl Knowledge<'_> {
                 let Some((map, at)) = self.point(anchor) else { return Vec::new() };
                 let area = self.relations.measurements().area_at(map, at);
                 let areas: Vec<AreaId> = area.into_iter().collect();
-                self.within_reach(&areas, |id| self.relations.distance_to_point(id, map, at))
+                self.within_reach(AT_DOOR, &areas, |id| {
+                    self.relations.distance_to_point(id, map, at)
+                })
+            }
+            (Rel::Within(reach), _) => {
+                let areas = match self.gate(anchor) {
+                    Some(gate) => gate.areas.clone(),
+                    None => self.area_of(anchor).into_iter().collect(),
+                };
+                let mut found = self.within_reach(f64::from(reach), &areas, |id| {
+                    self.distance(Thing::Entity(Entity::Replica(id)), anchor)
+                });
+                found.retain(|t| *t != anchor);
+                found
             }
             (Rel::Has, _) => self.holders(anchor),
             (Rel::Opens, _) => self.keys_of(anchor),
@@ -74,6 +89,17 @@ impl Knowledge<'_> {
             }
             _ => self.by_relation(rel, anchor),
         }
+    }
+
+    /// Whether both are furniture of one room and stand so near that one is at the other.
+    pub(in crate::language::question) fn stands_at(&self, x: Thing, y: Thing) -> bool {
+        let furniture =
+            |t: Thing| t.replica().is_some_and(|id| !self.world.has_trait(id, "portable"));
+        x != y
+            && furniture(x)
+            && furniture(y)
+            && self.area_of(x) == self.area_of(y)
+            && self.distance(x, y).is_some_and(|d| d <= AT_FURNITURE)
     }
 
     /// Keys of a door, or of the doors of a room.
@@ -97,7 +123,7 @@ impl Knowledge<'_> {
         self.world.find(door).into_iter().find(is_door).map(Thing::Entity)
     }
 
-    fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
+    pub(super) fn by_relation(&self, rel: Rel, anchor: Thing) -> Vec<Thing> {
         let mut found: Vec<Thing> = Vec::new();
         for basis in bases(rel) {
             if basis.of_support
@@ -179,6 +205,7 @@ impl Knowledge<'_> {
 
     fn within_reach(
         &self,
+        reach: f64,
         areas: &[AreaId],
         distance: impl Fn(ReplicaId) -> Option<f64>,
     ) -> Vec<Thing> {
@@ -186,7 +213,7 @@ impl Knowledge<'_> {
         let mut near: Vec<(f64, Thing)> = rooms
             .flat_map(|room| self.by_relation(Rel::In, room))
             .filter_map(|t| Some((distance(t.replica()?)?, t)))
-            .filter(|(d, _)| *d <= AT_DOOR)
+            .filter(|(d, _)| *d <= reach)
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         near.dedup_by_key(|(_, t)| *t);

@@ -81,6 +81,14 @@ impl Knowledge<'_> {
         if own.iter().any(|(_, value, _)| value.is_some_and(|v| values.is(v, wanted))) {
             return true;
         }
+        if let Thing::Entity(Entity::Area(_)) = thing {
+            let holds = || self.by_relation(Rel::In, thing).iter().any(|t| t.replica().is_some());
+            return match values.entry(wanted).russian.as_str() {
+                "пустой" => !holds(),
+                "занятый" => holds(),
+                _ => false,
+            };
+        }
         let told = own.iter().any(|(_, v, _)| v.is_some_and(|v| values.entry(v).is_emptiness()));
         match values.entry(wanted).russian.as_str() {
             _ if told || thing.replica().is_none() => false,

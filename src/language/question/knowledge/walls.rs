@@ -39,9 +39,11 @@ impl Knowledge<'_> {
             for anchor in &restriction.anchors {
                 let meant: HashSet<AreaId> =
                     self.find(anchor, true)?.into_iter().filter_map(Thing::area).collect();
-                if !meant.is_empty() {
-                    rooms.retain(|room| meant.contains(room));
+                // «у стены напротив телевизора»: walls are told by their rooms alone.
+                if meant.is_empty() {
+                    return Err(Doubt::NotUnderstood { words: noun.text.clone() });
                 }
+                rooms.retain(|room| meant.contains(room));
             }
         }
         let on_floor: HashSet<ReplicaId> = self.on_floor().iter().copied().collect();

@@ -1,0 +1,79 @@
+//! What a word before a noun makes of it: «с» with the instrumental, «сколько» with a genitive behind a place, a
+//! comparative between article and noun, a value that stands for the noun said before.
+//!
+//! Invariant: the words that are read are those that the caller takes.
+
+use super::{Found, Parsed, Phrase, Sentence, Tok, Token, Tokens, fail};
+use crate::language::question::query::{Filter, Head, Noun, Rel};
+use crate::language::question::vocabulary::Mark;
+use crate::language::words::{Case, Language, Number};
+
+impl Sentence<'_> {
+    /// «рядом с красной»: a value for the noun that has been said.
+    pub(super) fn valued<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
+        let [first @ Token { kind: Tok::Value(value), .. }, rest @ ..] = input.0 else {
+            return fail(input);
+        };
+        let words = first.from as usize..first.to as usize;
+        let said = self.nouns.iter().any(|n| !n.kinds.is_empty());
+        let one = words.len() == 1 && self.language == Language::Russian && said;
+        if !one || self.is_predicate(first) {
+            return fail(input);
+        }
+        let noun = Noun {
+            head: Head { anything: true, ..Head::default() },
+            text: self.said(&words).to_owned(),
+            filters: vec![Filter::new(*value, false)],
+            ..Noun::default()
+        };
+        let phrase = Phrase {
+            noun,
+            words,
+            pronoun: None,
+            person: None,
+            nominative: false,
+            cases: Vec::new(),
+            only_plural_nominative: false,
+        };
+        Ok((Tokens(rest), phrase))
+    }
+
+    /// «комната с телевизором»: with the instrumental «с» tells what something has.
+    pub(super) fn having(&self, link: &Token, phrase: &Phrase) -> Option<Rel> {
+        let with = ["с", "со"].contains(&self.keys[link.from as usize].as_str());
+        let joins = self.tokens.iter().any(|t| t.kind == Tok::Mark(Mark::Lead));
+        let is = |case: Case| phrase.cases.iter().any(|r| r.has_case(case));
+        let having = link.to - link.from == 1 && with && !joins;
+        (having && is(Case::Instrumental) && !is(Case::Genitive)).then_some(Rel::Has)
+    }
+
+    /// Whether a genitive plural behind a place belongs to the «сколько» before it, which has no noun of its own.
+    pub(super) fn is_counted(&self, place: u32, next: &Found) -> bool {
+        let before: Vec<&Token> = self.tokens.iter().filter(|t| t.to <= place).collect();
+        let Some(asks) = before.iter().rposition(|t| t.kind == Tok::Mark(Mark::HowMany)) else {
+            return false;
+        };
+        matches!(before.last().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))))
+            && before[asks..].iter().all(|t| !matches!(t.kind, Tok::Noun(_)))
+            && next.readings.iter().any(|r| r.has(Number::Plural, Case::Genitive))
+    }
+
+    /// «Что за комната Комната-Z?»: with a nominative «за» puts nothing behind anything.
+    pub(super) fn is_what_sort(&self, link: &Token, phrase: &Phrase) -> bool {
+        let what = self.tokens.iter().rev().find(|t| t.to <= link.from).map(|t| t.kind);
+        self.keys[link.from as usize] == "за"
+            && what == Some(Tok::Mark(Mark::What))
+            && !phrase.cases.is_empty()
+            && phrase.cases.iter().all(|r| !r.has_case(Case::Instrumental))
+            && phrase.nominative
+    }
+
+    /// "the smaller wardrobe": a comparative right before its noun.
+    pub(super) fn is_the_more(&self, more: &Token, rest: Tokens<'_>) -> bool {
+        let before = self.tokens.iter().rev().find(|t| t.to <= more.from);
+        let noun =
+            matches!(rest.0.first().map(|t| t.kind), Some(Tok::Noun(_) | Tok::Mark(Mark::One)));
+        noun && self.language == Language::English
+            && before.is_some_and(|t| t.kind == Tok::Mark(Mark::The))
+    }
+}
