@@ -540,6 +540,33 @@ fn whatever_is_typed_is_answered_politely() {
     }
 }
 
+/// Words of orders in any order, with marks between them, one after the other in one dialogue.
+#[test]
+fn orders_of_stirred_words_do_no_harm() {
+    const WORDS: &str = "принеси возьми положи поставь закрой открой запри включи выключи найди иди сходи остановись \
+        верни отнеси проверь убедись сделай пусть bring take put close open lock switch turn find go search fetch stop \
+        make sure that check home everything whatever is on off and but not except for from the a one any to по кухню \
+        чашку красную белую стол столе книгу лекарство зонт дверь Дверь-ZY Комната-В Комнату-Y ключ лампу свет окно \
+        не а и или за в на из с со к у где там любую все всё кроме только вторую ещё другую её его cup table book key \
+        door light Room window where there red second other it them please пожалуйста робот нет да , . ; ! – ? « \" два 3";
+    let words: Vec<&str> = WORDS.split_whitespace().collect();
+    let engine = rb2();
+    let mut random = crate::planning_properties::random::Random::new(11);
+    let mut understood = 0;
+    let mut memory = Memory::default();
+    for _ in 0..4_000 {
+        let text: Vec<&str> =
+            (0..1 + random.below(9)).map(|_| words[random.below(words.len())]).collect();
+        let text = text.join(" ");
+        understood += usize::from(engine.understand_in(&text, &mut memory).is_ok());
+        let _ = engine.is_command(&text);
+        let _ = engine.orders_and_questions(&text);
+        let _ = engine.orders_tersely(&text);
+        let _ = engine.resumed(&text, &memory);
+    }
+    assert!(understood > 100, "{understood}");
+}
+
 #[test]
 fn types_that_the_map_lacks_are_unknown_and_plurals_are_found() {
     let engine = rb2();

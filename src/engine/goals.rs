@@ -468,10 +468,12 @@ fn is_only_gathered(commands: &[Command<Entity>], at: usize) -> bool {
 /// Whether two commands one after the other ask for the same to be done to different things: then their order is
 /// the planner's to choose. What is carried goes one by one through the one hand, so there is little to choose.
 fn are_done_together(first: &Command<Entity>, second: &Command<Entity>) -> bool {
-    use Command::{Close, Lock, Open, SwitchOff, SwitchOn, Unlock};
+    use Command::{Close, Lock, Open, SwitchOff, SwitchOn, Take, Unlock};
     matches!(
         (first, second),
-        (Open(_), Open(_))
+        // Held at the end are both, or it is said that they cannot be.
+        (Take { .. }, Take { .. })
+            | (Open(_), Open(_))
             | (Close(_), Close(_))
             | (Lock(_), Lock(_))
             | (Unlock(_), Unlock(_))

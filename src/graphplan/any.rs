@@ -3,9 +3,9 @@
 //! Forward search guided by relaxed plans (J. Hoffmann, B. Nebel, 2001): a relaxed problem forgets delete effects, its
 //! solution estimates the distance to the goal and names the operators worth trying first. Enforced hill climbing
 //! goes first, and first of all as far along the relaxed plan as that can be carried out (V. Vidal, 2004, "a lookahead
-//! strategy"); where it gets stuck, landmarks are followed one by one. Then [search by width](super::novelty) and
-//! best-first search, which counts landmarks besides, take turns; both miss nothing. The sequence found is rid of
-//! operators that turned out needless and laid out in parallel steps.
+//! strategy"); where it gets stuck, states are looked at by width for a while, and landmarks followed one by one. Then
+//! [search by width](super::novelty) and best-first search, which counts landmarks besides, take turns; both miss
+//! nothing. The sequence found is rid of operators that turned out needless and laid out in parallel steps.
 
 use std::cmp::Reverse;
 use std::collections::binary_heap::PeekMut;
@@ -38,7 +38,8 @@ pub(super) enum Effort {
 /// States looked at with small effort.
 const FEW_STATES: u64 = 20_000;
 
-/// States looked at by width, with small effort, and most of all.
+/// States looked at by width before landmarks are followed, with small effort, and most of all.
+const FEWEST_STATES_BY_WIDTH: usize = 10_000;
 const FEW_STATES_BY_WIDTH: usize = 50_000;
 const MANY_STATES_BY_WIDTH: usize = 2_000_000;
 
@@ -72,7 +73,7 @@ struct Forward<'a> {
 }
 
 impl Forward<'_> {
-    /// Hill climbing, then landmarks, then width, then relaxed plans and landmarks.
+    /// Hill climbing, then a little width, then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
         if self.effort == Effort::Small
             && let Some((operators, _)) = self.climb(self.initial())?
@@ -86,14 +87,18 @@ impl Forward<'_> {
         {
             return Ok(Searched::Path(operators));
         }
-        if self.effort == Effort::Small
-            && landmarks.is_some()
-            && let Some(operators) = self.descend()?
-        {
-            return Ok(Searched::Path(operators));
-        }
         // What is looked at by width leaves room for what comes after it.
         let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
+        if self.effort == Effort::Small && landmarks.is_some() {
+            let (relaxed, states) = (&mut self.relaxed, FEWEST_STATES_BY_WIDTH);
+            match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &half) {
+                Ok(Searched::Open) | Err(Limit::Memory) => {}
+                other => return other,
+            }
+            if let Some(operators) = self.descend()? {
+                return Ok(Searched::Path(operators));
+            }
+        }
         let first = if self.effort == Effort::Small { 0 } else { 1 };
         // Both take turns, each with more effort than before: where one loses its way, the other may know it.
         for round in first.. {
