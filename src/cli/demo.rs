@@ -100,7 +100,10 @@ fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnsw
         return Ok(answer);
     }
     let mut teller = Teller::new(world, common.lang);
-    say(&format!("{} «{task}»", common.lang.pick("Задание:", "Task:")))?;
+    say(&match common.lang {
+        Lang::Ru => format!("Задание: «{task}»"),
+        Lang::En => format!("Task: \"{task}\""),
+    })?;
     let answer = engine.perform(task, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
     say_ending(engine, &answer, common.lang)?;

@@ -3,6 +3,7 @@
 use super::grammar::{Item, Sentence};
 use super::vocabulary::{Mark, Pronoun};
 use super::{Asker, Claim, Extension, Head, Memory, Noun, Query, Thing, assemble};
+use crate::language::words::word_keys;
 use crate::map::Entity;
 
 impl Asker<'_> {
@@ -12,7 +13,8 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
-        if !begins.iter().any(|b| key.starts_with(b)) && !self.asks_extreme_only(text) {
+        let of_those = self.asks_of_those(text);
+        if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
             return None;
         }
         if let Some(query) = self.another_asked(&key, last, memory) {
@@ -25,7 +27,10 @@ impl Asker<'_> {
         let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
         let mut query = last.clone();
         if noun.head == Head::default() {
-            return self.elsewhere(query, noun);
+            return Some(match self.elsewhere(query, noun)? {
+                Query::Count(noun) if of_those => Query::Find(noun),
+                query => query,
+            });
         }
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
@@ -46,9 +51,11 @@ impl Asker<'_> {
         replaced.map(|_| query)
     }
 
-    /// «Какая самая маленькая?», "Which is the biggest one?": a superlative and no noun.
-    fn asks_extreme_only(&self, text: &str) -> bool {
+    /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
+    fn asks_of_those(&self, text: &str) -> bool {
         let text = self.plain(text);
+        // "Which is" alone is a small word, as in "the book which is on the table".
+        let which = word_keys(&text).first().is_some_and(|word| word == "which");
         let items = Sentence::new(&text, &self.mind.lexicon).items();
         let small = |item: &Item| match item {
             Item::Mark(mark) => matches!(
@@ -56,10 +63,12 @@ impl Asker<'_> {
                 Mark::Which | Mark::What | Mark::Be | Mark::The | Mark::Best(_) | Mark::One
             ),
             Item::Noun(phrase) => phrase.noun.head.anything && phrase.noun.best.is_some(),
+            Item::Value(_) => true,
             _ => false,
         };
         let asks = matches!(items.first(), Some(Item::Mark(Mark::Which)));
-        asks && items.len() > 1 && items.iter().all(small)
+        let least = if asks { 2 } else { 1 };
+        (asks || which) && items.len() >= least && items.iter().all(small)
     }
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.

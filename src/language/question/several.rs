@@ -10,7 +10,8 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     // A joint is left out; behind a comma alone the next question begins at once.
     let cut = |n: usize| {
         let comma = text[words[n - 1].end..words[n].start].contains(',');
-        let joint = is_joint(&keys[n]) && begins(&keys[n + 1..]);
+        let (before, behind) = (&keys[..n], &keys[n + 1..]);
+        let joint = is_joint(&keys[n]) && (begins(behind) || asks_of_those(before, behind));
         let anew = comma && begins_anew(&keys[n..]);
         (asks(&keys[..n]) && (joint || anew)).then(|| match joint {
             true => (words[n].start, words[n].end),
@@ -78,7 +79,11 @@ fn is_asking(mark: Mark) -> bool {
 }
 
 fn asks(words: &[String]) -> bool {
-    (0..words.len()).any(|n| vocabulary::longest(&words[n..]).is_some_and(|(_, m)| is_asking(m)))
+    has_mark(words, is_asking)
+}
+
+fn has_mark(words: &[String], wanted: fn(Mark) -> bool) -> bool {
+    (0..words.len()).any(|n| vocabulary::longest(&words[n..]).is_some_and(|(_, m)| wanted(m)))
 }
 
 /// Whether words behind a comma ask anew, which a relative clause does not: «…, на каком этаже», «…, сколько».
@@ -91,6 +96,14 @@ fn begins_anew(words: &[String]) -> bool {
         Some((_, Mark::HowMany)) => true,
         _ => false,
     }
+}
+
+/// "How many rooms are there and which is the biggest?": where a thing is described, "which is" asks nothing.
+fn asks_of_those(before: &[String], words: &[String]) -> bool {
+    let [which, is, rest @ ..] = words else { return false };
+    let is_which = which == "which" && matches!(is.as_str(), "is" | "are");
+    let counted = has_mark(before, |mark| mark == Mark::HowMany);
+    is_which && (counted || has_mark(rest, |mark| matches!(mark, Mark::Best(_))))
 }
 
 /// Whether a part begins with what asks, after a preposition or a small word: «и в какой она комнате».

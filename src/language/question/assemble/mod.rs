@@ -131,11 +131,13 @@ pub(super) fn fragment(
 ) -> Option<Noun> {
     let items = sentence.items();
     let frame = Frame::of(sentence, lexicon, &items, referent).ok()?;
+    let of_those = frame.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)))
+        || items.iter().any(|item| matches!(item, Item::Value(_)));
     let small = |mark: &Mark| {
         matches!(
             mark,
             Mark::The | Mark::A | Mark::Be | Mark::Hang | Mark::One | Mark::Best(_) | Mark::And
-        ) || (*mark == Mark::Which && frame.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_))))
+        ) || (*mark == Mark::Which && of_those)
     };
     if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
