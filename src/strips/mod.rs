@@ -30,6 +30,7 @@ mod english;
 mod error;
 mod exchange;
 mod explain;
+mod expression;
 mod ground;
 mod lack;
 mod load;

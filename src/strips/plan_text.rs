@@ -8,8 +8,8 @@ use std::path::Path;
 use miette::SourceSpan;
 
 use super::error::{RuleError, RuleFault, RuleFaults};
+use super::expression::{Expression, expressions};
 use super::load::read_source;
-use super::pddl::{Expression, expressions};
 use super::task::{OperatorId, Task};
 use crate::units::{Bilingual, Source};
 
