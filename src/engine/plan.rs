@@ -89,7 +89,7 @@ impl Engine {
 /// Plans a scenario that needs no map, withdraws assumptions, and plans anew with what was learned.
 ///
 /// # Errors
-/// As [`Engine::plan_without`].
+/// All faults of the scenario, and of what is to be withdrawn.
 pub fn plan_alone_without(
     scenario: Scenario,
     withdrawn: &[String],

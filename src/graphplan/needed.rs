@@ -89,12 +89,20 @@ struct Relevance<'a> {
     initially: Vec<bool>,
     is_goal: Vec<bool>,
     kept: Vec<bool>,
+    /// The kept ones in the order in which they came to be kept.
+    kept_in_order: Vec<OperatorId>,
     needed: Vec<bool>,
     /// Per fact, once asked for, what lies beyond it.
-    beyond: Vec<Option<Box<[u64]>>>,
+    beyond: Vec<Option<Beyond>>,
     /// Facts that operators of the second kind give up, and those that only they add.
     given_up: Vec<bool>,
     missing: Vec<bool>,
+}
+
+/// What lies beyond a fact, as the first so many operators that are kept let it be.
+struct Beyond {
+    facts: Box<[u64]>,
+    kept: usize,
 }
 
 impl<'a> Relevance<'a> {
@@ -122,8 +130,9 @@ impl<'a> Relevance<'a> {
             initially: marked(&task.init),
             is_goal: marked(&task.goal),
             kept: vec![false; task.operators.len()],
+            kept_in_order: Vec::new(),
             needed: marked(&task.goal),
-            beyond: vec![None; count],
+            beyond: (0..count).map(|_| None).collect(),
             given_up: vec![false; count],
             missing: vec![false; count],
         }
@@ -133,7 +142,6 @@ impl<'a> Relevance<'a> {
     /// wrong when more is kept; the last round changes nothing, so that in it all was judged by what is kept at last.
     fn settle(&mut self, limits: &Limits) -> Result<(), Limit> {
         loop {
-            self.beyond.fill(None);
             self.given_up.fill(false);
             self.missing.fill(false);
             let mut open: Vec<FactId> =
@@ -148,6 +156,7 @@ impl<'a> Relevance<'a> {
                     }
                     changed = true;
                     self.kept[id.index()] = true;
+                    self.kept_in_order.push(id);
                     for &need in &self.task.operator(id).preconditions {
                         if !std::mem::replace(&mut self.needed[need.index()], true) {
                             open.push(need);
@@ -225,38 +234,66 @@ impl<'a> Relevance<'a> {
 
     /// Facts that exclude a fact and are come to only from it, by operators that are not kept: since one of them
     /// holds, the fact has held, and in between one or another of them did.
+    ///
+    /// More that is kept only takes facts out of it, so what was found before is narrowed.
     fn beyond(&mut self, fact: FactId) -> &[u64] {
-        if self.beyond[fact.index()].is_none() {
-            self.beyond[fact.index()] = Some(self.found_beyond(fact));
-        }
-        self.beyond[fact.index()].as_deref().expect("it was just found")
+        let kept = self.kept_in_order.len();
+        let known = self.beyond[fact.index()].take();
+        let facts = match known {
+            Some(known) if known.kept == kept => known.facts,
+            Some(known) => {
+                let newly = self.kept_in_order[known.kept..].iter();
+                let adds = newly.flat_map(|&id| &self.task.operator(id).add_effects);
+                self.narrowed(fact, known.facts, adds.map(|add| add.index()).collect())
+            }
+            None => {
+                let all = self.beside_none(fact);
+                let members = bits::members(&all).collect();
+                self.narrowed(fact, all, members)
+            }
+        };
+        &self.beyond[fact.index()].insert(Beyond { facts, kept }).facts
     }
 
-    fn found_beyond(&self, fact: FactId) -> Box<[u64]> {
+    /// All facts that exclude a fact.
+    fn beside_none(&self, fact: FactId) -> Box<[u64]> {
         let count = self.task.facts.len();
-        let mut beyond = vec![0; bits::words(count)].into_boxed_slice();
-        for (beyond, beside) in beyond.iter_mut().zip(self.pairs.row(fact)) {
-            *beyond = !beside;
+        let mut facts = vec![0; bits::words(count)].into_boxed_slice();
+        for (exclusive, beside) in facts.iter_mut().zip(self.pairs.row(fact)) {
+            *exclusive = !beside;
         }
-        (count..beyond.len() * 64).for_each(|none| bits::take(&mut beyond, none));
-        let mut open: Vec<usize> = bits::members(&beyond).collect();
-        while let Some(member) = open.pop() {
-            let comes_from_there = |id: &OperatorId| {
-                let needs = &self.task.operator(*id).preconditions;
-                !self.kept[id.index()]
-                    && (needs.contains(&fact)
-                        || needs.iter().any(|f| bits::has(&beyond, f.index())))
-            };
-            let stays =
-                !self.initially[member] && self.added_by[member].iter().all(comes_from_there);
-            if stays || !bits::has(&beyond, member) {
-                continue;
+        (count..facts.len() * 64).for_each(|none| bits::take(&mut facts, none));
+        facts
+    }
+
+    /// What is left when these members, and whatever was come to from them, are judged anew.
+    fn narrowed(&self, fact: FactId, mut beyond: Box<[u64]>, members: Vec<usize>) -> Box<[u64]> {
+        let comes_from_there = |beyond: &[u64], id: OperatorId| {
+            let needs = &self.task.operator(id).preconditions;
+            !self.kept[id.index()]
+                && needs.iter().any(|&need| need == fact || bits::has(beyond, need.index()))
+        };
+        let mut gone = Vec::new();
+        for member in members {
+            let stays = !self.initially[member]
+                && self.added_by[member].iter().all(|&id| comes_from_there(&beyond, id));
+            if !stays && bits::has(&beyond, member) {
+                bits::take(&mut beyond, member);
+                gone.push(member);
             }
-            bits::take(&mut beyond, member);
-            // Whoever came from there may have come from nowhere else.
-            for &id in &self.needed_by[member] {
-                let adds = self.task.operator(id).add_effects.iter().map(|add| add.index());
-                open.extend(adds.filter(|&add| bits::has(&beyond, add)));
+        }
+        // Whoever came from there may have come from nowhere else.
+        while let Some(member) = gone.pop() {
+            for &id in self.needed_by[member].iter().filter(|id| !self.kept[id.index()]) {
+                if comes_from_there(&beyond, id) {
+                    continue;
+                }
+                for add in self.task.operator(id).add_effects.iter().map(|add| add.index()) {
+                    if bits::has(&beyond, add) {
+                        bits::take(&mut beyond, add);
+                        gone.push(add);
+                    }
+                }
             }
         }
         beyond
