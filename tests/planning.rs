@@ -7,8 +7,8 @@ use miette::Diagnostic;
 use orthoframe::engine::plan_alone;
 use orthoframe::graphplan::{Limit, Limits, NoPlanReason, Outcome, solve, validate};
 use orthoframe::robot::Wanted;
-use orthoframe::strips::{EnglishFault, PlanText, RuleFaults, Scenario, Task, explain_unreachable};
-use orthoframe::units::Source;
+use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
+use orthoframe::units::{English, Source};
 
 fn project(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
@@ -94,7 +94,7 @@ fn outcome(case: &Path) -> String {
 
 /// Each fault in English, with its remedy.
 fn in_english(faults: &RuleFaults) -> String {
-    let told = faults.0.iter().map(EnglishFault).map(|fault| {
+    let told = faults.0.iter().map(English).map(|fault| {
         let help = fault.help().map_or_else(String::new, |help| format!(" – {help}"));
         format!("{fault}{help}")
     });

@@ -5,8 +5,8 @@ use std::path::Path;
 use miette::Diagnostic;
 use orthoframe::graphplan::{Limits, Outcome, solve};
 use orthoframe::robot::{Solved, Wanted, solve as solve_problem, solve_without};
-use orthoframe::strips::{EnglishFault, PlanText, RuleFaults, Scenario};
-use orthoframe::units::{Language, Source};
+use orthoframe::strips::{PlanText, RuleFaults, Scenario};
+use orthoframe::units::{English, Language, Source};
 
 use crate::planning_properties::Drawn;
 use crate::planning_properties::random::Random;
@@ -420,7 +420,7 @@ fn faults_of_spoilt_pddl_are_english_where_english_is_asked_for() {
         let (domain, problem) = (spoil(GRIPPER.0, &mut random), spoil(GRIPPER.1, &mut random));
         let Err(faults) = pddl(&domain, &problem) else { continue };
         for fault in &faults.0 {
-            let english = EnglishFault(fault);
+            let english = English(fault);
             let labels = english.labels().into_iter().flatten();
             let labels: Vec<String> = labels.filter_map(|l| l.label().map(str::to_owned)).collect();
             let help = english.help().map(|help| help.to_string());

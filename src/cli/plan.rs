@@ -7,7 +7,8 @@ use crate::engine::{
 };
 use crate::graphplan::{Limits, Outcome, Plan};
 use crate::language::Language;
-use crate::strips::{EnglishFault, PlanText, RuleFault, RuleFaults, Scenario};
+use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
+use crate::units::English;
 
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
@@ -127,7 +128,7 @@ pub(super) fn warn(warnings: &[RuleFault], lang: Lang) {
         note(
             match lang {
                 Lang::Ru => drawn(warning),
-                Lang::En => drawn(&EnglishFault(warning)),
+                Lang::En => drawn(&English(warning)),
             }
             .trim_end(),
         );

@@ -11,10 +11,8 @@ use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::words::english;
 use crate::map::Entity;
-use crate::strips::{
-    Broken, EnglishFault, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording,
-};
-use crate::units::capitalized;
+use crate::strips::{Broken, OperatorId, Replayed, RuleFault, RuleFaults, Said, Wording};
+use crate::units::{English, capitalized};
 
 use super::args::Lang;
 
@@ -181,7 +179,7 @@ pub(super) fn replayed(replayed: &Replayed, lang: Lang) -> String {
 fn reasons(faults: &RuleFaults, lang: Lang) -> String {
     let told = |fault: &RuleFault| match lang {
         Lang::Ru => format!("\n      {fault}"),
-        Lang::En => format!("\n      {}", EnglishFault(fault)),
+        Lang::En => format!("\n      {}", English(fault)),
     };
     faults.0.iter().map(told).collect()
 }

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+use miette::Diagnostic;
 
 use super::error::{RuleError, RuleFault, RuleFaults};
-use crate::units::{Bilingual, Language};
+use crate::units::{Bilingual, English, InEnglish, Language};
 
 fn en(words: &Bilingual) -> &str {
     words.say(Language::English)
@@ -233,50 +233,27 @@ impl RuleError {
     }
 }
 
-/// A fault as English tells it.
-#[derive(Debug, Clone, Copy)]
-pub struct EnglishFault<'f>(pub &'f RuleFault);
-
-impl fmt::Display for EnglishFault<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((name, line, column)) = self.0.position() {
-            write!(f, "{name}:{line}:{column}: ")?;
-        }
-        f.write_str(&self.0.error.english())
+impl InEnglish for RuleFault {
+    fn english(&self) -> String {
+        let place = self.position();
+        let place = place.map(|(name, line, column)| format!("{name}:{line}:{column}: "));
+        place.unwrap_or_default() + &self.error.english()
     }
-}
-
-impl std::error::Error for EnglishFault<'_> {}
-
-impl Diagnostic for EnglishFault<'_> {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.0.code()
+    fn english_help(&self) -> Option<String> {
+        self.error.english_help().map(str::to_owned)
     }
-    fn severity(&self) -> Option<Severity> {
-        self.0.severity()
-    }
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        let help = self.0.error.english_help()?;
-        Some(Box::new(help))
-    }
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.0.source_code()
-    }
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let told = self.0.error.english_labels();
-        let spans = self.0.labels()?.map(|label| *label.inner());
-        let label = |(span, text): (_, &str)| LabeledSpan::new_with_span(Some(text.into()), span);
-        Some(Box::new(spans.zip(told).map(label)))
+    fn english_labels(&self) -> [&'static str; 2] {
+        self.error.english_labels()
     }
 }
 
 /// Faults as English tells them.
 #[derive(Debug, Clone)]
-pub struct EnglishFaults<'f>(Vec<EnglishFault<'f>>);
+pub struct EnglishFaults<'f>(Vec<English<'f, RuleFault>>);
 
 impl<'f> From<&'f RuleFaults> for EnglishFaults<'f> {
     fn from(faults: &'f RuleFaults) -> Self {
-        Self(faults.0.iter().map(EnglishFault).collect())
+        Self(faults.0.iter().map(English).collect())
     }
 }
 

@@ -51,7 +51,7 @@ pub use domain::{
     ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
     SchemaCost, SchemaTerm,
 };
-pub use english::{EnglishFault, EnglishFaults};
+pub use english::EnglishFaults;
 pub use error::{Place, RuleError, RuleFault, RuleFaults};
 pub use explain::{Clash, Missing, Obstacle, explain_unreachable};
 pub use ground::{ground, ground_while, without_price};

@@ -11,6 +11,7 @@
 //! ```
 
 mod bilingual;
+mod english;
 mod frame;
 mod id;
 mod language;
@@ -19,6 +20,7 @@ mod quantity;
 mod source;
 
 pub use bilingual::Bilingual;
+pub use english::{English, InEnglish};
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
 pub use language::Language;

@@ -2,10 +2,10 @@
 
 use std::fmt;
 
-use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+use miette::{Diagnostic, Severity, SourceCode};
 
 use super::{Fault, MapError, MapErrors};
-use crate::units::{Bilingual, Cm, Language};
+use crate::units::{Bilingual, Cm, English, InEnglish, Language};
 
 fn en(words: &Bilingual) -> &str {
     words.say(Language::English)
@@ -377,30 +377,15 @@ impl MapError {
     }
 }
 
-/// A fault as English tells it.
-#[derive(Debug, Clone, Copy)]
-struct EnglishFault<'f>(&'f Fault);
-
-impl fmt::Display for EnglishFault<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.error.english())
+impl InEnglish for Fault {
+    fn english(&self) -> String {
+        self.error.english()
     }
-}
-
-impl std::error::Error for EnglishFault<'_> {}
-
-impl Diagnostic for EnglishFault<'_> {
-    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.0.code()
+    fn english_help(&self) -> Option<String> {
+        Some(self.error.english_help())
     }
-    fn severity(&self) -> Option<Severity> {
-        self.0.severity()
-    }
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        Some(Box::new(self.0.error.english_help()))
-    }
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.0.labels_saying("here", "and here")
+    fn english_labels(&self) -> [&'static str; 2] {
+        ["here", "and here"]
     }
 }
 
@@ -408,12 +393,12 @@ impl Diagnostic for EnglishFault<'_> {
 #[derive(Debug, Clone)]
 pub struct EnglishMapErrors<'f> {
     all: &'f MapErrors,
-    faults: Vec<EnglishFault<'f>>,
+    faults: Vec<English<'f, Fault>>,
 }
 
 impl<'f> From<&'f MapErrors> for EnglishMapErrors<'f> {
     fn from(all: &'f MapErrors) -> Self {
-        Self { all, faults: all.faults.iter().map(EnglishFault).collect() }
+        Self { all, faults: all.faults.iter().map(English).collect() }
     }
 }
 

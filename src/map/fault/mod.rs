@@ -545,18 +545,6 @@ impl Fault {
         Self { error, spots, spans: Vec::new() }
     }
 
-    fn labels_saying(
-        &self,
-        first: &'static str,
-        further: &'static str,
-    ) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let label = move |(i, span): (usize, &SourceSpan)| {
-            let words = if i == 0 { first } else { further };
-            LabeledSpan::new_with_span(Some(words.to_owned()), *span)
-        };
-        (!self.spans.is_empty()).then(|| Box::new(self.spans.iter().enumerate().map(label)) as _)
-    }
-
     /// A warning lets the map be used.
     #[must_use]
     pub fn is_warning(&self) -> bool {
@@ -583,7 +571,11 @@ impl Diagnostic for Fault {
         self.error.help()
     }
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        self.labels_saying("здесь", "и здесь")
+        let label = |(i, span): (usize, &SourceSpan)| {
+            let words = if i == 0 { "здесь" } else { "и здесь" };
+            LabeledSpan::new_with_span(Some(words.to_owned()), *span)
+        };
+        (!self.spans.is_empty()).then(|| Box::new(self.spans.iter().enumerate().map(label)) as _)
     }
 }
 

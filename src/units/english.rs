@@ -1,0 +1,49 @@
+//! Faults in English: what displays itself in Russian, told with English words in the same places.
+
+use std::fmt;
+
+use miette::{Diagnostic, LabeledSpan, Severity, SourceCode};
+
+/// A fault that has English words besides the Russian ones with which it is displayed.
+pub trait InEnglish: Diagnostic {
+    fn english(&self) -> String;
+    /// The remedy.
+    fn english_help(&self) -> Option<String>;
+    /// What its first label says, and what the others do.
+    fn english_labels(&self) -> [&'static str; 2];
+}
+
+/// A fault as English tells it.
+#[derive(Debug, Clone, Copy)]
+pub struct English<'f, F>(pub &'f F);
+
+impl<F: InEnglish> fmt::Display for English<'_, F> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.english())
+    }
+}
+
+impl<F: InEnglish> std::error::Error for English<'_, F> {}
+
+impl<F: InEnglish> Diagnostic for English<'_, F> {
+    fn code<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.0.code()
+    }
+    fn severity(&self) -> Option<Severity> {
+        self.0.severity()
+    }
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        Some(Box::new(self.0.english_help()?))
+    }
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.0.source_code()
+    }
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let [first, further] = self.0.english_labels();
+        let told = std::iter::once(first).chain(std::iter::repeat(further));
+        let label = |(label, told): (LabeledSpan, &str)| {
+            LabeledSpan::new_with_span(Some(told.to_owned()), *label.inner())
+        };
+        Some(Box::new(self.0.labels()?.zip(told).map(label)))
+    }
+}
