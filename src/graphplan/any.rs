@@ -81,19 +81,16 @@ impl Forward<'_> {
             return Ok(Searched::Path(operators));
         }
         let landmarks = Landmarks::of(self.task);
-        if self.effort == Effort::Small
-            && let Some(landmarks) = &landmarks
-            && let Some(operators) = self.climb_in_order(landmarks.goals_in_order())?
-        {
-            return Ok(Searched::Path(operators));
-        }
         // What is looked at by width leaves room for what comes after it.
         let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
-        if self.effort == Effort::Small && landmarks.is_some() {
-            let (relaxed, states) = (&mut self.relaxed, FEWEST_STATES_BY_WIDTH);
-            match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &half) {
-                Ok(Searched::Open) | Err(Limit::Memory) => {}
-                other => return other,
+        if self.effort == Effort::Small
+            && let Some(landmarks) = &landmarks
+        {
+            if let Some(operators) = self.climb_in_order(landmarks.goals_in_order())? {
+                return Ok(Searched::Path(operators));
+            }
+            if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
+                return Ok(found);
             }
             if let Some(operators) = self.descend()? {
                 return Ok(Searched::Path(operators));
@@ -105,12 +102,8 @@ impl Forward<'_> {
             let times = 4_usize.pow(round);
             let states = FEW_STATES_BY_WIDTH * times;
             let by_width = states <= MANY_STATES_BY_WIDTH;
-            if by_width {
-                let relaxed = &mut self.relaxed;
-                match novelty::search(self.task, relaxed, landmarks.as_ref(), states, &half) {
-                    Ok(Searched::Open) | Err(Limit::Memory) => {}
-                    other => return other,
-                }
+            if by_width && let Some(found) = self.by_width(landmarks.as_ref(), states, &half)? {
+                return Ok(found);
             }
             let more = FEW_STATES * times as u64;
             self.until = if by_width { self.evaluated + more } else { u64::MAX };
@@ -128,6 +121,19 @@ impl Forward<'_> {
             }
         }
         Ok(Searched::Open)
+    }
+
+    /// Search by width over so many states; none where it comes to nothing.
+    fn by_width(
+        &mut self,
+        landmarks: Option<&Landmarks>,
+        states: usize,
+        limits: &Limits,
+    ) -> Result<Option<Searched>, Limit> {
+        match novelty::search(self.task, &mut self.relaxed, landmarks, states, limits) {
+            Ok(Searched::Open) | Err(Limit::Memory) => Ok(None),
+            found => found.map(Some),
+        }
     }
 
     fn is_over(&self) -> bool {
