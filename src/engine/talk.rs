@@ -9,7 +9,6 @@ use crate::language::question::{
     Way,
 };
 use crate::language::report::Detail;
-use crate::language::words::{word_keys, word_ranges};
 use crate::map::{DoorStatus, Entity, World};
 use crate::robot::starting_pose;
 use crate::semantics::{Profile, Relations, derive};
@@ -115,26 +114,7 @@ impl Engine {
     /// As [`Engine::ask`].
     pub fn orders_and_questions(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
         let senses = RobotSenses { engine: self };
-        let asker = self.asker(&senses)?;
-        if !asker.begins_as_question(text) {
-            let Some((order, question)) = order_and_question(text) else { return Ok(None) };
-            let question = whether(&question).unwrap_or(question);
-            if !asker.begins_as_question(&question) && !question.ends_with('?') {
-                return Ok(None);
-            }
-            // "Go and see …": whither is not said, and need not be.
-            let bare = word_ranges(order).len() < 2;
-            let order = Some(order).filter(|order| !order.is_empty() && !bare).map(str::to_owned);
-            return Ok(Some(order.into_iter().chain([question]).collect()));
-        }
-        for joint in [" и ", " and ", ", then ", ", затем ", ", потом "] {
-            let Some((question, order)) = text.rsplit_once(joint) else { continue };
-            if is_order(order) {
-                let question = question.trim_end_matches(',');
-                return Ok(Some(vec![question.to_owned(), order.to_owned()]));
-            }
-        }
-        Ok(None)
+        Ok(self.asker(&senses)?.orders_and_questions(text))
     }
 
     /// Whether a text without a verb orders: «К холодильнику!», "The medicine, please".
@@ -186,85 +166,6 @@ impl Engine {
             None => starting_pose(self.world.as_ref()?),
         }
     }
-}
-
-/// What is told to be found out, as a question: «скажи, выключена ли лампа», "tell me whether the fridge is on".
-fn whether(text: &str) -> Option<String> {
-    let (words, keys) = (word_ranges(text), word_keys(text));
-    let said = |range: std::ops::Range<usize>| match range.is_empty() {
-        true => String::new(),
-        false => text[words[range.start].start..words[range.end - 1].end].to_owned(),
-    };
-    if keys.iter().any(|key| key == "ли") {
-        return Some(format!("{}?", said(1..words.len())));
-    }
-    let at = keys.iter().position(|key| key == "whether" || key == "if")?;
-    let is = (at + 1..keys.len()).find(|&n| matches!(keys[n].as_str(), "is" | "are"))?;
-    let (what, state) = (said(at + 1..is), said(is + 1..words.len()));
-    Some(format!("{} {what} {state}?", keys[is]))
-}
-
-/// An order and the question after it, or the question that is to be reported: «доложи, что ты видишь».
-fn order_and_question(text: &str) -> Option<(&str, String)> {
-    const TELL: [&str; 24] = [
-        "скажи",
-        "скажите",
-        "расскажи",
-        "сообщи",
-        "доложи",
-        "посмотри",
-        "глянь",
-        "проверь",
-        "узнай",
-        "выясни",
-        "tell me",
-        "tell us",
-        "let me know",
-        "report",
-        "report back",
-        "say",
-        "check",
-        "look",
-        "see",
-        "find out",
-        "describe",
-        "tell",
-        "опиши",
-        "перечисли",
-    ];
-    /// What these ask without a word that asks.
-    const WHETHER: [&str; 3] = ["that", "что бы", "чтобы"];
-    let (words, keys) = (word_ranges(text), word_keys(text));
-    let starts = |at: usize, phrase: &str| {
-        let length = phrase.split(' ').count();
-        let said = keys.get(at..at + length);
-        said.is_some_and(|said| said.iter().map(String::as_str).eq(phrase.split(' ')))
-            .then_some(length)
-    };
-    const ROUND: [&str; 5] =
-        ["look around", "have a look around", "look round", "осмотрись", "оглядись"];
-    if ROUND.contains(&keys.join(" ").as_str()) {
-        let question = Language::of(text).pick("Что ты видишь?", "What do you see?");
-        return Some(("", question.to_owned()));
-    }
-    for at in 0..keys.len() {
-        let Some(taken) = TELL.iter().filter_map(|tell| starts(at, tell)).max() else { continue };
-        let asked = at + taken;
-        if asked >= words.len() || WHETHER.iter().any(|w| starts(asked, w).is_some()) {
-            continue;
-        }
-        let order = text[..words[at].start].trim_end();
-        let mut order = order.trim_end_matches([',', ';', '.']);
-        for joint in [" и", " а", " and", " then", " потом", " затем", " мне"] {
-            order = order.strip_suffix(joint).unwrap_or(order).trim_end().trim_end_matches(',');
-        }
-        if at == 0 || is_order(order) {
-            let tell = Language::of(text).pick("скажи, ", "tell me ");
-            let order = if at == 0 { "" } else { order };
-            return Some((order, format!("{tell}{}", &text[words[asked].start..])));
-        }
-    }
-    None
 }
 
 struct RobotSenses<'e> {

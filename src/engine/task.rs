@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use crate::graphplan::Limits;
 use crate::language::Language;
-use crate::language::command::{Command, Listener, Misheard, Placement, Relation, is_order};
+use crate::language::command::{Command, Listener, Misheard, Placement, Relation, preamble};
 use crate::language::question::{Memory, Thing};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
@@ -398,19 +398,6 @@ impl Engine {
             seconds: leg.seconds,
         }
     }
-}
-
-/// What only tells, and the order behind its mark.
-fn preamble(sentence: &str) -> Option<(&str, &str)> {
-    if is_order(sentence) {
-        return None;
-    }
-    let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
-    let dashes = sentence.match_indices(" - ");
-    marks
-        .chain(dashes)
-        .map(|(at, mark)| (&sentence[..at], sentence[at + mark.len()..].trim_start()))
-        .find(|(told, order)| !told.trim().is_empty() && is_order(order))
 }
 
 /// Windows have no names: a command that names a room for its window gets it back, in the order of the sentence.

@@ -213,6 +213,20 @@ pub fn is_order(text: &str) -> bool {
     }
 }
 
+/// What only tells, and the order behind its mark.
+#[must_use]
+pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
+    if is_order(sentence) {
+        return None;
+    }
+    let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
+    let dashes = sentence.match_indices(" - ");
+    marks
+        .chain(dashes)
+        .map(|(at, mark)| (&sentence[..at], sentence[at + mark.len()..].trim_start()))
+        .find(|(told, order)| !told.trim().is_empty() && is_order(order))
+}
+
 #[cfg(test)]
 mod tests {
     use expect_test::{Expect, expect};

@@ -7,7 +7,7 @@
 use std::ops::Range;
 
 use super::vocabulary::{Meaning, Role, Verb, longest};
-use crate::language::words::{Language, word_keys, word_ranges};
+use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// A text, the places of its words and their keys.
 struct Said {
@@ -34,12 +34,7 @@ impl Said {
 
     /// How many words of one of these phrases, the longest, stand here.
     fn phrase(&self, at: usize, phrases: &[&str]) -> Option<usize> {
-        let taken = |phrase: &&str| {
-            let length = phrase.split(' ').count();
-            let said = self.keys.get(at..at + length)?;
-            said.iter().map(String::as_str).eq(phrase.split(' ')).then_some(length)
-        };
-        phrases.iter().filter_map(taken).max()
+        phrases.iter().filter_map(|phrase| phrase_at(&self.keys, at, phrase)).max()
     }
 
     /// Whether a mark stands before a word.

@@ -7,8 +7,6 @@
 //! Invariant: never a guess. What was not understood, what may mean several things, and what the map lacks are
 //! three different [`Doubt`]s. No text makes it panic.
 
-use std::borrow::Cow;
-
 mod answer;
 mod assemble;
 mod courtesy;
@@ -20,6 +18,7 @@ mod grammar;
 mod knowledge;
 mod lexicon;
 mod opening;
+mod orders;
 mod purposes;
 mod query;
 mod rephrase;
@@ -457,11 +456,11 @@ impl Asker<'_> {
     }
 
     /// A text in words that the map knows: "upstairs" is a storey, «столик» a table, «закрыта на ключ» locked.
-    fn plain(&self, text: &str) -> Cow<'static, str> {
+    fn plain(&self, text: &str) -> String {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
-        let named = storeys::named(&text, self.world, here).into_owned();
-        Cow::Owned(everyday::plain(&named, &self.mind.lexicon).into_owned())
+        let named = storeys::named(&text, self.world, here);
+        everyday::plain(&named, &self.mind.lexicon).into_owned()
     }
 
     /// Whether a text speaks of a storey that is not there, the one above (true) or below.

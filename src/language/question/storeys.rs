@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 
 use crate::language::names::english_name;
-use crate::language::words::{Language, word_keys, word_ranges};
+use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 use crate::map::{Entity, World};
 use crate::units::MapId;
 
@@ -54,10 +54,8 @@ fn told(keys: &[String]) -> Vec<Told> {
     let mut at = 0;
     while at < keys.len() {
         let here = WORDS.iter().filter_map(|(phrase, above, whither)| {
-            let phrase: Vec<&str> = phrase.split(' ').collect();
-            let said = keys.get(at..at + phrase.len())?;
-            let fits = said.iter().map(String::as_str).eq(phrase.iter().copied());
-            fits.then_some((at, phrase.len(), *above, *whither))
+            let taken = phrase_at(keys, at, phrase)?;
+            Some((at, taken, *above, *whither))
         });
         match here.max_by_key(|(_, taken, ..)| *taken) {
             Some(one) => {

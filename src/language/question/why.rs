@@ -60,7 +60,7 @@ impl Knowledge<'_> {
             true => format!("по карте так: {text}"),
             false => format!("by the map it is so: {text}"),
         };
-        Draft::plain(Said::Found, text).on(answer.things.clone())
+        Draft::plain(Said::Found, text).with(answer.things.clone())
     }
 
     /// The measurements that a fact comes from, or what it lacks.

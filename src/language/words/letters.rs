@@ -57,6 +57,14 @@ pub(crate) fn word_keys(text: &str) -> Vec<String> {
     word_ranges(text).into_iter().map(|range| name_key(&text[range])).collect()
 }
 
+/// How many words a phrase has, where all of them stand one after the other from a place on.
+#[must_use]
+pub(crate) fn phrase_at(keys: &[String], at: usize, phrase: &str) -> Option<usize> {
+    let length = phrase.split(' ').count();
+    let said = keys.get(at..at + length)?;
+    said.iter().map(String::as_str).eq(phrase.split(' ')).then_some(length)
+}
+
 fn is_combining(c: char) -> bool {
     ('\u{300}'..='\u{36f}').contains(&c)
 }

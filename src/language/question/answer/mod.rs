@@ -40,15 +40,11 @@ impl Draft {
         Self::new(said, text)
     }
 
-    pub(super) fn on(self, things: Vec<Thing>) -> Self {
-        self.with(things)
-    }
-
     pub(super) fn rest_on(&mut self, fact: Fact) {
         self.facts.push(fact);
     }
 
-    fn with(mut self, things: Vec<Thing>) -> Self {
+    pub(super) fn with(mut self, things: Vec<Thing>) -> Self {
         self.things = things;
         self
     }

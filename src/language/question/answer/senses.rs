@@ -40,18 +40,19 @@ impl Knowledge<'_> {
         Ok(Draft::new(Said::Found, text).with(vec![thing]))
     }
 
+    /// What the robot sees from where it stands.
+    fn in_view(&self) -> Vec<Thing> {
+        let seen = self.senses.visible().into_iter();
+        seen.map(|id| Thing::Entity(Entity::Replica(id))).collect()
+    }
+
     /// «да, я вижу Кресло-1»
     pub(super) fn sees(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let meant = self.find(noun, true)?;
         if meant.is_empty() {
             return Err(self.none_such(noun));
         }
-        let seen: Vec<Thing> = self
-            .senses
-            .visible()
-            .into_iter()
-            .map(|id| Thing::Entity(Entity::Replica(id)))
-            .collect();
+        let seen = self.in_view();
         let found: Vec<Thing> = meant.iter().copied().filter(|t| seen.contains(t)).collect();
         let text = match (found.is_empty(), self.is_russian()) {
             (false, true) => format!("да, я вижу {}", self.names(&found, Case::Accusative)),
@@ -189,12 +190,7 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn what_do_you_see(&self) -> Draft {
-        let seen: Vec<Thing> = self
-            .senses
-            .visible()
-            .into_iter()
-            .map(|id| Thing::Entity(Entity::Replica(id)))
-            .collect();
+        let seen = self.in_view();
         let text = match (seen.is_empty(), self.is_russian()) {
             (true, true) => "передо мной ничего нет".to_owned(),
             (true, false) => "I see nothing before me".to_owned(),

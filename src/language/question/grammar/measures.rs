@@ -6,6 +6,7 @@ use super::tokens::number_of;
 use super::{Sentence, Tok, Token};
 use crate::language::question::query::{Extreme, Rel, Sized};
 use crate::language::question::vocabulary::{self, Mark};
+use crate::language::words::phrase_at;
 
 /// Units of length in cm.
 const UNITS: [(&str, f64); 4] = [
@@ -61,11 +62,7 @@ impl Sentence<'_> {
 
     /// «в пределах метра от», "less than 2 m from"
     fn bounded(&self, at: usize) -> Option<(usize, Tok)> {
-        let longest = BOUNDS.iter().filter_map(|phrase| {
-            let words: Vec<&str> = phrase.split(' ').collect();
-            let said = self.keys.get(at..at + words.len())?;
-            said.iter().zip(&words).all(|(key, word)| key == word).then_some(words.len())
-        });
+        let longest = BOUNDS.iter().filter_map(|phrase| phrase_at(&self.keys, at, phrase));
         let before = longest.max().unwrap_or(0);
         let (measure, cm, square) = self.measure(at + before)?;
         let next = self.keys.get(at + before + measure)?;

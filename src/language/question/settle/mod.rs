@@ -27,7 +27,9 @@ use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::vocabulary::Mark;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
-use crate::language::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
+use crate::language::words::{
+    Case, Language, NounPhrase, enumerate, phrase_at, word_keys, word_ranges,
+};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -83,7 +85,7 @@ impl Asker<'_> {
         if let Some(above) = self.lacks_storey(&gathered) {
             return Err(misread(Doubt::NoStorey { above }));
         }
-        let text = self.with_kind(self.plain(&gathered).into_owned(), memory);
+        let text = self.with_kind(self.plain(&gathered), memory);
         let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_deed(text, language).map_err(misread)?;
@@ -139,27 +141,17 @@ impl Asker<'_> {
 
     /// «Дай что-нибудь почитать», "something to drink from": with the nearest portable thing of that sort.
     fn with_deed(&self, text: String, language: Language) -> Result<String, Doubt> {
-        const ANY: [&[&str]; 7] = [
-            &["something"],
-            &["anything"],
-            &["что", "нибудь"],
-            &["чего", "нибудь"],
-            &["что", "либо"],
-            &["что", "то"],
-            &["чего", "то"],
-        ];
+        const ANY: [&str; 7] =
+            ["something", "anything", "что нибудь", "чего нибудь", "что либо", "что то", "чего то"];
         let (words, keys) = (word_ranges(&text), word_keys(&text));
-        let starts = |at: usize, phrase: &[&str]| {
-            keys.get(at..at + phrase.len()).is_some_and(|said| said.iter().eq(phrase.iter()))
-        };
-        let any = (0..keys.len())
-            .find_map(|at| ANY.iter().find(|any| starts(at, any)).map(|any| (at, at + any.len())));
+        let any = (0..keys.len()).find_map(|at| {
+            let taken = ANY.iter().find_map(|any| phrase_at(&keys, at, any))?;
+            Some((at, at + taken))
+        });
         let Some((at, mut next)) = any else { return Ok(text) };
         next += usize::from(keys.get(next).is_some_and(|key| key == "to"));
-        let deeds = purposes::deeds().filter_map(|(sort, deed)| {
-            let deed: Vec<&str> = deed.split(' ').collect();
-            starts(next, &deed).then_some((sort, deed.len()))
-        });
+        let deeds = purposes::deeds()
+            .filter_map(|(sort, deed)| Some((sort, phrase_at(&keys, next, deed)?)));
         let Some((sort, taken)) = deeds.max_by_key(|(_, taken)| *taken) else { return Ok(text) };
         let kinds = self.mind.lexicon.kinds_of_sort(sort);
         let noun = Noun {
@@ -221,6 +213,13 @@ struct Settler<'s, 'k> {
     strict: &'s Strict<'s>,
     /// What "the red one" may be: what was asked about, or the last answer.
     spoken: Vec<Thing>,
+}
+
+impl<'s, 'k> Settler<'s, 'k> {
+    /// One that reads a sentence, and settles nothing.
+    fn reading(knowledge: &'s Knowledge<'k>, sentence: &'s Sentence<'s>) -> Self {
+        Self { knowledge, sentence, strict: &|_| None, spoken: Vec::new() }
+    }
 }
 
 impl Settler<'_, '_> {

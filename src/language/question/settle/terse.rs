@@ -71,13 +71,7 @@ impl Asker<'_> {
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let language = sentence.language;
         let knowledge = self.knowledge(language, memory);
-        let strict = |_: &str| None;
-        let settler = Settler {
-            knowledge: &knowledge,
-            sentence: &sentence,
-            strict: &strict,
-            spoken: Vec::new(),
-        };
+        let settler = Settler::reading(&knowledge, &sentence);
         let is_room =
             |things: &[Thing]| !things.is_empty() && things.iter().all(|t| t.area().is_some());
         let verb = sentence.items().into_iter().find_map(|item| match item {
@@ -127,8 +121,9 @@ impl Asker<'_> {
         ];
         let keys = word_keys(text);
         let urges = text.contains('!') || keys.iter().any(|key| URGES.contains(&key.as_str()));
-        let with = self.with_verb(self.plain(text).into_owned(), &Memory::default());
-        if command::clauses(&self.plain(text)).is_empty() && !command::clauses(&with).is_empty() {
+        let plain = self.plain(text);
+        let with = self.with_verb(plain.clone(), &Memory::default());
+        if command::clauses(&plain).is_empty() && !command::clauses(&with).is_empty() {
             let goes = with.starts_with("поезжай") || with.starts_with("go ");
             return urges || (goes && keys.first().is_some_and(|key| command::says_whither(key)));
         }
@@ -168,13 +163,7 @@ impl Asker<'_> {
         let plain = self.plain(rest);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let strict = |_: &str| None;
-        let settler = Settler {
-            knowledge: &knowledge,
-            sentence: &sentence,
-            strict: &strict,
-            spoken: Vec::new(),
-        };
+        let settler = Settler::reading(&knowledge, &sentence);
         let items = sentence.items();
         let lone =
             matches!(&items[..], [Item::Noun(p)] if p.noun.head.anything && p.pronoun.is_none());
