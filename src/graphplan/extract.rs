@@ -14,6 +14,7 @@ use super::bits;
 use super::graph::{ActionId, PlanningGraph};
 use super::no_good::NoGoods;
 use super::plan::Plan;
+use super::rivals::Rivals;
 use super::symmetry::Symmetry;
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
@@ -32,6 +33,7 @@ pub(super) struct Search<'a> {
     task: &'a Task,
     limits: Limits,
     no_goods: NoGoods,
+    rivals: Rivals,
     ticks: u64,
     /// Ticks at which the search gives up for now.
     allowed: u64,
@@ -99,6 +101,7 @@ impl<'a> Search<'a> {
             task,
             limits,
             no_goods: NoGoods::new(Symmetry::of(task), task.facts.len()),
+            rivals: Rivals::default(),
             ticks: 0,
             allowed: 0,
             inherited_up_to: 0,
@@ -119,7 +122,7 @@ impl<'a> Search<'a> {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        self.no_goods.bytes()
+        self.no_goods.bytes() + self.rivals.bytes()
     }
 
     /// Looks for a plan of `length` steps, with so many choices at most.
@@ -219,10 +222,9 @@ impl<'a> Search<'a> {
         let mut reason = GoalSet::one(choice.goals.len(), index);
         for action in choice.ways(goal) {
             self.tick(graph).map_err(Failure::Stop)?;
-            let rival =
-                choice.chosen.iter().find(|&&(other, _)| graph.is_mutex(step, action, other));
-            if let Some(&(_, owner)) = rival {
-                reason.insert(owner);
+            let others = choice.chosen.iter().map(|&(other, _)| other);
+            if let Some(rival) = self.rivals.first_of(graph, step, action, others) {
+                reason.insert(choice.chosen[rival].1);
                 continue;
             }
             choice.chosen.push((action, index));
@@ -328,7 +330,7 @@ impl<'a> Search<'a> {
             return Err(Stop::Effort);
         }
         if self.ticks.is_multiple_of(1024) {
-            self.limits.check(graph.bytes() + self.no_goods.bytes()).map_err(Stop::Limit)?;
+            self.limits.check(graph.bytes() + self.bytes()).map_err(Stop::Limit)?;
         }
         Ok(())
     }

@@ -144,6 +144,15 @@ impl PlanningGraph {
         self.action_level[action.index()]
     }
 
+    /// From level 0 on, the levels that have mutexes of their own; later ones have those of the last.
+    pub(super) fn levels_of_mutexes(&self) -> usize {
+        self.mutex.len()
+    }
+
+    pub(super) fn fact_count(&self) -> usize {
+        self.fact_level.len()
+    }
+
     fn mutex_at(&self, level: usize) -> &Pairs {
         &self.mutex[level.min(self.mutex.len() - 1)]
     }

@@ -35,6 +35,7 @@ mod pairs;
 mod plan;
 mod relaxed;
 mod replan;
+mod rivals;
 mod sat;
 mod serial;
 mod shorten;

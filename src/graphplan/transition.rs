@@ -1,0 +1,178 @@
+//! A step as clauses: how the facts before it, the operators carried out in it and the facts after it hang together.
+//!
+//! Interference is encoded in linear space: whoever needs a fact without deleting it makes it hold after the
+//! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
+
+use super::graph::PlanningGraph;
+use super::solver::{Literal, Solver};
+use crate::strips::{FactId, OperatorId, Task};
+
+/// The variables of facts, or of operators, by their numbers; none where it is out of reach.
+pub(super) type Variables = [Option<Literal>];
+
+pub(super) struct Transition<'a> {
+    task: &'a Task,
+    /// Operators that need, and that delete, each fact.
+    users: Vec<Users>,
+    added_by: Vec<Vec<OperatorId>>,
+}
+
+#[derive(Default, Clone)]
+struct Users {
+    keepers: Vec<OperatorId>,
+    takers: Vec<OperatorId>,
+    breakers: Vec<OperatorId>,
+}
+
+impl<'a> Transition<'a> {
+    pub(super) fn new(task: &'a Task) -> Self {
+        let mut users = vec![Users::default(); task.facts.len()];
+        let mut added_by = vec![Vec::new(); task.facts.len()];
+        for id in task.operator_ids() {
+            let operator = task.operator(id);
+            for fact in &operator.preconditions {
+                let users = &mut users[fact.index()];
+                let taken = operator.del_effects.contains(fact);
+                if taken { &mut users.takers } else { &mut users.keepers }.push(id);
+            }
+            for fact in &operator.del_effects {
+                if !operator.preconditions.contains(fact) {
+                    users[fact.index()].breakers.push(id);
+                }
+            }
+            operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
+        }
+        Self { task, users, added_by }
+    }
+
+    /// Says what a step of these operators makes of the facts before it.
+    pub(super) fn add(
+        &self,
+        solver: &mut Solver,
+        before: &Variables,
+        operators: &Variables,
+        after: &Variables,
+    ) {
+        for id in self.task.operator_ids() {
+            let Some(done) = operators[id.index()] else { continue };
+            let operator = self.task.operator(id);
+            for fact in &operator.preconditions {
+                let holds =
+                    before[fact.index()].expect("preconditions come before their operator");
+                solver.add_clause(&[!done, holds]);
+            }
+            for fact in &operator.add_effects {
+                let holds = after[fact.index()].expect("effects follow their operator");
+                solver.add_clause(&[!done, holds]);
+            }
+            for fact in &operator.del_effects {
+                if let Some(holds) = after[fact.index()] {
+                    solver.add_clause(&[!done, !holds]);
+                }
+            }
+        }
+        for fact in self.task.fact_ids() {
+            let Some(holds) = after[fact.index()] else { continue };
+            let mut clause = vec![!holds];
+            clause.extend(before[fact.index()]);
+            clause.extend(self.added_by[fact.index()].iter().filter_map(|a| operators[a.index()]));
+            solver.add_clause(&clause);
+        }
+        for fact in self.task.fact_ids() {
+            self.add_interference(solver, fact, operators, after);
+        }
+    }
+
+    fn add_interference(
+        &self,
+        solver: &mut Solver,
+        fact: FactId,
+        operators: &Variables,
+        after: &Variables,
+    ) {
+        let Users { keepers, takers, breakers } = &self.users[fact.index()];
+        let present = |ids: &[OperatorId]| -> Vec<Literal> {
+            ids.iter().filter_map(|id| operators[id.index()]).collect()
+        };
+        let (takers, breakers) = (present(takers), present(breakers));
+        if takers.is_empty() && breakers.is_empty() {
+            return;
+        }
+        for keeper in present(keepers) {
+            let after = after[fact.index()].expect("what is kept may hold");
+            solver.add_clause(&[!keeper, after]);
+        }
+        at_most_one(solver, &takers);
+        if !takers.is_empty() && !breakers.is_empty() {
+            let broken = solver.new_variable();
+            for breaker in breakers {
+                solver.add_clause(&[!breaker, broken]);
+            }
+            for taker in takers {
+                solver.add_clause(&[!taker, !broken]);
+            }
+        }
+    }
+
+    /// Of the operators done, those that make the wanted facts hold that did not hold before, and the facts that all
+    /// this rests on: what they need, and what did hold.
+    pub(super) fn causes(
+        &self,
+        wanted: &[FactId],
+        held: impl Fn(FactId) -> bool,
+        done: impl Fn(OperatorId) -> bool,
+    ) -> (Vec<OperatorId>, Vec<FactId>) {
+        let (mut chosen, mut needed): (Vec<OperatorId>, Vec<FactId>) = Default::default();
+        for &fact in wanted {
+            if held(fact) {
+                needed.push(fact);
+            } else if !chosen.iter().any(|&id| self.task.operator(id).add_effects.contains(&fact)) {
+                let cause = self.added_by[fact.index()].iter().copied().find(|&id| done(id));
+                chosen.push(cause.expect("a new fact has a cause"));
+            }
+        }
+        needed.extend(chosen.iter().flat_map(|&id| &self.task.operator(id).preconditions));
+        needed.sort_unstable();
+        needed.dedup();
+        chosen.sort_unstable();
+        (chosen, needed)
+    }
+}
+
+/// Says which facts exclude each other at a level.
+pub(super) fn add_mutexes(
+    solver: &mut Solver,
+    graph: &PlanningGraph,
+    level: usize,
+    facts: &Variables,
+) {
+    for (number, one) in facts.iter().enumerate() {
+        let (fact, Some(one)) = (FactId(number as u32), *one) else { continue };
+        for other in graph.exclusive_with(level, fact) {
+            if let (true, Some(other)) = (other < fact, facts[other.index()]) {
+                solver.add_clause(&[!one, !other]);
+            }
+        }
+    }
+}
+
+/// Pairs while they are few, a chain of "one of those so far" beyond.
+fn at_most_one(solver: &mut Solver, literals: &[Literal]) {
+    const FEW: usize = 6;
+    if literals.len() <= FEW {
+        for (at, &a) in literals.iter().enumerate() {
+            for &b in &literals[..at] {
+                solver.add_clause(&[!a, !b]);
+            }
+        }
+        return;
+    }
+    let mut so_far = literals[0];
+    for &next in &literals[1..] {
+        solver.add_clause(&[!so_far, !next]);
+        let either = solver.new_variable();
+        solver.add_clause(&[!so_far, either]);
+        solver.add_clause(&[!next, either]);
+        so_far = either;
+    }
+}
