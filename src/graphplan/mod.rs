@@ -27,6 +27,7 @@ mod extract;
 mod fewest;
 mod first_use;
 mod graph;
+mod induction;
 mod landmarks;
 mod needed;
 mod no_good;
@@ -41,6 +42,7 @@ mod serial;
 mod shorten;
 mod solver;
 mod symmetry;
+mod transition;
 
 use std::time::Instant;
 
@@ -50,6 +52,7 @@ pub use replan::Learned;
 use crate::strips::{FactId, Task};
 use extract::{Extraction, Search};
 use graph::PlanningGraph;
+use induction::{Induction, Proof};
 use replan::Inherited;
 use sat::{Encoding, Verdict};
 
@@ -257,6 +260,12 @@ const CHOICES_A_CONFLICT: u64 = 100;
 /// Levels that the solver refutes at no price, one after the other, must not leave the search behind for good.
 const CHOICES_A_LEVEL: u64 = 128;
 
+/// What a proof by induction may spend, in variables set by the solver: so much for each level past level-off, and such
+/// a part of what the other ways spent. A choice of the search takes as long as setting so many.
+const EFFORT_A_LEVEL: u64 = 1 << 14;
+const INDUCTION_SHARE: u64 = 4;
+const EFFORT_A_CHOICE: u64 = 4;
+
 /// Choices that the search may take for a level before the solver has its turn, after it decided the last level
 /// with so many: much more while they are few, later no more than twice as many.
 fn patience(spent: u64) -> u64 {
@@ -332,11 +341,12 @@ fn search(
     Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
 }
 
-/// The two ways to look for a plan of a given length, taking turns.
+/// The ways to look for a plan of a given length, taking turns.
 ///
 /// Search is strong where a deep serial chain rules, the solver where many choices interact. Turns are counted in
 /// choices and conflicts, not in seconds: the same task always goes the same way.
 struct Extractor<'a> {
+    task: &'a Task,
     search: Search<'a>,
     encoding: Encoding<'a>,
     limits: &'a Limits,
@@ -347,11 +357,15 @@ struct Extractor<'a> {
     spent: u64,
     /// The last number of steps that the search refuted.
     refuted: usize,
+    /// The third way, once the graph has leveled off, and the plan that it came to.
+    induction: Option<Induction<'a>>,
+    known: Option<Plan>,
 }
 
 impl<'a> Extractor<'a> {
     fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
         Self {
+            task,
             search: Search::new(task, *limits),
             encoding: Encoding::new(task, !turn.goes_on, limits),
             limits,
@@ -359,11 +373,14 @@ impl<'a> Extractor<'a> {
             solver_leads: false,
             spent: 0,
             refuted: 0,
+            induction: None,
+            known: None,
         }
     }
 
     fn bytes(&self) -> usize {
-        self.search.bytes() + self.encoding.bytes()
+        let induction = self.induction.as_ref().map_or(0, Induction::bytes);
+        self.search.bytes() + self.encoding.bytes() + induction
     }
 
     fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
@@ -377,6 +394,9 @@ impl<'a> Extractor<'a> {
         let before = self.search.choices();
         let mut round = 0;
         loop {
+            if let Some(extraction) = self.induce(graph)? {
+                return Ok(extraction);
+            }
             // Long before a share could overflow, some limit or the answer ends the turns.
             let doubled = round.min(30);
             if self.solver_leads || round > 0 {
@@ -423,6 +443,30 @@ impl<'a> Extractor<'a> {
             }
         }
         Ok((self.refuted == graph.top()).then_some(Extraction::None))
+    }
+
+    /// Neither way may ever come to an end where goals fit by pairs and not together. Once the graph has leveled off, a
+    /// proof by induction gets a share of the effort, until it comes to a plan of whatever length.
+    fn induce(&mut self, graph: &PlanningGraph) -> Result<Option<Extraction>, Limit> {
+        let Some(leveled_off_at) = graph.leveled_off_at() else { return Ok(None) };
+        let beyond = (graph.top() - leveled_off_at) as u64;
+        let effort = self.search.choices() * EFFORT_A_CHOICE + self.encoding.effort();
+        let share = EFFORT_A_LEVEL * beyond + effort / INDUCTION_SHARE;
+        let limits = self.limits;
+        let induction =
+            self.induction.get_or_insert_with(|| Induction::new(self.task, graph, limits));
+        if self.known.is_none() && induction.effort() < share {
+            match induction.go_on(share)? {
+                Proof::Plan(plan) => self.known = Some(plan),
+                Proof::Never(goals) => return Ok(Some(Extraction::Never(goals))),
+                Proof::Open => {}
+            }
+        }
+        Ok(match &self.known {
+            // Shorter ones are refuted.
+            Some(plan) if plan.steps.len() == graph.top() => Some(Extraction::Plan(plan.clone())),
+            _ => (graph.top() <= induction.refuted()).then_some(Extraction::None),
+        })
     }
 }
 

@@ -2,9 +2,6 @@
 //!
 //! One variable says that a fact holds at a level, one that an operator is carried out in a step. Levels are
 //! added once and kept, with all that the solver learned about them; the goal is assumed at the last one.
-//!
-//! Interference is encoded in linear space: whoever needs a fact without deleting it makes it hold after the
-//! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
 
 use super::counting::Counter;
 use super::first_use::FirstUse;
@@ -12,6 +9,7 @@ use super::graph::{ActionId, PlanningGraph};
 use super::plan::Plan;
 use super::serial::Serial;
 use super::solver::{Answer, Literal, Solver};
+use super::transition::{Transition, Variables, add_mutexes};
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
 
@@ -22,8 +20,7 @@ pub(super) struct Encoding<'a> {
     facts: Vec<Vec<Option<Literal>>>,
     /// Per step, the variable of each operator that may be carried out there.
     operators: Vec<Vec<Option<Literal>>>,
-    /// Operators that need, and that delete, each fact.
-    users: Vec<Users>,
+    transition: Transition<'a>,
     /// The least number of steps before the end at which an operator can serve the goal.
     relevant_from: Vec<u32>,
     /// What is said of the length looked at; withdrawn with the next.
@@ -45,13 +42,6 @@ pub(super) struct Encoding<'a> {
 /// Conflicts after which counting is thought of: most lengths are decided sooner.
 const BEFORE_COUNTING: u64 = 1 << 11;
 
-#[derive(Default, Clone)]
-struct Users {
-    keepers: Vec<OperatorId>,
-    takers: Vec<OperatorId>,
-    breakers: Vec<OperatorId>,
-}
-
 /// What the solver found out about a number of steps.
 pub(super) enum Verdict {
     Plan(Plan),
@@ -64,27 +54,13 @@ pub(super) enum Verdict {
 impl<'a> Encoding<'a> {
     /// `shorter_refuted` promises that plans are looked for of a length only once every shorter one is refuted.
     pub(super) fn new(task: &'a Task, shorter_refuted: bool, limits: &Limits) -> Self {
-        let mut users = vec![Users::default(); task.facts.len()];
-        for id in task.operator_ids() {
-            let operator = task.operator(id);
-            for fact in &operator.preconditions {
-                let users = &mut users[fact.index()];
-                let taken = operator.del_effects.contains(fact);
-                if taken { &mut users.takers } else { &mut users.keepers }.push(id);
-            }
-            for fact in &operator.del_effects {
-                if !operator.preconditions.contains(fact) {
-                    users[fact.index()].breakers.push(id);
-                }
-            }
-        }
         let serial = if shorter_refuted { Serial::of(task, limits) } else { None };
         Self {
             task,
             solver: Solver::new(limits.deadline),
             facts: Vec::new(),
             operators: Vec::new(),
-            users,
+            transition: Transition::new(task),
             relevant_from: relevance(task),
             horizon: None,
             busy: 0,
@@ -209,6 +185,11 @@ impl<'a> Encoding<'a> {
         self.solver.conflicts()
     }
 
+    /// Variables set so far, over and over.
+    pub(super) fn effort(&self) -> u64 {
+        self.solver.effort()
+    }
+
     pub(super) fn bytes(&self) -> usize {
         self.solver.bytes()
     }
@@ -236,7 +217,7 @@ impl<'a> Encoding<'a> {
                 self.solver.add_clause(&[holds]);
             }
         }
-        self.add_fact_mutexes(graph, level);
+        add_mutexes(&mut self.solver, graph, level, &self.facts[level]);
     }
 
     fn add_step(&mut self, graph: &PlanningGraph, step: usize) {
@@ -249,39 +230,8 @@ impl<'a> Encoding<'a> {
             .operator_ids()
             .map(|id| possible(id).then(|| self.solver.new_variable()))
             .collect();
-        for id in self.task.operator_ids() {
-            let Some(done) = variables[id.index()] else { continue };
-            let operator = self.task.operator(id);
-            for fact in &operator.preconditions {
-                let holds = self.facts[step][fact.index()]
-                    .expect("preconditions come before their operator");
-                self.solver.add_clause(&[!done, holds]);
-            }
-            for fact in &operator.add_effects {
-                let holds =
-                    self.facts[step + 1][fact.index()].expect("effects follow their operator");
-                self.solver.add_clause(&[!done, holds]);
-            }
-            for fact in &operator.del_effects {
-                if let Some(holds) = self.facts[step + 1][fact.index()] {
-                    self.solver.add_clause(&[!done, !holds]);
-                }
-            }
-        }
-        for fact in self.task.fact_ids() {
-            let Some(holds) = self.facts[step + 1][fact.index()] else { continue };
-            let mut clause = vec![!holds];
-            clause.extend(self.facts[step][fact.index()]);
-            clause.extend(
-                graph
-                    .achievers(fact)
-                    .iter()
-                    .filter(|&&a| !graph.is_no_op(a))
-                    .filter_map(|a| variables[a.index()]),
-            );
-            self.solver.add_clause(&clause);
-        }
-        self.task.fact_ids().for_each(|fact| self.add_interference(fact, step, &variables));
+        let (before, after) = (&self.facts[step], &self.facts[step + 1]);
+        self.transition.add(&mut self.solver, before, &variables, after);
         if let Some(before) = self.operators.last() {
             for (done, undoing) in before.iter().zip(&self.undone_by) {
                 let Some(done) = *done else { continue };
@@ -295,93 +245,18 @@ impl<'a> Encoding<'a> {
         self.operators.push(variables);
     }
 
-    fn add_interference(&mut self, fact: FactId, step: usize, variables: &[Option<Literal>]) {
-        let Users { keepers, takers, breakers } = &self.users[fact.index()];
-        let present = |ids: &[OperatorId]| -> Vec<Literal> {
-            ids.iter().filter_map(|id| variables[id.index()]).collect()
-        };
-        let (takers, breakers) = (present(takers), present(breakers));
-        if takers.is_empty() && breakers.is_empty() {
-            return;
-        }
-        for keeper in present(keepers) {
-            let after = self.facts[step + 1][fact.index()].expect("what is kept may hold");
-            self.solver.add_clause(&[!keeper, after]);
-        }
-        self.at_most_one(&takers);
-        if !takers.is_empty() && !breakers.is_empty() {
-            let broken = self.solver.new_variable();
-            for breaker in breakers {
-                self.solver.add_clause(&[!breaker, broken]);
-            }
-            for taker in takers {
-                self.solver.add_clause(&[!taker, !broken]);
-            }
-        }
-    }
-
-    /// Pairs while they are few, a chain of "one of those so far" beyond.
-    fn at_most_one(&mut self, literals: &[Literal]) {
-        const FEW: usize = 6;
-        if literals.len() <= FEW {
-            for (at, &a) in literals.iter().enumerate() {
-                for &b in &literals[..at] {
-                    self.solver.add_clause(&[!a, !b]);
-                }
-            }
-            return;
-        }
-        let mut so_far = literals[0];
-        for &next in &literals[1..] {
-            self.solver.add_clause(&[!so_far, !next]);
-            let either = self.solver.new_variable();
-            self.solver.add_clause(&[!so_far, either]);
-            self.solver.add_clause(&[!next, either]);
-            so_far = either;
-        }
-    }
-
-    fn add_fact_mutexes(&mut self, graph: &PlanningGraph, level: usize) {
-        for fact in self.task.fact_ids() {
-            let Some(one) = self.facts[level][fact.index()] else { continue };
-            for other in graph.exclusive_with(level, fact) {
-                if let (true, Some(other)) = (other < fact, self.facts[level][other.index()]) {
-                    self.solver.add_clause(&[!one, !other]);
-                }
-            }
-        }
-    }
-
     /// The operators of a model that are needed: those that first make a needed fact hold.
     fn plan(&self, level: usize) -> Plan {
-        let holds = |level: usize, fact: FactId| {
-            self.facts[level][fact.index()].is_some_and(|variable| self.solver.value(variable))
+        let is_true = |variables: &Variables, number: usize| {
+            variables[number].is_some_and(|variable| self.solver.value(variable))
         };
-        let mut needed = vec![false; self.task.facts.len()];
-        self.task.goal.iter().for_each(|fact| needed[fact.index()] = true);
+        let mut needed = self.task.goal.clone();
+        needed.sort_unstable();
         let mut steps = Vec::new();
         for step in (0..level).rev() {
-            let mut chosen: Vec<OperatorId> = Vec::new();
-            let mut before = vec![false; needed.len()];
-            for fact in self.task.fact_ids().filter(|fact| needed[fact.index()]) {
-                if holds(step, fact) {
-                    before[fact.index()] = true;
-                } else if !chosen
-                    .iter()
-                    .any(|&id| self.task.operator(id).add_effects.contains(&fact))
-                {
-                    let done = |id: &OperatorId| {
-                        self.operators[step][id.index()].is_some_and(|v| self.solver.value(v))
-                            && self.task.operator(*id).add_effects.contains(&fact)
-                    };
-                    chosen
-                        .push(self.task.operator_ids().find(done).expect("a new fact has a cause"));
-                }
-            }
-            for &id in &chosen {
-                self.task.operator(id).preconditions.iter().for_each(|f| before[f.index()] = true);
-            }
-            chosen.sort_unstable();
+            let held = |fact: FactId| is_true(&self.facts[step], fact.index());
+            let done = |id: OperatorId| is_true(&self.operators[step], id.index());
+            let (chosen, before) = self.transition.causes(&needed, held, done);
             steps.push(chosen);
             needed = before;
         }

@@ -64,6 +64,11 @@ impl Solver {
         Lit::new(self.inner.new_var(lbool::UNDEF, true), true)
     }
 
+    /// A variable that is only ever assumed; the solver never tries values for it.
+    pub(super) fn new_switch(&mut self) -> Literal {
+        Lit::new(self.inner.new_var(lbool::UNDEF, false), true)
+    }
+
     pub(super) fn add_clause(&mut self, literals: &[Literal]) {
         self.literals += literals.len() + 2;
         self.clause.clear();
@@ -84,6 +89,16 @@ impl Solver {
     /// A literal's value in the model found last.
     pub(super) fn value(&self, literal: Literal) -> bool {
         self.inner.value_lit(literal) == lbool::TRUE
+    }
+
+    /// The assumptions that took part in the last refutation.
+    pub(super) fn blamed(&self) -> Vec<Literal> {
+        self.inner.unsat_core().iter().map(|&literal| !literal).collect()
+    }
+
+    /// Variables set so far, over and over.
+    pub(super) fn effort(&self) -> u64 {
+        self.inner.num_propagations()
     }
 
     pub(super) fn conflicts(&self) -> u64 {

@@ -57,8 +57,7 @@ impl<'a> Transition<'a> {
             let Some(done) = operators[id.index()] else { continue };
             let operator = self.task.operator(id);
             for fact in &operator.preconditions {
-                let holds =
-                    before[fact.index()].expect("preconditions come before their operator");
+                let holds = before[fact.index()].expect("preconditions come before their operator");
                 solver.add_clause(&[!done, holds]);
             }
             for fact in &operator.add_effects {
