@@ -1,6 +1,6 @@
 //! Where a pose is, from the terms of geometry to a report in words (SPEC T4).
 
-use crate::geometry::{Bounds, FloorPlan, Owner, Scene};
+use crate::geometry::{Bounds, FloorPlan, Owner, Scene, nearest_on_segment};
 use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::report::read::{SaidDoorway, SaidMark, SaidPosition, SaidSpot};
@@ -94,7 +94,11 @@ pub(super) fn describe(
     position.facing = faced.map(|faced| match faced {
         Faced::Door(way) => Facing::Door(doorway(world, relations, way)),
         Faced::Object(replica) => Facing::Object(named(world, Entity::Replica(replica))),
-        Faced::Wall => Facing::Wall,
+        Faced::Wall { own } if terms.spot == semantics::Spot::AlongWall => match own {
+            true => Facing::OwnWall,
+            false => Facing::OtherWall,
+        },
+        Faced::Wall { .. } => Facing::Wall,
         Faced::Inward => Facing::Inward,
     });
     Some(Whereabout { map, pose, terms, position })
@@ -270,7 +274,10 @@ const FACING_RANGE: f64 = 250.0;
 pub(super) enum Faced {
     Door(Way),
     Object(ReplicaId),
-    Wall,
+    Wall {
+        /// Whether the robot is by it.
+        own: bool,
+    },
     Inward,
 }
 
@@ -307,7 +314,8 @@ pub(super) fn faced(
         for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
             let Some(distance) = hit(pose.at, ray, a, b) else { continue };
             if side.permeability == Permeability::Impermeable {
-                offer(distance, Faced::Wall);
+                let away = (pose.at - nearest_on_segment(pose.at, a, b)).norm();
+                offer(distance, Faced::Wall { own: away <= Nearness::default().wall });
             } else if let Some(way) = way_through(relations, area, nalgebra::center(&a, &b)) {
                 offer(distance, Faced::Door(way));
             }

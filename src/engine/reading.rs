@@ -126,7 +126,9 @@ impl Region {
             (SaidFacing::Object(said), Faced::Object(thing)) => {
                 said.contains(&Entity::Replica(thing))
             }
-            (SaidFacing::Wall, Faced::Wall) | (SaidFacing::Inward, Faced::Inward) => true,
+            (SaidFacing::Wall, Faced::Wall { .. }) | (SaidFacing::Inward, Faced::Inward) => true,
+            (SaidFacing::OwnWall, Faced::Wall { own }) => own,
+            (SaidFacing::OtherWall, Faced::Wall { own }) => !own,
             _ => false,
         }
     }

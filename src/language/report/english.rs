@@ -84,7 +84,8 @@ impl Facing {
             _ if self.is_told(spot) => "facing it".into(),
             Self::Door(door) => format!("facing {}", door.english()),
             Self::Object(object) => format!("facing {}", object.english()),
-            Self::Wall => "facing the wall".into(),
+            Self::Wall | Self::OwnWall => "facing the wall".into(),
+            Self::OtherWall => "facing another wall".into(),
             Self::Inward => "facing the middle".into(),
         }
     }

@@ -70,7 +70,12 @@ impl Spot {
 pub enum Facing {
     Door(Doorway),
     Object(Named),
+    /// Some wall, where it was not said that the robot is by one.
     Wall,
+    /// The wall by which it is said to be.
+    OwnWall,
+    /// Another than that.
+    OtherWall,
     /// Into the free middle of the Area.
     Inward,
 }
@@ -170,6 +175,7 @@ impl Facing {
         match (self, spot) {
             (Self::Door(door), Some(Spot::AtDoor(told))) => door == told,
             (Self::Object(object), Some(Spot::Object(_, told))) => object == told,
+            (Self::OwnWall, Some(Spot::AlongWall(_))) => true,
             _ => false,
         }
     }

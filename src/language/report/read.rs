@@ -60,6 +60,9 @@ pub enum SaidFacing<T> {
     Door(SaidDoorway<T>),
     Object(Vec<T>),
     Wall,
+    /// That by which it is said to be, and another than that.
+    OwnWall,
+    OtherWall,
     Inward,
 }
 
@@ -327,6 +330,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
     fn russian_facing(&mut self, spot: Option<&SaidSpot<T>>) -> Option<SaidFacing<T>> {
         self.all_of("лицом")?;
         self.one_of(&["к", "ко"])?;
+        if self.maybe(|r| r.all_of("другой стене")).is_some() {
+            return Some(SaidFacing::OtherWall);
+        }
         if self.one_of(&["стене"]).is_some() {
             return Some(SaidFacing::Wall);
         }
@@ -474,6 +480,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
 
     fn english_facing(&mut self, spot: Option<&SaidSpot<T>>) -> Option<SaidFacing<T>> {
         self.all_of("facing")?;
+        if self.all_of("another wall").is_some() {
+            return Some(SaidFacing::OtherWall);
+        }
         if self.all_of("the wall").is_some() {
             return Some(SaidFacing::Wall);
         }
@@ -496,6 +505,7 @@ impl<T: Clone> SaidFacing<T> {
         match spot {
             Some(SaidSpot::AtDoor(door)) => Some(Self::Door(door.clone())),
             Some(SaidSpot::Object(_, things)) => Some(Self::Object(things.clone())),
+            Some(SaidSpot::AlongWall(_)) => Some(Self::OwnWall),
             _ => None,
         }
     }

@@ -109,7 +109,9 @@ impl Facing {
             Self::Object(object) => {
                 format!("лицом {}", russian::with(Preposition::K, Case::Dative, &object.russian))
             }
-            Self::Wall => "лицом к стене".into(),
+            Self::OwnWall if told => "лицом к ней".into(),
+            Self::Wall | Self::OwnWall => "лицом к стене".into(),
+            Self::OtherWall => "лицом к другой стене".into(),
             Self::Inward => "лицом к середине".into(),
         }
     }
