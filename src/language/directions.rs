@@ -299,8 +299,14 @@ impl Told<'_> {
 
     /// Every stretch: «В Комнате-Z поверните налево, пройдите 2 м мимо Стола (он слева) и выйдите через …».
     fn stretches(&self) -> Option<String> {
+        /// So short a stretch into the room that was the goal is not told, cm.
+        const STEP: f64 = 60.0;
         // The room stands at the beginning of the sentence already.
         let end = Told { first: false, ..*self }.end();
+        let length: f64 = self.passage.stretches.iter().map(|stretch| stretch.length).sum();
+        if end.is_none() && !self.first && length < STEP {
+            return None;
+        }
         let mut clauses: Vec<String> = Vec::new();
         for stretch in &self.passage.stretches {
             if let Some(turn) = stretch.angle.and_then(|a| Turn::of(a).imperative(self.language)) {
