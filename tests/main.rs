@@ -27,6 +27,7 @@ mod map_editing;
 mod maps;
 mod odd_floors;
 mod odd_worlds;
+mod orders;
 mod partition;
 mod passframes;
 mod planning;

@@ -17,7 +17,7 @@ use serde_json::json;
 use crate::engine::{Engine, Error, Memory, TaskAnswer};
 use crate::language::Language;
 use crate::language::command::{Command, Misheard, has_verb, likely_verb};
-use crate::language::question::sentences;
+use crate::language::question::{Conditional, conditional, sentences};
 use crate::units::name_key;
 
 use super::args::{Common, Lang};
@@ -61,8 +61,19 @@ fn on_terminal(common: &Common, dialogue: &mut Dialogue) -> Result<Answer, Failu
         "Спрашивайте или приказывайте; Tab дополняет имена, пустая строка – конец.",
         "Ask or command; Tab completes names, an empty line ends.",
     ))?;
+    let mut interrupted = false;
     loop {
-        match editor.readline("> ") {
+        let read = editor.readline("> ");
+        // Once drops the line that was begun, twice ends.
+        if matches!(read, Err(ReadlineError::Interrupted)) && !interrupted {
+            interrupted = true;
+            say(common
+                .lang
+                .pick("Ещё раз Ctrl-C или Ctrl-D – конец.", "Ctrl-C again or Ctrl-D ends."))?;
+            continue;
+        }
+        interrupted = false;
+        match read {
             Ok(line) if line.trim().is_empty() => break,
             // What is pasted may be several lines.
             Ok(text) => {
@@ -125,6 +136,9 @@ impl Dialogue {
         if let Some(whole) = self.engine.resumed(line, &self.memory)? {
             return self.command(&whole).map(|()| true);
         }
+        if let Some(conditional) = conditional(line) {
+            return self.if_so(&conditional, shows).map(|()| true);
+        }
         // «Где пульт? Принеси его.»: a question and a command.
         let parts = sentences(line);
         if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
@@ -148,13 +162,38 @@ impl Dialogue {
         self.hear_one(line, shows).map(|()| true)
     }
 
+    /// What is found out is told, and what then is to be done follows.
+    fn if_so(&mut self, conditional: &Conditional, shows: bool) -> Result<(), Failure> {
+        if let Some(first) = &conditional.first {
+            self.hear_one(first, shows)?;
+        }
+        let language = Language::of(&conditional.question);
+        let (holds, answer) = match self.engine.holds(conditional, &mut self.memory)? {
+            Ok(found) => found,
+            Err(unanswered) => return self.put("not_understood", &unanswered.text),
+        };
+        self.put("found", &answer.text)?;
+        let order = if holds { &conditional.then } else { &conditional.otherwise };
+        match order {
+            Some(order) => self.hear(order).map(|_| ()),
+            None => {
+                let nothing = language.pick("Тогда делать нечего.", "Then there is nothing to do.");
+                self.put("waiting", nothing)
+            }
+        }
+    }
+
     fn hear_one(&mut self, line: &str, shows: bool) -> Result<(), Failure> {
         // "I need to read something. Where are the books?" asks, whatever is said before.
         let asks = match &sentences(line)[..] {
             [_, .., last] => last.ends_with('?') && !self.engine.is_command(last)?,
             _ => false,
         };
-        if !asks && self.engine.is_command(line)? {
+        // "Two spoons to the table, please" asks nothing, though a question may begin so.
+        let please = |word: &str| matches!(name_key(word).as_str(), "please" | "пожалуйста");
+        let words = || line.split(|c: char| !c.is_alphanumeric());
+        let begs = !asks && !line.contains('?') && words().any(please);
+        if !asks && self.engine.is_command(line)? || begs && self.engine.orders_tersely(line)? {
             return self.command(line);
         }
         match self.engine.ask(line, &mut self.memory)? {

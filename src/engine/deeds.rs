@@ -36,6 +36,13 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
             let thing = name(thing);
             say(format!("Я вернул {thing} на место."), format!("I put {thing} back in its place."))
         }
+        Deed::SetDoor { door, .. } if directive.needs(predicate::PERSON_HAS_KEY) => {
+            let door = named_door(world, door, language);
+            say(
+                format!("Подойдите, пожалуйста, ко мне и отоприте {door}."),
+                format!("Please come to me and unlock {door}."),
+            )
+        }
         Deed::Call(person) => {
             let english = if person == OPERATOR { "Operator" } else { person };
             say(
@@ -48,12 +55,19 @@ pub fn deeds_in_words(world: &World, directive: &Directive, language: Language) 
     directive.deeds().iter().filter_map(sentence).collect()
 }
 
+fn named_door(world: &World, name: &str, language: Language) -> String {
+    Words { world, language }.name(name, Case::Accusative)
+}
+
 /// What a directive asks for, as one tells a person: «открыть Дверь-КY», "open Door KY". An action that asks nothing of
 /// the vehicle is told by its name.
 #[must_use]
 pub fn directive_in_words(world: &World, directive: &Directive, language: Language) -> String {
     let words = Words { world, language };
     let opened = |status| match (status, directive.needs(predicate::DOOR_LOCKED)) {
+        (DoorStatus::Closed, true) if directive.needs(predicate::PERSON_HAS_KEY) => {
+            ("попросить отпереть", "ask for someone to unlock")
+        }
         (DoorStatus::Open, _) => ("открыть", "open"),
         (DoorStatus::Closed, true) => ("отпереть", "unlock"),
         (DoorStatus::Closed, false) => ("закрыть", "close"),
@@ -80,13 +94,72 @@ pub fn name_in(world: &World, name: &str, language: Language) -> String {
     }
 }
 
-/// What the names begin with of points that a task gives a name: at a window, on the floor of a room.
+/// A point that a task gives a name, and how it is told: by words before the names of what it is at.
+struct TaskPoint {
+    /// What its name begins with.
+    prefix: &'static str,
+    /// In Russian, in the dative and otherwise, and in English.
+    dative: &'static str,
+    other: &'static str,
+    english: &'static str,
+    preposition: Option<Preposition>,
+    case: Case,
+}
+
+const TASK_POINTS: [TaskPoint; 5] = [
+    TaskPoint {
+        prefix: BY_WINDOW,
+        dative: "окну",
+        other: "окно",
+        english: "the window in",
+        preposition: Some(Preposition::V),
+        case: Case::Prepositional,
+    },
+    TaskPoint {
+        prefix: ON_FLOOR,
+        dative: "свободному месту",
+        other: "свободное место",
+        english: "the free floor in",
+        preposition: Some(Preposition::V),
+        case: Case::Prepositional,
+    },
+    TaskPoint {
+        prefix: IN_MIDDLE,
+        dative: "середине",
+        other: "середину",
+        english: "the middle of",
+        preposition: None,
+        case: Case::Genitive,
+    },
+    TaskPoint {
+        prefix: FACING,
+        dative: "месту лицом",
+        other: "место лицом",
+        english: "the place facing",
+        preposition: Some(Preposition::K),
+        case: Case::Dative,
+    },
+    TaskPoint {
+        prefix: BETWEEN,
+        dative: "месту между",
+        other: "место между",
+        english: "the place between",
+        preposition: None,
+        case: Case::Instrumental,
+    },
+];
+
 const BY_WINDOW: &str = "Место-у-окна-в-";
 const ON_FLOOR: &str = "Место-на-полу-в-";
+const IN_MIDDLE: &str = "Место-посреди-";
+const FACING: &str = "Место-лицом-к-";
+const BETWEEN: &str = "Место-между-";
+/// Between the names of two things.
+const AND: &str = "-и-";
 
 /// A place of a plan as one tells a person, in the nominative.
 pub(super) fn place_in_words(world: &World, name: &str, language: Language) -> String {
-    let is_point = name.starts_with(BY_WINDOW) || name.starts_with(ON_FLOOR);
+    let is_point = TASK_POINTS.iter().any(|point| name.starts_with(point.prefix));
     match is_point {
         true => Words { world, language }.name(name, Case::Accusative),
         false => name_in(world, name, language),
@@ -101,6 +174,21 @@ pub(super) fn window_place(room: &str) -> String {
 /// The name of the point on the floor of a room, for the time of a task.
 pub(super) fn floor_place(room: &str) -> String {
     format!("{ON_FLOOR}{room}")
+}
+
+/// The name of the point in the middle of a room, for the time of a task.
+pub(super) fn middle_place(room: &str) -> String {
+    format!("{IN_MIDDLE}{room}")
+}
+
+/// The name of a point from which the robot is to look at something, for the time of a task.
+pub(super) fn facing_place(thing: &str) -> String {
+    format!("{FACING}{thing}")
+}
+
+/// The name of the point between two things, for the time of a task.
+pub(super) fn between_places(one: &str, other: &str) -> String {
+    format!("{BETWEEN}{one}{AND}{other}")
 }
 
 struct Words<'w> {
@@ -194,20 +282,16 @@ impl Words<'_> {
 
     /// A name of the map; a place of the plan that the map has not is told by the thing that it is before.
     fn name(&self, name: &str, case: Case) -> String {
-        let points = [
-            (BY_WINDOW, ["окну", "окно"], "the window"),
-            (ON_FLOOR, ["свободному месту", "свободное место"], "the free floor"),
-        ];
-        for (prefix, [dative, other], english) in points {
-            let Some(room) = name.strip_prefix(prefix) else { continue };
-            let of = if case == Case::Dative { dative } else { other };
-            return match self.language {
-                Language::Russian => {
-                    let room = self.name(room, Case::Prepositional);
-                    format!("{of} {} {room}", russian::preposition(Preposition::V, &room))
-                }
-                Language::English => {
-                    format!("{english} in {}", self.name(room, Case::Prepositional))
+        for point in &TASK_POINTS {
+            let Some(at) = name.strip_prefix(point.prefix) else { continue };
+            let told: Vec<String> = at.split(AND).map(|name| self.name(name, point.case)).collect();
+            let told = told.join(self.language.pick(" и ", " and "));
+            let of = if case == Case::Dative { point.dative } else { point.other };
+            return match (self.language, point.preposition) {
+                (Language::English, _) => format!("{} {told}", point.english),
+                (_, None) => format!("{of} {told}"),
+                (_, Some(preposition)) => {
+                    format!("{of} {} {told}", russian::preposition(preposition, &told))
                 }
             };
         }

@@ -48,15 +48,19 @@ impl Engine {
                 self.has_open_inside(support, now)?;
                 Ok(fact(predicate::THING_ON, to.anchor))
             }
+            // «поближе к телефону»: nothing is put onto what bears nothing.
+            (Relation::At, Entity::Replica(anchor)) if !self.bears(anchor) => {
+                self.laid_beside(name(thing), anchor, now, relations)
+            }
             // "to the table": what is carried to a table is put onto it.
-            (Relation::On | Relation::At, Entity::Replica(_)) => {
+            (Relation::On | Relation::At | Relation::Middle, Entity::Replica(_)) => {
                 Ok(fact(predicate::THING_ON, to.anchor))
             }
             (_, Entity::Place(_)) => Ok(fact(predicate::THING_AT_PLACE, to.anchor)),
             (Relation::NextTo, Entity::Replica(anchor)) => {
                 self.laid_beside(name(thing), anchor, now, relations)
             }
-            (Relation::On | Relation::In | Relation::At, Entity::Area(area)) => {
+            (Relation::On | Relation::In | Relation::At | Relation::Middle, Entity::Area(area)) => {
                 self.laid_in_area(id, area, now, relations)
             }
             (Relation::On | Relation::In | Relation::At, Entity::Map(map)) => {
@@ -64,6 +68,13 @@ impl Engine {
             }
             (_, anchor) => Err(RequestError::NotPutThere { name: name(anchor) }.into()),
         }
+    }
+
+    /// Whether a thing is made to bear or hold others.
+    pub(super) fn bears(&self, id: ReplicaId) -> bool {
+        let Ok(world) = self.world() else { return false };
+        !world.has_trait(id, "portable")
+            || ["support", "container"].iter().any(|wanted| world.has_trait(id, wanted))
     }
 
     /// A thing that is to be beside another: on what that one stands on, else on the floor before it.

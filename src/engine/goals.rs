@@ -8,7 +8,7 @@ use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
 
-use super::deeds::{floor_place, window_place};
+use super::deeds::floor_place;
 use super::memory::Now;
 use super::task::{OPERATOR, thing_of};
 use super::{Engine, Error, RequestError};
@@ -78,11 +78,8 @@ impl Engine {
         let name = |e: Entity| world.name(e).to_owned();
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
-            Command::GoTo { to, via } => {
-                let goal = vec![match to.relation {
-                    Relation::AtWindow(window) => self.being_at_window(window, belief)?,
-                    _ => self.being_at(to.anchor, now, relations)?,
-                }];
+            Command::GoTo { to, via, facing } => {
+                let goal = vec![self.standing(to, *facing, now, relations, belief)?];
                 match via {
                     Some(Entity::Door(door)) => {
                         let mut goals = self.through(*door, now, relations)?;
@@ -122,7 +119,12 @@ impl Engine {
                 one(fact(predicate::HANDED_OVER, vec![name(what.id), OPERATOR.to_owned()]))
             }
             Command::Bring { what, to: Some(to) } | Command::Put { what, to } => {
-                if to.relation == Relation::NextTo {
+                let near = match (to.relation, to.anchor) {
+                    (Relation::NextTo | Relation::Middle, _) => true,
+                    (Relation::At, Entity::Replica(anchor)) => !self.bears(anchor),
+                    _ => false,
+                };
+                if near {
                     belief.beside.insert((name(what.id), name(to.anchor)));
                 }
                 vec![self.delivered(what.id, to, now, relations)?]
@@ -199,7 +201,7 @@ impl Engine {
         Ok(fact(predicate, vec![name]))
     }
 
-    fn being_at(
+    pub(super) fn being_at(
         &self,
         entity: Entity,
         now: &Now,
@@ -258,19 +260,6 @@ impl Engine {
         Ok(nearest.ok_or(RequestError::NoCharger)?.1)
     }
 
-    /// As near to the middle of a window as the robot can stand.
-    fn being_at_window(&self, window: u32, belief: &mut Belief) -> Result<GoalFact, Error> {
-        let world = self.world()?;
-        let window = &self.mind()?.lexicon.windows[window as usize];
-        let room = world.name(Entity::Area(window.area)).to_owned();
-        let unreached = || Error::from(RequestError::NotAPlace { name: window.name.clone() });
-        let (map, _) = world.placement(window.area).ok_or_else(unreached)?;
-        let at = nalgebra::center(&window.ends.0, &window.ends.1);
-        let at = self.around()?.floor(map)?.standing_in(window.area, at).ok_or_else(unreached)?;
-        let place = belief.name_point(window_place(&room), window.area, at);
-        Ok(fact(predicate::ROBOT_AT_PLACE, vec![place]))
-    }
-
     /// A thing on the floor: of the room that is named, else where it lies, else where the robot stands.
     fn set_down(
         &self,
@@ -288,6 +277,15 @@ impl Engine {
             Some(Entity::Area(area)) => Some(area),
             Some(Entity::Place(place)) => {
                 let place = world.name(Entity::Place(place)).to_owned();
+                return Ok(vec![fact(predicate::THING_AT_PLACE, vec![name, place])]);
+            }
+            Some(Entity::Replica(beside)) => {
+                let beside = world.name(Entity::Replica(beside)).to_owned();
+                let place = facts
+                    .iter()
+                    .find(|f| f.predicate == predicate::PLACE_BY && f.arguments[1].name == beside);
+                let place = place.ok_or(RequestError::NotAPlace { name: beside })?;
+                let place = place.arguments[0].name.clone();
                 return Ok(vec![fact(predicate::THING_AT_PLACE, vec![name, place])]);
             }
             Some(other) => {

@@ -40,6 +40,7 @@ mod reading;
 mod route;
 mod rules;
 mod sight;
+mod stance;
 mod surprises;
 mod surroundings;
 mod talk;

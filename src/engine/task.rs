@@ -6,14 +6,16 @@ use std::collections::BTreeSet;
 use crate::graphplan::Limits;
 use crate::language::Language;
 use crate::language::command::{Command, Listener, Misheard, Placement, Relation, preamble};
-use crate::language::question::{Memory, Thing};
+use crate::language::question::{
+    Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
+};
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
     Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, MissionError, Person, Planned,
-    Simulator, Station, Surprise,
+    Simulator, Station, Surprise, facts_of_map,
 };
-use crate::semantics::{Profile, Relations, derive};
+use crate::semantics::{Profile, Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose};
 
 use super::memory::{After, Now};
@@ -154,18 +156,26 @@ impl Engine {
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
-        belief.people.push(Person { name: OPERATOR.to_owned(), place: here.clone() });
+        belief.people.push(Person {
+            name: OPERATOR.to_owned(),
+            name_en: "operator".to_owned(),
+            place: here.clone(),
+        });
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
         let goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
         let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
+        let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
+        let is_lit = facts_of_map(&now.world, relations)
+            .iter()
+            .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
         for command in commands {
             let Command::Find(what) = command else { continue };
             let Entity::Replica(id) = what.id else { continue };
             let name = self.world()?.name(what.id).to_owned();
             let in_hand = !now.world.replicas.contains_key(&id);
-            if in_hand || drive.sees(id).is_some() {
+            if in_hand || (is_lit && drive.sees(id).is_some()) {
                 belief.found.insert(name);
             } else {
                 belief.sought.insert(name, BTreeSet::new());
@@ -254,6 +264,9 @@ impl Engine {
         sentence: &str,
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
+        if let Some(conditional) = conditional(sentence) {
+            return self.understood_if(&conditional, memory);
+        }
         let before = memory.clone();
         let whole = self.understood(sentence, memory);
         let (Err(Error::Misheard(misheard)), Some((told, order))) = (&whole, preamble(sentence))
@@ -275,6 +288,49 @@ impl Engine {
                 understood
             }
         }
+    }
+
+    /// The commands of what is to be done as the world now is; to stay, where that is nothing.
+    fn understood_if(
+        &self,
+        conditional: &Conditional,
+        memory: &mut Memory,
+    ) -> Result<Vec<Command<Entity>>, Error> {
+        let mut commands = match &conditional.first {
+            Some(first) => self.understood(first, memory)?,
+            None => Vec::new(),
+        };
+        let holds = self
+            .holds(conditional, memory)?
+            .map_err(|unanswered| Error::from(Misheard::NoneSuch(Box::new(unanswered))))?;
+        let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
+        match order {
+            Some(order) => commands.extend(self.understand_in(order, memory)?),
+            None if commands.is_empty() => commands.push(Command::Wait),
+            None => {}
+        }
+        Ok(commands)
+    }
+
+    /// Whether a condition holds, with the answer that says so; else why that is not known.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn holds(
+        &self,
+        conditional: &Conditional,
+        memory: &mut Memory,
+    ) -> Result<Result<(bool, Answer), Unanswered>, Error> {
+        if let Some(about) = &conditional.about {
+            // What cannot be done may be spoken of all the same.
+            let mut heard = memory.clone();
+            match self.understood(about, &mut heard) {
+                Ok(_) => *memory = heard,
+                Err(_) => self.hear_of(about, memory)?,
+            }
+        }
+        let answered = self.ask(&conditional.question, memory)?;
+        Ok(answered.map(|answer| (matches!(answer.said, Said::Yes | Said::Found), answer)))
     }
 
     fn understood(
@@ -314,8 +370,8 @@ impl Engine {
         if let [Command::ComeBack] = commands[..]
             && let Some(Thing::Entity(anchor)) = memory.place_left()
         {
-            let to = Placement { relation: Relation::At, anchor, within: None };
-            commands = vec![Command::GoTo { to, via: None }];
+            let to = Placement::new(Relation::At, anchor);
+            commands = vec![Command::GoTo { to, via: None, facing: None }];
         }
         if let Some(here) = self.place_of_robot() {
             memory.leave(Thing::Entity(here));

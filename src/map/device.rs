@@ -11,6 +11,12 @@ pub fn is_on(properties: &Properties) -> Option<bool> {
     STATES.iter().find_map(|mark| says(mark.of(properties)?.1))
 }
 
+/// Whether a room is dark by itself: without the lamps in it.
+#[must_use]
+pub fn is_dark(room: &Properties) -> bool {
+    Mark::Light.of(room).and_then(|(_, value)| says(value)) == Some(false)
+}
+
 /// «Включено», "on"; «выключена», "switched off".
 fn says(value: &str) -> Option<bool> {
     let value = value.to_lowercase();

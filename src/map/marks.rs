@@ -11,8 +11,12 @@ pub enum Mark {
     State,
     /// The door that a thing unlocks.
     KeyOf,
+    /// The person who has the key of a door.
+    KeyWith,
     /// The thing on or in which a thing belongs.
     KeptOn,
+    /// Whether there is light in a room by itself.
+    Light,
 }
 
 impl Mark {
@@ -23,7 +27,9 @@ impl Mark {
             Self::Power => ["ПИТАНИЕ", "power"],
             Self::State => ["СОСТОЯНИЕ", "state"],
             Self::KeyOf => ["КЛЮЧ_ОТ", "key_of"],
+            Self::KeyWith => ["КЛЮЧ_У", "key_with"],
             Self::KeptOn => ["ХРАНИТСЯ_НА", "kept_on"],
+            Self::Light => ["СВЕТ", "light"],
         }
     }
 

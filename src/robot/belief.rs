@@ -6,7 +6,7 @@ use crate::geometry::{DoorStates, FloorPlan, Scene};
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
-use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
 use super::drive::Sighting;
 
@@ -25,12 +25,15 @@ pub struct Spot {
     pub name: String,
     pub area: AreaId,
     pub pose: Pose,
+    /// Whether the heading is part of it.
+    pub looks: bool,
 }
 
 /// A person to whom things can be handed, and the place from which it is done.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Person {
     pub name: String,
+    pub name_en: String,
     pub place: String,
 }
 
@@ -87,7 +90,7 @@ impl Belief {
             world.places.values().find(|p| p.area == area && near(p.at)).map(|p| p.name.clone());
         let mut spots = Vec::new();
         let place = place.unwrap_or_else(|| {
-            spots.push(Spot { name: STARTING_POINT.to_owned(), area, pose });
+            spots.push(Spot { name: STARTING_POINT.to_owned(), area, pose, looks: false });
             STARTING_POINT.to_owned()
         });
         Some(Self {
@@ -121,8 +124,16 @@ impl Belief {
         }
         if !self.spots.iter().any(|spot| spot.name == name) {
             let pose = Pose { at, ..self.pose };
-            self.spots.push(Spot { name: name.clone(), area, pose });
+            self.spots.push(Spot { name: name.clone(), area, pose, looks: false });
         }
+        name
+    }
+
+    /// The name of a point at which the robot looks in a direction; another than that of the place where it stands,
+    /// since there it may look elsewhere.
+    pub fn name_view(&mut self, name: String, area: AreaId, at: Point, heading: Deg) -> String {
+        self.spots.retain(|spot| spot.name != name);
+        self.spots.push(Spot { name: name.clone(), area, pose: Pose { at, heading }, looks: true });
         name
     }
 
@@ -201,6 +212,10 @@ impl Belief {
         for person in &self.people {
             let args = [(person.name.as_str(), "человек"), (person.place.as_str(), "место")];
             all.push(fact(predicate::PERSON_AT_PLACE, &args));
+            for door in self.doors_of(person) {
+                let args = [(person.name.as_str(), "человек"), (door, "дверь")];
+                all.push(fact(predicate::PERSON_HAS_KEY, &args));
+            }
         }
         for (thing, home) in &self.homes {
             let args = [(thing.as_str(), "предмет"), (home.as_str(), "объект")];
@@ -226,6 +241,16 @@ impl Belief {
             }
         }
         all
+    }
+
+    /// The doors to which a person has the key, by the Map.
+    fn doors_of<'b>(&'b self, person: &Person) -> impl Iterator<Item = &'b str> {
+        let names = [name_key(&person.name), name_key(&person.name_en)];
+        let doors = self.world.doors.iter().filter(move |(_, door)| {
+            let holder = Mark::KeyWith.of(&door.properties);
+            holder.is_some_and(|(_, holder)| names.contains(&name_key(holder)))
+        });
+        doors.map(|(id, _)| self.world.name(Entity::Door(*id)))
     }
 
     /// Where a thing is believed to be; once it proved not to be there, every Area not yet searched.

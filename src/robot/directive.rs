@@ -156,6 +156,14 @@ impl Directive {
                 deeds.push(Deed::Switch { device: device.clone(), on });
             }
         }
+        let lit = [(self.added(predicate::ROOM_LIT), true)]
+            .into_iter()
+            .chain([(find(&self.deletes, predicate::ROOM_LIT), false)]);
+        for (_, on) in lit.filter(|(room, _)| room.is_some()) {
+            if let Some([lamp, _]) = find(&self.needs, predicate::SWITCH_OF_LIGHT) {
+                deeds.push(Deed::Switch { device: lamp.clone(), on });
+            }
+        }
         if self.added(predicate::ROOM_INSPECTED).is_some() {
             deeds.push(Deed::LookRound);
         }

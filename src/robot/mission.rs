@@ -6,7 +6,7 @@ use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
 use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
-use crate::units::{AreaId, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -270,6 +270,10 @@ impl<'r> Mission<'r> {
             Deed::GoToPlace(name) => {
                 let target = self.place_target(name)?;
                 self.go(name, target, &[self.belief.area], drive, leg)?;
+                let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
+                if let Some(pose) = looks.map(|spot| spot.pose) {
+                    self.turn(pose.heading, drive)?;
+                }
                 self.belief.station = Station::Place(name.clone());
             }
             Deed::GoToDoor(name) => {
@@ -373,6 +377,13 @@ impl<'r> Mission<'r> {
         leg.route = Some(route);
         self.belief.pose = drive.pose().1;
         driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+    }
+
+    /// Turns where the robot stands.
+    fn turn(&mut self, heading: Deg, drive: &mut dyn Drive) -> Result<(), Surprise> {
+        let turned = drive.follow(&[self.belief.pose.at], Some(heading));
+        self.belief.pose = drive.pose().1;
+        turned.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
     }
 
     /// Rides to another stop of the lift in which the robot stands: where it stands in the cabin, or in the middle of
@@ -525,6 +536,7 @@ impl<'r> Mission<'r> {
             name: name.clone(),
             area,
             pose: self.belief.pose,
+            looks: false,
         });
         self.belief.station = Station::Place(name);
     }

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_on};
+use crate::map::{DoorKind, DoorStatus, Entity, Mark, World, is_dark, is_on};
 use crate::units::{AreaId, PlaceId, ReplicaId};
 
 use super::lifts::{Lift, lifts, storey_name};
@@ -211,11 +211,28 @@ impl Writer<'_> {
         self.places.insert(name, (area, source));
     }
 
-    /// No Area is known to be dark: light is an assumption.
+    /// Light is an assumption where the Map does not say that it is dark; there the lamps make it.
     fn light(&mut self) {
-        for id in self.world.areas.keys() {
+        for (id, area) in &self.world.areas {
             let room = self.area(*id);
-            self.insert(predicate::ROOM_LIT, &[(&room, ROOM)], true);
+            let is_lamp = |lamp: &ReplicaId| {
+                self.world.has_trait(*lamp, "light")
+                    && self.world.has_trait(*lamp, "device")
+                    && self.relations.area_of(*lamp) == Some(*id)
+            };
+            let all = self.world.replicas.keys().copied();
+            let lamps: Vec<ReplicaId> =
+                if is_dark(&area.properties) { all.filter(is_lamp).collect() } else { Vec::new() };
+            let shines =
+                |lamp: &ReplicaId| is_on(&self.world.replicas[lamp].properties) == Some(true);
+            if !is_dark(&area.properties) || lamps.iter().any(shines) {
+                self.insert(predicate::ROOM_LIT, &[(&room, ROOM)], true);
+            }
+            for lamp in lamps {
+                let name = self.relations.symbols().replica(lamp).to_string();
+                let kind = if self.world.has_trait(lamp, "portable") { ITEM } else { OBJECT };
+                self.fact(predicate::SWITCH_OF_LIGHT, &[(&name, kind), (&room, ROOM)]);
+            }
         }
     }
 

@@ -29,6 +29,8 @@ pub const DOOR_CLOSED: &str = "ДВЕРЬ_ИЗ_В_ЗАКРЫТА";
 pub const DOOR_LOCKED: &str = "ДВЕРЬ_ИЗ_В_ЗАПЕРТА";
 /// (предмет, дверь)
 pub const KEY_FITS: &str = "КЛЮЧ_ПОДХОДИТ-К";
+/// (человек, дверь)
+pub const PERSON_HAS_KEY: &str = "ЧЕЛОВЕК_ИМЕЕТ-КЛЮЧ-ОТ";
 /// (предмет, объект)
 pub const THING_ON: &str = "ПРЕДМЕТ_НАХОДИТСЯ-НА";
 /// (предмет, место)
@@ -45,6 +47,8 @@ pub const DEVICE_ON: &str = "УСТРОЙСТВО-ВКЛЮЧЕНО";
 pub const DEVICE_OFF: &str = "УСТРОЙСТВО-ВЫКЛЮЧЕНО";
 /// (помещение)
 pub const ROOM_LIT: &str = "ПОМЕЩЕНИЕ-ОСВЕЩЕНО";
+/// (объект, помещение)
+pub const SWITCH_OF_LIGHT: &str = "ВЫКЛЮЧАТЕЛЬ_УПРАВЛЯЕТ-СВЕТОМ-В";
 /// (помещение)
 pub const ROOM_INSPECTED: &str = "ПОМЕЩЕНИЕ-ОСМОТРЕНО";
 /// (объект, помещение)

@@ -1,11 +1,13 @@
 //! From clauses to commands: which argument is the thing, which the place, and whether each means one thing only.
 
 use std::cell::RefCell;
+use std::collections::HashSet;
 use std::hash::Hash;
 use std::ops::Range;
 
 use super::grammar::{Argument, Item, Reference, Sentence, items};
-use super::vocabulary::{Haunt, Link, Role, Verb, verbs};
+use super::roles::{cases_after, choose, direction, question, within};
+use super::vocabulary::{Haunt, Role, Verb, verbs};
 use super::{Command, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::language::words::{Case, Hit};
 use crate::units::{Source, nearest_name};
@@ -125,6 +127,7 @@ struct Roles<T> {
     at: Option<Placement<T>>,
     to: Option<Placement<T>>,
     via: Option<T>,
+    facing: Option<T>,
     to_me: bool,
     on_floor: bool,
 }
@@ -156,10 +159,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         match (verb, clause.haunt) {
             (Verb::Charge, _) => return Ok(vec![Command::Charge]),
             (Verb::GoTo | Verb::Return | Verb::Move | Verb::Get | Verb::Leave, Some(haunt)) => {
-                return Ok(vec![match haunt {
-                    Haunt::Charger => Command::Charge,
-                    Haunt::Home => Command::GoHome,
-                }]);
+                if let Some(commands) = self.to_haunt(haunt, clause)? {
+                    return Ok(commands);
+                }
             }
             _ => {}
         }
@@ -170,13 +172,40 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         self.command(verb, words, roles)
     }
 
+    /// To a place of the robot's own, through what is named; none where another place is named.
+    fn to_haunt(
+        &self,
+        haunt: Haunt,
+        clause: &Clause<'_, '_, T>,
+    ) -> Result<Option<Vec<Command<T>>>, Misheard> {
+        let mut commands = Vec::new();
+        for argument in clause.before.iter().chain(&clause.after) {
+            match (argument.link, &argument.reference) {
+                (_, Reference::Me) => {}
+                (Some(link), _) if link.role == Role::Via => {
+                    let place = self.resolve(argument, cases_after(link))?;
+                    commands.push(Command::GoThrough(place));
+                }
+                (Some(link), _) if link.role != Role::Whither => {
+                    return Err(self.not_understood(&argument.words, "скажите это отдельно".into()));
+                }
+                _ => return Ok(None),
+            }
+        }
+        commands.push(match haunt {
+            Haunt::Charger => Command::Charge,
+            Haunt::Home => Command::GoHome,
+        });
+        Ok(Some(commands))
+    }
+
     fn command(
         &mut self,
         verb: Verb,
         words: &Range<usize>,
         roles: Roles<T>,
     ) -> Result<Vec<Command<T>>, Misheard> {
-        let Roles { mut objects, mut at, mut to, via, to_me, on_floor } = roles;
+        let Roles { mut objects, mut at, mut to, via, facing, to_me, on_floor } = roles;
         let on_floor = on_floor
             && matches!(verb, Verb::Put | Verb::Move | Verb::Clear | Verb::Leave | Verb::SetDown);
         let verb = match verb {
@@ -232,15 +261,16 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             }
             Verb::GoTo => {
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
-                let bare = |anchor: T| Placement { relation: Relation::At, anchor, within: None };
+                let bare = |anchor: T| Placement::new(Relation::At, anchor);
                 let to = to.or(at).or_else(|| objects.pop().map(bare));
+                let to = to.or_else(|| facing.clone().map(bare));
                 return match (to, via) {
                     (Some(to), via) => {
                         // "Go to the fridge and open it"; the book of «Возьми книгу, поезжай на кухню и положи её» stays.
                         if !self.has_named {
                             self.last = vec![to.anchor.clone()];
                         }
-                        Ok(vec![Command::GoTo { to, via }])
+                        Ok(vec![Command::GoTo { to, via, facing }])
                     }
                     (None, Some(door)) => Ok(vec![Command::GoThrough(door)]),
                     (None, None) if to_me => Ok(vec![Command::ComeHere]),
@@ -329,10 +359,18 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
 
     /// Gives every argument its part. Places first, since they narrow what the thing may be.
     fn roles(&self, verb: Verb, arguments: &[&Argument<'_, T>]) -> Result<Roles<T>, Misheard> {
-        let mut roles =
-            Roles { objects: vec![], at: None, to: None, via: None, to_me: false, on_floor: false };
+        let mut roles = Roles {
+            objects: vec![],
+            at: None,
+            to: None,
+            via: None,
+            facing: None,
+            to_me: false,
+            on_floor: false,
+        };
         let mut latest_is_to = None;
-        for argument in arguments {
+        let mut seconds: Vec<usize> = Vec::new();
+        for (n, argument) in arguments.iter().enumerate() {
             let Some(link) = argument.link else {
                 roles.to_me |= matches!(argument.reference, Reference::Me);
                 continue;
@@ -341,17 +379,31 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 roles.to_me = true;
                 continue;
             }
-            if link.relation == Relation::Between {
-                return Err(
-                    self.unable(&(argument.words.start.saturating_sub(1)..argument.words.end))
-                );
-            }
             let anchor = match self.resolve(argument, cases_after(link)) {
                 // «Выйди из комнаты»: whichever it is, the robot is in it.
                 Err(_) if verb == Verb::Leave && link.role == Role::Whence => continue,
                 resolved => resolved?,
             };
-            let place = Placement { relation: link.relation, anchor, within: None };
+            let mut place = Placement::new(link.relation, anchor);
+            match link.relation {
+                Relation::Facing => {
+                    roles.facing = Some(place.anchor);
+                    continue;
+                }
+                // «между столом и диваном»: the second has no preposition of its own.
+                Relation::Between => {
+                    let second = arguments.get(n + 1).filter(|second| second.link.is_none());
+                    let second = second.ok_or_else(|| {
+                        self.incomplete(
+                            &argument.words,
+                            ("между чем ещё", "what else it is between"),
+                        )
+                    })?;
+                    place.and = Some(self.resolve(second, cases_after(link))?);
+                    seconds.push(second.words.start);
+                }
+                _ => {}
+            }
             let role = direction(verb, link, argument);
             match (role, latest_is_to) {
                 (Role::Via, _) => {
@@ -372,9 +424,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 }
             }
         }
-        for argument in
-            arguments.iter().filter(|a| a.link.is_none() && !matches!(a.reference, Reference::Me))
-        {
+        let named = |a: &&&Argument<'_, T>| {
+            let second = seconds.contains(&a.words.start);
+            a.link.is_none() && !second && !matches!(a.reference, Reference::Me)
+        };
+        for argument in arguments.iter().filter(named) {
             let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
             let objects = match &argument.reference {
                 Reference::Known(hits) if argument.all => choose(hits, &cases),
@@ -394,6 +448,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 Reference::Them if !self.last.is_empty() => self.last.clone(),
                 _ => vec![self.resolve(argument, &cases)?],
             };
+            // "them both" is said twice of the same.
+            let new = |id: &T| !roles.objects.contains(id);
+            let objects: Vec<T> = objects.into_iter().filter(new).collect();
             roles.objects.extend(objects);
         }
         Ok(roles)
@@ -434,6 +491,8 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         if let (true, Some((_, last))) = (near.is_empty(), reference.rsplit_once(' ')) {
             near = index.near(last, 3).into_iter().map(Into::into).collect();
         }
+        let mut told = HashSet::new();
+        near.retain(|name| told.insert(name.clone()));
         Misheard::UnknownName { reference, near, text: self.source(), at }
     }
 
@@ -483,101 +542,5 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
 
     fn source(&self) -> Source {
         Source::new("задание", self.sentence.text)
-    }
-}
-
-/// All that a name may mean in these cases.
-fn choose<T: Clone>(hits: &[Hit<'_, T>], cases: &[Case]) -> Vec<T> {
-    in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect()
-}
-
-fn within<T>(place: &mut Option<Placement<T>>, outer: T) {
-    if let Some(place) = place {
-        place.within = Some(outer);
-    }
-}
-
-/// Hits whose form may stand in one of these cases; all of them when none does, for people slip in endings.
-fn in_case<'h, 's, T>(hits: &'h [Hit<'s, T>], cases: &[Case]) -> Vec<&'h Hit<'s, T>> {
-    let suiting: Vec<_> =
-        hits.iter().filter(|hit| cases.iter().any(|case| hit.readings.has_case(*case))).collect();
-    if suiting.is_empty() { hits.iter().collect() } else { suiting }
-}
-
-fn cases_after(link: Link) -> &'static [Case] {
-    match (link.role, link.relation) {
-        (Role::Whence, _) => &[Case::Genitive],
-        (Role::Via, _) => &[Case::Accusative],
-        (Role::Whither, Relation::At) => &[Case::Dative, Case::Genitive],
-        (_, Relation::In | Relation::On) => {
-            &[Case::Accusative, Case::Locative, Case::Prepositional]
-        }
-        (_, Relation::NextTo) => &[Case::Genitive, Case::Instrumental],
-        _ => &[Case::Accusative, Case::Instrumental],
-    }
-}
-
-/// Whether a place is where something is or whither it goes: by the preposition, by the case, by the verb.
-fn direction<T>(verb: Verb, link: Link, argument: &Argument<'_, T>) -> Role {
-    if link.role != Role::WhereOrWhither {
-        return link.role;
-    }
-    let Reference::Known(hits) = &argument.reference else { return by_verb(verb) };
-    let may_be = |cases: &[Case]| {
-        hits.iter().any(|hit| cases.iter().any(|case| hit.readings.has_case(*case)))
-    };
-    let (whither, place) = match link.relation {
-        Relation::In | Relation::On => (may_be(&[Case::Accusative]), may_be(&[Case::Locative])),
-        Relation::Under | Relation::Behind => {
-            (may_be(&[Case::Accusative]), may_be(&[Case::Instrumental]))
-        }
-        _ => return by_verb(verb),
-    };
-    match (whither, place) {
-        (true, false) => Role::Whither,
-        (false, true) => Role::Where,
-        _ => by_verb(verb),
-    }
-}
-
-fn by_verb(verb: Verb) -> Role {
-    match verb {
-        Verb::GoTo
-        | Verb::Move
-        | Verb::Put
-        | Verb::SetDown
-        | Verb::Bring
-        | Verb::Clear
-        | Verb::Return
-        | Verb::PutBack
-        | Verb::Leave => Role::Whither,
-        _ => Role::Where,
-    }
-}
-
-fn question(verb: Verb) -> (&'static str, &'static str) {
-    match verb {
-        Verb::Bring | Verb::Need => ("что принести", "what to bring"),
-        Verb::Take => ("что взять", "what to take"),
-        Verb::Put | Verb::SetDown | Verb::Clear => ("что положить", "what to put"),
-        Verb::Open => ("что открыть", "what to open"),
-        Verb::Close => ("что закрыть", "what to close"),
-        Verb::Lock => ("что запереть", "what to lock"),
-        Verb::Unlock => ("что отпереть", "what to unlock"),
-        Verb::SwitchOn => ("что включить", "what to switch on"),
-        Verb::SwitchOff => ("что выключить", "what to switch off"),
-        Verb::Find => ("что найти", "what to find"),
-        Verb::PutBack => ("что вернуть на место", "what to put back"),
-        Verb::GoTo | Verb::Move | Verb::Get | Verb::Return | Verb::Leave => {
-            ("куда ехать", "where to go")
-        }
-        Verb::Tidy
-        | Verb::Charge
-        | Verb::CallOperator
-        | Verb::CallLift
-        | Verb::Report
-        | Verb::Wait
-        | Verb::Unable
-        | Verb::Stop => ("что сделать", "what to do"),
     }
 }

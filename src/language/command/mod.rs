@@ -18,15 +18,19 @@
 //! ```
 
 mod assemble;
+mod ellipsis;
+mod going;
 mod grammar;
 mod misheard;
+mod quantity;
+mod roles;
 mod spoken;
 mod verbs;
 mod vocabulary;
 
 pub use misheard::Misheard;
 pub(in crate::language) use verbs::{
-    Sort, clauses, gathered, is_known, link_before, without_verbs,
+    Sort, clauses, gathered, is_known, link_at, link_before, small_words, without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 
@@ -45,7 +49,12 @@ pub enum Relation {
     Behind,
     InFrontOf,
     NextTo,
+    /// Between the anchor and another.
     Between,
+    /// In the middle of it: «посреди кухни».
+    Middle,
+    /// Whither the robot looks: «лицом к столу».
+    Facing,
     /// At a window of the Area that is the anchor: its number among the windows of the map.
     AtWindow(u32),
 }
@@ -57,6 +66,14 @@ pub struct Placement<T> {
     pub anchor: T,
     /// Where the anchor is, if it was said.
     pub within: Option<T>,
+    /// Beside the anchor, of the two between which the place is.
+    pub and: Option<T>,
+}
+
+impl<T> Placement<T> {
+    pub(crate) fn new(relation: Relation, anchor: T) -> Self {
+        Self { relation, anchor, within: None, and: None }
+    }
 }
 
 /// A thing, and where it was said to be: «чашку со стола».
@@ -74,6 +91,8 @@ pub enum Command<T> {
     GoTo {
         to: Placement<T>,
         via: Option<T>,
+        /// What it is to look at there.
+        facing: Option<T>,
     },
     /// «Проедь через дверь»: to its other side.
     GoThrough(T),
@@ -216,7 +235,28 @@ pub fn is_order(text: &str) -> bool {
 /// What only tells, and the order behind its mark.
 #[must_use]
 pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
-    if is_order(sentence) {
+    /// What begins so says when, and is part of the order.
+    const WHEN: [&str; 17] = [
+        "after",
+        "before",
+        "when",
+        "once",
+        "until",
+        "while",
+        "if",
+        "unless",
+        "as",
+        "после",
+        "перед",
+        "когда",
+        "пока",
+        "если",
+        "прежде",
+        "как",
+        "сразу",
+    ];
+    let first = crate::language::words::word_keys(sentence).into_iter().next();
+    if is_order(sentence) || first.is_some_and(|word| WHEN.contains(&word.as_str())) {
         return None;
     }
     let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
@@ -309,17 +349,17 @@ mod tests {
                 Принеси лекарство
                     Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Поезжай в Комнату-Y
-                    GoTo { to: Placement { relation: In, anchor: "Комната-Y", within: None }, via: None }
+                    GoTo { to: Placement { relation: In, anchor: "Комната-Y", within: None, and: None }, via: None, facing: None }
                 Открой Дверь-ВZ
                     Open(Thing { id: "Дверь-ВZ", at: None, toward: None })
                 Положи книгу на стол
-                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None, and: None } }
                 Положи книгу на письменный стол
-                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Письменный стол", within: None, and: None } }
                 Bring the medicine
                     Bring { what: Thing { id: "Лекарство", at: None, toward: None }, to: None }
                 Go to Room-Y
-                    GoTo { to: Placement { relation: At, anchor: "Комната-Y", within: None }, via: None }
+                    GoTo { to: Placement { relation: At, anchor: "Комната-Y", within: None, and: None }, via: None, facing: None }
             "#]],
         );
     }
@@ -347,7 +387,7 @@ mod tests {
                 ЗАКРОЙ ДВЕРЬ ВZ
                     Close(Thing { id: "Дверь-ВZ", at: None, toward: None })
                 Робот, будь добр, поезжай на кухню
-                    GoTo { to: Placement { relation: On, anchor: "Кухня", within: None }, via: None }
+                    GoTo { to: Placement { relation: On, anchor: "Кухня", within: None, and: None }, via: None, facing: None }
                 Could you please bring me the red cup?
                     Bring { what: Thing { id: "Красная чашка", at: None, toward: None }, to: None }
                 мне нужно лекарство
@@ -395,29 +435,29 @@ mod tests {
             ],
             &expect![[r#"
                 Возьми красную чашку со стола в кухне
-                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня") }), toward: None } }
+                    Take { what: Thing { id: "Красная чашка", at: Some(Placement { relation: On, anchor: "Письменный стол", within: Some("Кухня"), and: None }), toward: None } }
                 Возьми книгу с полки и положи её на тумбочку 1
-                    Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None }), toward: None } }; Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None } }
+                    Take { what: Thing { id: "Книга", at: Some(Placement { relation: On, anchor: "Полка", within: None, and: None }), toward: None } }; Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: On, anchor: "Тумбочка-1", within: None, and: None } }
                 Принеси книгу из шкафа в Комнату-В
-                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Шкаф", within: None }), toward: None }, to: Some(Placement { relation: In, anchor: "Комната-В", within: None }) }
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Шкаф", within: None, and: None }), toward: None }, to: Some(Placement { relation: In, anchor: "Комната-В", within: None, and: None }) }
                 Take the book from the shelf to the kitchen
-                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: At, anchor: "Полка", within: None }), toward: None }, to: Some(Placement { relation: At, anchor: "Кухня", within: None }) }
+                    Bring { what: Thing { id: "Книга", at: Some(Placement { relation: At, anchor: "Полка", within: None, and: None }), toward: None }, to: Some(Placement { relation: At, anchor: "Кухня", within: None, and: None }) }
                 Поезжай в коридор через дверь-вz
-                    GoTo { to: Placement { relation: In, anchor: "Коридор", within: None }, via: Some("Дверь-ВZ") }
+                    GoTo { to: Placement { relation: In, anchor: "Коридор", within: None, and: None }, via: Some("Дверь-ВZ"), facing: None }
                 Подъедь ко мне
                     ComeHere
                 Подъезжай к креслу у окна
-                    GoTo { to: Placement { relation: At, anchor: "Кресло у окна", within: None }, via: None }
+                    GoTo { to: Placement { relation: At, anchor: "Кресло у окна", within: None, and: None }, via: None, facing: None }
                 Поезжай в лобби
-                    GoTo { to: Placement { relation: In, anchor: "Лобби", within: None }, via: None }
+                    GoTo { to: Placement { relation: In, anchor: "Лобби", within: None, and: None }, via: None, facing: None }
                 Включи лампу на письменном столе
-                    SwitchOn(Thing { id: "Лампа", at: Some(Placement { relation: On, anchor: "Письменный стол", within: None }), toward: None })
+                    SwitchOn(Thing { id: "Лампа", at: Some(Placement { relation: On, anchor: "Письменный стол", within: None, and: None }), toward: None })
                 Найди книгу в комнате-в
-                    Find(Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Комната-В", within: None }), toward: None })
+                    Find(Thing { id: "Книга", at: Some(Placement { relation: In, anchor: "Комната-В", within: None, and: None }), toward: None })
                 Приберись на кухне
                     Tidy(Some("Кухня"))
                 убери книгу в шкаф
-                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None, and: None } }
                 Позови оператора
                     CallOperator
                 Где ты?
@@ -427,17 +467,17 @@ mod tests {
                 Принеси книгу и белую чашку
                     Bring { what: Thing { id: "Книга", at: None, toward: None }, to: None }; Bring { what: Thing { id: "Белая чашка", at: None, toward: None }, to: None }
                 go to the kitchen, then open Door-ZY
-                    GoTo { to: Placement { relation: At, anchor: "Кухня", within: None }, via: None }; Open(Thing { id: "Дверь-ZY", at: None, toward: None })
+                    GoTo { to: Placement { relation: At, anchor: "Кухня", within: None, and: None }, via: None, facing: None }; Open(Thing { id: "Дверь-ZY", at: None, toward: None })
                 put the book under the chair
-                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: Under, anchor: "Стул", within: None } }
+                    Put { what: Thing { id: "Книга", at: None, toward: None }, to: Placement { relation: Under, anchor: "Стул", within: None, and: None } }
                 Принеси лекарство с тумбочки-1 из комнаты-y
-                    Bring { what: Thing { id: "Лекарство", at: Some(Placement { relation: On, anchor: "Тумбочка-1", within: Some("Комната-Y") }), toward: None }, to: None }
+                    Bring { what: Thing { id: "Лекарство", at: Some(Placement { relation: On, anchor: "Тумбочка-1", within: Some("Комната-Y"), and: None }), toward: None }, to: None }
                 Убери чашку красную в шкаф
-                    Put { what: Thing { id: "Красная чашка", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None } }
+                    Put { what: Thing { id: "Красная чашка", at: None, toward: None }, to: Placement { relation: In, anchor: "Шкаф", within: None, and: None } }
                 Закрой все двери
                     Close(Thing { id: "Дверь-ВZ", at: None, toward: None }); Close(Thing { id: "Дверь-ZY", at: None, toward: None })
                 Открой Дверь-ВZ из кухни в коридор
-                    Open(Thing { id: "Дверь-ВZ", at: Some(Placement { relation: In, anchor: "Кухня", within: None }), toward: Some(Placement { relation: In, anchor: "Коридор", within: None }) })
+                    Open(Thing { id: "Дверь-ВZ", at: Some(Placement { relation: In, anchor: "Кухня", within: None, and: None }), toward: Some(Placement { relation: In, anchor: "Коридор", within: None, and: None }) })
                 Открой дверь-вZ и дверь-zy
                     Open(Thing { id: "Дверь-ВZ", at: None, toward: None }); Open(Thing { id: "Дверь-ZY", at: None, toward: None })
                 Стоп, не едь!

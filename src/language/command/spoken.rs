@@ -6,14 +6,17 @@
 
 use std::ops::Range;
 
+use super::ellipsis;
+use super::going;
+use super::quantity;
 use super::vocabulary::{Meaning, Role, Verb, longest};
 use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
 /// A text, the places of its words and their keys.
-struct Said {
-    text: String,
-    words: Vec<Range<usize>>,
-    keys: Vec<String>,
+pub(super) struct Said {
+    pub(super) text: String,
+    pub(super) words: Vec<Range<usize>>,
+    pub(super) keys: Vec<String>,
 }
 
 impl Said {
@@ -22,23 +25,23 @@ impl Said {
         Self { text, words, keys }
     }
 
-    fn meaning(&self, at: usize) -> Option<(usize, Meaning)> {
+    pub(super) fn meaning(&self, at: usize) -> Option<(usize, Meaning)> {
         (at < self.keys.len())
             .then(|| longest(&self.keys[at..].iter().map(String::as_str)))
             .flatten()
     }
 
-    fn is(&self, at: usize, any: &[&str]) -> bool {
+    pub(super) fn is(&self, at: usize, any: &[&str]) -> bool {
         self.keys.get(at).is_some_and(|key| any.contains(&key.as_str()))
     }
 
     /// How many words of one of these phrases, the longest, stand here.
-    fn phrase(&self, at: usize, phrases: &[&str]) -> Option<usize> {
+    pub(super) fn phrase(&self, at: usize, phrases: &[&str]) -> Option<usize> {
         phrases.iter().filter_map(|phrase| phrase_at(&self.keys, at, phrase)).max()
     }
 
     /// Whether a mark stands before a word.
-    fn parted(&self, at: usize) -> bool {
+    pub(super) fn parted(&self, at: usize) -> bool {
         match at.checked_sub(1).map(|before| self.words[before].end) {
             Some(end) if at < self.words.len() => {
                 self.text[end..self.words[at].start].contains([',', ';', '.', '!', ':', '–', '—'])
@@ -48,7 +51,7 @@ impl Said {
     }
 
     /// Where the clause of a word ends: at the next mark, or the end.
-    fn clause_end(&self, at: usize) -> usize {
+    pub(super) fn clause_end(&self, at: usize) -> usize {
         (at + 1..self.words.len()).find(|&n| self.parted(n)).unwrap_or(self.words.len())
     }
 
@@ -56,12 +59,12 @@ impl Said {
         self.words[words.start].start..self.words[words.end - 1].end
     }
 
-    fn of(&self, words: &Range<usize>) -> &str {
+    pub(super) fn of(&self, words: &Range<usize>) -> &str {
         &self.text[self.bytes(words)]
     }
 
     /// The first verb from a word on, and how many words it takes.
-    fn verb_from(&self, mut at: usize) -> Option<(usize, usize, Verb)> {
+    pub(super) fn verb_from(&self, mut at: usize) -> Option<(usize, usize, Verb)> {
         while at < self.keys.len() {
             match self.meaning(at) {
                 Some((taken, Meaning::Verb(verb))) => return Some((at, taken, verb)),
@@ -73,7 +76,7 @@ impl Said {
     }
 
     /// The text with some words replaced by others.
-    fn with(&self, words: &Range<usize>, said: &str) -> String {
+    pub(super) fn with(&self, words: &Range<usize>, said: &str) -> String {
         let mut text = self.text.clone();
         text.replace_range(self.bytes(words), said);
         text
@@ -84,21 +87,33 @@ impl Said {
 pub(super) fn plain(text: &str) -> String {
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 14] = [
+    let rewritings: [fn(&Said) -> Option<String>; 26] = [
+        ellipsis::in_time,
         without_forbidden,
         contrasted,
         excluded,
+        ellipsis::verb_first,
+        ellipsis::verb_again,
+        ellipsis::object_again,
+        ellipsis::noun_again,
         ensured,
-        everything,
+        quantity::everything,
         switched,
-        gone,
-        stopping_at,
-        homeward,
+        going::gone,
+        going::stopping_at,
+        going::homeward,
         gapped,
-        searched,
-        fetched,
-        without_where,
-        any_at_the_end,
+        going::searched,
+        going::where_it_was,
+        going::where_it_is,
+        going::there_and_back,
+        going::without_spot,
+        quantity::all_at_the_end,
+        left_alone,
+        dashed,
+        going::fetched,
+        going::without_where,
+        quantity::any_at_the_end,
     ];
     let mut said = Said::new(text.to_owned());
     for rewrite in rewritings {
@@ -117,6 +132,16 @@ fn without_forbidden(said: &Said) -> Option<String> {
     let mut at = 0;
     while let Some((taken, Meaning::Filler | Meaning::Me | Meaning::And)) = said.meaning(at) {
         at += taken;
+    }
+    // «Не надо вилку, принеси ложку»
+    const NEEDLESS: [&str; 5] = ["не надо", "не нужно", "не нужна", "не нужен", "не нужны"];
+    if let Some(taken) = said.phrase(at, &NEEDLESS)
+        && at + taken < said.keys.len()
+        && !said.parted(at + taken)
+        && said.verb_from(at + taken).is_some_and(|(verb, ..)| verb >= said.clause_end(at + taken))
+    {
+        let next = said.clause_end(at + taken);
+        return Some(said.with(&(at..next + 1), said.of(&(next..next + 1))));
     }
     let (taken, Meaning::Not) = said.meaning(at)? else { return None };
     let (verb, ..) = said.verb_from(at + taken)?;
@@ -164,6 +189,15 @@ fn excluded(said: &Said) -> Option<String> {
     let told = at + taken..end;
     // "to me, not to the kitchen": the other place is merely not meant.
     if matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
+        let mut text = said.text.clone();
+        text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
+        return Some(text);
+    }
+    // "the bowl from the table, not the one from the bed": told by its own place already.
+    let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(_))));
+    let other_place =
+        said.phrase(at + taken, &["the one", "the ones", "ту что", "тот что", "то что"]);
+    if other_place.is_some() && (0..at).any(link) {
         let mut text = said.text.clone();
         text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
         return Some(text);
@@ -326,22 +360,6 @@ fn switched(said: &Said) -> Option<String> {
     Some(said.with(&(0..half + 1), &format!("switch {} {what}", said.keys[half])))
 }
 
-/// «всё со стола», "everything on the table": all things that are there.
-fn everything(said: &Said) -> Option<String> {
-    const ALL: [&str; 5] =
-        ["everything", "whatever is", "whatever s", "everything that is", "everything that s"];
-    let before_link = |n: usize| matches!(said.meaning(n).map(|(_, m)| m), Some(Meaning::Link(_)));
-    (0..said.keys.len()).find_map(|at| {
-        let russian = said.text.get(said.words[at].clone())?.to_lowercase() == "всё";
-        let taken = said.phrase(at, &ALL).or(russian.then_some(1))?;
-        let (things, follows) = match russian {
-            true => ("все вещи", before_link(at + 1)),
-            false => ("all the things", before_link(at + taken)),
-        };
-        follows.then(|| said.with(&(at..at + taken), things))
-    })
-}
-
 /// "Switch the lamp on and the television off": the verb once more.
 fn gapped(said: &Said) -> Option<String> {
     const VERBS: [Verb; 2] = [Verb::SwitchOn, Verb::SwitchOff];
@@ -356,173 +374,73 @@ fn gapped(said: &Said) -> Option<String> {
     })
 }
 
-/// "Search the bedroom for the medicine", "go wherever the umbrella is".
-fn searched(said: &Said) -> Option<String> {
-    const WHEREVER: [&str; 5] =
-        ["wherever", "to where", "to wherever", "туда где", "к тому месту где"];
-    const IS: [&str; 7] = ["is", "are", "lies", "stands", "лежит", "стоит", "находится"];
-    if said.is(0, &["search"]) {
-        let at = (2..said.keys.len().saturating_sub(1)).find(|&n| said.is(n, &["for"]))?;
-        let what = said.of(&(at + 1..said.clause_end(at)));
-        let place = said.of(&(1..at));
-        return Some(said.with(&(0..said.clause_end(at)), &format!("find {what} in {place}")));
-    }
-    let (verb, taken, Verb::GoTo) = said.verb_from(0)? else { return None };
-    let at = verb + taken;
-    let told = said.phrase(at, &WHEREVER)?;
-    let end = said.clause_end(at + told);
-    let kept: Vec<&str> = (at + told..end)
-        .filter(|&n| !said.is(n, &IS))
-        .map(|n| &said.text[said.words[n].clone()])
-        .collect();
-    let to = Language::of(&said.keys[verb]).pick("к", "to");
-    Some(said.with(&(at..end), &format!("{to} {}", kept.join(" "))))
-}
-
-/// «Остановись у шкафа», "stop by the kitchen": it goes there.
-fn stopping_at(said: &Said) -> Option<String> {
-    let (at, taken, Verb::Stop) = said.verb_from(0)? else { return None };
-    let (_, Meaning::Link(_)) = said.meaning(at + taken)? else { return None };
-    let language = Language::of(said.of(&(at..at + taken)));
-    Some(said.with(&(at..at + taken), language.pick("встань", "stand")))
-}
-
-/// "Go home": the map's houses are not meant.
-fn homeward(said: &Said) -> Option<String> {
-    let (verb, taken, _) = said.verb_from(0)?;
-    let at = (verb + taken..said.keys.len()).find(|&n| said.is(n, &["home"]))?;
-    let next = said.meaning(at + 1).map(|(_, meaning)| meaning);
-    let ends = at + 1 == said.keys.len() || said.parted(at + 1);
-    let ends = ends || matches!(next, Some(Meaning::And | Meaning::Filler));
-    (ends && !said.is(at - 1, &["to", "your", "the"])).then(|| said.with(&(at..at + 1), "to base"))
-}
-
-/// «Сходи принеси чашку», "go and look for the cup": going is meant by the second verb.
-fn gone(said: &Said) -> Option<String> {
-    let (verb, taken, Verb::GoTo) = said.verb_from(0)? else { return None };
-    let mut next = verb + taken;
-    while let Some((small, Meaning::Filler | Meaning::And)) = said.meaning(next) {
-        next += small;
-    }
-    match said.meaning(next)? {
-        (_, Meaning::Verb(Verb::Need)) => None,
-        (_, Meaning::Verb(_)) => Some(said.with(&(verb..next + 1), said.of(&(next..next + 1)))),
-        _ => None,
-    }
-}
-
-/// «Сходи на кухню за чашкой», "go to the kitchen for the cup": it is to be brought.
-fn fetched(said: &Said) -> Option<String> {
-    const INSTRUMENTAL: [&str; 11] =
-        ["ой", "ей", "ом", "ем", "ами", "ями", "ью", "им", "ым", "ими", "ыми"];
-    let (verb, taken, Verb::GoTo) = said.verb_from(0)? else { return None };
-    if said.is(verb, &["встань", "стань", "встаньте", "стой", "спрячься"])
-    {
-        return None;
-    }
-    let end = said.clause_end(verb);
-    // Up to the next order: "then look for the egg" fetches nothing.
-    let goes_on =
-        |n: &usize| !matches!(said.meaning(*n), Some((_, Meaning::And | Meaning::Verb(_))));
-    let own = (verb + taken..end.saturating_sub(1)).take_while(goes_on);
-    let at = own.into_iter().find(|&n| match said.keys[n].as_str() {
-        "за" => {
-            INSTRUMENTAL.iter().any(|ending| said.keys[n + 1].ends_with(ending))
-                && !said.is(n + 1, &["мной", "собой", "дом"])
-        }
-        "for" => !said.is(n + 1, &["me", "us", "a"]) || (said.is(n + 1, &["a"]) && n + 2 < end),
-        _ => false,
-    })?;
-    let bring = if said.keys[at] == "за" { "принеси" } else { "bring" };
-    let before = if at == verb + taken { verb..at + 1 } else { at..at + 1 };
-    let said_so = if at == verb + taken { bring.to_owned() } else { format!(", {bring}") };
-    Some(said.with(&before, &said_so))
-}
-
-/// «Поищи, где ваза»: to find it is to know where it is.
-fn without_where(said: &Said) -> Option<String> {
-    const WHERE: [&str; 2] = ["где", "where"];
-    const SMALL: [&str; 14] = [
-        "тут",
-        "там",
-        "здесь",
-        "лежит",
-        "стоит",
-        "находится",
-        "у",
-        "нас",
-        "the",
-        "is",
-        "are",
-        "моя",
-        "мой",
-        "мои",
+/// "Leave the bowl where it is and …", «другая пусть остаётся»: beside what is to be done.
+fn left_alone(said: &Said) -> Option<String> {
+    const ALONE: [&str; 18] = [
+        "where it is",
+        "where they are",
+        "as it is",
+        "as they are",
+        "alone",
+        "in peace",
+        "пусть остается",
+        "пусть останется",
+        "пусть стоит",
+        "пусть лежит",
+        "пусть остаются",
+        "не трогай",
+        "оставь",
+        "оставь на месте",
+        "оставь там",
+        "оставь как есть",
+        "оставь где стоит",
+        "оставь где лежит",
     ];
-    let (verb, taken, Verb::Find) = said.verb_from(0)? else { return None };
-    let at = verb + taken;
-    if !said.is(at, &WHERE) {
+    let parted = |n: usize| said.parted(n) || matches!(said.meaning(n), Some((_, Meaning::And)));
+    let (at, taken) = (0..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &ALONE)?)))?;
+    let end = at + taken;
+    if end < said.keys.len() && !parted(end) {
         return None;
     }
-    let end = said.clause_end(at);
-    let kept: Vec<&str> = (at + 1..end)
-        .filter(|&n| !said.is(n, &SMALL))
-        .map(|n| &said.text[said.words[n].clone()])
-        .collect();
-    (!kept.is_empty()).then(|| {
-        let kept = kept.join(" ");
-        let mut text = said.text.clone();
-        text.replace_range(said.words[at - 1].end..said.words[end - 1].end, &format!(" {kept}"));
-        text
+    let begin = (0..=at).rev().find(|&n| n == 0 || parted(n))?;
+    let english = Language::of(&said.keys[at]) == Language::English;
+    let leaves = !english || said.is(begin, &["leave"]) || said.is(begin + 1, &["leave"]);
+    let mut next = end;
+    while next < said.keys.len() && matches!(said.meaning(next), Some((_, Meaning::And))) {
+        next += 1;
+    }
+    let (before, after) = (
+        if begin > 0 { said.of(&(0..begin)) } else { "" },
+        if next < said.keys.len() { said.of(&(next..said.keys.len())) } else { "" },
+    );
+    let orders = |part: &str| Said::new(part.to_owned()).verb_from(0).is_some();
+    (leaves && (orders(before) || orders(after))).then(|| {
+        [before, after].into_iter().filter(|p| !p.is_empty()).collect::<Vec<_>>().join(", ")
     })
 }
 
-/// «Принеси книжку, любую», "bring a book, any will do": any of them.
-fn any_at_the_end(said: &Said) -> Option<String> {
-    const ANY: [&str; 22] = [
-        "любую",
-        "любой",
-        "любое",
-        "какую нибудь",
-        "какой нибудь",
-        "все равно какую",
-        "все равно какой",
-        "неважно какую",
-        "неважно какой",
-        "не важно какую",
-        "не важно какой",
-        "без разницы какую",
-        "any",
-        "any one",
-        "any one will do",
-        "any will do",
-        "whichever",
-        "it doesn t matter which",
-        "doesn t matter which",
-        "i don t care which",
-        "no matter which",
-        "whichever one",
-    ];
-    let at = (2..said.keys.len()).find(|&n| said.parted(n) && said.phrase(n, &ANY).is_some())?;
-    let end = at + said.phrase(at, &ANY)?;
-    let (verb, taken, _) = said.verb_from(0).filter(|(verb, ..)| *verb < at)?;
-    let mut noun = verb + taken;
-    while let Some((taken, Meaning::Filler | Meaning::Me)) = said.meaning(noun) {
-        noun += taken;
+/// «Карандаш – на комод, книгу – на кровать»: things and whither each goes, without a verb.
+fn dashed(said: &Said) -> Option<String> {
+    if said.verb_from(0).is_some() || said.text.contains('?') {
+        return None;
     }
-    let article = said.is(noun - 1, &["a", "an"]).then(|| said.words[noun - 1].start);
-    let any = match Language::of(&said.keys[at]) {
-        Language::Russian => "любую",
-        Language::English => "any",
-    };
+    let gap = |n: usize| &said.text[said.words[n - 1].end..said.words[n].start];
+    let dash = |n: usize| gap(n).contains(['–', '—']) || gap(n) == " - ";
+    let whither = |n: usize| matches!(said.meaning(n), Some((_, m)) if says_whither(m));
+    let at: Vec<usize> = (1..said.keys.len()).filter(|&n| dash(n) && whither(n)).collect();
+    let first = *at.first()?;
+    let put = Language::of(&said.keys[first]).pick("положи ", "put ");
     let mut text = said.text.clone();
-    text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
-    let noun = said.words.get(noun).filter(|word| word.start < said.words[at].start)?;
-    text.replace_range(article.unwrap_or(noun.start)..noun.start, &format!("{any} "));
+    for n in at.into_iter().rev() {
+        text.replace_range(said.words[n - 1].end..said.words[n].start, " ");
+        let begin = (0..n).rev().find(|&b| b == 0 || (said.parted(b) && !dash(b)))?;
+        text.insert_str(said.words[begin].start, put);
+    }
     Some(text)
 }
 
 /// Whether a word without its noun is an adjective, by its ending.
-fn is_adjective(key: &str) -> bool {
+pub(super) fn is_adjective(key: &str) -> bool {
     const ENDINGS: [&str; 13] =
         ["ую", "юю", "ый", "ий", "ой", "ое", "ее", "ые", "ие", "ого", "его", "ом", "ую"];
     key.chars().count() > 4 && ENDINGS.iter().any(|ending| key.ends_with(ending))
@@ -545,6 +463,8 @@ mod tests {
     fn constructions_become_orders() {
         for (said, order) in [
             ("Don't go to the kitchen, go to the bedroom", "go to the bedroom"),
+            ("Не надо вилку, принеси ложку", "принеси ложку"),
+            ("Поезжай на кухню и остановись у стола", "Поезжай на кухню и встань у стола"),
             ("Не открывай дверь, а закрой её", "закрой её"),
             ("Принеси не красную чашку, а белую", "Принеси белую чашку"),
             ("Не на кухню, а в спальню поезжай", "в спальню поезжай"),

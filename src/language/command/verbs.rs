@@ -26,7 +26,7 @@ pub(in crate::language) enum Sort {
 }
 
 impl Sort {
-    fn of(verb: Verb) -> Self {
+    pub(super) fn of(verb: Verb) -> Self {
         match verb {
             Verb::GoTo | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
@@ -74,6 +74,8 @@ const SPLIT: &[(&str, &[&str])] = &[
     ("верни", &["обратно", "назад", "на место"]),
     ("верните", &["обратно", "назад", "на место"]),
     ("отнеси", &["обратно", "назад", "на место"]),
+    ("отвези", &["обратно", "назад", "на место"]),
+    ("отвезите", &["обратно", "назад", "на место"]),
     ("отнесите", &["обратно", "назад", "на место"]),
     ("убери", &["обратно", "назад", "на место"]),
     ("уберите", &["обратно", "назад", "на место"]),
@@ -108,7 +110,11 @@ pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
 }
 
 /// Words of a relative clause that say no more than the preposition after them.
-const RELATIVE: [&str; 69] = [
+const RELATIVE: [&str; 73] = [
+    "та что",
+    "что ведет",
+    "что ведут",
+    "который ведет",
     "которая лежит",
     "который лежит",
     "которое лежит",
@@ -179,6 +185,14 @@ const RELATIVE: [&str; 69] = [
     "they are",
     "the one",
 ];
+
+/// Whether a word begins what only describes: «что на столе», "the one by the window".
+pub(super) fn is_relative(keys: &[String], at: usize) -> bool {
+    const POINTING: [&str; 8] = ["ту", "тот", "то", "те", "где", "куда", "where", "that"];
+    let said = |length: usize| keys.get(at..at + length).map(|words| words.join(" "));
+    keys.get(at).is_some_and(|key| POINTING.contains(&key.as_str()))
+        || (1..=3).filter_map(said).any(|words| RELATIVE.contains(&words.as_str()))
+}
 
 fn without_relatives(text: &str) -> Cow<'_, str> {
     let words = word_ranges(text);
@@ -414,6 +428,21 @@ pub(in crate::language) fn without_verbs(text: &str) -> String {
 #[must_use]
 pub(in crate::language) fn is_known(keys: &[String], at: usize) -> bool {
     meaning_at(keys, at).is_some()
+}
+
+/// Whether a preposition of commands stands at a word.
+#[must_use]
+pub(in crate::language) fn link_at(keys: &[String], at: usize) -> bool {
+    at < keys.len() && matches!(meaning_at(keys, at), Some((_, Meaning::Link(_))))
+}
+
+/// How many words at the beginning of some are politeness.
+#[must_use]
+pub(in crate::language) fn small_words(keys: &[String]) -> usize {
+    match longest(&keys.iter().map(String::as_str)) {
+        Some((taken, Meaning::Filler)) => taken,
+        _ => 0,
+    }
 }
 
 /// How many words before one are a preposition of commands.

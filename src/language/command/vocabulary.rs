@@ -109,7 +109,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
         поднимись|поднимитесь|подняться|спускайся|спускайтесь|поднимайся|поднимайтесь|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
         take the elevator|take the lift|use the elevator|use the lift|ride the elevator|ride the lift|go up|go down|направляйся|направляйтесь|\
-        встань|встаньте|стань|подкати|подкатись|прокатись|двигай|дуй|доедь|доезжай|дойди|доберись|сгоняй|сбегай|слетай|смотайся|загляни|заскочи|приезжай|приедь|приди|проедь|проезжай|проследуй|\
+        встань|встаньте|стань|подкати|подкатись|прокатись|двигай|дуй|доедь|доезжай|дойди|доберись|сгоняй|сбегай|слетай|смотайся|загляни|заскочи|look in|look into|look inside|peek into|приезжай|приедь|приди|проедь|проезжай|проследуй|\
         go|go over|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|stand|go stand|approach|going",
     ),
     (
@@ -119,7 +119,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::PutBack),
         "верни на место|верните на место|вернуть на место|положи на место|положите на место|поставь на место|поставьте на место|убери на место|\
-        уберите на место|отнеси на место|положи обратно|поставь обратно|верни обратно|верни назад|отнеси обратно|убери обратно|повесь обратно|put back|take back|place back|return to its place",
+        уберите на место|отнеси на место|положи обратно|поставь обратно|отвези обратно|отвези назад|отвези на место|отнеси назад|положи назад|поставь назад|унеси обратно|верни обратно|верни назад|отнеси обратно|убери обратно|повесь обратно|put back|take back|place back|return to its place",
     ),
     (
         Meaning::Verb(Verb::Leave),
@@ -131,7 +131,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Unable),
-        "объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
+        "объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
         почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
         follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|face|turn around|turn round|turn to|rotate|spin|развернись|повернись|повернись к|вытри|\
@@ -160,7 +160,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "вези|везите|положи|положите|положил|поставил|отнёс|положить|клади|поставь|поставьте|поставить|ставь|помести|поместите|поместить|повесь|повесьте|\
         отнеси|отнесите|отнести|отвези|отвезите|отвезти|перенеси|перенесите|перенести|переставь|переставьте|переложи|переложите|\
         брось|бросьте|кинь|киньте|сложи|сложите|засунь|засуньте|вложи|вложите|унеси|унесите|увези|вынеси|вынесите|вывези|оставь|оставьте|\
-        put|place|set|lay|hang|drop|drop off|insert|putting|placing",
+        put|place|set|lay|hang|drop|поднеси|поднесите|drop off|insert|putting|placing",
     ),
     (Meaning::Verb(Verb::SetDown), "опусти|опустите|put down|set down|lay down"),
     (
@@ -244,7 +244,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (link(Relation::At, Role::Via), "через|сквозь|through|via"),
     (
         Meaning::Filler,
-        "пожалуйста|плиз|пж|plz|pls|find out|спасибо|заранее спасибо|thanks|thank you|будь так любезен|будь так любезна|будьте так любезны|будь любезен|будь любезна|будьте любезны|будьте так добры|\
+        "пожалуйста|плиз|если можно|если не сложно|если получится|как освободишься|когда освободишься|можно попросить тебя|можно тебя попросить|можно вас попросить|if you can|if possible|possibly|perhaps|maybe|может быть|if you please|if you don t mind|when you are free|when you can|a moment|a minute|a second|a bit|минуту|минутку|секунду|секундочку|что ближе|какая ближе|какой ближе|что поближе|whichever is closer|whichever is nearer|either|либо|и больше ничего|больше ничего|но никуда не едь|никуда не едь|никуда не уезжай|and nothing else|пж|plz|pls|find out|спасибо|заранее спасибо|thanks|thank you|будь так любезен|будь так любезна|будьте так любезны|будь любезен|будь любезна|будьте любезны|будьте так добры|\
         сначала|сперва|для начала|first|first of all|firstly|next|finally|наконец|после|заодно|давай|давайте|а ну|пора|слушай|эй|так|обратно|назад|back|back again|\
         поближе|ближе|closer|a bit|a little|at once|until i come|пока я не приду|again|as well|once more|снова|опять|да|стоит|лежит|находится|висит|стоят|лежат|where it belongs|side by side|if so|если да|в таком случае|тогда|a little bit|slightly|чуть чуть|немножко|чуток|поскорее|побыстрее|живо|немедленно|аккуратно|тихо|немного|чуть|просто|ещё|тоже|also|too|just|right now|immediately|gently|straight|away|over|\
         can you please|could you kindly|would you mind|would you kindly|be so kind as to|be so kind to|be so kind and|be a dear and|be so kind|be able to|do me a favour and|do me a favor and|behind you|behind yourself|from here|ok|okay|alright|so|let s|we|us|i d like you to|i would like you to|i want you to|i need you to|\
@@ -255,7 +255,19 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         какой нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
         a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
     ),
-    (link(Relation::Between, Role::WhereOrWhither), "между|between"),
+    (
+        link(Relation::Between, Role::WhereOrWhither),
+        "между|between|in between|посередине между|посреди между|halfway between|midway between",
+    ),
+    (
+        link(Relation::Middle, Role::WhereOrWhither),
+        "посреди|посередине|в середину|в середине|на середину|на середине|в центр|в центре|на центр|по центру|\
+        in the middle of|into the middle of|to the middle of|in the centre of|in the center of|to the centre of|to the center of|at the centre of|at the center of|in middle of|in the very middle of",
+    ),
+    (
+        link(Relation::Facing, Role::Where),
+        "лицом к|лицом ко|передом к|носом к|повернувшись к|глядя на|facing|facing towards|facing toward|face to face with|looking at|looking towards",
+    ),
     (
         Meaning::Verb(Verb::Charge),
         "зарядись|зарядитесь|заряжайся|заряжайтесь|подзарядись|заряжаться|зарядиться|подзарядиться|подзаряжайся|charge|recharge|charge yourself|recharge yourself|charge up|charge your battery|charge your batteries|dock|dock yourself",
@@ -275,11 +287,11 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (Meaning::WithKey, "на ключ|на замок|with the key|with a key"),
     (
         Meaning::And,
-        "и|а|а затем|затем|потом|после этого|после чего|а потом|а оттуда|а уже оттуда|и потом|и затем|дальше|далее|then|and|and then|after that|afterwards|and after that|followed by",
+        "и|а|но|but|а затем|затем|потом|после этого|после чего|а потом|а оттуда|а уже оттуда|и потом|и затем|дальше|далее|then|and|and then|after that|afterwards|and after that|followed by",
     ),
     (
         Meaning::All,
-        "все|всю|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
+        "все|всю|обе|оба|обоих|обеих|всё|весь|всех|всей|всего|всему|всём|каждую|каждый|каждое|all|all the|all of the|every|each|both|both the",
     ),
     (Meaning::Not, "не|нельзя|никогда|not|never|don t|do not|dont"),
     (

@@ -34,6 +34,7 @@ mod why;
 pub use courtesy::Courtesy;
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
+pub use orders::{Conditional, conditional};
 pub use query::{
     Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Quantity, Query, Rel,
     Restriction, Thing, Use,

@@ -19,6 +19,11 @@ pub(super) fn begins_question(words: &[String]) -> bool {
             Mark::Filler | Mark::The | Mark::A | Mark::You | Mark::Me | Mark::And => at += taken,
             // «Можно ли сесть на кровать?» asks; «Можешь открыть дверь?» is a polite command.
             Mark::Can => {
+                // «Можно попросить тебя принести чашку?»
+                let rest = &words[at + taken..];
+                if rest.iter().take(2).any(|word| word == "попросить") {
+                    return false;
+                }
                 return asks_leave(&words[at..at + taken]) || asks_way(&words[at + taken..]);
             }
             // «Скажи, в какой комнате плита»

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::Asker;
-use crate::language::command::is_order;
+use crate::language::command::{self, is_order};
 use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
 impl Asker<'_> {
@@ -33,17 +33,215 @@ impl Asker<'_> {
 /// What is told to be found out, as a question: «скажи, выключена ли лампа», "tell me whether the fridge is on".
 fn whether(text: &str) -> Option<String> {
     let (words, keys) = (word_ranges(text), word_keys(text));
-    let said = |range: Range<usize>| match range.is_empty() {
-        true => String::new(),
-        false => text[words[range.start].start..words[range.end - 1].end].to_owned(),
-    };
     if keys.iter().any(|key| key == "ли") {
-        return Some(format!("{}?", said(1..words.len())));
+        return Some(format!("{}?", &text[words.get(1)?.start..words.last()?.end]));
     }
     let at = keys.iter().position(|key| key == "whether" || key == "if")?;
-    let is = (at + 1..keys.len()).find(|&n| matches!(keys[n].as_str(), "is" | "are"))?;
-    let (what, state) = (said(at + 1..is), said(is + 1..words.len()));
-    Some(format!("{} {what} {state}?", keys[is]))
+    asked(&text[words.get(at + 1)?.start..])
+}
+
+/// A claim in English as a question: "the fridge is on" is "is the fridge on?".
+fn asked(claim: &str) -> Option<String> {
+    let (words, keys) = (word_ranges(claim), word_keys(claim));
+    let said = |range: Range<usize>| match range.is_empty() {
+        true => "",
+        false => &claim[words[range.start].start..words[range.end - 1].end],
+    };
+    let is = keys.iter().position(|key| matches!(key.as_str(), "is" | "are" | "s"))?;
+    let (what, state) = (said(0..is), said(is + 1..words.len()));
+    let be = if keys[is] == "s" { "is" } else { &keys[is] };
+    Some(format!("{be} {what} {state}?"))
+}
+
+/// An order that depends on what is found: «Если дверь закрыта, открой её», "Bring the apple if it is on the shelf".
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Conditional {
+    /// What is to be done before.
+    pub first: Option<String>,
+    /// What the condition speaks of, where that is said before it.
+    pub about: Option<String>,
+    pub question: String,
+    /// What is to be done if so.
+    pub then: Option<String>,
+    pub otherwise: Option<String>,
+}
+
+/// An order under a condition; none where the text has none, or orders nothing under it.
+#[must_use]
+pub fn conditional(text: &str) -> Option<Conditional> {
+    const IF: [&str; 7] =
+        ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
+    const SO: [&str; 12] = [
+        "если да",
+        "если так",
+        "если это так",
+        "если есть",
+        "если нашел",
+        "если найдешь",
+        "if so",
+        "if yes",
+        "if it is",
+        "if they are",
+        "if there is",
+        "if there are",
+    ];
+    const NOT_SO: [&str; 11] = [
+        "иначе",
+        "в противном случае",
+        "если нет",
+        "если же нет",
+        "если это не так",
+        "otherwise",
+        "or else",
+        "if not",
+        "if it is not",
+        "if it isn t",
+        "else",
+    ];
+    /// Behind these "if" asks.
+    const ASKS: [&str; 14] = [
+        "see",
+        "check",
+        "me",
+        "us",
+        "know",
+        "out",
+        "ask",
+        "tell",
+        "report",
+        "look",
+        "проверь",
+        "узнай",
+        "скажи",
+        "посмотри",
+    ];
+    const SMALL: [&str; 14] = [
+        "и",
+        "а",
+        "но",
+        "то",
+        "тогда",
+        "and",
+        "but",
+        "then",
+        "please",
+        "пожалуйста",
+        "just",
+        "просто",
+        "робот",
+        "robot",
+    ];
+    const NOTHING: [&str; 16] = [
+        "ничего",
+        "ничего не делай",
+        "не надо",
+        "не нужно",
+        "оставь как есть",
+        "не трогай",
+        "do nothing",
+        "leave it",
+        "leave it alone",
+        "leave it as it is",
+        "never mind",
+        "don t",
+        "don t do anything",
+        "leave it be",
+        "не трогай ее",
+        "не трогай его",
+    ];
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let phrase = |at: usize, all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, at, p)).max();
+    let said = |range: Range<usize>| {
+        let mut range = range;
+        let small = |n: usize| SMALL.contains(&keys[n].as_str());
+        while !range.is_empty() && small(range.start) {
+            range.start += 1;
+        }
+        while !range.is_empty() && small(range.end - 1) {
+            range.end -= 1;
+        }
+        (!range.is_empty())
+            .then(|| text[words[range.start].start..words[range.end - 1].end].to_owned())
+    };
+    let order = |range: Range<usize>| {
+        said(range).filter(|said| !NOTHING.contains(&word_keys(said).join(" ").as_str()))
+    };
+    let parted =
+        |n: usize| text[words[n - 1].end..words[n].start].contains([',', ';', '.', '–', '—']);
+    // "If it is, turn it off", but "if it is on the shelf".
+    let ends = |n: usize| {
+        n >= keys.len()
+            || parted(n)
+            || SMALL.contains(&keys[n].as_str())
+            || is_order(&text[words[n].start..])
+    };
+    let whole = |n: usize, all: &[&str]| phrase(n, all).filter(|taken| ends(n + taken));
+    // «…, и если закрыта, открой»: the word of the question once more.
+    let again = |n: usize| {
+        let said = keys.get(n + 1).is_some_and(|key| keys[..n].contains(key));
+        (phrase(n, &IF).is_some() && said && ends(n + 2)).then_some(2)
+    };
+    let polite = |n: usize| command::small_words(&keys[n..]) > 1;
+    let at = (0..keys.len()).find(|&n| {
+        let asks = n.checked_sub(1).is_some_and(|b| ASKS.contains(&keys[b].as_str()));
+        phrase(n, &IF).is_some()
+            && whole(n, &SO).is_none()
+            && again(n).is_none()
+            && !asks
+            && !polite(n)
+    });
+    let so = (1..keys.len()).find_map(|n| Some((n, whole(n, &SO).or_else(|| again(n))?)));
+    let not_so = |from: usize| {
+        // "If it is not on the shelf" goes on.
+        let found = (from..keys.len()).find_map(|n| {
+            let taken = phrase(n, &NOT_SO)?;
+            let goes_on = phrase(n, &IF).is_some() && whole(n, &NOT_SO).is_none();
+            let nothing = phrase(n + taken, &NOTHING).is_some();
+            (!goes_on || nothing).then_some((n, taken))
+        });
+        found.unwrap_or((keys.len(), 0))
+    };
+    // «Проверь, включена ли лампа; если да, выключи её»
+    if let Some((at, taken)) = so
+        && let Some(asked) = said(0..at)
+        && let Some((first, question)) = order_and_question(&asked)
+    {
+        let question = whether(&question).unwrap_or(question);
+        let (end, length) = not_so(at + taken);
+        let then = order(at + taken..end);
+        let first = Some(first).filter(|first| word_ranges(first).len() > 1).map(str::to_owned);
+        let otherwise = order((end + length).min(keys.len())..keys.len());
+        return Some(Conditional { first, about: None, question, then, otherwise });
+    }
+    let at = at?;
+    let from = at + phrase(at, &IF)?;
+    let orders = |n: usize| is_order(&text[words[n].start..]);
+    let leads = said(0..at).is_none_or(|before| !is_order(&before));
+    let (claim, then, end, length) = if leads {
+        // Up to what orders, behind a mark or «то», "then"; else up to the verb that follows.
+        let marked = |n: &usize| parted(*n) || matches!(keys[n - 1].as_str(), "то" | "then");
+        let next = (from + 2..keys.len())
+            .filter(marked)
+            .find(|&n| orders(n) || phrase(n, &NOTHING).is_some());
+        let next = next.or_else(|| (from + 2..keys.len()).find(|&n| orders(n)))?;
+        let (end, length) = not_so(next);
+        (from..next, next..end, end, length)
+    } else {
+        let (end, length) = not_so(from);
+        (from..end, 0..at, end, length)
+    };
+    let unless = keys[at] == "unless";
+    let claim = said(claim)?;
+    let question = match Language::of(&claim) {
+        Language::Russian => format!("{claim}?"),
+        Language::English => asked(&claim)?,
+    };
+    let then = order(then);
+    let otherwise = order((end + length).min(keys.len())..keys.len());
+    let (then, otherwise) = if unless { (otherwise, then) } else { (then, otherwise) };
+    let about = then.clone().or(otherwise.clone()).filter(|_| !leads);
+    let orders = then.is_some() || otherwise.is_some();
+    orders.then_some(Conditional { first: None, about, question, then, otherwise })
 }
 
 /// An order and the question after it, or the question that is to be reported: «доложи, что ты видишь».
@@ -88,7 +286,10 @@ fn order_and_question(text: &str) -> Option<(&str, String)> {
             continue;
         };
         let asked = at + taken;
-        if asked >= words.len() || THAT.iter().any(|w| phrase_at(&keys, asked, w).is_some()) {
+        // "Look in the fridge" goes there.
+        let goes = matches!(keys[at].as_str(), "look") && command::link_at(&keys, asked);
+        if goes || asked >= words.len() || THAT.iter().any(|w| phrase_at(&keys, asked, w).is_some())
+        {
             continue;
         }
         let order = text[..words[at].start].trim_end();
@@ -103,4 +304,52 @@ fn order_and_question(text: &str) -> Option<(&str, String)> {
         }
     }
     None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn check(text: &str, expected: Option<(&str, Option<&str>, Option<&str>)>) {
+        let found = conditional(text);
+        let found = found
+            .as_ref()
+            .map(|c| (c.question.as_str(), c.then.as_deref(), c.otherwise.as_deref()));
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn an_order_is_parted_from_its_condition() {
+        check(
+            "Если дверь в ванную закрыта, открой её, иначе ничего не делай",
+            Some(("дверь в ванную закрыта?", Some("открой её"), None)),
+        );
+        check(
+            "If the TV in the living room is off, turn it on",
+            Some(("is the TV in the living room off?", Some("turn it on"), None)),
+        );
+        check(
+            "Bring the apple if it is on the shelf, otherwise bring the potato",
+            Some(("is it on the shelf?", Some("Bring the apple"), Some("bring the potato"))),
+        );
+        check(
+            "Check whether the TV in the bedroom is on; if it is, turn it off",
+            Some(("is the TV in the bedroom on?", Some("turn it off"), None)),
+        );
+        check(
+            "Сходи глянь, есть ли на кухне яблоко, и если есть, принеси его",
+            Some(("есть ли на кухне яблоко?", Some("принеси его"), None)),
+        );
+        check(
+            "Bring the battery unless the office is locked",
+            Some(("is the office locked?", None, Some("Bring the battery"))),
+        );
+        check(
+            "Проверь, закрыта ли дверь, и если закрыта, открой",
+            Some(("закрыта ли дверь?", Some("открой"), None)),
+        );
+        check("Go and see if the door is locked", None);
+        check("Принеси, если не трудно, чашку", None);
+        check("Bring the cup", None);
+    }
 }

@@ -376,7 +376,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Other,
-        "другой|другая|другое|другие|других|ещё|остальные|остальных|other|another|else|the other|remaining|the rest of",
+        "другой|другая|другое|другую|другого|другим|другие|других|ещё|остальные|остальных|остальное|остальную|other|another|else|the other|remaining|the rest of",
     ),
     (
         Mark::Link(Rel::In),

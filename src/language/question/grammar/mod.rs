@@ -397,6 +397,12 @@ impl<'t> Sentence<'t> {
         let modifier = match first.kind {
             Tok::Mark(Mark::The) => Modifier::The,
             Tok::Mark(Mark::A) => Modifier::A,
+            // "one cup"; "the red one" ends so.
+            Tok::Mark(Mark::One)
+                if matches!(rest.split_first(), Some((Token { kind: Tok::Noun(_), .. }, _))) =>
+            {
+                Modifier::A
+            }
             Tok::Mark(Mark::All) => Modifier::All,
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Same) => Modifier::Same,

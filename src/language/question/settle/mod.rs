@@ -111,6 +111,11 @@ impl Asker<'_> {
                 let amendable = (object.is_some() || goal.is_some()).then(|| Ordered {
                     text: text.clone(),
                     object: object.map(|edit| (edit.at.clone(), edit.things.clone())),
+                    told: edits
+                        .iter()
+                        .filter(|e| e.name.is_empty())
+                        .map(|e| e.at.clone())
+                        .collect(),
                     goal,
                     language,
                 });
@@ -247,7 +252,8 @@ impl Settler<'_, '_> {
             // «в спальню на кровать»: whither too, and where that is.
             let whither = self.is_whither(other.rel, other.phrase) == Some(true);
             let rooms = self.knowledge.base(&other.phrase.noun.head);
-            let whither = whither && rooms.iter().all(|t| t.area().is_some());
+            let storey = self.means_storey(other.phrase) && !self.means_storey(spot.phrase);
+            let whither = whither && rooms.iter().all(|t| t.area().is_some()) || storey;
             if whither && matches!(sort, Sort::Put | Sort::Carry | Sort::Go) {
                 let anchors = vec![other.phrase.noun.clone()];
                 within.push(Restriction { rel: Rel::In, anchors, negated: false });
@@ -255,6 +261,9 @@ impl Settler<'_, '_> {
             }
             !whither
         });
+        if spot.rel == Rel::Between {
+            return self.between(spot, &within, edits);
+        }
         let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
         // A window has no name: it is told by its room.
@@ -275,6 +284,32 @@ impl Settler<'_, '_> {
         Ok(Some(thing))
     }
 
+    /// «Между столом и диваном», "between the two doors": both by name.
+    fn between(
+        &self,
+        spot: &Spot<'_>,
+        within: &[Restriction],
+        edits: &mut Vec<Edit>,
+    ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
+        let Item::Place { nouns, .. } = &self.sentence.items()[spot.item] else { return Ok(None) };
+        let mut last = None;
+        for phrase in nouns {
+            let at = self.bytes(&phrase.words);
+            let found = self.candidates(&phrase.noun, within).map_err(|d| (d, at.clone()))?;
+            let pair = nouns.len() == 1 && found.len() == 2;
+            let things = match self.one(&phrase.noun, within, &found, at.clone()) {
+                _ if pair => found,
+                one => one?.into_iter().collect(),
+            };
+            let Some(thing) = things.last().copied() else { return Ok(None) };
+            let name = self.knowledge.listed(&things, Case::Instrumental);
+            edits.push(Edit { at, name, things, object: false, goal: None });
+            last = Some(thing);
+        }
+        edits.extend(spot.attached.iter().map(Edit::deletion));
+        Ok(last)
+    }
+
     /// The bytes of a description, with the number after it.
     fn said(&self, words: &Range<usize>) -> Range<usize> {
         let mut said = self.bytes(words);
@@ -292,7 +327,8 @@ impl Settler<'_, '_> {
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
-        let mut told = Told { place: self.knowledge.memory.last_thing(), gone_to: None };
+        let place = self.knowledge.memory.last_thing();
+        let mut told = Told { place, ..Told::default() };
         for clause in 0..clauses.len().max(1) {
             let own = spots.iter().filter(|s| s.clause == clause).collect();
             let objects = items.iter().enumerate().filter_map(|(n, item)| match item {
@@ -316,15 +352,36 @@ impl Settler<'_, '_> {
         edits: &mut Vec<Edit>,
     ) -> Result<(), (Doubt, Range<usize>)> {
         let Clause { sort, ref objects, .. } = *clause;
+        // «лицом к столу» says nowhere to go.
+        let (facing, others): (Vec<&Spot<'i>>, Vec<&Spot<'i>>) =
+            own.into_iter().partition(|spot| sort == Sort::Go && self.is_faced(spot.phrase));
+        own = others;
+        for spot in facing {
+            if let Some(thing) = self.place(spot, &spot.within)? {
+                let at = self.bytes(&spot.phrase.words);
+                let name = self.knowledge.form(thing, Case::Dative);
+                edits.push(Edit { at, name, things: vec![thing], object: false, goal: None });
+                edits.extend(spot.attached.iter().map(Edit::deletion));
+            }
+        }
         let goal = self.destination(sort, &own, !objects.is_empty());
         let whither = match goal {
             Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
             None => None,
         };
         let there = self.area_of_there(clause, told);
-        let mut skipped = None;
+        let (mut skipped, mut until_word) = (None, 0);
         for (n, (at, phrase)) in objects.iter().enumerate() {
-            if skipped == Some(phrase.words.start) {
+            if skipped == Some(phrase.words.start) || phrase.words.start < until_word {
+                continue;
+            }
+            if let Some((thing, last)) = self.either(sort, &objects[n..], clause.items)? {
+                let at = self.bytes(&(phrase.words.start..last.end));
+                let name = self.knowledge.form(thing, Case::Accusative);
+                told.things.push(thing);
+                told.place = Some(thing);
+                edits.push(Edit { at, name, things: vec![thing], object: true, goal: None });
+                until_word = last.end;
                 continue;
             }
             if let Some(Mark::There) = phrase.person {
@@ -333,6 +390,15 @@ impl Settler<'_, '_> {
                 } else if goal.is_none() && matches!(sort, Sort::Go | Sort::Put | Sort::Carry) {
                     edits.extend(told.place.map(|thing| self.to_there(thing, phrase)));
                 }
+                continue;
+            }
+            // «Отопри кабинет, возьми батарею, запри его»: what can be locked, though it was not named last.
+            if phrase.pronoun.is_some()
+                && let Some(thing) = self.meant_by_pronoun(sort, told)
+            {
+                let name = self.knowledge.form(thing, Case::Accusative);
+                let at = self.bytes(&phrase.words);
+                edits.push(Edit { at, name, things: vec![thing], object: true, goal: None });
                 continue;
             }
             // What cannot be done is not asked about either.
@@ -361,14 +427,16 @@ impl Settler<'_, '_> {
             let value = self.value_after(clause.items, *at, phrase);
             let more = More {
                 value: value.as_ref().map(|(value, _)| *value),
-                except: except.map(|except| except.noun.clone()),
+                except: except.map(|(except, _)| except.noun.clone()),
                 there,
                 gone_to: told.gone_to,
                 like: objects[..n]
                     .iter()
                     .rev()
                     .map(|(_, before)| before.noun.head.clone())
-                    .find(|head| !head.kinds.is_empty() && head.named.is_empty()),
+                    .find(|head| !head.kinds.is_empty() && head.named.is_empty())
+                    .or_else(|| told.like.clone()),
+                told: told.things.clone(),
             };
             let Some(things) = self.object(sort, phrase, &mine, more)? else {
                 self.left_standing(&mine, edits);
@@ -381,13 +449,20 @@ impl Settler<'_, '_> {
             }
             let end = said.end;
             told.place = things.last().copied().or(told.place);
+            told.things.extend(&things);
+            let head = &phrase.noun.head;
+            if !head.kinds.is_empty() && head.named.is_empty() {
+                told.like = Some(head.clone());
+            }
             edits.push(Edit { at: said, name, things, object: true, goal: None });
             for spot in mine {
                 edits.push(Edit::deletion(&spot.at));
                 edits.extend(spot.attached.iter().map(Edit::deletion));
             }
-            if let Some(except) = except {
-                edits.push(Edit::deletion(&(end..self.bytes(&except.words).end)));
+            if let Some((except, from)) = except {
+                // Behind the value that the noun has taken, if there is one.
+                let from = self.sentence.words[from - 1].end.max(end);
+                edits.push(Edit::deletion(&(from..self.bytes(&except.words).end)));
                 skipped = Some(except.words.start);
             }
         }
@@ -402,12 +477,27 @@ impl Settler<'_, '_> {
         Ok(())
     }
 
+    /// What a door's or a device's verb is done to, of what the sentence has named; none where that was named last.
+    fn meant_by_pronoun(&self, sort: Sort, told: &Told) -> Option<Thing> {
+        let fits = |t: &Thing| match sort {
+            Sort::Door => t.area().is_some() || self.knowledge.can(sort, *t),
+            Sort::Switch => self.knowledge.can(sort, *t),
+            _ => false,
+        };
+        let last = told.things.last()?;
+        told.things.iter().rev().find(|t| fits(t)).filter(|_| !fits(last)).copied()
+    }
+
     /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
     fn area_of_there(&self, clause: &Clause<'_>, told: &Told) -> Option<AreaId> {
         let says = |(_, p): &(usize, &Phrase)| matches!(p.person, Some(Mark::There));
-        let whence = |phrase: &Phrase| self.sentence.keys[phrase.words.start] == "оттуда";
+        // «Возьми там тарелку», "bring the plate there"
+        let tells_where = |phrase: &Phrase| {
+            let key = self.sentence.keys[phrase.words.start].as_str();
+            key == "оттуда" || (key == "там" && clause.sort == Sort::Carry)
+        };
         let is_where = !matches!(clause.sort, Sort::Go | Sort::Put | Sort::Carry)
-            || clause.objects.iter().any(|(_, p)| p.person.is_some() && whence(p));
+            || clause.objects.iter().any(|(_, p)| p.person.is_some() && tells_where(p));
         let is_said = clause.objects.iter().any(says);
         told.place.filter(|_| is_said && is_where).and_then(|t| self.knowledge.area_of(t))
     }
@@ -429,7 +519,11 @@ struct Clause<'i> {
 }
 
 /// What the clauses before have told.
+#[derive(Default)]
 struct Told {
+    /// What they were done to, and the kind that was named last.
+    things: Vec<Thing>,
+    like: Option<Head>,
     place: Option<Thing>,
     /// The room into which an earlier clause sends the robot.
     gone_to: Option<AreaId>,

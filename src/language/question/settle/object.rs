@@ -12,8 +12,12 @@ use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::ValueId;
+use crate::language::question::vocabulary::Mark;
 use crate::map::Entity;
 use crate::units::AreaId;
+
+/// The thing that is taken of several that were named, and the words that named them.
+pub(super) type Chosen = (Thing, Range<usize>);
 
 /// What follows a noun and tells more of it.
 #[derive(Default)]
@@ -26,6 +30,8 @@ pub(super) struct More {
     pub(super) gone_to: Option<AreaId>,
     /// What stands before it in the clause: "the red one" after a book is a book.
     pub(super) like: Option<Head>,
+    /// What the sentence has done something to before: another one is none of these.
+    pub(super) told: Vec<Thing>,
 }
 
 impl Settler<'_, '_> {
@@ -99,7 +105,7 @@ impl Settler<'_, '_> {
             let given = |t: &Thing| {
                 t.replica().is_some_and(|id| self.knowledge.senses.holder(id).is_some())
             };
-            found.retain(|t| !given(t));
+            found.retain(|t| !given(t) && !more.told.contains(t));
         }
         let able: Vec<Thing> =
             found.iter().copied().filter(|t| self.knowledge.can(sort, *t)).collect();
@@ -136,7 +142,7 @@ impl Settler<'_, '_> {
         if (noun.indefinite
             || one_of
             || sort == Sort::Find
-            || noun.other && self.is_one_more(&phrase.words))
+            || noun.other && (self.is_one_more(&phrase.words) || !more.told.is_empty()))
             && let Some(nearest) = self.nearest(&found)
         {
             return Ok(Some(vec![nearest]));
@@ -151,6 +157,35 @@ impl Settler<'_, '_> {
             }
         }
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// "Either the apple or the potato": the nearest of what is named, and the words that name it; none where only one
+    /// thing is.
+    pub(super) fn either(
+        &self,
+        sort: Sort,
+        objects: &[(usize, &Phrase)],
+        items: &[Item],
+    ) -> Result<Option<Chosen>, (Doubt, Range<usize>)> {
+        let or = |pair: &&[(usize, &Phrase)]| {
+            let between = &items[pair[0].0 + 1..pair[1].0];
+            between.iter().any(|item| matches!(item, Item::Mark(Mark::Or)))
+        };
+        let others = objects.windows(2).take_while(or).count();
+        if others == 0 {
+            return Ok(None);
+        }
+        let mut found = Vec::new();
+        for (_, phrase) in &objects[..=others] {
+            let mut phrase = Phrase::clone(phrase);
+            phrase.noun.indefinite = true;
+            let Some(things) = self.object(sort, &phrase, &[], More::default())? else {
+                return Ok(None);
+            };
+            found.extend(things);
+        }
+        let words = objects[0].1.words.start..objects[others].1.words.end;
+        Ok(self.nearest(&found).map(|thing| (thing, words)))
     }
 
     /// Whatever is of the kind of what was spoken of last: «ещё одну», "another one".
@@ -192,7 +227,16 @@ impl Settler<'_, '_> {
         ];
         let said =
             |n: usize| self.sentence.keys.get(n).is_some_and(|key| ANY.contains(&key.as_str()));
-        said(words.start) || words.start.checked_sub(1).is_some_and(said)
+        // «одну чашку», "one cup": whichever; "the one by the door" is not.
+        let one = |n: usize| {
+            let key = self.sentence.keys.get(n).map(String::as_str);
+            matches!(key, Some("одну" | "один" | "одно" | "одного" | "one"))
+        };
+        let before = words.start.checked_sub(1);
+        said(words.start)
+            || before.is_some_and(said)
+            || (words.len() > 1 && one(words.start))
+            || before.is_some_and(one)
     }
 
     /// «между кухней и коридором»

@@ -77,6 +77,7 @@ impl Settler<'_, '_> {
             let adjacent = matches!(n.checked_sub(1).map(|n| &items[n]), Some(Item::Place { .. }));
             if let Some(last) = spots.last_mut()
                 && adjacent
+                && !self.is_faced(phrase)
                 && last.clause == clause
                 && self.tells_where(last, *rel, phrase, sort(clause))
             {
@@ -110,13 +111,14 @@ impl Settler<'_, '_> {
     fn tells_where(&self, last: &Spot<'_>, rel: Rel, phrase: &Phrase, sort: Sort) -> bool {
         let area = |phrase: &Phrase| {
             let base = self.knowledge.base(&phrase.noun.head);
-            let is_storey = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
             !base.is_empty() && base.iter().all(|t| t.area().is_some() || is_storey(t))
         };
         if sort == Sort::Door || self.is_whither(rel, phrase) == Some(true) {
             return false;
         }
         match rel {
+            // "the toilet on the second floor"
+            Rel::In | Rel::On if self.means_storey(phrase) => !self.means_storey(last.phrase),
             // «в холле на втором этаже»
             Rel::On if !last.within.is_empty() => area(phrase),
             Rel::In | Rel::On | Rel::At | Rel::From => area(phrase) && !area(last.phrase),
@@ -124,6 +126,12 @@ impl Settler<'_, '_> {
             // A room is not told by what it is beside.
             _ => !area(last.phrase),
         }
+    }
+
+    /// Whether what is named is a storey, whichever.
+    pub(super) fn means_storey(&self, phrase: &Phrase) -> bool {
+        let base = self.knowledge.base(&phrase.noun.head);
+        !base.is_empty() && base.iter().all(is_storey)
     }
 
     /// Whether a place says whither, by its preposition or its case; none where that depends on the verb.
@@ -226,6 +234,10 @@ impl Settler<'_, '_> {
         let found = self.tagged(&spot.phrase.words, found);
         self.one(noun, within, &found, at)
     }
+}
+
+fn is_storey(thing: &Thing) -> bool {
+    matches!(thing, Thing::Entity(Entity::Map(_)))
 }
 
 /// The case of a name after a preposition.

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::Settler;
+use crate::language::command;
 use crate::language::question::assemble;
 use crate::language::question::grammar::{Item, Sentence};
 use crate::language::question::knowledge::Knowledge;
@@ -27,9 +29,22 @@ pub(in crate::language::question) struct Ordered {
     pub(super) text: String,
     /// Bytes of what it was done to, and the things.
     pub(super) object: Option<(Range<usize>, Vec<Thing>)>,
+    /// Bytes of what told where things were.
+    pub(super) told: Vec<Range<usize>>,
     /// Bytes of whither, with the preposition.
     pub(super) goal: Option<Range<usize>>,
     pub(super) language: Language,
+}
+
+impl Ordered {
+    /// The command without what told, behind a byte, where its things were; what is before stays where it is.
+    fn without_places(&self, from: usize) -> String {
+        let mut text = self.text.clone();
+        for told in self.told.iter().rev().filter(|told| told.start >= from) {
+            text.replace_range(told.clone(), "");
+        }
+        text
+    }
 }
 
 impl Memory {
@@ -52,6 +67,7 @@ impl Asker<'_> {
         let Some(waiting) = memory.waiting.as_ref() else {
             let ordered = memory.ordered.as_ref()?;
             let another = self.another(text, ordered, memory);
+            let another = another.or_else(|| self.there_too(text, ordered, memory));
             return another.or_else(|| self.amended(text, ordered, memory));
         };
         if let Some(narrowed) = self.narrowed(text, waiting) {
@@ -134,8 +150,47 @@ impl Asker<'_> {
             all.filter(|t| kind(t) == Some(wanted) && !candidates.contains(t) && !given(t));
         let away = |t: &Thing| knowledge.distance(*t, Thing::Robot).unwrap_or(f64::INFINITY);
         let next = others.min_by(|a, b| away(a).total_cmp(&away(b)).then(a.cmp(b)))?;
-        let mut whole = ordered.text.clone();
+        let mut whole = ordered.without_places(at.end);
         whole.replace_range(at, &knowledge.listed(&[next], Case::Accusative));
+        Some(whole)
+    }
+
+    /// «И на кухне тоже», "and in the kitchen too": the last command, done to what is there.
+    fn there_too(&self, text: &str, ordered: &Ordered, memory: &Memory) -> Option<String> {
+        const TOO: [&str; 5] = ["тоже", "также", "too", "also", "as well"];
+        let keys = word_keys(text);
+        let too = (0..keys.len()).find_map(|n| {
+            TOO.iter().find_map(|too| crate::language::words::phrase_at(&keys, n, too))
+        });
+        let (object, _) = ordered.object.as_ref()?;
+        if too.is_none() || ordered.goal.is_some() || text.contains('?') {
+            return None;
+        }
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let items = sentence.items();
+        let mut places = items.iter().filter(|item| matches!(item, Item::Place { .. }));
+        let (Some(Item::Place { nouns, .. }), None) = (places.next(), places.next()) else {
+            return None;
+        };
+        if items.iter().any(|item| matches!(item, Item::Noun(_))) {
+            return None;
+        }
+        let words = &nouns.first()?.words;
+        let link = command::link_before(&sentence.keys, words.start);
+        let place =
+            &plain[sentence.words[words.start - link].start..sentence.words[words.end - 1].end];
+        let knowledge = self.knowledge(ordered.language, memory);
+        let settler = Settler::reading(&knowledge, &sentence);
+        let Item::Place { rel, .. } = items.iter().find(|i| matches!(i, Item::Place { .. }))?
+        else {
+            return None;
+        };
+        if settler.is_whither(*rel, nouns.first()?) == Some(true) {
+            return None;
+        }
+        let mut whole = ordered.without_places(object.end);
+        whole.insert_str(object.end, &format!(" {place}"));
         Some(whole)
     }
 

@@ -59,11 +59,23 @@ const WRONG: [&str; 16] = [
     "those", "there",
 ];
 
+/// «И обратно», "and back again": to where the robot was.
+fn is_back(text: &str) -> bool {
+    const BACK: [&str; 4] = ["back", "обратно", "назад", "взад"];
+    const SMALL: [&str; 9] = ["and", "then", "now", "again", "и", "а", "теперь", "потом", "please"];
+    let keys = word_keys(text);
+    let back = |key: &String| BACK.contains(&key.as_str());
+    keys.iter().any(back) && keys.iter().all(|key| back(key) || SMALL.contains(&key.as_str()))
+}
+
 impl Asker<'_> {
     /// A text without a verb as an order, where it names whither to go or something to be brought.
     pub(super) fn with_verb(&self, text: String, memory: &Memory) -> String {
         if text.trim_end().ends_with('?') || !command::clauses(&text).is_empty() {
             return text;
+        }
+        if is_back(&text) {
+            return Language::of(&text).pick("вернись", "come back").to_owned();
         }
         if command::has_haunt(&text) {
             return format!("{} {text}", Language::of(&text).pick("поезжай", "go"));
@@ -125,7 +137,9 @@ impl Asker<'_> {
         let with = self.with_verb(plain.clone(), &Memory::default());
         if command::clauses(&plain).is_empty() && !command::clauses(&with).is_empty() {
             let goes = with.starts_with("поезжай") || with.starts_with("go ");
-            return urges || (goes && keys.first().is_some_and(|key| command::says_whither(key)));
+            return urges
+                || is_back(&plain)
+                || (goes && keys.first().is_some_and(|key| command::says_whither(key)));
         }
         false
     }
@@ -237,6 +251,10 @@ impl Asker<'_> {
         }
         let (_, things) = ordered.object.as_ref()?;
         let kind = things.last().and_then(|t| self.kind_of(*t, language))?;
+        // "the one from the shelf"
+        if let Some((before, behind)) = said.split_once("one ") {
+            return Some(format!("{before}{kind} {behind}"));
+        }
         let bare = said.strip_suffix(" ones").or(said.strip_suffix(" one")).unwrap_or(said);
         Some(format!("{bare} {kind}"))
     }
@@ -297,7 +315,16 @@ impl Asker<'_> {
 
     /// What a pronoun means in a command: what was spoken of last, and of that only what its verb can be done to.
     pub(super) fn spoken_of(&self, text: &str, memory: &Memory) -> Vec<Thing> {
-        let last = memory.last_things();
+        const BOTH: [&str; 5] = ["обе", "оба", "обоих", "обеих", "both"];
+        let mut last = memory.last_things();
+        // «Верни обе на место»: the one before too, of the same kind.
+        if let [only] = last[..]
+            && word_keys(text).iter().any(|key| BOTH.contains(&key.as_str()))
+        {
+            let kind = |t: &Thing| self.kind_of(*t, Language::of(text));
+            let other = memory.spoken.iter().find(|t| **t != only && kind(t) == kind(&only));
+            last.splice(0..0, other.copied());
+        }
         let sort = command::clauses(text).first().map_or(Sort::Other, |(_, sort)| *sort);
         let knowledge = self.knowledge(Language::of(text), memory);
         let fits = |t: &Thing| knowledge.can(sort, *t);

@@ -21,12 +21,31 @@ impl Settler<'_, '_> {
         (!self.is_parted(words.start)).then_some((*value, words))
     }
 
-    /// «все лампы, кроме торшера»
-    pub(super) fn except_after<'i>(&self, items: &'i [Item], at: usize) -> Option<&'i Phrase> {
-        match items.get(at + 1..)? {
-            [Item::Mark(Mark::Except), Item::Noun(except), ..] => Some(except),
-            _ => None,
-        }
+    /// «все лампы, кроме торшера», «всё со стола, кроме вазы»: what is left out, and the word at which that begins.
+    pub(super) fn except_after<'i>(
+        &self,
+        items: &'i [Item],
+        at: usize,
+    ) -> Option<(&'i Phrase, usize)> {
+        let places = items.get(at + 1..)?;
+        let after = places.iter().position(|item| !matches!(item, Item::Place { .. }))?;
+        let [Item::Mark(Mark::Except), Item::Noun(except), ..] = &places[after..] else {
+            return None;
+        };
+        let from = match &items[at + after] {
+            Item::Noun(phrase) => phrase.words.end,
+            Item::Place { nouns, .. } => nouns.last()?.words.end,
+            _ => return None,
+        };
+        Some((except, from))
+    }
+
+    /// «лицом к столу», "facing the table": what the robot is to look at.
+    pub(super) fn is_faced(&self, phrase: &Phrase) -> bool {
+        const FACE: [&str; 5] = ["лицом", "передом", "носом", "повернувшись", "facing"];
+        let before = phrase.words.start.saturating_sub(2)..phrase.words.start;
+        let keys = self.sentence.keys.get(before).unwrap_or_default();
+        keys.iter().any(|key| FACE.contains(&key.as_str()))
     }
 
     /// Whether words that nothing knows stand between a thing and a place: "to the person in the kitchen".

@@ -1,0 +1,121 @@
+//! Where the robot is to stand: at what is named, at a window, in the middle of a room, between two things, and what it
+//! is to look at there.
+
+use crate::language::command::{Placement, Relation};
+use crate::map::Entity;
+use crate::robot::{Belief, GoalFact};
+use crate::semantics::{Relations, predicate};
+use crate::units::{AreaId, Deg, MapId, Point};
+
+use super::deeds::{between_places, facing_place, middle_place, window_place};
+use super::memory::Now;
+use super::{Engine, Error, RequestError};
+
+/// A point of the floor that has no name on the Map.
+struct Stance {
+    area: AreaId,
+    at: Point,
+    name: String,
+}
+
+impl Engine {
+    /// What holds when the robot stands where it is sent, and looks where it is told to.
+    ///
+    /// # Errors
+    /// The robot cannot stand there.
+    pub(super) fn standing(
+        &self,
+        to: &Placement<Entity>,
+        facing: Option<Entity>,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+    ) -> Result<GoalFact, Error> {
+        let stance = match (to.relation, to.and, facing) {
+            (Relation::AtWindow(window), ..) => self.at_window(window)?,
+            (Relation::Between, Some(other), _) => self.between(to.anchor, other)?,
+            (Relation::Middle, ..) => self.in_the_middle(to.anchor)?,
+            (.., None) => return self.being_at(to.anchor, now, relations),
+            (.., Some(_)) => self.at_named(to.anchor)?,
+        };
+        let place = match facing {
+            None => belief.name_point(stance.name, stance.area, stance.at),
+            Some(seen) => {
+                let name = facing_place(self.world()?.name(seen));
+                let (map, middle) = self.middle_of(seen)?;
+                let here = self.world()?.placement(stance.area).map(|(map, _)| map);
+                let away = middle - stance.at;
+                if here != Some(map) || away.norm() < 1.0 {
+                    return Err(self.not_a_place(seen));
+                }
+                let heading = Deg::from_radians(away.y.atan2(away.x));
+                belief.name_view(name, stance.area, stance.at, heading)
+            }
+        };
+        Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
+    }
+
+    fn not_a_place(&self, entity: Entity) -> Error {
+        let name = self.world().map(|world| world.name(entity).to_owned()).unwrap_or_default();
+        RequestError::NotAPlace { name }.into()
+    }
+
+    /// As near to the middle of a window as the robot can stand.
+    fn at_window(&self, window: u32) -> Result<Stance, Error> {
+        let world = self.world()?;
+        let window = &self.mind()?.lexicon.windows[window as usize];
+        let room = world.name(Entity::Area(window.area));
+        let unreached = || Error::from(RequestError::NotAPlace { name: window.name.clone() });
+        let (map, _) = world.placement(window.area).ok_or_else(unreached)?;
+        let at = nalgebra::center(&window.ends.0, &window.ends.1);
+        let at = self.around()?.floor(map)?.standing_in(window.area, at).ok_or_else(unreached)?;
+        Ok(Stance { area: window.area, at, name: window_place(room) })
+    }
+
+    fn between(&self, one: Entity, other: Entity) -> Result<Stance, Error> {
+        let world = self.world()?;
+        let ((map, a), (there, b)) = (self.middle_of(one)?, self.middle_of(other)?);
+        let floor = self.around()?.floor(map)?;
+        let middle = nalgebra::center(&a, &b);
+        let area = floor.scene().area_at(middle).filter(|_| map == there);
+        let area = area.ok_or_else(|| self.not_a_place(other))?;
+        let at = floor.standing_in(area, middle).ok_or_else(|| self.not_a_place(other))?;
+        Ok(Stance { area, at, name: between_places(world.name(one), world.name(other)) })
+    }
+
+    /// Of a room; the middle of a thing is not to be stood in.
+    fn in_the_middle(&self, entity: Entity) -> Result<Stance, Error> {
+        let unreached = || self.not_a_place(entity);
+        let Entity::Area(area) = entity else { return Err(unreached()) };
+        let world = self.world()?;
+        let (map, _) = world.placement(area).ok_or_else(unreached)?;
+        let at = self.around()?.floor(map)?.rest_in(area).ok_or_else(unreached)?;
+        Ok(Stance { area, at, name: middle_place(world.name(entity)) })
+    }
+
+    fn at_named(&self, entity: Entity) -> Result<Stance, Error> {
+        if let Entity::Area(_) = entity {
+            return self.in_the_middle(entity);
+        }
+        let around = self.around()?;
+        let located = around.locate_entity(entity)?;
+        let area = around.floor(located.map)?.locate(located.at);
+        let (area, _) = area.ok_or_else(|| self.not_a_place(entity))?;
+        Ok(Stance { area, at: located.at, name: String::new() })
+    }
+
+    /// The middle of a thing; where another place is to be stood at or in.
+    fn middle_of(&self, entity: Entity) -> Result<(MapId, Point), Error> {
+        let around = self.around()?;
+        let Entity::Replica(id) = entity else {
+            let located = around.locate_entity(entity)?;
+            return Ok((located.map, located.at));
+        };
+        let world = self.world()?;
+        let placed = world.replicas.get(&id).and_then(|replica| world.placement(replica.area));
+        let (map, _) = placed.ok_or_else(|| self.not_a_place(entity))?;
+        let placed = around.floor(map)?.scene().replicas.get(&id);
+        let bounds = placed.ok_or_else(|| self.not_a_place(entity))?.bounds;
+        Ok((map, nalgebra::center(&bounds.min, &bounds.max)))
+    }
+}

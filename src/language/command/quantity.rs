@@ -1,0 +1,141 @@
+//! How many of what is named are meant: all that is there, any of them, all at the end of a sentence. By words alone, as
+//! [`spoken`](super::spoken).
+
+use super::spoken::Said;
+use super::verbs::Sort;
+use super::vocabulary::Meaning;
+use crate::language::words::Language;
+
+/// «всё со стола», "everything on the table", «то, что лежит на столе»: all things that are there.
+pub(super) fn everything(said: &Said) -> Option<String> {
+    const ALL: [&str; 7] = [
+        "everything",
+        "whatever is",
+        "whatever s",
+        "everything that is",
+        "everything that s",
+        "everything there is",
+        "whatever lies",
+    ];
+    /// Only behind a verb that carries: "tell me what is on the table" asks.
+    const WHAT: [&str; 16] = [
+        "то что лежит",
+        "то что стоит",
+        "то что находится",
+        "то что есть",
+        "то что",
+        "все что лежит",
+        "все что стоит",
+        "все что есть",
+        "все что находится",
+        "все что",
+        "что лежит",
+        "what is",
+        "what s",
+        "what lies",
+        "that which is",
+        "all that is",
+    ];
+    let before_link = |n: usize| matches!(said.meaning(n).map(|(_, m)| m), Some(Meaning::Link(_)));
+    let carries = |at: usize| {
+        let mut verb = said.verb_from(0);
+        while let Some((from, taken, kind)) = verb {
+            if from + taken == at {
+                return matches!(Sort::of(kind), Sort::Carry | Sort::Put);
+            }
+            verb = said.verb_from(from + taken);
+        }
+        false
+    };
+    (0..said.keys.len()).find_map(|at| {
+        let russian = said.text.get(said.words[at].clone())?.to_lowercase() == "всё";
+        let what = said.phrase(at, &WHAT).filter(|taken| carries(at) && before_link(at + taken));
+        let taken = what.or(said.phrase(at, &ALL)).or(russian.then_some(1))?;
+        let things = Language::of(&said.keys[at]).pick("все вещи", "all the things");
+        let follows = before_link(at + taken) || said.is(at + taken, &["кроме", "except"]);
+        follows.then(|| said.with(&(at..at + taken), things))
+    })
+}
+
+/// «Принеси книжку, любую», "bring a book, any will do": any of them.
+pub(super) fn any_at_the_end(said: &Said) -> Option<String> {
+    const ANY: [&str; 27] = [
+        "без разницы",
+        "все равно",
+        "whichever is closer",
+        "whichever is nearer",
+        "whichever is closest",
+        "любую",
+        "любой",
+        "любое",
+        "какую нибудь",
+        "какой нибудь",
+        "все равно какую",
+        "все равно какой",
+        "неважно какую",
+        "неважно какой",
+        "не важно какую",
+        "не важно какой",
+        "без разницы какую",
+        "any",
+        "any one",
+        "any one will do",
+        "any will do",
+        "whichever",
+        "it doesn t matter which",
+        "doesn t matter which",
+        "i don t care which",
+        "no matter which",
+        "whichever one",
+    ];
+    let at = (2..said.keys.len()).find(|&n| said.parted(n) && said.phrase(n, &ANY).is_some())?;
+    let end = at + said.phrase(at, &ANY)?;
+    let (verb, taken, _) = said.verb_from(0).filter(|(verb, ..)| *verb < at)?;
+    let mut noun = verb + taken;
+    while let Some((taken, Meaning::Filler | Meaning::Me)) = said.meaning(noun) {
+        noun += taken;
+    }
+    let article = said.is(noun - 1, &["a", "an"]).then(|| said.words[noun - 1].start);
+    let any = match Language::of(&said.keys[at]) {
+        Language::Russian => "любую",
+        Language::English => "any",
+    };
+    let mut text = said.text.clone();
+    text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
+    let noun = said.words.get(noun).filter(|word| word.start < said.words[at].start)?;
+    text.replace_range(article.unwrap_or(noun.start)..noun.start, &format!("{any} "));
+    Some(text)
+}
+
+/// «Положи свечу на унитаз, обе», "find the remotes, all three": all of them.
+pub(super) fn all_at_the_end(said: &Said) -> Option<String> {
+    const ALL: [&str; 16] = [
+        "обе",
+        "оба",
+        "все",
+        "все три",
+        "все четыре",
+        "все две",
+        "all of them",
+        "both of them",
+        "both",
+        "all three",
+        "all four",
+        "all two",
+        "each of them",
+        "every one",
+        "all",
+        "каждую",
+    ];
+    let (verb, taken, _) = said.verb_from(0)?;
+    let at = (verb + taken + 1..said.keys.len()).find(|&n| {
+        let ends = |end: usize| end == said.keys.len() || said.parted(end);
+        said.parted(n) && said.phrase(n, &ALL).is_some_and(|length| ends(n + length))
+    })?;
+    let end = at + said.phrase(at, &ALL)?;
+    let all = Language::of(&said.keys[at]).pick(" все", " all");
+    let mut text = said.text.clone();
+    text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
+    text.insert_str(said.words[verb + taken - 1].end, all);
+    Some(text)
+}

@@ -1,0 +1,130 @@
+//! Orders as people put them together: conditions, what is left out, where to stand and what to look at; and what the
+//! map says of light and keys, in the plans that come of them.
+
+use orthoframe::Engine;
+use orthoframe::engine::{Memory, TaskAnswer, TaskEnding, deeds_in_words};
+use orthoframe::language::Language;
+use orthoframe::map::{DoorState, Entity, World};
+use orthoframe::robot::GoalFact;
+use orthoframe::units::Deg;
+
+fn lab() -> World {
+    World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml")).unwrap()
+}
+
+fn perform(world: &World, order: &str) -> TaskAnswer {
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    engine.perform(order, &mut |_| {}).unwrap_or_else(|e| panic!("{order}: {e}"))
+}
+
+fn actions(answer: &TaskAnswer) -> Vec<&str> {
+    let carried = answer.reports.iter().map(|r| r.directive.action.as_ref());
+    carried.filter(|action: &&str| !action.starts_with("Движение")).collect()
+}
+
+fn golden(world: &World, text: &str, path: &str) {
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let goals = |order: &str| match engine.perform(order, &mut |_| {}) {
+        Ok(answer) => {
+            let said = |g: &GoalFact| format!("{}({})", g.predicate, g.args.join(", "));
+            answer.goal.iter().map(said).collect::<Vec<_>>().join("; ")
+        }
+        Err(error) => error.say(world, Language::of(order)),
+    };
+    let said: String = text
+        .lines()
+        .filter(|line| !line.starts_with("    ") && !line.is_empty())
+        .map(|line| format!("{line}\n    {}\n", goals(line)))
+        .collect();
+    expect_test::expect_file![path].assert_eq(&said);
+}
+
+#[test]
+fn orders_put_together_mean_what_they_say() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/commands");
+    let lab_orders = include_str!("golden/commands/orders-lab.txt");
+    golden(&lab(), lab_orders, &format!("{folder}/orders-lab.txt"));
+    let flat = include_str!("golden/commands/orders-rb2.txt");
+    golden(&crate::worlds::rb2(), flat, &format!("{folder}/orders-rb2.txt"));
+}
+
+/// A room that the map says is dark is looked over by the light of its lamp.
+#[test]
+fn a_dark_room_is_lit_before_it_is_looked_over() {
+    let mut world = lab();
+    let office = world.find("Office")[0];
+    let Entity::Area(office) = office else { panic!("{office:?}") };
+    let order = "Find the battery";
+    let sought = ["Открыть-дверь", "Осмотреть", "Искать"];
+    assert_eq!(actions(&perform(&world, order)), sought);
+    let properties = &mut world.areas.get_mut(&office).unwrap().properties;
+    properties.insert("light".to_owned(), "off".to_owned());
+    let answer = perform(&world, order);
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    assert_eq!(actions(&answer), ["Открыть-дверь", "Включить-свет", "Осмотреть", "Искать"]);
+    // Without a lamp there is no plan.
+    let lamp = world.find("Lamp 1")[0];
+    let Entity::Replica(lamp) = lamp else { panic!("{lamp:?}") };
+    world.replicas.remove(&lamp);
+    assert!(matches!(perform(&world, order).ending, TaskEnding::NoPlan(_)));
+}
+
+/// Who has the key of a door is asked to unlock it; nobody else is.
+#[test]
+fn whoever_has_the_key_is_asked_to_unlock() {
+    let mut world = lab();
+    let door = world.find("Office door")[0];
+    let Entity::Door(door) = door else { panic!("{door:?}") };
+    let locked = world.doors.get_mut(&door).unwrap();
+    locked.state = DoorState::LOCKED;
+    assert!(matches!(perform(&world, "Bring the battery").ending, TaskEnding::NoPlan(_)));
+    for holder in ["operator", "Оператор"] {
+        let properties = &mut world.doors.get_mut(&door).unwrap().properties;
+        properties.insert("key_with".to_owned(), holder.to_owned());
+        let answer = perform(&world, "Bring the battery");
+        assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+        assert_eq!(actions(&answer)[..2], ["Позвать-оператора", "Открыть-дверь"]);
+        let told = answer.reports.iter();
+        let told = told.flat_map(|r| deeds_in_words(&world, &r.directive, Language::English));
+        assert!(
+            told.into_iter().any(|said| said == "Please come to me and unlock the office door.")
+        );
+    }
+}
+
+/// Where the robot is told to look it looks, and in the middle it stands in the middle.
+#[test]
+fn it_stands_and_looks_as_it_is_told() {
+    let world = lab();
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let bench = engine.locate_entity(world.find("Workbench 1")[0]).unwrap();
+    let answer = perform(&world, "Drive into the middle of the lab, facing the workbench");
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    let away = bench.at - answer.end.at;
+    assert!(away.norm() > 60.0, "it stays in the middle: {away}");
+    let off = (Deg::from_radians(away.y.atan2(away.x)) - answer.end.heading).signed().abs();
+    assert!(off < 30.0, "{off}° aside of the place before the bench");
+    let answer = perform(&world, "Stand in the corridor between the two doors");
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+}
+
+/// A condition is looked up in the world as it is, and decides.
+#[test]
+fn a_condition_decides_what_is_done() {
+    let mut world = lab();
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    let heard = |engine: &Engine, order: &str| {
+        let commands = engine.understand_in(order, &mut Memory::default()).unwrap();
+        format!("{commands:?}").chars().take_while(|c| *c != '(' && *c != ' ').collect::<String>()
+    };
+    let order = "If the office door is closed, open it, otherwise close the lab door";
+    assert_eq!(heard(&engine, order), "[Open");
+    let unless = "Bring the battery unless the office door is closed";
+    assert_eq!(heard(&engine, unless), "[Wait]");
+    let door = world.find("Office door")[0];
+    let Entity::Door(door) = door else { panic!("{door:?}") };
+    world.doors.get_mut(&door).unwrap().state = DoorState::OPEN;
+    let engine = Engine::in_memory(world, None).unwrap();
+    assert_eq!(heard(&engine, order), "[Close");
+    assert_eq!(heard(&engine, unless), "[Bring");
+}
