@@ -179,6 +179,7 @@ impl Rule<'_, '_> {
             }
             Query::Distance { from, to }
             | Query::Way { from, to, .. }
+            | Query::Passing { from, to, .. }
             | Query::CanReach { from, to } => {
                 let from = from.as_ref().map(|n| self.noun(n));
                 let to = self.noun(to);

@@ -11,7 +11,7 @@ use super::{Doubt, Unanswered};
 use crate::language::words::russian::{self, Preposition};
 use crate::language::words::{Case, Gender, Number, alternatives, enumerate};
 use crate::map::Entity;
-use crate::units::AreaId;
+use crate::units::{AreaId, ReplicaId};
 
 impl Knowledge<'_> {
     /// What a pronoun means: the last thing spoken of that agrees with it.
@@ -22,19 +22,33 @@ impl Knowledge<'_> {
             Pronoun::They | Pronoun::Any => {
                 self.memory.spoken.first().copied().into_iter().collect()
             }
-            Pronoun::He | Pronoun::She | Pronoun::It => {
-                let wanted = match pronoun {
-                    Pronoun::He => Gender::Masculine,
-                    Pronoun::She => Gender::Feminine,
-                    _ => Gender::Neuter,
+            Pronoun::There => self.place_spoken_of().into_iter().collect(),
+            Pronoun::He | Pronoun::HimOrIt | Pronoun::She | Pronoun::It => {
+                let fits = |gender: Gender| match pronoun {
+                    Pronoun::He => gender == Gender::Masculine,
+                    Pronoun::HimOrIt => gender != Gender::Feminine,
+                    Pronoun::She => gender == Gender::Feminine,
+                    _ => gender == Gender::Neuter,
                 };
                 let agrees = |t: &&Thing| {
                     let (gender, number) = self.gender(**t);
-                    gender == wanted && number == Number::Singular
+                    fits(gender) && number == Number::Singular
                 };
                 self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
             }
         }
+    }
+
+    /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
+    fn place_spoken_of(&self) -> Option<Thing> {
+        let latest = *self.memory.spoken.first()?;
+        let bears = |id: ReplicaId| {
+            ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
+        };
+        let Some(id) = latest.replica().filter(|id| !bears(*id)) else { return Some(latest) };
+        let support = self.relations.support_of(id).map(|id| Thing::Entity(Entity::Replica(id)));
+        let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
+        support.or_else(area).or(Some(latest))
     }
 
     pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {

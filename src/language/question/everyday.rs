@@ -215,6 +215,17 @@ fn other_words(
     if super::grammar::number_of(&key).is_some() {
         return None;
     }
+    // "teh": letters in another order are a slip of the keys.
+    let mut letters: Vec<char> = key.chars().collect();
+    letters.sort_unstable();
+    let swapped = |word: &&&str| {
+        let mut own: Vec<char> = word.chars().collect();
+        own.sort_unstable();
+        own == letters && mistyped(word)
+    };
+    if let Some(word) = ASKING.iter().find(swapped) {
+        return Some((1, (*word).to_owned()));
+    }
     let like_a_name = !lexicon.nouns.near(&key, 1).is_empty();
     if like_a_name {
         return None;

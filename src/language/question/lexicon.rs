@@ -89,10 +89,10 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Storeys, "этаж|ярус", "storey|level|floor"),
     (
         Extension::Building,
-        "дом|здание|квартира|карта|жильё|модель|план",
-        "house|building|flat|apartment|home|map|this place|premises",
+        "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
+        "house|building|flat|apartment|home|map|this place|premises|clinic|hospital|school|hotel|museum",
     ),
-    (Extension::Exits, "выход|улица|наружная дверь", "exit|way out|street|outdoors"),
+    (Extension::Exits, "выход|улица|наружная дверь|вход", "exit|way out|street|outdoors|entrance"),
     (Extension::Floor, "пол", "floor|ground"),
     (Extension::Walls, "стена|стенка", "wall"),
     (Extension::Corners, "угол|уголок", "corner"),

@@ -36,7 +36,7 @@ pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
 pub use orders::{Conditional, conditional};
 pub use query::{
-    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Quantity, Query, Rel,
+    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Passing, Quantity, Query, Rel,
     Restriction, Thing, Use,
 };
 pub use settle::{Settled, Strict};

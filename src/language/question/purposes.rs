@@ -193,7 +193,7 @@ pub(super) const SORTS: &[Sort] = &[
         "",
         "television|computer|laptop|telephone|cell phone|phone|radio|printer|tablet|monitor|телевизор|компьютер|ноутбук|телефон|радио|принтер|монитор",
     ),
-    sort("игрушка", "toy", "", "teddy bear|ball|doll|basketball|плюшевый медведь|мяч|кукла"),
+    sort("игрушка", "toy", "играть|поиграть|играют|play with|play", "teddy bear|ball|doll|basketball|плюшевый медведь|мяч|кукла"),
 ];
 
 /// «Из чего попить?» asks for cups, «что попить» for drinks: the sort of what a deed is done out of.

@@ -223,6 +223,10 @@ pub struct Noun {
     pub sizes: Vec<Sized>,
     pub restrictions: Vec<Restriction>,
     pub best: Option<Best>,
+    /// «Что из мебели можно передвинуть?»: sorts to which it belongs as well.
+    pub also: Vec<Head>,
+    /// «того же цвета, что и стол»: with the value of another thing.
+    pub like: Option<(Property, Box<Self>)>,
     /// «кроме лампы»
     pub except: Vec<Self>,
 }
@@ -297,6 +301,16 @@ pub enum Query {
     CanReach {
         from: Option<Noun>,
         to: Noun,
+    },
+    /// A way by its rooms and doors.
+    Passing {
+        from: Option<Noun>,
+        to: Noun,
+        /// «через коридор»: rooms and doors that it leads through, in this order.
+        through: Vec<Noun>,
+        /// «не заходя в кухню»
+        avoiding: Vec<Noun>,
+        asks: Passing,
     },
     Distance {
         from: Option<Noun>,
@@ -389,6 +403,25 @@ pub enum Query {
     },
 }
 
+/// What is asked of a way by its rooms and doors.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Passing {
+    /// How it leads.
+    How,
+    /// Whether there is one.
+    Whether,
+    /// Whether all ways lead so: "Do I have to go through the hall?"
+    Must,
+    /// Whether there is one on which no door is shut.
+    Unopened,
+    /// Whether one door is all that lies between.
+    Directly,
+    /// How many doors are on it.
+    Doors,
+    /// How many rooms lie between its ends.
+    Rooms,
+}
+
 /// What a place is to be good for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Use {
@@ -399,13 +432,16 @@ pub enum Use {
 
 impl Noun {
     /// Does something to this noun and to all that it names.
-    fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
+    pub(super) fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
         act(self);
         for restriction in &mut self.restrictions {
             restriction.anchors.iter_mut().for_each(|anchor| anchor.each(act));
         }
         if let Some(anchor) = self.best.as_mut().and_then(|b| b.anchor.as_mut()) {
             anchor.each(act);
+        }
+        if let Some((_, other)) = &mut self.like {
+            other.each(act);
         }
     }
 }
@@ -460,6 +496,10 @@ impl Query {
                 from.iter_mut().for_each(|n| n.each(act));
                 to.each(act);
             }
+            Self::Passing { from, to, through, avoiding, .. } => {
+                let others = through.iter_mut().chain(avoiding).chain([to]);
+                from.iter_mut().chain(others).for_each(|n| n.each(act));
+            }
             Self::Closer { what, near, than, .. } => {
                 [what, near, than].into_iter().for_each(|n| n.each(act));
             }
@@ -512,6 +552,7 @@ impl Query {
             Self::Leads(_) => "leads",
             Self::Way { .. } => "way",
             Self::CanReach { .. } => "can_reach",
+            Self::Passing { .. } => "passing",
             Self::Distance { .. } => "distance",
             Self::Closer { .. } => "closer",
             Self::WhichMore { .. } => "which_more",

@@ -16,6 +16,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         neither,
         everything_switched,
         that_far,
+        that_room,
         up_or_down,
         one_of,
         storey_again,
@@ -129,6 +130,22 @@ fn that_far(words: &Words<'_>) -> Option<String> {
     SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
         Language::Russian => "Как далеко туда?".to_owned(),
         Language::English => "How far is it?".to_owned(),
+    })
+}
+
+/// "Which room is that?": in which room what was spoken of is.
+fn that_room(words: &Words<'_>) -> Option<String> {
+    const SAID: [&str; 6] = [
+        "which room is that",
+        "what room is that",
+        "which room is that in",
+        "what room is that in",
+        "в какой это комнате",
+        "это в какой комнате",
+    ];
+    SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
+        Language::Russian => "В какой они комнате?".to_owned(),
+        Language::English => "Which room is it in?".to_owned(),
     })
 }
 

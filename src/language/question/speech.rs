@@ -349,7 +349,15 @@ impl Knowledge<'_> {
         for restriction in &noun.restrictions {
             let mut anchors: Vec<Thing> = Vec::new();
             let mut text = String::new();
+            if restriction.rel == Rel::Between
+                && let Ok(ends) = self.ends_between(restriction)
+            {
+                text = self.place(Rel::Between, &ends);
+            }
             for anchor in &restriction.anchors {
+                if !text.is_empty() {
+                    break;
+                }
                 if self.is_floor(anchor) {
                     text = self.pick("на полу", "on the floor").to_owned();
                     continue;
@@ -392,11 +400,12 @@ impl Knowledge<'_> {
                 text = format!("{} {text}", self.pick("и", "and"));
             }
             if restriction.negated {
-                text = format!("{} {text}", self.pick("не", "not"));
+                let but = if parts.is_empty() { "" } else { self.pick(", но ", ", but ") };
+                text = format!("{but}{} {text}", self.pick("не", "not"));
             }
             parts.push(text);
         }
-        parts.join(" ")
+        parts.join(" ").replace(" ,", ",")
     }
 
     /// «более чем с 5 стульями», "with more than 5 chairs"

@@ -81,6 +81,14 @@ pub(super) enum Mark {
     Not,
     /// «без», "without": not having.
     Without,
+    /// «не заходя в», "avoiding": not through.
+    Avoiding,
+    /// «не открывая дверей», "without opening a door"
+    Unopened,
+    /// «с какой стороны от», "which side of"
+    Side,
+    /// «придётся ли», "have to"
+    Must,
     /// «нельзя»: not and can.
     Cannot,
     /// «отличаются», "differ"
@@ -142,11 +150,15 @@ pub(super) enum Mark {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Pronoun {
     He,
+    /// «его», «нему»: masculine or neuter.
+    HimOrIt,
     She,
     It,
     They,
     /// English "it": of any gender.
     Any,
+    /// «там», "there": the place spoken of, or that of the thing spoken of.
+    There,
 }
 
 const WORDS: &[(Mark, &str)] = &[
@@ -189,14 +201,18 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::HowMany,
-        "на сколько|насколько|на сколько сантиметров|на сколько метров|на сколько см|на сколько квадратных метров|by how much|сколько|скольких|скольким|сколько всего|сколько штук|какое количество|каково количество|количество|число|каково число|как много|how many|how much|number of|the number of|\
+        "скока|скок|сколька|на сколько|насколько|на сколько сантиметров|на сколько метров|на сколько см|на сколько квадратных метров|by how much|сколько|скольких|скольким|сколько всего|сколько штук|какое количество|каково количество|количество|число|каково число|как много|how many|how much|number of|the number of|\
         what is the number of|what number of|amount of|the amount of|total number of|the total number of|quantity of|скажи сколько|сколько же",
     ),
     (Mark::Count, "посчитай|сосчитай|подсчитай|count|count up|count all|count the number of"),
     (
+        Mark::Side,
+        "on which side of|which side of|on what side of|what side of|с какой стороны от|с какой стороны|по какую сторону от",
+    ),
+    (
         Mark::HowFar,
         "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
-        how far|how far is it|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres is it|how many meters is it|how many metres|how many meters|how many centimetres",
+        how far|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres is it|how many meters is it|how many metres|how many meters|how many centimetres",
     ),
     (
         Mark::HowGet,
@@ -249,8 +265,7 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Exists,
         "есть|есть ли|имеется|имеются|имеется ли|имеются ли|существует|существуют|существует ли|найдётся|найдётся ли|нет ли|не найдётся ли|бывает|is there|is there a|are there|are there any|is there any|\
-        is there anything|is there something|there is|there are|there s|exist|exists|do we have|do you have|have we got|have you got|is there some|isn t there|aren t there|does there exist|do there exist|\
-        can you see|do you see|do you see any|can you see any|can i find any",
+        is there anything|is there something|there is|there are|there s|exist|exists|do we have|do you have|have we got|have you got|is there some|isn t there|aren t there|does there exist|do there exist|can i find any",
     ),
     (
         Mark::Be,
@@ -266,7 +281,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "share a door|shares a door|have a door between them|have a common door|share a wall with a door|имеют общую дверь|смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -288,7 +303,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::See,
-        "what do you see|what can you see|what are you looking at|что ты видишь|видишь|видно|видите|see|seeing|look at|looking at|visible",
+        "can you see|do you see|do you see any|can you see any|what do you see|what can you see|what are you looking at|что ты видишь|видишь|видно|видите|see|seeing|look at|looking at|visible",
     ),
     (
         Mark::LastSeen,
@@ -328,6 +343,18 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Not,
         "can t|cannot|cant|couldn t|won t|не|нету|нет|ни|not|n t|isn t|aren t|wasn t|weren t|doesn t|don t|no|isnt|arent|doesnt|dont",
+    ),
+    (
+        Mark::Avoiding,
+        "не заходя в|не заходя во|не заезжая в|не заезжая во|не проходя через|не проезжая через|не заходя на|минуя|в обход|не через|без захода в|avoiding|that avoids|bypassing|without going through|without passing through|without passing|without crossing|without entering|without going into|without driving through|without walking through|not going through|not passing through",
+    ),
+    (
+        Mark::Unopened,
+        "не открывая дверей|не открывая двери|не открывая дверь|не открывая ни одной двери|не открывая никаких дверей|не открывая|without opening a door|without opening a single door|without opening any door|without opening any doors|without opening doors|without having to open a door|without having to open any doors",
+    ),
+    (
+        Mark::Must,
+        "нужно ли|надо ли|обязательно|обязательно ли|обязательно ли надо|придётся|придётся ли|придётся мне|придётся ли мне|must i|must one|must you|have to|do i have to|do you have to|does one have to|do we have to|need to|is it necessary to|no way but",
     ),
     (Mark::Cannot, "нельзя|невозможно|can t one|can t i|can t you|impossible to"),
     (
@@ -372,7 +399,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Except,
-        "besides|кроме|помимо|не считая|за исключением|исключая|если не считать|except|except for|apart from|other than|aside from",
+        "not counting|without counting|excluding|not including|leaving out|besides|кроме|помимо|не считая|за исключением|исключая|если не считать|except|except for|apart from|other than|aside from",
     ),
     (
         Mark::Other,
@@ -427,10 +454,10 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Link(Rel::Outside), "вне|снаружи|за пределами|outside|outside of|out side"),
     (
         Mark::Link(Rel::From),
-        "из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at",
+        "if i m in|if i am in|if you are in|when i am in|when i m in|если я в|если я нахожусь в|если я во|находясь в|будучи в|из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at",
     ),
     (Mark::Link(Rel::To), "к|ко|до|to|towards|toward|into the|up to|for the|till|as far as"),
-    (Mark::Link(Rel::Through), "через|сквозь|through|via"),
+    (Mark::Link(Rel::Through), "через|сквозь|through|via|by way of"),
     (Mark::Link(Rel::At), "at|при"),
     (Mark::Link(Rel::Of), "of|belonging to"),
     (Mark::Nearer(Closeness::Nearer), "ближе|поближе|closer|nearer|less far"),
@@ -481,11 +508,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::LeftMost),
-        "самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost",
+        "левый|левая|левое|левую|левой|левого|левом|левому|левые|левых|the left|самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost",
     ),
     (
         Mark::Best(Extreme::RightMost),
-        "самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost",
+        "правый|правая|правое|правую|правой|правого|правом|правому|правые|правых|the right|самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost",
     ),
     (
         Mark::Best(Extreme::Most),
@@ -560,7 +587,8 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Same,
         "такого же|такой же|такая же|такое же|такие же|того же|тот же|та же|той же|том же|тем же|ту же|те же|тех же|одного|одной|одном|одних|одинакового|одинаковые|одинаковый|same|the same|one and the same",
     ),
-    (Mark::Pronoun(Pronoun::He), "он|его|ему|него|нему|ним|нём|him"),
+    (Mark::Pronoun(Pronoun::He), "он|him"),
+    (Mark::Pronoun(Pronoun::HimOrIt), "его|ему|него|нему|ним|нём"),
     (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
     (Mark::Pronoun(Pronoun::It), "оно"),
     (Mark::Pronoun(Pronoun::They), "они|их|им|них|ними|they|them|those"),
@@ -577,7 +605,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\

@@ -60,7 +60,7 @@ pub fn plural(noun: &str) -> String {
         return noun.to_owned();
     }
     // "chest of drawers", "thing to drink from": the head stands before.
-    if let Some(at) = [" of ", " to ", " for "].iter().filter_map(|after| noun.find(after)).min() {
+    if let Some(at) = [" of ", " to ", " for ", " without "].iter().filter_map(|after| noun.find(after)).min() {
         return format!("{}{}", plural(&noun[..at]), &noun[at..]);
     }
     let lower = word.to_lowercase();
@@ -100,7 +100,7 @@ pub fn plural(noun: &str) -> String {
     } else if let Some((one, many)) = IRREGULAR.iter().find(|(one, _)| lower == *one) {
         let kept = one.chars().zip(many.chars()).take_while(|(a, b)| a == b).count();
         word.chars().take(kept).chain(many.chars().skip(kept)).collect()
-    } else if ends(&["s", "x", "z", "ch", "sh"]) {
+    } else if ends(&["s", "x", "z", "ch", "sh", "tomato", "potato", "mango", "hero", "echo"]) {
         format!("{word}es")
     } else if lower.ends_with('y') && !ends(&["ay", "ey", "oy", "uy"]) && lower.len() > 1 {
         format!("{}ies", &word[..word.len() - 1])

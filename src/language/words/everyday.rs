@@ -22,7 +22,7 @@ const SAME: &[&str] = &[
     "микроволновая печь|микроволновка|свч|microwave|microwave oven",
     "стиральная машина|стиралка|стиральная машинка|washing machine|washer",
     "посудомоечная машина|посудомойка|dishwasher",
-    "мусорное ведро|мусорка|мусорная корзина|урна|помойка|мусорный бак|корзина для мусора|bin|trash can|trash bin|garbage can|garbage bin|rubbish bin|waste basket|wastebasket|dustbin|trash|garbage|waste bin|trashcan",
+    "мусорное ведро|мусорка|мусорная корзина|урна|помойка|мусорный бак|корзина для мусора|bin|trash can|trash bin|garbage can|garbage bin|rubbish bin|garbage bag|trash bag|мешок для мусора|мешок с мусором|waste basket|wastebasket|dustbin|trash|garbage|waste bin|trashcan",
     "туалет|санузел|уборная|wc|toilet|lavatory|restroom|washroom|loo|bathroom",
     "унитаз|toilet|loo|wc|туалет",
     "ванная|ванная комната|санузел|bathroom|washroom",
@@ -62,6 +62,7 @@ const SAME: &[&str] = &[
     "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",
     "батарейка|батарея|аккумулятор|battery",
     "табурет|табуретка|stool",
+    "часы|будильник|clock|alarm clock",
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
 ];
 

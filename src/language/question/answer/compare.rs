@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Closeness, Extreme, Noun, Sized, Thing};
+use crate::language::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Said};
 use crate::language::words::{Case, russian};
@@ -447,6 +447,11 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn same(&self, property: &Property, of: &[Noun; 2]) -> Result<Draft, Doubt> {
+        if of.iter().any(|noun| noun.plural) {
+            let things = [self.definite(&of[0])?, self.definite(&of[1])?].concat();
+            let head = Head { things: Some(things), ..Head::default() };
+            return self.same_all(property, &Noun { head, plural: true, ..Noun::default() });
+        }
         let (a, b) = (self.one(&of[0])?, self.one(&of[1])?);
         let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
         let (Some((_, x, first)), Some((_, y, second))) = (own(a), own(b)) else {

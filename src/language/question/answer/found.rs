@@ -28,6 +28,13 @@ impl Knowledge<'_> {
                 self.pick("вес этих вещей на карте не указан", "the map gives no weight of them");
             return Ok(Draft::new(Said::Unknown, text.to_owned()));
         }
+        if let Some((property, other)) = &noun.like {
+            let other = self.one(other)?;
+            if self.values(other).iter().all(|(p, _, _)| p != property) {
+                let text = self.no_property(property, other);
+                return Ok(Draft::new(Said::Unknown, text).about(&[other]));
+            }
+        }
         let facts = self.facts_of(noun, &found);
         if noun.best.is_some() {
             return Ok(Draft { facts, ..self.say_best(noun, found) });
@@ -307,6 +314,9 @@ impl Knowledge<'_> {
     pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
         let frame = self.frame_of(noun);
         let general = noun.head.anything && noun.filters.is_empty();
+        if !noun.also.is_empty() || noun.like.is_some() {
+            return format!("{place} {}", self.pick("таких нет", "there are none such"));
+        }
         match (self.is_russian(), general) {
             (true, true) => format!("{place}{frame} ничего нет"),
             (false, true) => format!("there is nothing {place}{frame}"),
@@ -403,7 +413,9 @@ impl Knowledge<'_> {
         }
         let mut found: Vec<Vec<Thing>> = Vec::new();
         for noun in what {
-            found.push(self.find(noun, true)?);
+            let mut things = self.find(noun, true)?;
+            self.one_of_each_lift(noun, &mut things);
+            found.push(things);
         }
         let have = |n: usize| !found[n].is_empty();
         let any = (0..what.len()).any(have);

@@ -6,6 +6,7 @@ mod each;
 mod found;
 mod kinds;
 mod part;
+mod passing;
 mod place;
 mod property;
 mod senses;
@@ -15,7 +16,7 @@ mod usable;
 mod way;
 
 use super::knowledge::Knowledge;
-use super::query::{Noun, Query, Rel, Thing};
+use super::query::{Best, Extreme, Noun, Query, Rel, Thing};
 use super::speech::sentence;
 use super::{Answer, Doubt, Fact, Said};
 
@@ -81,6 +82,9 @@ impl Knowledge<'_> {
             Query::Leads(noun) => self.leads(noun)?,
             Query::Way { from, to, detail } => self.way(from.as_ref(), to, Some(*detail))?,
             Query::CanReach { from, to } => self.way(from.as_ref(), to, None)?,
+            Query::Passing { from, to, through, avoiding, asks } => {
+                self.passing(from.as_ref(), to, (through, avoiding), *asks)?
+            }
             Query::Distance { from, to } => self.say_distance(from.as_ref(), to)?,
             Query::Closer { what, near, than, closeness } => {
                 self.closer(what, near, than, *closeness)?
@@ -113,6 +117,17 @@ impl Knowledge<'_> {
             Query::Describe(noun) => self.describe(noun)?,
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,
         };
+        let mut draft = draft;
+        // «левая тумбочка» is the left one for who looks from there.
+        let mut sided = false;
+        query.clone().each_noun(&mut |noun| {
+            let side = |best: &Best| matches!(best.extreme, Extreme::LeftMost | Extreme::RightMost);
+            sided |= noun.best.as_ref().is_some_and(side);
+        });
+        if sided && !draft.text.is_empty() {
+            let seen = self.pick(" (если смотреть с моего места)", " (as seen from where I stand)");
+            draft.text = format!("{}{seen}", draft.text.trim_end_matches('.'));
+        }
         let mut topic = draft.things.clone();
         topic.extend(draft.topic);
         Ok(Answer {

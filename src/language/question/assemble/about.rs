@@ -4,10 +4,11 @@
 
 use super::Frame;
 use super::Spot;
+use super::Subject;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
-use crate::language::question::values::Property;
+use crate::language::question::values::{Property, ValueId};
 use crate::language::question::vocabulary::Mark;
 use crate::language::report::Detail;
 
@@ -147,6 +148,9 @@ impl Frame<'_, '_> {
                 .flat_map(Spot::restrictions)
                 .collect()
         };
+        if self.has(Mark::Opens) && self.has(Mark::Can) && self.asks() {
+            return self.openable();
+        }
         if let Some(query) = self.deed() {
             return Some(query);
         }
@@ -175,7 +179,9 @@ impl Frame<'_, '_> {
             return Some(query);
         }
         // "Is there enough room on the desk for the vase?"
-        let named = ["для", "for"].iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
+        const FITS: [&str; 8] =
+            ["для", "for", "fit", "fits", "поместится", "поместятся", "уместится", "влезет"];
+        let named = FITS.iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
         let what = self.spot_noun(&[Rel::To]).or_else(|| self.first()).filter(|_| named);
         let on = self.spots.iter().filter(|s| s.rel == Rel::On && !self.is_area(&s.nouns[0]));
         let within: Vec<Restriction> = on.flat_map(Spot::restrictions).collect();
@@ -217,13 +223,23 @@ impl Frame<'_, '_> {
             || self.has(Mark::Than)
             || self.has(Mark::Can)
             || self.has(Mark::Exists);
-        // «Что из мебели можно передвинуть?»: of both sorts at once nothing is listed.
-        let of = |s: &Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
-        if self.spots.iter().any(of) {
-            return None;
-        }
         // «Какие книги можно почитать?» asks for books that are such things.
         let own = self.lexicon.kinds_of_sort(sort);
+        // «Что из мебели можно передвинуть?», "Which chairs can be moved?": what belongs to both.
+        let of = |s: &&Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
+        let of = self.spots.iter().find(of).map(|s| (s.nouns[0].clone(), s.at));
+        let which = |s: &&Subject| s.noun.head.named.is_empty() && self.follows_which(s.at);
+        let both = of.or_else(|| match &self.nouns[..] {
+            [only] if which(&only) && !self.is_things(&only.noun) => {
+                Some((only.noun.clone(), usize::MAX))
+            }
+            _ => None,
+        });
+        if let (Some((mut noun, at)), true) = (both, asks) {
+            noun.also.push(Head { kinds: own, ..Head::default() });
+            let noun = self.with_rest(noun, &[at]);
+            return Some(Query::Find(Noun { plural: true, indefinite: true, ..noun }));
+        }
         let covered = |noun: &Noun| noun.head.kinds.iter().all(|kind| own.contains(kind));
         let noun = match &self.nouns[..] {
             [] => {
@@ -247,6 +263,26 @@ impl Frame<'_, '_> {
             true => Query::Where(noun),
             false => Query::Find(noun),
         })
+    }
+
+    /// «Что можно открыть в спальне?», "Which doors can be opened?": doors.
+    pub(super) fn openable(&self) -> Option<Query> {
+        let opened = self.lexicon.values.meaning("открытый")?;
+        let open = |value: &ValueId| self.lexicon.values.is(*value, opened);
+        let doors = match &self.nouns[..] {
+            [] => {
+                let kinds = self.lexicon.kind_of(&Extension::Doors).into_iter().collect();
+                Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() }
+            }
+            [only] if self.is_doors(&only.noun) => only.noun.clone(),
+            _ => return None,
+        };
+        let said = self.values.iter().all(|(value, _, _)| open(value)) && !self.has(Mark::Than);
+        let mut noun = Noun { plural: true, indefinite: true, ..doors };
+        for spot in &self.spots {
+            self.attach(&mut noun, spot);
+        }
+        said.then(|| Query::Find(noun))
     }
 
     /// "things", «предметы»: anything at all.

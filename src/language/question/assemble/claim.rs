@@ -28,7 +28,7 @@ impl Frame<'_, '_> {
     fn exists_or_holds(&self) -> Option<Query> {
         // «Почему нельзя попасть в лабораторию?»
         let moves = self.has(Mark::Can) && (self.has(Mark::Move) || self.has(Mark::Lead));
-        let way = || if moves { self.way() } else { None };
+        let way = || if moves { self.passing().or_else(|| self.way()) } else { None };
         way().or_else(|| self.holds()).or_else(|| self.exists())
     }
 
@@ -101,7 +101,26 @@ impl Frame<'_, '_> {
             what.push(self.with_rest(noun, &[]));
         }
         let either = self.has(Mark::Or);
-        Some(Query::Exists { what, either, negated: none && !self.has(Mark::Exists) })
+        let negated = (none && !self.has(Mark::Exists)) || self.says_nothing();
+        Some(Query::Exists { what, either, negated })
+    }
+
+    /// "Is there nothing on the sofa?"
+    fn says_nothing(&self) -> bool {
+        self.sentence.keys.iter().any(|key| key == "nothing")
+    }
+
+    /// «С какой стороны от дивана стоит стеллаж?», "Which side of the sofa is the bookshelf on?"
+    pub(super) fn side(&self) -> Option<Query> {
+        let at = self.place_of(Mark::Side)?;
+        let anchor = self.nouns.iter().find(|s| s.at > at)?;
+        let subject = self.nouns.iter().find(|s| s.at != anchor.at)?;
+        const SIDES: [Rel; 4] = [Rel::LeftOf, Rel::RightOf, Rel::InFrontOf, Rel::Behind];
+        let claims = SIDES.map(|rel| {
+            let anchors = vec![anchor.noun.clone()];
+            Claim::Related(Restriction { rel, anchors, negated: false })
+        });
+        Some(Query::Choice { subject: subject.noun.clone(), claims: claims.to_vec() })
     }
 
     /// «Холодильник на кухне или в коридоре?», "Is the TV above the cabinet or on it?"
@@ -122,7 +141,8 @@ impl Frame<'_, '_> {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
             noun.head.anything = true;
             let what = vec![self.with_rest(noun, &[])];
-            return Some(Query::Exists { what, either: false, negated: self.negated });
+            let negated = self.negated || self.says_nothing();
+            return Some(Query::Exists { what, either: false, negated });
         }
         // "Is everything in the kitchen made of wood?"
         if self.has(Mark::All) && self.nouns.is_empty() && !self.values.is_empty() {

@@ -140,10 +140,11 @@ impl Frame<'_, '_> {
                 Closeness::Nearer => Extreme::Nearest,
                 Closeness::Farther => Extreme::Farthest,
             };
-            let anchors: Vec<&Spot> = self
+            let anchors: Vec<Spot> = self
                 .spots
                 .iter()
                 .filter(|s| matches!(s.rel, Rel::To | Rel::From | Rel::NextTo | Rel::Near))
+                .map(|s| Spot { nouns: self.with_next_places(s), ..s.clone() })
                 .collect();
             let within: Vec<Restriction> = self
                 .spots
@@ -204,14 +205,31 @@ impl Frame<'_, '_> {
         if self.has(Mark::Same)
             && let Some((property, _)) = &self.property
         {
-            let mut of: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();
-            if let [all] = &of[..]
+            let mut of: Vec<Noun> = self.nouns.iter().map(|s| self.with_own_places(s)).collect();
+            // «Какие стулья того же цвета, что и стол?», "What is the same colour as the sofa?"
+            let asked = self.nouns.first().filter(|s| self.follows_which(s.at));
+            if let (true, [.., other]) = (self.asks(), &of[..])
+                && (of.len() == 2) == asked.is_some()
+                && of.len() < 3
+            {
+                let like = Some((property.clone(), Box::new(other.clone())));
+                let anything = Head { anything: true, ..Head::default() };
+                let noun = match asked {
+                    Some(_) => of[0].clone(),
+                    None => Noun { head: anything, ..Noun::default() },
+                };
+                return Some(Query::Find(Noun { like, plural: true, indefinite: true, ..noun }));
+            }
+            if let [all] = &self.nouns[..]
+                && let all = &all.noun
                 && all.plural
             {
                 let of = self.with_rest(all.clone(), &[]);
                 return Some(Query::SameAll { property: property.clone(), of });
             }
-            of.extend(self.spots.iter().flat_map(|s| s.nouns.clone()));
+            if of.len() < 2 {
+                of.extend(self.spots.iter().flat_map(|s| s.nouns.clone()));
+            }
             let [first, second] = <[Noun; 2]>::try_from(of).ok()?;
             return Some(Query::Same { property: property.clone(), of: [first, second] });
         }
@@ -230,6 +248,32 @@ impl Frame<'_, '_> {
         }
         let by = self.asks_by_how_much();
         Some(Query::Larger { what, than: other, extreme, to: None, by })
+    }
+
+    /// A noun with the places that stand behind it, before the next.
+    fn with_own_places(&self, subject: &Subject) -> Noun {
+        let next = self.nouns.iter().map(|s| s.at).find(|at| *at > subject.at);
+        let own = |s: &&Spot| s.at > subject.at && next.is_none_or(|next| s.at < next);
+        let mut noun = subject.noun.clone();
+        for spot in self.spots.iter().filter(own) {
+            self.attach(&mut noun, spot);
+        }
+        noun
+    }
+
+    /// The last noun of a place with the places that follow at once: "to the book on the dresser".
+    fn with_next_places(&self, spot: &Spot) -> Vec<Noun> {
+        let mut nouns = spot.nouns.clone();
+        let mut at = spot.at;
+        while let Some(next) = self.spots.iter().find(|s| {
+            s.at == at + 1 && matches!(s.rel, Rel::In | Rel::On | Rel::Of | Rel::Under)
+        }) {
+            if let Some(last) = nouns.last_mut() {
+                self.attach(last, next);
+            }
+            at = next.at;
+        }
+        nouns
     }
 
     /// «На сколько сантиметров шкаф выше комода?», "How much taller …"
@@ -262,7 +306,9 @@ impl Frame<'_, '_> {
     pub(super) fn superlative(&self) -> Option<Query> {
         let [only] = &self.nouns[..] else { return None };
         let alone = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)));
-        if only.noun.best.is_none() && !alone {
+        // «Левая тумбочка пустая?» claims it of the one.
+        let claimed = self.values.iter().any(|(_, at, _)| *at > only.at);
+        if (only.noun.best.is_none() && !alone) || claimed {
             return None;
         }
         let mut noun = only.noun.clone();

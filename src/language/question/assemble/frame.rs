@@ -43,13 +43,16 @@ impl<'s, 't> Frame<'s, 't> {
         let items = &sides_shared(items)[..];
         let mut not = false;
         let mut without = false;
+        let mut excepted = None;
         for (at, item) in items.iter().enumerate() {
             match item {
                 Item::Mark(Mark::Not) => {
                     not = true;
-                    // «комната без окон» denies nothing of the question.
-                    let without =
-                        matches!(items.get(at + 1), Some(Item::Place { rel: Rel::Has, .. }));
+                    // «комната без окон», «минуя кухню» deny nothing of the question.
+                    let without = matches!(
+                        items.get(at + 1),
+                        Some(Item::Place { rel: Rel::Has | Rel::Through, .. })
+                    );
                     if !without {
                         frame.negated = true;
                         frame.marks.push((Mark::Not, at));
@@ -63,6 +66,13 @@ impl<'s, 't> Frame<'s, 't> {
                         && at > 0
                         && items[at - 1] == Item::Mark(Mark::And)
                         && frame.nouns.last().is_some_and(|s| s.noun.plural) => {}
+                // "How far is it from the hall to the kitchen?" means nothing by "it".
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::Any)
+                        && items[..at].iter().all(|item| {
+                            matches!(item, Item::Mark(Mark::HowFar | Mark::Be | Mark::And))
+                        })
+                        && frame.has(Mark::HowFar) => {}
                 Item::Noun(phrase) => {
                     let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
                     // "the green book and the red one"
@@ -78,8 +88,13 @@ impl<'s, 't> Frame<'s, 't> {
                         noun.head =
                             Head { kinds: before.noun.head.kinds.clone(), ..Head::default() };
                     }
-                    if std::mem::take(&mut without) {
+                    // «кроме унитаза и раковины»
+                    let again = at > 1
+                        && matches!(items[at - 1], Item::Mark(Mark::And | Mark::Or))
+                        && excepted == Some(at - 2);
+                    if std::mem::take(&mut without) || again {
                         frame.except.push(noun);
+                        excepted = Some(at);
                         continue;
                     }
                     let first = frame.nouns.is_empty();
@@ -176,6 +191,14 @@ impl<'s, 't> Frame<'s, 't> {
                     frame.spots.push(Spot { rel, nouns: anchors, either, at, negated });
                 }
                 Item::Link(rel) => frame.links.push((*rel, at)),
+                // «все книги, кроме красной»
+                Item::Value(value) if without && !frame.nouns.is_empty() => {
+                    without = false;
+                    let kinds = frame.nouns[0].noun.head.kinds.clone();
+                    let head = Head { kinds, ..Head::default() };
+                    let filters = vec![Filter::new(*value, false)];
+                    frame.except.push(Noun { head, plural: true, filters, ..Noun::default() });
+                }
                 Item::Value(value) => {
                     frame.values.push((*value, at, std::mem::take(&mut not)));
                 }
@@ -183,13 +206,28 @@ impl<'s, 't> Frame<'s, 't> {
                     frame.property.get_or_insert((property.clone(), at));
                 }
                 Item::Number(number) => {
-                    if !frame.counts(*number, at) {
+                    if !frame.counts(*number, at) && !frame.counts_last(*number, items.len() - at) {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
                     }
                 }
                 Item::Size(size) => frame.sizes.push(*size),
+                // «Чем порезать хлеб?»: what is cut need not be on the map.
+                Item::Unknown(_)
+                    if at > 0
+                        && matches!(items[at - 1], Item::Mark(Mark::Deed(_)))
+                        && (frame.has(Mark::Than) || matches!(items.last(), Some(Item::Link(_)))) => {}
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
+        }
+        // "How far is it from here?"
+        let it = sentence.keys.iter().any(|key| key == "it");
+        if it && frame.has(Mark::HowFar) && frame.nouns.is_empty() && frame.spots.is_empty() {
+            let meant = referent(Pronoun::Any);
+            if meant.is_empty() {
+                return Err(Doubt::NoReferent { word: "it".to_owned() });
+            }
+            let noun = things(meant, "it");
+            frame.nouns.push(Subject { noun, at: items.len(), negated: false, nominative: true });
         }
         // «Вся ли мебель деревянная?»: the small word stands between.
         let all = frame.has(Mark::All);
@@ -210,6 +248,18 @@ impl<'s, 't> Frame<'s, 't> {
         subject.noun.quantity = quantity;
         subject.noun.indefinite = true;
         true
+    }
+
+    /// «Ноутбуков в доме два?»: a number at the end counts what stands in the plural before.
+    fn counts_last(&mut self, number: u64, left: usize) -> bool {
+        let asked = self.asks() || self.has(Mark::HowMany) || self.has(Mark::Where);
+        let [subject] = &mut self.nouns[..] else { return false };
+        let counted = subject.noun.plural && subject.noun.count.is_none() && !asked && left == 1;
+        if counted {
+            subject.noun.count = Some(number);
+            subject.noun.indefinite = true;
+        }
+        counted
     }
 
     /// Words that nothing knows: a name that the map lacks, or no word at all.
@@ -265,7 +315,7 @@ impl<'s, 't> Frame<'s, 't> {
                 Ok(None)
             }
             (_, Some(Mark::There)) => {
-                let meant = referent(Pronoun::Any);
+                let meant = referent(Pronoun::There);
                 let noun = (!meant.is_empty()).then(|| things(meant, &phrase.noun.text));
                 self.there = noun;
                 Ok(None)

@@ -7,7 +7,9 @@ mod about;
 mod claim;
 mod compare;
 mod frame;
+mod passing;
 mod together;
+mod used;
 mod way;
 mod which;
 
@@ -36,10 +38,13 @@ pub(super) fn query(
     if let Some(queries) = each_of(sentence, lexicon, &items, &frame, referent) {
         return Ok(Query::Several(queries));
     }
-    if let Some(query) = frame.read() {
-        return Ok(query);
+    match frame.read() {
+        Some(mut query) => match frame.left_out(&mut query) {
+            Some(words) => Err(Doubt::not_understood(&words)),
+            None => Ok(query),
+        },
+        None => Err(frame.not_understood(&items)),
     }
-    Err(frame.not_understood(&items))
 }
 
 /// "What colour are the sofa and the armchair?" asks of each by itself.
@@ -137,7 +142,8 @@ pub(super) fn fragment(
         matches!(
             mark,
             Mark::The | Mark::A | Mark::Be | Mark::Hang | Mark::One | Mark::Best(_) | Mark::And
-        ) || (*mark == Mark::Which && of_those)
+        ) || (*mark == Mark::Exists && of_those)
+            || (*mark == Mark::Which && of_those)
     };
     if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
@@ -221,27 +227,11 @@ impl Frame<'_, '_> {
             return Some(self.why());
         }
         // «Влезет ли коробка под кровать?»: the room under things is not known.
-        // A way that must or must not lead through a room is not looked for.
-        let way = self.has(Mark::HowGet)
-            || self.has(Mark::HowFar)
-            || ((self.has(Mark::Can) || self.has(Mark::How)) && self.has(Mark::Move));
-        let door = |spot: &Spot| self.is_doors(&spot.nouns[0]);
-        if way && self.spots.iter().any(|s| s.rel == Rel::Through && !door(s)) {
-            return None;
-        }
-        // «Стулья на кухне того же цвета, что стулья в гостиной?» compares two groups.
-        let groups = self.nouns.len() > 1 && {
-            let group = |s: &Subject| s.noun.plural && s.noun.head.named.is_empty();
-            self.nouns.iter().all(group)
-        };
-        if self.has(Mark::Same) && self.property.is_some() && groups {
-            return None;
-        }
         // "What can be opened in the bedroom?" does not ask what is open.
         let state = |value: ValueId| self.lexicon.values.entry(value).property == Property::State;
         let done = self.asks() && self.has(Mark::Can) && !self.has(Mark::Move);
         if done && self.values.iter().any(|(value, _, _)| state(*value)) {
-            return None;
+            return self.openable();
         }
         let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
         if fits && self.spot(&[Rel::Under]).is_some() {
@@ -254,6 +244,7 @@ impl Frame<'_, '_> {
             .or_else(|| self.together())
             .or_else(|| self.difference())
             .or_else(|| self.side_by_side())
+            .or_else(|| self.passing())
             .or_else(|| self.way())
             .or_else(|| self.more_of())
             .or_else(|| self.most())
@@ -266,6 +257,7 @@ impl Frame<'_, '_> {
             .or_else(|| self.property())
             .or_else(|| self.leads())
             .or_else(|| self.joined())
+            .or_else(|| self.side())
             .or_else(|| self.where_is())
             .or_else(|| self.occupied())
             .or_else(|| self.which())

@@ -20,19 +20,16 @@ impl Frame<'_, '_> {
             return None;
         }
         let goes = self.has(Mark::Move) || self.has(Mark::Lead);
-        // «Через какие комнаты идти из спальни в ванную?», «Сколько дверей пройти до спальни?»
+        // «Через какие комнаты идти из спальни в ванную?»
         let through = self.links.iter().any(|(rel, _)| *rel == Rel::Through)
             && self.nouns.iter().all(|s| self.is_rooms(&s.noun));
-        let passed = self.has(Mark::HowMany)
-            && self.has(Mark::Move)
-            && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
         // "Which doors do I pass on the way from the hall to the bedroom?"
         let both = self.spot(&[Rel::From]).is_some() && self.spot(&[Rel::To, Rel::In]).is_some();
         let by_doors = both
             && self.has(Mark::HowGet)
             && self.nouns.iter().all(|s| self.is_doors(&s.noun) || self.is_rooms(&s.noun));
         let by_rooms = self.asks() && ((through && goes) || by_doors);
-        if by_rooms || passed {
+        if by_rooms {
             let to = self.spot_noun(&[Rel::To]).or_else(|| self.spot_noun(&[Rel::In, Rel::On]))?;
             let from = self.spot_noun(&[Rel::From]);
             return Some(Query::Way { from, to, detail: self.detail() });
@@ -42,9 +39,6 @@ impl Frame<'_, '_> {
             return Some(out);
         }
         let can = self.has(Mark::Can) && goes;
-        if can && self.has(Mark::Directly) {
-            return self.joined();
-        }
         if !(far || how || can) {
             return None;
         }
@@ -137,7 +131,7 @@ impl Frame<'_, '_> {
         })
     }
 
-    fn is_exits(&self, noun: &Noun) -> bool {
+    pub(super) fn is_exits(&self, noun: &Noun) -> bool {
         let exits = |k: &_| self.lexicon.kind(*k).extension == Extension::Exits;
         noun.head.named.is_empty() && noun.head.kinds.iter().any(exits)
     }
@@ -151,17 +145,13 @@ impl Frame<'_, '_> {
         if !out || self.spots.iter().any(|s| s.rel != Rel::From) {
             return None;
         }
-        let kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
-        let best = Some(Best { extreme: Extreme::Nearest, anchor: None });
-        let to = Noun { head: Head { kinds, ..Head::default() }, best, ..Noun::default() };
-        Some(Query::Way { from: None, to, detail: self.detail() })
+        Some(Query::Way { from: None, to: self.nearest_exit(), detail: self.detail() })
     }
 
-    /// «Соединена ли спальня с кухней?», "Are the hall and the kitchen connected?", «Можно ли сразу попасть …»
+    /// «Соединена ли спальня с кухней?», "Are the hall and the kitchen connected?"
     pub(super) fn joined(&self) -> Option<Query> {
-        let directly = self.has(Mark::Directly) && self.has(Mark::Can);
         let doors = self.nouns.iter().any(|s| self.is_doors(&s.noun));
-        if !(directly || self.has(Mark::Lead)) || self.asks() || self.has(Mark::Where) || doors {
+        if !self.has(Mark::Lead) || self.asks() || self.has(Mark::Where) || doors {
             return None;
         }
         let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun)).map(|s| s.noun.clone());

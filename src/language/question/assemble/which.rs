@@ -80,7 +80,9 @@ impl Frame<'_, '_> {
         if !self.has(Mark::Where) && !self.has(Mark::Whither) && !taken {
             return None;
         }
-        if let (true, Some(lacked)) = (self.negated && !taken, self.nouns.first())
+        // «Где чашка, которая не белая?» denies the value.
+        let denies = self.negated && !taken && self.values.iter().all(|(_, _, negated)| !negated);
+        if let (true, Some(lacked)) = (denies, self.nouns.first())
             && !self.is_area(&lacked.noun)
         {
             // «Где нет стульев?»

@@ -68,6 +68,12 @@ impl Sentence<'_> {
             && phrase.nominative
     }
 
+    /// Whether the word before is "I" or "you".
+    pub(super) fn follows_person(&self, at: u32) -> bool {
+        let before = self.tokens.iter().rev().find(|t| t.to <= at).map(|t| t.kind);
+        matches!(before, Some(Tok::Mark(Mark::Me | Mark::You)))
+    }
+
     /// "the smaller wardrobe": a comparative right before its noun.
     pub(super) fn is_the_more(&self, more: &Token, rest: Tokens<'_>) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.to <= more.from);

@@ -345,7 +345,10 @@ impl<'t> Sentence<'t> {
                     noun.head.named.clear();
                 }
             }
-            None => noun.head.anything = true,
+            None => {
+                noun.head.anything = true;
+                noun.plural = self.keys[words.end - 1] == "ones";
+            }
         }
         // «этаж 2», "floor 2", «2 этаж»
         let (mut rest, mut storey) = (rest, None);
@@ -468,6 +471,16 @@ impl<'t> Sentence<'t> {
             }
             _ => return Err(nom::Err::Error(Error::new(input, ErrorKind::Tag))),
         };
+        // "the kitchen ones"
+        if let ([Token { kind: Tok::Mark(Mark::One), .. }, after @ ..], true) =
+            (rest.0, found.is_area && self.language == Language::English)
+        {
+            let words = input.0[0].from as usize..input.0[0].to as usize;
+            let head =
+                Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() };
+            let text = self.said(&words).to_owned();
+            return Ok((Tokens(after), None, Some((Rel::In, Noun { head, text, ..Noun::default() }))));
+        }
         let Some((Token { kind: Tok::Noun(n), from, to }, after)) = rest.split_first() else {
             return Ok((rest, Some(found), None));
         };
@@ -525,6 +538,10 @@ impl<'t> Sentence<'t> {
             {
                 let owner = noun_of(next, *from as usize..*to as usize);
                 Ok((after, Some(found), Some((Rel::Of, owner))))
+            }
+            // "Where can I watch TV?": after who does it stands what is done.
+            Language::English if self.follows_person(input.0[0].from) => {
+                Ok((after, Some(next), None))
             }
             // "the kitchen table"
             Language::English if found.is_area && !next.is_area => {

@@ -25,7 +25,9 @@ impl Sentence<'_> {
 
     fn is_pronoun(&self, token: &Token) -> bool {
         let key = self.keys[token.from as usize].as_str();
-        token.kind == Tok::Mark(Mark::Which) && (key.starts_with("котор") || key == "which")
+        // "that" points, unless it stands behind a noun and before a verb: see `standing`.
+        (token.kind == Tok::Mark(Mark::Which) && (key.starts_with("котор") || key == "which"))
+            || (token.kind == Tok::Mark(Mark::The) && key == "that")
     }
 
     /// «на котором стоит чашка», "on which the cup stands", «где стоит чашка»: what the noun has on it or in it.

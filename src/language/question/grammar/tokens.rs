@@ -108,6 +108,10 @@ impl<'t> Sentence<'t> {
                 push(self, n, Tok::Mark(Mark::Not));
                 push(self, n, Tok::Mark(Mark::Link(Rel::Has)))
             }
+            (Some((n, Mark::Avoiding)), _, _) if n == longest => {
+                push(self, n, Tok::Mark(Mark::Not));
+                push(self, n, Tok::Mark(Mark::Link(Rel::Through)))
+            }
             (Some((n, Mark::Cannot)), _, _) if n == longest => {
                 push(self, n, Tok::Mark(Mark::Not));
                 push(self, n, Tok::Mark(Mark::Can))

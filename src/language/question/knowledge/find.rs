@@ -137,6 +137,20 @@ impl Knowledge<'_> {
         if noun.other {
             found.retain(|t| !self.memory.spoken.contains(t));
         }
+        for sort in &noun.also {
+            let own: HashSet<Thing> = self.base(sort).into_iter().collect();
+            found.retain(|t| own.contains(t));
+        }
+        if let Some((property, other)) = &noun.like {
+            let other = self.one(other)?;
+            let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
+            let same = |t: Thing| match (own(t), own(other)) {
+                (Some((_, Some(x), _)), Some((_, Some(y), _))) => x == y,
+                (Some((_, _, x)), Some((_, _, y))) => x == y,
+                _ => false,
+            };
+            found.retain(|t| *t != other && same(*t));
+        }
         for restriction in &noun.restrictions {
             let related = match self.related_to(restriction, loose) {
                 Err(doubt) => self.told_together(noun, restriction, &found).ok_or(doubt)?,
@@ -360,10 +374,7 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn between(&self, restriction: &Restriction) -> Result<HashSet<Thing>, Doubt> {
-        let mut ends: Vec<Thing> = Vec::new();
-        for noun in &restriction.anchors {
-            ends.extend(self.definite(noun)?);
-        }
+        let ends = self.ends_between(restriction)?;
         let [a, b] = ends[..] else {
             return Err(match (&ends[..], &restriction.anchors[..]) {
                 ([], [noun, ..]) => self.none_such(noun),
@@ -373,18 +384,47 @@ impl Knowledge<'_> {
         };
         if let (Some(a), Some(b)) = (a.area(), b.area()) {
             let joins = |g: &&Gate| g.areas.contains(&a) && g.areas.contains(&b);
-            let gates = self.gates().iter().filter(joins).map(|g| g.thing);
-            // Between two rooms are their doors, and the rooms that both lead to.
+            let gates: Vec<Thing> = self.gates().iter().filter(joins).map(|g| g.thing).collect();
+            // Between two rooms are their doors, and the rooms that both lead to; where no door joins them, the rooms
+            // through which one leads to the other.
             let next = |area: AreaId| -> HashSet<Thing> {
                 let room = Thing::Entity(Entity::Area(area));
                 self.related(Rel::Near, room).into_iter().collect()
             };
-            let rooms = &next(a) & &next(b);
-            return Ok(gates.chain(rooms).collect());
+            let mut rooms = &next(a) & &next(b);
+            if gates.is_empty() && rooms.is_empty() {
+                let way = self.passage(&[a], &[b], &super::Limits::default());
+                let between = way.map(|way| way.between()).unwrap_or_default();
+                rooms.extend(between.into_iter().map(|id| Thing::Entity(Entity::Area(id))));
+            }
+            return Ok(gates.into_iter().chain(rooms).collect());
         }
         let (Some(a), Some(b)) = (a.replica(), b.replica()) else { return Ok(HashSet::new()) };
         let between = self.relations.standing_between(a, b);
         Ok(between.into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect())
+    }
+
+    /// The two things between which something is: of several that fit, the one in the room of the other.
+    pub(in crate::language::question) fn ends_between(
+        &self,
+        restriction: &Restriction,
+    ) -> Result<Vec<Thing>, Doubt> {
+        let mut ends: Vec<Thing> = Vec::new();
+        for (n, noun) in restriction.anchors.iter().enumerate() {
+            let beside = |other: &Noun| self.find(other, false).ok().filter(|all| all.len() == 1);
+            let others = restriction.anchors.iter().enumerate().filter(|(m, _)| *m != n);
+            let other = others.filter_map(|(_, other)| beside(other)).flatten().next();
+            ends.extend(match (self.definite(noun), other) {
+                // «между кроватью и шкафом»: the wardrobe that is in the bed's room.
+                (Err(Doubt::Ambiguous { candidates, .. }), Some(other)) => {
+                    let here = |t: &Thing| self.area_of(*t) == self.area_of(other);
+                    let near: Vec<Thing> = candidates.iter().copied().filter(here).collect();
+                    if near.len() == 1 { near } else { self.definite(noun)? }
+                }
+                (found, _) => found?,
+            });
+        }
+        Ok(ends)
     }
 
     /// The things at some places of a superlative's order: from the first place asked for, so many.

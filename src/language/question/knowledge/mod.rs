@@ -2,9 +2,12 @@
 
 mod find;
 mod measure;
+mod passages;
 mod relate;
 mod values;
 mod walls;
+
+pub(super) use passages::{Limits, Passage};
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};

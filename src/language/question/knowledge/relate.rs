@@ -173,6 +173,11 @@ impl Knowledge<'_> {
                 .map(|p| Thing::Entity(Entity::Area(p.area)))
                 .into_iter()
                 .collect(),
+            // "the floor with the storeroom"
+            Thing::Entity(Entity::Area(id)) => {
+                let placed = self.world.placement(id);
+                placed.map(|(map, _)| Thing::Entity(Entity::Map(map))).into_iter().collect()
+            }
             _ => match self.gate(thing) {
                 Some(gate) => gate.areas.iter().map(|a| Thing::Entity(Entity::Area(*a))).collect(),
                 None => self.by_relation(Rel::Has, thing),

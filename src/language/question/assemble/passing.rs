@@ -1,0 +1,68 @@
+//! Questions for ways by their rooms and doors: through which, without which, how many.
+//!
+//! Invariant: every room and door that is named is an end of the way, on it, or not on it.
+
+use super::Frame;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Best, Extreme, Head, Noun, Passing, Query, Rel};
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    /// «Можно ли попасть из кухни в спальню, минуя коридор?», "How many doors are there on the way to the bedroom?"
+    pub(super) fn passing(&self) -> Option<Query> {
+        let nouns = |negated: bool| -> Vec<Noun> {
+            let spots = self.spots.iter().filter(|s| s.rel == Rel::Through);
+            spots.filter(|s| s.negated == negated).flat_map(|s| s.nouns.iter().cloned()).collect()
+        };
+        let (through, avoiding) = (nouns(false), nouns(true));
+        let goes = self.has(Mark::Move) || self.has(Mark::Lead);
+        let asked = self.nouns.first();
+        let counted = asked.filter(|s| {
+            let general = s.noun.head.named.is_empty() && s.noun.head.things.is_none();
+            general && (self.is_doors(&s.noun) || self.is_rooms(&s.noun))
+        });
+        let counts = self.has(Mark::HowMany) && self.nouns.len() == 1;
+        let between = self.spot(&[Rel::Between]).filter(|s| {
+            s.nouns.len() == 2 && s.nouns.iter().all(|n| self.is_area(n) && !self.is_building(n))
+        });
+        let told = goes || self.has(Mark::HowGet);
+        let asks = match counted.filter(|_| counts) {
+            Some(rooms) if self.is_rooms(&rooms.noun) && (between.is_some() || told) => {
+                Passing::Rooms
+            }
+            Some(doors) if self.is_doors(&doors.noun) && told => Passing::Doors,
+            _ if self.asks() => return None,
+            _ if self.has(Mark::Unopened) => Passing::Unopened,
+            _ if self.has(Mark::Directly) && self.has(Mark::Can) && goes => Passing::Directly,
+            _ if through.is_empty() && avoiding.is_empty() => return None,
+            _ if self.has(Mark::Must) && goes => Passing::Must,
+            _ if (self.has(Mark::Can) && goes && !self.has(Mark::How))
+                || (self.has(Mark::HowGet) && self.has(Mark::Exists)) =>
+            {
+                Passing::Whether
+            }
+            _ if self.has(Mark::HowGet) || (self.has(Mark::How) && goes) => Passing::How,
+            _ => return None,
+        };
+        const TO: [Rel; 6] = [Rel::To, Rel::In, Rel::On, Rel::At, Rel::NextTo, Rel::Near];
+        let (from, to) = match between {
+            Some(pair) => (Some(pair.nouns[0].clone()), Some(pair.nouns[1].clone())),
+            None => (self.spot_noun(&[Rel::From]), self.spot_noun(&TO)),
+        };
+        // "Can I reach the bedroom without opening a door?"
+        let reached = self.nouns.iter().find(|s| counted.is_none_or(|c| c.at != s.at));
+        let to = to.or_else(|| reached.map(|s| s.noun.clone()))?;
+        let to = match self.is_building(&to) || self.is_exits(&to) {
+            true => self.nearest_exit(),
+            false => to,
+        };
+        Some(Query::Passing { from, to, through, avoiding, asks })
+    }
+
+    /// The nearest way out.
+    pub(super) fn nearest_exit(&self) -> Noun {
+        let kinds = self.lexicon.kind_of(&Extension::Exits).into_iter().collect();
+        let best = Some(Best { extreme: Extreme::Nearest, anchor: None });
+        Noun { head: Head { kinds, ..Head::default() }, best, ..Noun::default() }
+    }
+}

@@ -1,0 +1,120 @@
+//! Whether a query has all that the sentence said: what a rule passed over makes the question not understood.
+//!
+//! Invariant: nothing that tells one answer from another is dropped in silence.
+
+use super::Frame;
+use crate::language::question::lexicon::{Extension, KindId};
+use crate::language::question::query::{Claim, Head, Noun, Query, Rel, Sized};
+use crate::language::question::values::{Property, ValueId};
+use crate::language::question::vocabulary::Mark;
+
+/// What the nouns and claims of a query speak of.
+#[derive(Default)]
+struct Used {
+    heads: Vec<Head>,
+    values: Vec<ValueId>,
+    sizes: Vec<Sized>,
+}
+
+impl Used {
+    fn of(query: &mut Query) -> Self {
+        let mut used = Self::default();
+        let claims = match query {
+            Query::Holds { claims, .. } | Query::Choice { claims, .. } => claims.clone(),
+            _ => Vec::new(),
+        };
+        for claim in &claims {
+            match claim {
+                Claim::Value(filter) => used.values.extend(filter.values()),
+                Claim::Size(size) => used.sizes.push(*size),
+                Claim::Related(_) | Claim::Kind(_) => {}
+            }
+        }
+        query.each_noun(&mut |noun| used.add(noun));
+        used
+    }
+
+    fn add(&mut self, noun: &mut Noun) {
+        self.heads.push(noun.head.clone());
+        self.values.extend(noun.filters.iter().flat_map(|filter| filter.values()));
+        self.sizes.extend(&noun.sizes);
+        self.heads.extend(noun.also.iter().cloned());
+        for except in &mut noun.except {
+            except.each(&mut |noun| self.add(noun));
+        }
+    }
+
+    fn has(&self, head: &Head) -> bool {
+        self.heads.iter().any(|used| {
+            used.named.iter().any(|entity| head.named.contains(entity))
+                || used.kinds.iter().any(|kind| head.kinds.contains(kind))
+        })
+    }
+}
+
+impl Frame<'_, '_> {
+    /// A word for what is asked, or for the whole, that narrows nothing: «в какой комнате», "things", "in the house".
+    fn asks_only(&self, noun: &Noun) -> bool {
+        let general = |kind: &KindId| {
+            matches!(
+                self.lexicon.kind(*kind).extension,
+                Extension::Rooms
+                    | Extension::Storeys
+                    | Extension::Things
+                    | Extension::Doors
+                    | Extension::Passages
+                    | Extension::Exits
+                    | Extension::Places
+                    | Extension::Building
+            )
+        };
+        let narrowed = !noun.filters.is_empty() || !noun.restrictions.is_empty();
+        noun.head.named.is_empty() && !narrowed && noun.head.kinds.iter().all(general)
+    }
+
+    /// The words of the first description or value that a query does without.
+    pub(super) fn left_out(&self, query: &mut Query) -> Option<String> {
+        let whole = matches!(
+            query,
+            Query::Several(_)
+                | Query::Why { .. }
+                | Query::Help
+                | Query::People
+                | Query::Courtesy(_)
+                | Query::WhereAreYou(_)
+                | Query::WhereAmI
+                | Query::WhatDoYouSee
+                | Query::WhatDoYouHold
+        );
+        if whole {
+            return None;
+        }
+        let used = Used::of(query);
+        // Where a door leads is told with all its rooms.
+        let leads = matches!(query, Query::Leads(_));
+        let nouns = self.nouns.iter().map(|s| &s.noun);
+        let places = self.spots.iter().flat_map(|s| &s.nouns);
+        let tells = |noun: &&Noun| {
+            let general = noun.head.anything || noun.head.things.is_some();
+            !general && !self.asks_only(noun) && !(leads && self.is_area(noun))
+        };
+        let mut said = nouns.chain(places).chain(&self.except).filter(tells);
+        if let Some(noun) = said.find(|noun| !used.has(&noun.head)) {
+            return Some(noun.text.clone());
+        }
+        // "What does Key 1 open?", "What can be opened?": what is done, not what is so.
+        let opens = matches!(query, Query::Anchor { rel: Rel::Opens, .. }) || self.has(Mark::Can);
+        let done = |value: ValueId| {
+            opens && self.lexicon.values.entry(value).property == Property::State
+        };
+        let value = self
+            .values
+            .iter()
+            .find(|(value, _, _)| !used.values.contains(value) && !done(*value));
+        let text = value.map(|(value, _, _)| self.lexicon.values.entry(*value).russian.clone());
+        text.or_else(|| {
+            let lost = self.sizes.iter().any(|size| !used.sizes.contains(size));
+            lost.then(|| self.sentence.text.to_owned())
+        })
+    }
+}
