@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use orthoframe::Engine;
-use orthoframe::engine::{Error, Memory, World};
+use orthoframe::engine::{Error, Memory, World, task_in_words};
 use orthoframe::exchange::{Options, read};
 use orthoframe::facts::Value;
 use orthoframe::language::command::Misheard;
@@ -77,6 +77,26 @@ fn answers_are_as_the_golden_texts_say() {
     }
     println!("{pairs} questions answered as expected");
     assert!(pairs >= 400, "{pairs} pairs");
+}
+
+#[test]
+fn what_was_done_is_told_afterwards() {
+    let engine = rb2();
+    let mut memory = Memory::default();
+    assert_eq!(
+        said(&engine, "What did you do?", &mut memory),
+        "I have done nothing yet in this talk."
+    );
+    let order = "Go to Room Z";
+    let commands = engine.understand_in(order, &mut memory).unwrap();
+    let answer = engine.carry_out(&commands, &mut |_| {}).unwrap();
+    memory.did(task_in_words(engine.world().unwrap(), order, &answer));
+    assert_eq!(
+        said(&engine, "What did you do?", &mut memory),
+        "The last task was “Go to Room Z”: drive to Door VZ, go through Door VZ into Room Z; done."
+    );
+    let russian = said(&engine, "Что ты сделал?", &mut memory);
+    assert!(russian.ends_with("проехать через Дверь-ВZ в Комнату-Z; сделано."), "{russian}");
 }
 
 /// Facts of two columns, by the names in them.

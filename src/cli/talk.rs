@@ -14,7 +14,7 @@ use rustyline::validate::Validator;
 use rustyline::{Config, Context, Editor, Helper};
 use serde_json::json;
 
-use crate::engine::{Engine, Error, Memory, TaskAnswer};
+use crate::engine::{Engine, Error, Memory, TaskAnswer, task_in_words};
 use crate::language::Language;
 use crate::language::command::{Command, Misheard, has_verb, likely_verb};
 use crate::language::question::{Conditional, conditional, sentences};
@@ -285,14 +285,14 @@ impl Dialogue {
         if self.json {
             return match self.engine.carry_out(&commands, &mut |_| {}) {
                 Ok(answer) => {
-                    self.remember(&answer)?;
+                    self.remember(line, &answer)?;
                     say(&super::json::task(self.engine.world()?, &answer).to_string()).map(|_| ())
                 }
                 Err(error) => self.refuse(&error, language),
             };
         }
         match demo::carry_out(&self.engine, &commands, lang) {
-            Ok(answer) => self.remember(&answer),
+            Ok(answer) => self.remember(line, &answer),
             Err(Failure::Engine(error)) => self.refuse(&error, language),
             Err(failure) => Err(failure),
         }
@@ -304,7 +304,8 @@ impl Dialogue {
         self.put("refused", &text)
     }
 
-    fn remember(&mut self, answer: &TaskAnswer) -> Result<(), Failure> {
+    fn remember(&mut self, line: &str, answer: &TaskAnswer) -> Result<(), Failure> {
+        self.memory.did(task_in_words(self.engine.world()?, line, answer));
         if self.keeps {
             self.engine.remember(answer, std::time::SystemTime::now().into())?;
         }

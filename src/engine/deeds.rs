@@ -6,9 +6,11 @@ use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Deed, Directive, STARTING_POINT};
 use crate::semantics::planning::{PLACE_BESIDE, ROBOT_PLACE};
 use crate::semantics::predicate;
+use crate::units::Bilingual;
 
 use super::OPERATOR;
 use super::lexicon::named;
+use super::task::{TaskAnswer, TaskEnding};
 
 /// A sentence for each deed that the robot's position does not tell; motion and doors are told by that.
 #[must_use]
@@ -78,6 +80,28 @@ pub fn directive_in_words(world: &World, directive: &Directive, language: Langua
         true => directive.to_string(),
         false => told.join(language.pick(" и ", " and ")),
     }
+}
+
+/// What a command came to, for who asks afterwards: its steps, and whether it was done.
+#[must_use]
+pub fn task_in_words(world: &World, command: &str, answer: &TaskAnswer) -> Bilingual {
+    let told = |language: Language| {
+        let steps =
+            answer.reports.iter().map(|r| directive_in_words(world, &r.directive, language));
+        let steps = steps.collect::<Vec<_>>().join(", ");
+        let end = match answer.ending {
+            TaskEnding::Done => language.pick("сделано", "done"),
+            TaskEnding::AlreadyTrue => language.pick("так уже было", "it was so already"),
+            TaskEnding::NoPlan(_) => language.pick("плана не было", "there was no plan"),
+            TaskEnding::Stuck(_) => language.pick("не вышло", "it did not work out"),
+        };
+        let stop = if steps.is_empty() { "" } else { "; " };
+        match language {
+            Language::Russian => format!("последнее задание – «{command}»: {steps}{stop}{end}"),
+            Language::English => format!("the last task was “{command}”: {steps}{stop}{end}"),
+        }
+    };
+    Bilingual::new(told(Language::Russian), told(Language::English))
 }
 
 /// An object of a plan as it is called in a language: by its English name, where the map gives one; in Russian as the

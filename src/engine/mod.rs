@@ -55,7 +55,7 @@ use std::path::Path;
 
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
-pub use deeds::{deeds_in_words, directive_in_words, name_in};
+pub use deeds::{deeds_in_words, directive_in_words, name_in, task_in_words};
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
 pub use error::{Error, RequestError};

@@ -222,6 +222,7 @@ impl Rule<'_, '_> {
             | Query::WhereAreYou(_)
             | Query::Help
             | Query::WhatDoYouSee
+            | Query::Deeds
             | Query::WhatDoYouHold
             | Query::Courtesy(_) => (String::new(), String::new()),
         }
@@ -261,6 +262,8 @@ impl Rule<'_, '_> {
         }
         let at = |r: &Restriction| r.rel == Rel::NextTo && !noun.head.kinds.is_empty();
         self.measured |= !noun.sizes.is_empty() || noun.restrictions.iter().any(at);
+        // Sorts at once, the values and sizes of others are looked at after the rule.
+        self.measured |= !noun.also.is_empty() || noun.like.is_some() || noun.beyond.is_some();
         for except in &noun.except {
             let other = self.noun(except);
             self.atoms.push(format!("{term} != {other}"));

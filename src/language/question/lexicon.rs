@@ -92,7 +92,11 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
         "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
         "house|building|flat|apartment|home|map|this place|premises|clinic|hospital|school|hotel|museum",
     ),
-    (Extension::Exits, "выход|улица|наружная дверь|вход", "exit|way out|street|outdoors|entrance"),
+    (
+        Extension::Exits,
+        "выход|улица|наружная дверь|вход|входная дверь",
+        "exit|way out|street|outdoors|entrance|front door|entrance door|main door",
+    ),
     (Extension::Floor, "пол", "floor|ground"),
     (Extension::Walls, "стена|стенка", "wall"),
     (Extension::Corners, "угол|уголок", "corner"),

@@ -47,7 +47,7 @@ use crate::language::report::Detail;
 use crate::language::words::{Language, word_keys};
 use crate::map::World;
 use crate::semantics::Relations;
-use crate::units::{AreaId, MapId, Pose, ReplicaId};
+use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
 
 use grammar::Sentence;
 use knowledge::Knowledge;
@@ -128,6 +128,8 @@ pub struct Memory {
     ordered: Option<settle::Ordered>,
     /// Where the robot was before it was last sent away.
     left: Option<Thing>,
+    /// The last command that was carried out, and what it came to.
+    done: Option<Bilingual>,
 }
 
 #[derive(Debug, Clone)]
@@ -154,6 +156,11 @@ impl Memory {
     /// Notes where the robot is while it is sent away.
     pub fn leave(&mut self, place: Thing) {
         self.left = Some(place);
+    }
+
+    /// Notes what a command came to, for "What did you do?".
+    pub fn did(&mut self, told: Bilingual) {
+        self.done = Some(told);
     }
 
     /// Remembers what an answer was about.

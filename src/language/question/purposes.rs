@@ -184,7 +184,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "включаемый прибор",
         "switchable thing",
-        "включить|выключить|be switched on|be turned on|be switched off|be turned off",
+        "включить|выключить|turn on|turn off|switch on|switch off|be switched on|be turned on|be switched off|be turned off",
         "appliance|light fixture",
     ),
     sort(
@@ -193,7 +193,12 @@ pub(super) const SORTS: &[Sort] = &[
         "",
         "television|computer|laptop|telephone|cell phone|phone|radio|printer|tablet|monitor|телевизор|компьютер|ноутбук|телефон|радио|принтер|монитор",
     ),
-    sort("игрушка", "toy", "играть|поиграть|играют|play with|play", "teddy bear|ball|doll|basketball|плюшевый медведь|мяч|кукла"),
+    sort(
+        "игрушка",
+        "toy",
+        "играть|поиграть|играют|play with|play",
+        "teddy bear|ball|doll|basketball|плюшевый медведь|мяч|кукла",
+    ),
 ];
 
 /// «Из чего попить?» asks for cups, «что попить» for drinks: the sort of what a deed is done out of.
@@ -208,6 +213,11 @@ pub(super) fn done_at(sort: u16) -> u16 {
     let is_food = SORTS.get(usize::from(sort)).is_some_and(|s| s.english.starts_with("food item|"));
     let tables = SORTS.iter().position(|s| s.english == "place to eat at");
     tables.filter(|_| is_food).and_then(|n| u16::try_from(n).ok()).unwrap_or(sort)
+}
+
+/// Whether its verbs say what is done with such things to others: "thing to cut with".
+pub(super) fn is_tool(sort: u16) -> bool {
+    SORTS.get(usize::from(sort)).is_some_and(|s| s.english.contains(" with"))
 }
 
 /// A verb of [`SORTS`] with the number of its sort.

@@ -25,6 +25,12 @@ pub enum Rel {
     Behind,
     InFrontOf,
     Between,
+    /// «лицом к телевизору», "facing the TV": it is in front of them.
+    Facing,
+    /// «там»: in a room or a thing, or on it.
+    There,
+    /// About the middle of a room or of a top.
+    Middle,
     Leaning,
     Outside,
     /// Out of a room, from a place.
@@ -227,6 +233,8 @@ pub struct Noun {
     pub also: Vec<Head>,
     /// «того же цвета, что и стол»: with the value of another thing.
     pub like: Option<(Property, Box<Self>)>,
+    /// "bigger than the kitchen": beyond another thing by what a superlative compares.
+    pub beyond: Option<(Extreme, Box<Self>)>,
     /// «кроме лампы»
     pub except: Vec<Self>,
 }
@@ -392,6 +400,8 @@ pub enum Query {
     /// Nothing is asked: a greeting, thanks.
     Courtesy(Courtesy),
     WhatDoYouSee,
+    /// What the robot did last.
+    Deeds,
     /// Whether one of such things is in the robot's view.
     Sees(Noun),
     WhatDoYouHold,
@@ -441,6 +451,9 @@ impl Noun {
             anchor.each(act);
         }
         if let Some((_, other)) = &mut self.like {
+            other.each(act);
+        }
+        if let Some((_, other)) = &mut self.beyond {
             other.each(act);
         }
     }
@@ -530,6 +543,7 @@ impl Query {
             | Self::Help
             | Self::Courtesy(_)
             | Self::WhatDoYouSee
+            | Self::Deeds
             | Self::WhatDoYouHold => {}
         }
     }
@@ -573,6 +587,7 @@ impl Query {
             Self::Help => "help",
             Self::Courtesy(_) => "courtesy",
             Self::WhatDoYouSee => "what_do_you_see",
+            Self::Deeds => "deeds",
             Self::Sees(_) => "sees",
             Self::WhatDoYouHold => "what_do_you_hold",
             Self::Describe(_) => "describe",

@@ -17,12 +17,16 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         everything_switched,
         that_far,
         that_room,
+        outwards,
+        whence,
+        any_room,
         up_or_down,
         one_of,
         storey_again,
         any_left,
         your_side,
         borne_on_it,
+        on_it,
         around,
         numbers_joined,
     ];
@@ -149,6 +153,43 @@ fn that_room(words: &Words<'_>) -> Option<String> {
     })
 }
 
+/// «Откуда можно попасть в ванную?»: out of which rooms.
+fn whence(words: &Words<'_>) -> Option<String> {
+    let whence = words.find(&["откуда"])?;
+    let goes = words.keys.iter().any(|key| {
+        ["попа", "пройти", "проехать", "веду", "войти", "зайти"]
+            .iter()
+            .any(|stem| key.starts_with(stem))
+    });
+    goes.then(|| words.replaced(vec![(whence..whence + 1, "Из каких комнат".to_owned())]))
+}
+
+/// "Is there any room without windows?": of rooms, not of free space.
+fn any_room(words: &Words<'_>) -> Option<String> {
+    const TOLD: [&str; 9] =
+        ["without", "with", "that", "which", "where", "locked", "open", "closed", "empty"];
+    let any = (0..words.keys.len())
+        .find(|&n| words.is(n, &["any"]) && words.is(n + 1, &["room"]) && words.is(n + 2, &TOLD))?;
+    Some(words.replaced(vec![(any..any + 1, "a".to_owned())]))
+}
+
+/// "Which table has the most things on it?": on the table that is asked for.
+fn on_it(words: &Words<'_>) -> Option<String> {
+    let last = words.keys.len().checked_sub(1)?;
+    let which = words.find(&["which", "what"])?;
+    let has = words.find(&["has", "have"]).filter(|has| *has > which)?;
+    let tail = last > has + 2
+        && words.is(last, &["it", "them"])
+        && words.is(last - 1, &["on", "in", "inside"]);
+    tail.then(|| words.replaced(vec![(last - 1..last + 1, String::new())]))
+}
+
+/// «Какая дверь ведёт наружу?»: to the street.
+fn outwards(words: &Words<'_>) -> Option<String> {
+    let out = words.find(&["наружу"])?;
+    Some(words.replaced(vec![(out..out + 1, "на улицу".to_owned())]))
+}
+
 /// «Спускайся!»: to the storey below.
 fn up_or_down(words: &Words<'_>) -> Option<String> {
     const UP: [&str; 4] = ["поднимись", "поднимитесь", "поднимайся", "поднимайтесь"];
@@ -272,6 +313,14 @@ mod tests {
         check("Выключи все лампы", "Выключи все лампы");
         check("Turn everything off", "Turn all devices off");
         check("Это далеко?", "Как далеко туда?");
+        check("Which room is that?", "Which room is it in?");
+        check("Какая дверь ведёт наружу?", "Какая дверь ведёт на улицу?");
+        check("Откуда можно попасть в ванную?", "Из каких комнат можно попасть в ванную?");
+        check("Is there any room without windows?", "Is there a room without windows?");
+        check("Is there any room on the desk?", "Is there any room on the desk?");
+        check("Откуда ты это знаешь?", "Откуда ты это знаешь?");
+        check("Which table has the most things on it?", "Which table has the most things ?");
+        check("Which chair has nothing on it?", "Which chair is empty?");
         check("Теперь спускайся!", "Теперь спускайся вниз!");
         check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
         check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");

@@ -114,6 +114,8 @@ fn begins(words: &[String]) -> bool {
             let next = vocabulary::longest(&words[taken..]);
             next.is_some_and(|(_, m)| matches!(m, Mark::Which | Mark::What))
         }
+        // «… и как до него добраться?»
+        Mark::How => has_mark(words, |mark| matches!(mark, Mark::Move)),
         // "… and is it on?"
         Mark::Be => {
             let next = vocabulary::longest(&words[taken..]);

@@ -125,6 +125,7 @@ impl Knowledge<'_> {
     /// A preposition with names: «на Столе-1», "between Bed 1 and Wardrobe 2".
     pub(super) fn place(&self, rel: Rel, anchors: &[Thing]) -> String {
         let Some(&anchor) = anchors.first() else { return String::new() };
+        let rel = if rel == Rel::There { self.there(anchor) } else { rel };
         let is_area = matches!(anchor, Thing::Entity(Entity::Area(_) | Entity::Map(_)));
         if let Some(storey) = self.bare_storey(anchor, anchors.len()) {
             return match (rel, self.is_russian()) {
@@ -154,6 +155,9 @@ impl Knowledge<'_> {
                 Rel::Behind => "behind",
                 Rel::InFrontOf => "in front of",
                 Rel::Between => "between",
+                Rel::Middle => "in the middle of",
+                Rel::Facing => "facing",
+                Rel::There => "at",
                 Rel::Leaning => "leaning against",
                 Rel::Outside => "outside",
                 Rel::From => "out of",
@@ -178,7 +182,7 @@ impl Knowledge<'_> {
             Rel::In | Rel::On | Rel::Of if is_area && anchors.len() == 1 => {
                 russian::where_at(self.named(anchor).phrase())
             }
-            Rel::In | Rel::Of => with(Preposition::V, Case::Locative),
+            Rel::In | Rel::Of | Rel::There => with(Preposition::V, Case::Locative),
             Rel::On => with(Preposition::Na, Case::Locative),
             Rel::Under => with(Preposition::Pod, Case::Instrumental),
             Rel::Above => with(Preposition::Nad, Case::Instrumental),
@@ -189,6 +193,8 @@ impl Knowledge<'_> {
             Rel::Behind => with(Preposition::Za, Case::Instrumental),
             Rel::InFrontOf => with(Preposition::Pered, Case::Instrumental),
             Rel::Between => format!("между {}", in_case(Case::Instrumental)),
+            Rel::Middle => format!("посередине {}", in_case(Case::Genitive)),
+            Rel::Facing => format!("лицом {}", with(Preposition::K, Case::Dative)),
             Rel::Leaning => format!("вплотную {}", with(Preposition::K, Case::Dative)),
             Rel::Outside => format!("вне {}", in_case(Case::Genitive)),
             Rel::From => match (is_area, anchors.len()) {
@@ -478,6 +484,7 @@ impl Knowledge<'_> {
                 format!("не дальше {far} {}", with(Preposition::Ot, Case::Genitive))
             }
             Rel::Has | Rel::Bears => with(Preposition::S, Case::Instrumental),
+            Rel::Facing => format!("лицом {}", with(Preposition::K, Case::Dative)),
             _ => with(Preposition::V, if walls { Case::Locative } else { Case::Prepositional }),
         }
     }

@@ -122,6 +122,8 @@ pub(super) enum Mark {
     Rank(u64),
     /// «что ты умеешь», "what can you do"
     Help,
+    /// «что ты сделал», "what did you do"
+    Did,
     /// «куда ты смотришь», "what are you facing"
     Heading,
     /// «подробно», "in detail"
@@ -191,7 +193,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::How, "как|how|каким образом"),
     (
         Mark::Move,
-        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|drive|walk|travel|come|move|navigate|get there",
+        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|reached|be reached|accessible|drive|walk|travel|come|move|navigate|get there",
     ),
     (Mark::As, "as|что и|как и|с чем"),
     (
@@ -269,7 +271,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Be,
-        "живёт|живут|обитает|lives|live|living in|является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
+        "keep|keeps|kept|живёт|живут|обитает|lives|live|living in|является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
         stand|stands|standing|lie|lies|lying|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
@@ -299,7 +301,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::List,
-        "покажи мне всю|покажи всю|покажи мне весь|покажи весь|покажи мне все|покажи мне всё|покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
+        "what are the names of|the names of|names of|покажи мне всю|покажи всю|покажи мне весь|покажи весь|покажи мне все|покажи мне всё|покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
     ),
     (
         Mark::See,
@@ -405,10 +407,7 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Other,
         "другой|другая|другое|другую|другого|другим|другие|других|ещё|остальные|остальных|остальное|остальную|other|another|else|the other|remaining|the rest of",
     ),
-    (
-        Mark::Link(Rel::In),
-        "left in|в|во|внутри|внутрь|in|inside|inside of|within|into|in the middle of|in side",
-    ),
+    (Mark::Link(Rel::In), "left in|в|во|внутри|внутрь|in|inside|inside of|within|into|in side"),
     (
         Mark::Link(Rel::On),
         "left on|на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of",
@@ -440,11 +439,23 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::InFrontOf),
-        "перед|передо|впереди|спереди от|спереди|напротив|in front of|before the|ahead of|opposite|opposite to|across from|in the front of|facing",
+        "перед|передо|впереди|спереди от|спереди|напротив|in front of|before the|ahead of|opposite|opposite to|across from|in the front of|the opposite of|opposite of",
     ),
     (
         Mark::Link(Rel::Between),
         "между|посередине между|меж|between|in between|in the middle between|directly between|directly in between",
+    ),
+    (
+        Mark::Link(Rel::Facing),
+        "лицом к|передом к|повёрнут к|повёрнута к|повёрнуто к|повёрнуты к|обращён к|обращена к|обращено к|обращены к|развёрнут к|развёрнута к|развёрнуто к|facing|faces|turned towards|turned to",
+    ),
+    (
+        Mark::Link(Rel::Middle),
+        "посередине|посреди|в центре|в середине|по центру|в самом центре|в самой середине|in the middle of|in the middle|in the centre of|in the center of|at the centre of|at the center of",
+    ),
+    (
+        Mark::Link(Rel::Middle),
+        "посередине|посреди|в центре|в середине|по центру|в самом центре|в самой середине|in the middle of|in the middle|in the centre of|in the center of|at the centre of|at the center of",
     ),
     (
         Mark::Link(Rel::Leaning),
@@ -547,6 +558,10 @@ const WORDS: &[(Mark, &str)] = &[
         help|who are you|what is your name|what s your name|what can you do|what can i ask|what can i ask you|how can you help",
     ),
     (
+        Mark::Did,
+        "что ты сделал|что ты делал|что ты только что сделал|что ты только что делал|что ты уже сделал|что было сделано|что ты делал только что|какое было последнее задание|что ты сделал последним|what did you do|what have you done|what did you just do|what have you just done|what was the last thing you did|what was your last task|what were you doing|what did you do last",
+    ),
+    (
         Mark::Heading,
         "куда ты смотришь|куда смотришь|куда ты повёрнут|в какую сторону ты смотришь|куда ты направлен|к чему ты повёрнут|what are you facing|which way are you facing|where are you facing|where are you looking|what direction are you facing",
     ),
@@ -605,7 +620,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "roughly|approximately|about how|примерно|приблизительно|но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\

@@ -56,11 +56,14 @@ pub fn plural(noun: &str) -> String {
         .rfind(|c: char| !c.is_alphabetic())
         .map_or(0, |at| at + noun[at..].chars().next().map_or(1, char::len_utf8));
     let (before, word) = noun.split_at(cut);
-    if word.is_empty() {
+    // A name in Russian letters takes no English ending.
+    if word.is_empty() || word.chars().any(is_cyrillic) {
         return noun.to_owned();
     }
     // "chest of drawers", "thing to drink from": the head stands before.
-    if let Some(at) = [" of ", " to ", " for ", " without "].iter().filter_map(|after| noun.find(after)).min() {
+    if let Some(at) =
+        [" of ", " to ", " for ", " without "].iter().filter_map(|after| noun.find(after)).min()
+    {
         return format!("{}{}", plural(&noun[..at]), &noun[at..]);
     }
     let lower = word.to_lowercase();
@@ -435,6 +438,8 @@ mod tests {
     fn plurals_and_possessives() {
         for (one, many) in [
             ("box", "boxes"),
+            ("tomato", "tomatoes"),
+            ("Кукла Маша", "Кукла Маша"),
             ("shelf", "shelves"),
             ("nursery", "nurseries"),
             ("key", "keys"),

@@ -62,6 +62,10 @@ const SAME: &[&str] = &[
     "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",
     "батарейка|батарея|аккумулятор|battery",
     "табурет|табуретка|stool",
+    "губка|губка для посуды|губка для мытья посуды|sponge|dish sponge",
+    "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet",
+    "нож|столовый нож|knife|butter knife|table knife",
+    "офисное кресло|офисный стул|рабочее кресло|office chair|desk chair|swivel chair",
     "часы|будильник|clock|alarm clock",
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
 ];

@@ -119,7 +119,20 @@ impl Knowledge<'_> {
                 return self.say_lighting(subject, filter.value, negated);
             }
         }
-        let mut found = self.subject(subject)?;
+        // «Комод в ванной?» where there are several: whether one of them is.
+        let places = claims.iter().all(|c| matches!(c, Claim::Related(r) if !r.negated));
+        let bare = subject.head.named.is_empty() && subject.head.things.is_none();
+        let mut found = match self.subject(subject) {
+            Err(Doubt::Ambiguous { .. }) if self.is_russian() && bare && places && !negated => {
+                let mut any = Noun { indefinite: true, plural: true, ..subject.clone() };
+                any.restrictions.extend(claims.iter().filter_map(|claim| match claim {
+                    Claim::Related(restriction) => Some(restriction.clone()),
+                    _ => None,
+                }));
+                return self.exists(&[any], false, false);
+            }
+            found => found?,
+        };
         // «Заперта ли лаборатория?»: its door, where it has only one.
         if let (&[room], [Claim::Value(filter)]) = (&found[..], claims)
             && let Some(area) = room.area()
@@ -486,16 +499,17 @@ impl Knowledge<'_> {
                 }
             }
             any |= !fits.is_empty();
-            parts.push(match (fits.is_empty(), self.is_russian()) {
-                (false, _) => format!("{} {}", self.name(thing), enumerate(&fits, self.language)),
-                (true, true) => {
-                    let own = self.claim_words(thing, &claims[0])?;
-                    format!("{} – ни то, ни другое: {own}", self.name(thing))
-                }
-                (true, false) => {
-                    let own = self.claim_words(thing, &claims[0])?;
-                    format!("neither: {} {own}", self.name(thing))
-                }
+            if !fits.is_empty() {
+                parts.push(format!("{} {}", self.name(thing), enumerate(&fits, self.language)));
+                continue;
+            }
+            // Of two values what it is instead; of several sides none.
+            let own = self.claim_words(thing, &claims[0])?;
+            parts.push(match (self.is_russian(), claims.len() > 2) {
+                (true, false) => format!("{} – ни то, ни другое: {own}", self.name(thing)),
+                (false, false) => format!("neither: {} {own}", self.name(thing)),
+                (true, true) => format!("{} – ни с одной из сторон", self.name(thing)),
+                (false, true) => format!("{} is on none of its sides", self.name(thing)),
             });
         }
         let said = if any { Said::Found } else { Said::Nothing };

@@ -9,6 +9,23 @@ use crate::language::question::{Doubt, Said};
 use crate::language::words::enumerate;
 
 impl Knowledge<'_> {
+    /// The description without its «на каждом столе», how things lie to these, and the tables.
+    pub(super) fn at_each(&self, noun: &Noun) -> Result<Option<(Noun, Rel, Vec<Thing>)>, Doubt> {
+        let Some(at) = noun.restrictions.iter().position(|r| {
+            !r.negated && matches!(&r.anchors[..], [only] if only.all && only.head.named.is_empty())
+        }) else {
+            return Ok(None);
+        };
+        let rel = noun.restrictions[at].rel;
+        let each = self.find(&noun.restrictions[at].anchors[0], true)?;
+        if each.len() < 2 || !each.iter().all(|t| t.replica().is_some()) {
+            return Ok(None);
+        }
+        let mut noun = noun.clone();
+        noun.restrictions.remove(at);
+        Ok(Some((noun, rel, each)))
+    }
+
     /// The description without its «в каждой комнате», and the rooms or storeys that this means.
     pub(super) fn in_each(&self, noun: &Noun) -> Result<Option<(Noun, Vec<Thing>)>, Doubt> {
         let each = noun.restrictions.iter().position(|r| {
@@ -64,10 +81,10 @@ impl Knowledge<'_> {
     }
 
     /// What fits a description, by room.
-    fn by_room(&self, noun: &Noun, rooms: &[Thing]) -> Vec<(Thing, Vec<Thing>)> {
+    fn by_room(&self, noun: &Noun, rel: Rel, rooms: &[Thing]) -> Vec<(Thing, Vec<Thing>)> {
         let found = self.find(noun, true).unwrap_or_default();
         let here = |room: &Thing| {
-            let inside = self.related(Rel::In, *room);
+            let inside = self.related(rel, *room);
             found.iter().copied().filter(|t| inside.contains(t)).collect()
         };
         rooms.iter().map(|room| (*room, here(room))).collect()
@@ -75,7 +92,7 @@ impl Knowledge<'_> {
 
     pub(super) fn count_in_each(&self, noun: &Noun, rooms: &[Thing]) -> Draft {
         const SHOWN: usize = 20;
-        let by_room = self.by_room(noun, rooms);
+        let by_room = self.by_room(noun, Rel::In, rooms);
         let counted = by_room.iter().filter(|(_, found)| !found.is_empty());
         let parts: Vec<String> = counted
             .take(SHOWN)
@@ -112,16 +129,16 @@ impl Knowledge<'_> {
         Draft::new(Said::Found, text).with(found).number(number)
     }
 
-    pub(super) fn exists_in_each(&self, noun: &Noun, rooms: &[Thing]) -> Draft {
-        let by_room = self.by_room(noun, rooms);
+    pub(super) fn exists_in_each(&self, noun: &Noun, rel: Rel, rooms: &[Thing]) -> Draft {
+        let by_room = self.by_room(noun, rel, rooms);
         let (with, without): (Vec<_>, Vec<_>) =
             by_room.into_iter().partition(|(_, found)| !found.is_empty());
         let rooms = |all: &[(Thing, Vec<Thing>)]| all.iter().map(|(r, _)| *r).collect::<Vec<_>>();
         let none = self.none_of(noun);
-        let lacking = self.place(Rel::In, &rooms(&without));
+        let lacking = self.place(rel, &rooms(&without));
         let text = match (with.is_empty(), without.is_empty(), self.is_russian()) {
-            (_, true, true) => format!("да, {}", self.place(Rel::In, &rooms(&with))),
-            (_, true, false) => format!("yes, {}", self.place(Rel::In, &rooms(&with))),
+            (_, true, true) => format!("да, {}", self.place(rel, &rooms(&with))),
+            (_, true, false) => format!("yes, {}", self.place(rel, &rooms(&with))),
             (_, false, true) => format!("нет, не везде: {lacking} {none} нет"),
             (_, false, false) => format!("no, not everywhere: there are no {none} {lacking}"),
         };

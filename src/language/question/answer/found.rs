@@ -314,7 +314,7 @@ impl Knowledge<'_> {
     pub(super) fn nothing_found(&self, noun: &Noun, place: &str) -> String {
         let frame = self.frame_of(noun);
         let general = noun.head.anything && noun.filters.is_empty();
-        if !noun.also.is_empty() || noun.like.is_some() {
+        if !noun.also.is_empty() || noun.like.is_some() || noun.beyond.is_some() {
             return format!("{place} {}", self.pick("таких нет", "there are none such"));
         }
         match (self.is_russian(), general) {
@@ -405,7 +405,10 @@ impl Knowledge<'_> {
                 return Ok(parts);
             }
             if let Some((each, rooms)) = self.in_each(noun)? {
-                return Ok(self.exists_in_each(&each, &rooms));
+                return Ok(self.exists_in_each(&each, Rel::In, &rooms));
+            }
+            if let Some((each, rel, tables)) = self.at_each(noun)? {
+                return Ok(self.exists_in_each(&each, rel, &tables));
             }
             if let Some(asked) = noun.count {
                 return self.exist_so_many(noun, asked);

@@ -113,6 +113,7 @@ impl Knowledge<'_> {
             Query::Courtesy(courtesy) => self.courteous(*courtesy),
             Query::WhatDoYouSee => self.what_do_you_see(),
             Query::Sees(noun) => self.sees(noun)?,
+            Query::Deeds => self.deeds(),
             Query::WhatDoYouHold => self.what_do_you_hold(),
             Query::Describe(noun) => self.describe(noun)?,
             Query::Why { negated, about } => self.why(*negated, about.as_deref())?,

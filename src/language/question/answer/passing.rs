@@ -28,7 +28,8 @@ impl Knowledge<'_> {
         let (through, mut avoided) = (each(through)?, each(avoiding)?);
         let (ends, goals) = (self.rooms_of(start), self.rooms_of(goal));
         if ends.is_empty() || goals.is_empty() {
-            let text = self.pick("где это, на карте не указано", "the map does not tell where it is");
+            let text =
+                self.pick("где это, на карте не указано", "the map does not tell where it is");
             return Ok(Draft::new(Said::Unknown, text.to_owned()).about(&[goal]));
         }
         let free = Limits::default();
@@ -40,11 +41,14 @@ impl Knowledge<'_> {
         let limits = Limits { avoiding: avoided.clone(), open_only: asks == Passing::Unopened };
         let through = if must { &[][..] } else { &through[..] };
         let way = self.passage_through(&ends, &goals, through, &limits);
+        // Who comes through a room twice on the way does not need to pass where he turns round.
+        let way = way.filter(|way| asks == Passing::How || way.is_straight());
         let any = self.passage(&ends, &goals, &free);
         let Some(any) = any else {
+            let (from, to) = (self.place(Rel::From, &[start]), self.place(Rel::To, &[goal]));
             let text = match self.is_russian() {
-                true => format!("туда с карты пути нет {}", self.place(Rel::From, &[start])),
-                false => "there is no way there on the map".to_owned(),
+                true => format!("нет, по карте {from} {to} не ведут ни двери, ни проходы"),
+                false => format!("no, by the map no doors or passages lead {from} {to}"),
             };
             return Ok(Draft::new(Said::No, text).about(&[goal]));
         };
@@ -64,11 +68,12 @@ impl Knowledge<'_> {
                 let text = self.pick("да, другого пути нет", "yes, there is no other way");
                 (Said::Yes, format!("{text}: {}", self.told(&any)))
             }
-            (Passing::Whether | Passing::Unopened, Some(way)) => match self.blocked(start, goal, &way)
-            {
-                Some(why) => (Said::No, format!("{no}: {why}")),
-                None => (Said::Yes, format!("{yes}, {}", self.told(&way))),
-            },
+            (Passing::Whether | Passing::Unopened, Some(way)) => {
+                match self.blocked(start, goal, &way) {
+                    Some(why) => (Said::No, format!("{no}: {why}")),
+                    None => (Said::Yes, format!("{yes}, {}", self.told(&way))),
+                }
+            }
             (_, None) => {
                 let text = self.pick("нет, путь только такой", "no, this is the only way");
                 (Said::No, format!("{text}: {}", self.told(&any)))
@@ -133,7 +138,9 @@ impl Knowledge<'_> {
             let text = match (rooms.is_empty(), self.is_russian()) {
                 (true, true) => format!("ни одной: {told}"),
                 (true, false) => format!("none: {told}"),
-                (false, true) => format!("комнат на пути {} ({}): {told}", rooms.len(), self.list(&rooms)),
+                (false, true) => {
+                    format!("комнат на пути {} ({}): {told}", rooms.len(), self.list(&rooms))
+                }
                 (false, false) => format!(
                     "{} on the way ({}): {told}",
                     english::count(rooms.len() as u64, "room"),

@@ -176,6 +176,15 @@ impl Knowledge<'_> {
         Draft::new(Said::Found, text.to_owned())
     }
 
+    pub(super) fn deeds(&self) -> Draft {
+        let none = self
+            .pick("в этом разговоре я ещё ничего не делал", "I have done nothing yet in this talk");
+        match &self.memory.done {
+            Some(told) => Draft::new(Said::Found, told.say(self.language).to_owned()),
+            None => Draft::new(Said::Nothing, none.to_owned()),
+        }
+    }
+
     pub(super) fn what_do_you_hold(&self) -> Draft {
         let held: Vec<Thing> =
             self.senses.held().into_iter().map(|id| Thing::Entity(Entity::Replica(id))).collect();

@@ -21,6 +21,9 @@ impl Frame<'_, '_> {
         if self.has(Mark::Help) && !deed && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::Help);
         }
+        if self.has(Mark::Did) && self.nouns.is_empty() && self.spots.is_empty() {
+            return Some(Query::Deeds);
+        }
         if self.has(Mark::Heading) && self.nouns.is_empty() && self.spots.is_empty() {
             return Some(Query::WhereAreYou(Detail::Heading));
         }
@@ -99,8 +102,7 @@ impl Frame<'_, '_> {
     /// "Which key opens the lab?", «От какой двери ключ?», "What does Key 1 open?"
     pub(super) fn keys(&self) -> Option<Query> {
         // «Чем открыть лабораторию?»
-        let with_what = self.sentence.keys.first().is_some_and(|key| key == "чем");
-        if let ([door], true, true) = (&self.nouns[..], self.has(Mark::Opens), with_what)
+        if let ([door], true, true) = (&self.nouns[..], self.has(Mark::Opens), self.with_what())
             && (self.is_area(&door.noun) || self.is_doors(&door.noun))
         {
             let anchors = vec![door.noun.clone()];
@@ -169,7 +171,18 @@ impl Frame<'_, '_> {
             }
             () => None,
         };
-        if let (Some(use_for), true) = (use_for, asks) {
+        // "Where is the closest place to sit?"
+        let best =
+            self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Best(_) | Mark::BestTo(_)));
+        let nearest = best || self.nouns.iter().any(|s| s.noun.best.is_some());
+        if let (Some(Use::Sit), true) = (use_for, nearest) {
+            let kinds = self.lexicon.kind_of(&Extension::Trait("seat")).into_iter().collect();
+            let best = self.nouns.iter().find_map(|s| s.noun.best.clone());
+            let head = Head { kinds, ..Head::default() };
+            let seat = Noun { head, best, indefinite: true, ..Noun::default() };
+            return Some(Query::Find(self.with_rest(seat, &[])));
+        }
+        if let (Some(use_for), true) = (use_for, asks && !nearest) {
             return Some(Query::Place { use_for, what: self.first(), within: within() });
         }
         if !self.has(Mark::Free) {
@@ -215,6 +228,10 @@ impl Frame<'_, '_> {
             () if self.has(Mark::Where) && self.nouns.is_empty() => purposes::done_at(sort),
             () => sort,
         };
+        // «Что можно порезать?» asks what is cut, not with what.
+        if purposes::is_tool(sort) && !self.with_what() && !self.has(Mark::Where) {
+            return None;
+        }
         let asks = self.has(Mark::Where)
             || self.asks()
             || self.has(Mark::Anything)
@@ -240,7 +257,10 @@ impl Frame<'_, '_> {
             let noun = self.with_rest(noun, &[at]);
             return Some(Query::Find(Noun { plural: true, indefinite: true, ..noun }));
         }
-        let covered = |noun: &Noun| noun.head.kinds.iter().all(|kind| own.contains(kind));
+        let covered = |noun: &Noun| {
+            let kinds = &noun.head.kinds;
+            !kinds.is_empty() && kinds.iter().all(|kind| own.contains(kind))
+        };
         let noun = match &self.nouns[..] {
             [] => {
                 let head = Head { kinds: own, ..Head::default() };
@@ -248,7 +268,7 @@ impl Frame<'_, '_> {
             }
             [only] if only.noun.head.anything || covered(&only.noun) => only.noun.clone(),
             // «Чем порезать хлеб?»: what the deed is done to limits nothing.
-            [only] if self.has(Mark::Than) && !self.is_things(&only.noun) => {
+            [only] if self.with_what() && !self.is_things(&only.noun) => {
                 let head = Head { kinds: own, ..Head::default() };
                 Noun { head, ..Noun::default() }
             }
@@ -282,7 +302,13 @@ impl Frame<'_, '_> {
         for spot in &self.spots {
             self.attach(&mut noun, spot);
         }
-        said.then(|| Query::Find(noun))
+        said.then_some(Query::Find(noun))
+    }
+
+    /// «Чем», "with", "use": what it is done with is asked for.
+    fn with_what(&self) -> bool {
+        const WITH: [&str; 6] = ["чем", "with", "use", "used", "на", "on"];
+        self.sentence.keys.iter().any(|key| WITH.contains(&key.as_str()))
     }
 
     /// "things", «предметы»: anything at all.

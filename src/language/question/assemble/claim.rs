@@ -124,7 +124,7 @@ impl Frame<'_, '_> {
     }
 
     /// «Холодильник на кухне или в коридоре?», "Is the TV above the cabinet or on it?"
-    fn either_place(&self) -> Option<Query> {
+    pub(super) fn either_place(&self) -> Option<Query> {
         let or = self.place_of(Mark::Or)?;
         let [only] = &self.nouns[..] else { return None };
         let parted = self.spots.iter().any(|s| s.at < or) && self.spots.iter().any(|s| s.at > or);

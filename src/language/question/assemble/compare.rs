@@ -84,7 +84,11 @@ impl Frame<'_, '_> {
         let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
         let rooms: Vec<(Rel, &Noun)> = rooms.map(|s| (Rel::In, &s.noun)).collect();
         let either = self.spots.iter().any(|s| s.either);
-        let asks = self.has(Mark::Where) || self.asks() || self.has(Mark::Or) || either;
+        let asks = self.has(Mark::Where)
+            || self.asks()
+            || self.has(Mark::Or)
+            || self.has(Mark::HowMany)
+            || either;
         let within = |noun: &Noun, place: Option<&(Rel, &Noun)>| {
             let mut noun = Noun { plural: true, indefinite: true, ..noun.clone() };
             noun.filters.extend(self.filters());
@@ -234,6 +238,9 @@ impl Frame<'_, '_> {
             return Some(Query::Same { property: property.clone(), of: [first, second] });
         }
         let extreme = more?;
+        if let Some(query) = self.beyond(extreme) {
+            return Some(query);
+        }
         let [.., first, second] = &self.nouns[..] else { return None };
         let (mut what, mut other) = (first.noun.clone(), second.noun.clone());
         // "… the fridge or the wardrobe in Room V": a place belongs to the noun before it.
@@ -248,6 +255,35 @@ impl Frame<'_, '_> {
         }
         let by = self.asks_by_how_much();
         Some(Query::Larger { what, than: other, extreme, to: None, by })
+    }
+
+    /// "Which room is bigger than the kitchen?", «Что выше холодильника?»: all that are so.
+    fn beyond(&self, extreme: Extreme) -> Option<Query> {
+        let side = matches!(extreme, Extreme::LeftMost | Extreme::RightMost);
+        if !self.asks() || self.has(Mark::Or) || side || self.asks_by_how_much() {
+            return None;
+        }
+        let more =
+            self.marks.iter().find_map(|(m, at)| matches!(m, Mark::More(_)).then_some(*at))?;
+        let (asked, other) = match &self.nouns[..] {
+            [asked, other] if self.follows_which(asked.at) && other.at > more => {
+                let general = asked.noun.head.named.is_empty()
+                    && asked.noun.head.things.is_none()
+                    && self.is_area(&asked.noun) == self.is_area(&other.noun);
+                (general.then(|| asked.noun.clone())?, other)
+            }
+            [other] if other.at > more && !self.follows_which(other.at) => {
+                let head = Head { anything: true, ..Head::default() };
+                (Noun { head, ..Noun::default() }, other)
+            }
+            _ => return None,
+        };
+        let mut noun = Noun { plural: true, indefinite: true, ..asked };
+        for spot in self.spots.iter().filter(|s| s.at < more) {
+            self.attach(&mut noun, spot);
+        }
+        noun.beyond = Some((extreme, Box::new(self.with_own_places(other))));
+        Some(Query::Find(noun))
     }
 
     /// A noun with the places that stand behind it, before the next.
@@ -265,9 +301,11 @@ impl Frame<'_, '_> {
     fn with_next_places(&self, spot: &Spot) -> Vec<Noun> {
         let mut nouns = spot.nouns.clone();
         let mut at = spot.at;
-        while let Some(next) = self.spots.iter().find(|s| {
-            s.at == at + 1 && matches!(s.rel, Rel::In | Rel::On | Rel::Of | Rel::Under)
-        }) {
+        while let Some(next) = self
+            .spots
+            .iter()
+            .find(|s| s.at == at + 1 && matches!(s.rel, Rel::In | Rel::On | Rel::Of | Rel::Under))
+        {
             if let Some(last) = nouns.last_mut() {
                 self.attach(last, next);
             }

@@ -1,4 +1,4 @@
-//! The items of a sentence sorted by what they are, and places handed to the nouns that they belong to.
+//! The items of a sentence sorted by what they are.
 //!
 //! Invariant: no item is lost; what nothing knows ends the reading with a doubt.
 
@@ -10,10 +10,8 @@ use super::things;
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase, Sentence};
 use crate::language::question::lexicon::{Extension, Lexicon};
-use crate::language::question::query::{
-    Best, Closeness, Extreme, Filter, Head, Noun, Rel, Restriction, Thing,
-};
-use crate::language::question::values::ValueId;
+use crate::language::question::purposes;
+use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::language::question::vocabulary::{Mark, Pronoun};
 use crate::language::report::Detail;
 
@@ -205,6 +203,12 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Property(property) => {
                     frame.property.get_or_insert((property.clone(), at));
                 }
+                // "Chair 12", of which there is none
+                Item::Number(_)
+                    if let Some(reference) = numbered(items.get(at.wrapping_sub(1)), sentence) =>
+                {
+                    return Err(Doubt::Unknown { reference, near: Vec::new() });
+                }
                 Item::Number(number) => {
                     if !frame.counts(*number, at) && !frame.counts_last(*number, items.len() - at) {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
@@ -214,10 +218,16 @@ impl<'s, 't> Frame<'s, 't> {
                 // «Чем порезать хлеб?»: what is cut need not be on the map.
                 Item::Unknown(_)
                     if at > 0
-                        && matches!(items[at - 1], Item::Mark(Mark::Deed(_)))
-                        && (frame.has(Mark::Than) || matches!(items.last(), Some(Item::Link(_)))) => {}
+                        && matches!(items[at - 1], Item::Mark(Mark::Deed(sort)) if purposes::is_tool(sort)) =>
+                    {}
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
+        }
+        // "What else is there?"
+        let bare = frame.nouns.is_empty() && frame.spots.is_empty() && frame.there.is_none();
+        if bare && frame.asks() && frame.has(Mark::Other) && frame.has(Mark::Exists) {
+            let meant = referent(Pronoun::There);
+            frame.there = (!meant.is_empty()).then(|| things(meant, "there"));
         }
         // "How far is it from here?"
         let it = sentence.keys.iter().any(|key| key == "it");
@@ -372,7 +382,7 @@ impl<'s, 't> Frame<'s, 't> {
         self.has(Mark::What) || self.has(Mark::Which)
     }
 
-    fn is_kind(&self, noun: &Noun, wanted: impl Fn(&Extension) -> bool) -> bool {
+    pub(super) fn is_kind(&self, noun: &Noun, wanted: impl Fn(&Extension) -> bool) -> bool {
         noun.head.kinds.iter().any(|k| wanted(&self.lexicon.kind(*k).extension))
     }
 
@@ -428,192 +438,19 @@ impl<'s, 't> Frame<'s, 't> {
     pub(super) fn first(&self) -> Option<Noun> {
         self.nouns.first().map(|s| s.noun.clone())
     }
+}
 
-    /// A noun with all places, values and superlatives of the sentence, but for the places left out.
-    pub(super) fn with_rest(&self, mut noun: Noun, without: &[usize]) -> Noun {
-        for spot in self.spots.iter().filter(|s| !without.contains(&s.at)) {
-            self.attach(&mut noun, spot);
-        }
-        noun.filters.extend(self.filters());
-        noun.sizes.extend(self.sizes.iter().copied());
-        noun.except.extend(self.except.iter().cloned());
-        // «Что ещё на нём стоит?»
-        noun.other |= noun.head.anything && self.has(Mark::Other);
-        if noun.other {
-            // "What else is in the room with the bed?": the bed is not asked for.
-            let places = noun.restrictions.iter().flat_map(|r| &r.anchors);
-            let having = places.flat_map(|place| &place.restrictions);
-            let named = having.filter(|r| matches!(r.rel, Rel::Has | Rel::Bears));
-            let named: Vec<Noun> = named.flat_map(|r| r.anchors.clone()).collect();
-            noun.except.extend(named);
-        }
-        if let Some(there) = &self.there {
-            noun.restrictions.push(Restriction {
-                rel: Rel::In,
-                anchors: vec![there.clone()],
-                negated: false,
-            });
-        }
-        self.with_best(noun)
-    }
-
-    /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
-    pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
-        if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
-            return;
-        }
-        // «ключ от лаборатории»
-        if matches!(spot.rel, Rel::From | Rel::To | Rel::Of) && self.is_key(noun) {
-            let opens = Spot { rel: Rel::Opens, ..spot.clone() };
-            noun.restrictions.extend(opens.restrictions());
-            return;
-        }
-        // «в комнате с диваном», «стол с лампой»
-        if spot.rel == Rel::Has {
-            let area = self.is_area(noun);
-            let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
-            match last {
-                Some(anchor) if self.is_area(anchor) => {
-                    anchor.restrictions.extend(spot.restrictions())
-                }
-                // "on the table with the vase"
-                Some(anchor)
-                    if !anchor.head.kinds.is_empty()
-                        && self.spots.iter().any(|s| s.at + 1 == spot.at) =>
-                {
-                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
-                    anchor.restrictions.extend(spot.restrictions());
-                }
-                _ if area => noun.restrictions.extend(spot.restrictions()),
-                _ => {
-                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
-                    noun.restrictions.extend(spot.restrictions());
-                }
-            }
-            return;
-        }
-        let is_room =
-            matches!(spot.rel, Rel::In | Rel::On | Rel::Of) && self.is_area(&spot.nouns[0]);
-        if is_room && !self.is_area(noun) {
-            for restriction in &mut noun.restrictions {
-                for anchor in &mut restriction.anchors {
-                    if !self.is_area(anchor) && anchor.head.things.is_none() && !spot.negated {
-                        anchor.restrictions.extend(spot.restrictions());
-                    }
-                }
-            }
-        }
-        // «рядом со столом у окна»: the window tells which table.
-        let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
-        match last {
-            Some(anchor)
-                if !is_room
-                    && !self.is_area(anchor)
-                    && !self.is_kind(anchor, |e| *e == Extension::Floor)
-                    && anchor.head.things.is_none()
-                    && spot.at > 0
-                    && self.spots.iter().any(|s| s.at + 1 == spot.at)
-                    && spot.rel != Rel::To =>
-            {
-                anchor.restrictions.extend(spot.restrictions());
-            }
-            _ => noun.restrictions.extend(spot.restrictions()),
-        }
-    }
-
-    /// The values of the sentence that stand by themselves; of those joined by "or" one will do.
-    pub(super) fn filters(&self) -> Vec<Filter> {
-        let mut filters: Vec<Filter> = Vec::new();
-        let mut last = None;
-        for (value, at, negated) in &self.values {
-            let property = |value: ValueId| &self.lexicon.values.entry(value).property;
-            let joined = at.checked_sub(1).is_some_and(|joint| {
-                // «красная и синяя»: no thing is both.
-                let alike = filters.last().is_some_and(|f| property(f.value) == property(*value));
-                last == joint.checked_sub(1)
-                    && (self.marks.contains(&(Mark::Or, joint))
-                        || (alike && self.marks.contains(&(Mark::And, joint))))
-            });
-            match filters.last_mut() {
-                Some(before) if joined => before.or.push(*value),
-                _ => filters.push(Filter::new(*value, *negated)),
-            }
-            last = Some(*at);
-        }
-        filters
-    }
-
-    /// A comparative that nothing is compared with asks for the most: "Which of the windows is bigger?"
-    fn more_of_several(&self) -> Option<Extreme> {
-        let one = self.nouns.len() + self.spots.iter().filter(|s| s.rel == Rel::From).count() == 1;
-        let more = self.marks.iter().find_map(|(mark, _)| match mark {
-            Mark::More(extreme) => Some(*extreme),
-            _ => None,
-        });
-        more.filter(|_| one && self.has(Mark::Which) && !self.has(Mark::Than))
-    }
-
-    /// «какой из двух шкафов», "which of the two chairs": the number tells how many there are to choose from.
-    fn chooses_of(&self) -> bool {
-        let of = |key: &String| ["из", "of"].contains(&key.as_str());
-        self.has(Mark::Which) && self.sentence.keys.iter().any(of)
-    }
-
-    /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.
-    fn with_best(&self, mut noun: Noun) -> Noun {
-        let alone = self.marks.iter().find_map(|(mark, _)| match mark {
-            Mark::Best(extreme) | Mark::BestTo(extreme) => Some(*extreme),
-            Mark::Nearer(Closeness::Nearer) => Some(Extreme::Nearest),
-            Mark::Nearer(Closeness::Farther) => Some(Extreme::Farthest),
-            _ => None,
-        });
-        // «Которое из окон больше?»: of several the most.
-        let alone = alone.or_else(|| self.more_of_several());
-        if noun.best.is_none() {
-            if alone.is_some() && self.chooses_of() {
-                noun.count = None;
-            }
-            // «Какая комната больше всего?» compares rooms; what is counted stands after it.
-            let alone = alone.map(|extreme| match extreme {
-                Extreme::Most => Extreme::Biggest,
-                Extreme::Fewest => Extreme::Smallest,
-                other => other,
-            });
-            noun.best = alone.map(|extreme| Best { extreme, anchor: None });
-        }
-        if noun.rank.is_none() {
-            noun.rank = self.marks.iter().find_map(|(mark, _)| match mark {
-                Mark::Rank(rank) => Some(*rank),
-                _ => None,
-            });
-        }
-        // "the nearest lift", though one of them is called just that
-        if noun.best.is_some() && !noun.head.kinds.is_empty() {
-            noun.head.named.clear();
-        }
-        let Some(best) = &mut noun.best else { return noun };
-        if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
-            let is_anchor = |r: &Restriction| {
-                matches!(r.rel, Rel::To | Rel::From | Rel::At | Rel::NextTo | Rel::Near)
-            };
-            let found = noun.restrictions.iter().position(is_anchor);
-            if let Some(at) = found {
-                let anchor = noun.restrictions.remove(at).anchors.into_iter().next();
-                // «ближайший ко мне»: to the robot, as when nothing is said.
-                best.anchor = anchor.map(Box::new);
-            } else if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
-                && let Some(second) = self.nouns.get(1)
-            {
-                // "nearest to the window of the lab"
-                let mut anchor = second.noun.clone();
-                for spot in self.spots.iter().filter(|spot| spot.at > second.at) {
-                    self.attach(&mut anchor, spot);
-                }
-                best.anchor = Some(Box::new(anchor));
-            }
-        }
-        noun
-    }
+/// A noun with a number in digits right behind it, as it was said.
+fn numbered(before: Option<&Item>, sentence: &Sentence<'_>) -> Option<String> {
+    let phrase = match before? {
+        Item::Noun(phrase) => phrase,
+        Item::Place { nouns, .. } => nouns.last()?,
+        _ => return None,
+    };
+    let number = sentence.keys.get(phrase.words.end)?;
+    let named = !phrase.noun.plural && number.parse::<u64>().is_ok();
+    let words = phrase.words.start..phrase.words.end + 1;
+    named.then(|| sentence.said(&words).to_owned())
 }
 
 /// The words of a noun among the items.

@@ -4,6 +4,7 @@
 //! telling a word is («ближе», "how far"), the earlier its rule.
 
 mod about;
+mod attach;
 mod claim;
 mod compare;
 mod frame;
@@ -75,8 +76,11 @@ fn each_of(
                 | Mark::Alike
         )
     };
+    // "How many pots and kettles are there?" counts each.
+    let counts = frame.has(Mark::HowMany) && frame.property.is_none();
     let shared = frame.spots.iter().any(|s| s.nouns[0].same)
         || frame.links.iter().any(|(rel, _)| matches!(rel, Rel::NextTo | Rel::Near));
+    let together = |mark: &Mark| together(mark) && !(counts && *mark == Mark::Exists);
     if shared || frame.marks.iter().any(|(mark, _)| together(mark)) {
         return None;
     }
@@ -94,7 +98,6 @@ fn each_of(
     }
     // «Стулья 3» is one chair by its name.
     let plural = |n: &usize| matches!(&items[*n], Item::Noun(p) if p.noun.plural && p.noun.head.named.len() != 1);
-    let counts = frame.has(Mark::HowMany) && frame.property.is_none();
     if nouns.iter().all(plural) && !counts {
         return None;
     }
@@ -225,6 +228,10 @@ impl Frame<'_, '_> {
     fn read(&self) -> Option<Query> {
         if self.has(Mark::Why) || self.has(Mark::WhyNot) {
             return Some(self.why());
+        }
+        // «Какой стул посередине?»: of what is not said.
+        if self.links.iter().any(|(rel, _)| *rel == Rel::Middle) {
+            return None;
         }
         // «Влезет ли коробка под кровать?»: the room under things is not known.
         // "What can be opened in the bedroom?" does not ask what is open.

@@ -4,6 +4,7 @@
 
 use super::Frame;
 use crate::language::question::lexicon::{Extension, KindId};
+use crate::language::question::purposes;
 use crate::language::question::query::{Claim, Head, Noun, Query, Rel, Sized};
 use crate::language::question::values::{Property, ValueId};
 use crate::language::question::vocabulary::Mark;
@@ -84,19 +85,27 @@ impl Frame<'_, '_> {
                 | Query::WhereAreYou(_)
                 | Query::WhereAmI
                 | Query::WhatDoYouSee
+                | Query::Deeds
                 | Query::WhatDoYouHold
         );
         if whole {
             return None;
+        }
+        // «Какого цвета не бывает стульев?»
+        if self.negated && matches!(query, Query::Property { .. } | Query::Size { .. }) {
+            return Some(self.sentence.text.to_owned());
         }
         let used = Used::of(query);
         // Where a door leads is told with all its rooms.
         let leads = matches!(query, Query::Leads(_));
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let places = self.spots.iter().flat_map(|s| &s.nouns);
+        // «Чем порезать хлеб?»: what is cut limits nothing.
+        let is_tool = |mark: &Mark| matches!(mark, Mark::Deed(sort) if purposes::is_tool(*sort));
+        let tool = self.marks.iter().any(|(mark, _)| is_tool(mark));
         let tells = |noun: &&Noun| {
             let general = noun.head.anything || noun.head.things.is_some();
-            !general && !self.asks_only(noun) && !(leads && self.is_area(noun))
+            !(general || tool || self.asks_only(noun) || (leads && self.is_area(noun)))
         };
         let mut said = nouns.chain(places).chain(&self.except).filter(tells);
         if let Some(noun) = said.find(|noun| !used.has(&noun.head)) {
@@ -104,13 +113,10 @@ impl Frame<'_, '_> {
         }
         // "What does Key 1 open?", "What can be opened?": what is done, not what is so.
         let opens = matches!(query, Query::Anchor { rel: Rel::Opens, .. }) || self.has(Mark::Can);
-        let done = |value: ValueId| {
-            opens && self.lexicon.values.entry(value).property == Property::State
-        };
-        let value = self
-            .values
-            .iter()
-            .find(|(value, _, _)| !used.values.contains(value) && !done(*value));
+        let done =
+            |value: ValueId| opens && self.lexicon.values.entry(value).property == Property::State;
+        let value =
+            self.values.iter().find(|(value, _, _)| !used.values.contains(value) && !done(*value));
         let text = value.map(|(value, _, _)| self.lexicon.values.entry(*value).russian.clone());
         text.or_else(|| {
             let lost = self.sizes.iter().any(|size| !used.sizes.contains(size));

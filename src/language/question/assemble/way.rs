@@ -141,7 +141,10 @@ impl Frame<'_, '_> {
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let spots = self.spots.iter().flat_map(|s| &s.nouns);
         let all: Vec<&Noun> = nouns.chain(spots).collect();
-        let out = !all.is_empty() && all.iter().all(|noun| self.is_building(noun));
+        // "How do I get out of here?"
+        const OUT: [&str; 6] = ["out", "leave", "exit", "выйти", "выбраться", "выехать"];
+        let says = self.sentence.keys.iter().any(|key| OUT.contains(&key.as_str()));
+        let out = (!all.is_empty() || says) && all.iter().all(|noun| self.is_building(noun));
         if !out || self.spots.iter().any(|s| s.rel != Rel::From) {
             return None;
         }
@@ -171,7 +174,7 @@ impl Frame<'_, '_> {
         let exit = self.spots.iter().find(|s| self.is_exits(&s.nouns[0]));
         let asked = self.nouns.iter().find(|s| self.is_rooms(&s.noun) && self.follows_which(s.at));
         if let (Some(exit), Some(asked)) = (exit, asked)
-            && (self.has(Mark::Lead) || self.has(Mark::Move))
+            && (self.has(Mark::Lead) || self.has(Mark::Move) || self.has(Mark::Exists))
         {
             let anchors = vec![Noun { indefinite: true, ..exit.nouns[0].clone() }];
             let mut rooms = Noun { plural: true, indefinite: true, ..asked.noun.clone() };

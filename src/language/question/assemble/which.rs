@@ -80,6 +80,10 @@ impl Frame<'_, '_> {
         if !self.has(Mark::Where) && !self.has(Mark::Whither) && !taken {
             return None;
         }
+        // «Где газета, в гостиной или на кухне?»
+        if let Some(choice) = self.either_place() {
+            return Some(choice);
+        }
         // «Где чашка, которая не белая?» denies the value.
         let denies = self.negated && !taken && self.values.iter().all(|(_, _, negated)| !negated);
         if let (true, Some(lacked)) = (denies, self.nouns.first())
@@ -95,7 +99,10 @@ impl Frame<'_, '_> {
             // "Where is it" has a noun; «Где находится то, что на столе?» has not.
             let mut noun = Noun { plural: true, ..Noun::default() };
             noun.head.anything = true;
-            return (!self.spots.is_empty()).then(|| Query::Where(self.with_rest(noun, &[])));
+            // "Where is everything that is red?"
+            let valued = self.has(Mark::All) && !self.values.is_empty();
+            let told = !self.spots.is_empty() || valued;
+            return told.then(|| Query::Where(self.with_rest(noun, &[])));
         };
         let mut noun = first.noun.clone();
         for other in nouns {
@@ -125,6 +132,8 @@ impl Frame<'_, '_> {
                             Mark::Be | Mark::Hang | Mark::Exists | Mark::Best(_) | Mark::The
                         )
                 }) || self.values.iter().any(|(_, a, _)| *a == between)
+                    // «в каких они комнатах»
+                    || self.nouns.iter().any(|s| s.at == between && s.noun.head.things.is_some())
             })
         })
     }
@@ -158,7 +167,10 @@ impl Frame<'_, '_> {
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
         let link = before.or(stranded).map(|(rel, _)| *rel);
         let asked = self.nouns.iter().find(|s| {
-            s.at > question && self.follows_which(s.at) && !self.nominal_subject(s, link)
+            s.at > question
+                && self.follows_which(s.at)
+                && !self.nominal_subject(s, link)
+                && (s.noun.head.things.is_none() || link.is_none())
         });
         let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
         if let (Some(rel), Some(of)) = (link, other) {
@@ -380,6 +392,13 @@ impl Frame<'_, '_> {
             noun.head.named.clear();
         }
         noun.plural = true;
-        Some(Query::Find(Noun { indefinite: true, ..self.with_rest(noun, &[]) }))
+        let mut noun = self.with_rest(noun, &[]);
+        // «Перечисли комнаты по размеру»: all of them, in that order.
+        let listed = self.nouns.first().map_or(usize::MAX, |s| s.at);
+        let ordered = self.marks.iter().any(|(m, at)| matches!(m, Mark::Best(_)) && *at > listed);
+        if ordered && noun.count.is_none() {
+            noun.count = Some(u64::MAX);
+        }
+        Some(Query::Find(Noun { indefinite: true, ..noun }))
     }
 }

@@ -68,6 +68,15 @@ impl Sentence<'_> {
             && phrase.nominative
     }
 
+    /// A short form of a participle, which no Russian noun takes.
+    pub(super) fn is_predicate(&self, token: &Token) -> bool {
+        const STEMS: [&str; 5] = ["открыт", "закрыт", "заперт", "включен", "выключен"];
+        let key = &self.keys[token.from as usize];
+        STEMS.iter().any(|stem| {
+            key.strip_prefix(stem).is_some_and(|end| ["", "а", "о", "ы"].contains(&end))
+        })
+    }
+
     /// Whether the word before is "I" or "you".
     pub(super) fn follows_person(&self, at: u32) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.to <= at).map(|t| t.kind);

@@ -453,15 +453,6 @@ impl<'t> Sentence<'t> {
         Ok((rest, modifier))
     }
 
-    /// A short form of a participle, which no Russian noun takes.
-    fn is_predicate(&self, token: &Token) -> bool {
-        const STEMS: [&str; 5] = ["открыт", "закрыт", "заперт", "включен", "выключен"];
-        let key = &self.keys[token.from as usize];
-        STEMS.iter().any(|stem| {
-            key.strip_prefix(stem).is_some_and(|end| ["", "а", "о", "ы"].contains(&end))
-        })
-    }
-
     /// The head, and its owner with the relation to it.
     fn head<'a>(&self, input: Tokens<'a>) -> HeadParsed<'a, '_> {
         let (rest, found) = match input.split_first() {
@@ -479,7 +470,11 @@ impl<'t> Sentence<'t> {
             let head =
                 Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() };
             let text = self.said(&words).to_owned();
-            return Ok((Tokens(after), None, Some((Rel::In, Noun { head, text, ..Noun::default() }))));
+            return Ok((
+                Tokens(after),
+                None,
+                Some((Rel::In, Noun { head, text, ..Noun::default() })),
+            ));
         }
         let Some((Token { kind: Tok::Noun(n), from, to }, after)) = rest.split_first() else {
             return Ok((rest, Some(found), None));

@@ -6,7 +6,7 @@ use nom::Parser;
 use nom::multi::many0;
 
 use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
-use crate::language::question::query::{Filter, Noun, Rel, Restriction};
+use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction};
 use crate::language::question::vocabulary::Mark;
 use crate::language::words::Language;
 
@@ -60,6 +60,13 @@ impl Sentence<'_> {
             _ => return None,
         };
         let rest = self.without_verbs(rest);
+        // «стул, на котором что-то лежит»
+        if let [Token { kind: Tok::Mark(Mark::Anything), .. }, after @ ..] = rest.0 {
+            let head = Head { anything: true, ..Head::default() };
+            let anchors = vec![Noun { head, indefinite: true, plural: true, ..Noun::default() }];
+            let rest = self.without_verbs(Tokens(after));
+            return Some((rest, vec![Restriction { rel, anchors, negated: false }], Vec::new()));
+        }
         let (rest, borne) = self.phrase(rest).ok()?;
         if borne.person.is_some() || borne.pronoun.is_some() {
             return None;
@@ -77,13 +84,29 @@ impl Sentence<'_> {
     ) -> Option<(Tokens<'a>, Vec<Restriction>, Vec<Filter>)> {
         let (which, after) = input.split_first()?;
         let comma = self.comma_between(phrase.words.end, which.from as usize);
-        if !self.is_pronoun(which) || (self.language == Language::Russian && !comma) {
+        // «Чашка, что на столе, белая?»
+        let before = self.tokens.iter().rev().find(|t| t.to as usize <= phrase.words.start);
+        let placed = matches!(before.map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))));
+        let that = which.kind == Tok::Mark(Mark::What)
+            && self.keys[which.from as usize] == "что"
+            && !placed
+            && matches!(after.0.first().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))));
+        if !(self.is_pronoun(which) || that) || (self.language == Language::Russian && !comma) {
             return None;
         }
         let mut rest = self.without_verbs(after);
         let negated = matches!(rest.0.first().map(|t| t.kind), Some(Tok::Mark(Mark::Not)));
         if negated {
             rest = self.without_verbs(Tokens(&rest.0[1..]));
+        }
+        // "the rooms that have a table"
+        if let [Token { kind: Tok::Mark(Mark::Have), .. }, after @ ..] = rest.0
+            && let Ok((rest, had)) = self.phrase(Tokens(after))
+            && had.person.is_none()
+            && had.pronoun.is_none()
+        {
+            let anchors = vec![Noun { indefinite: true, ..had.noun }];
+            return Some((rest, vec![Restriction { rel: Rel::Has, anchors, negated }], Vec::new()));
         }
         if let [Token { kind: Tok::Value(value), .. }, after @ ..] = rest.0 {
             return Some((Tokens(after), Vec::new(), vec![Filter::new(*value, negated)]));

@@ -141,6 +141,19 @@ impl Knowledge<'_> {
             let own: HashSet<Thing> = self.base(sort).into_iter().collect();
             found.retain(|t| own.contains(t));
         }
+        if let Some((extreme, other)) = &noun.beyond {
+            let other = self.one(other)?;
+            let less = matches!(
+                extreme,
+                Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest | Extreme::Lightest
+            );
+            let limit = self.measure(*extreme, other);
+            let beyond = |t: Thing| {
+                let pair = self.measure(*extreme, t).zip(limit);
+                pair.is_some_and(|(own, limit)| if less { own < limit } else { own > limit })
+            };
+            found.retain(|t| *t != other && beyond(*t));
+        }
         if let Some((property, other)) = &noun.like {
             let other = self.one(other)?;
             let own = |t: Thing| self.values(t).into_iter().find(|(p, _, _)| p == property);
@@ -287,7 +300,9 @@ impl Knowledge<'_> {
         if found.is_empty() {
             return Err(self.none_such(noun));
         }
-        let several = noun.plural || noun.all || noun.count.is_some() || noun.indefinite;
+        // Of equally big windows all are the biggest.
+        let equal = noun.best.is_some();
+        let several = noun.plural || noun.all || noun.count.is_some() || noun.indefinite || equal;
         if found.len() > 1 && !several && noun.head.things.is_none() {
             return Err(self.ambiguous(noun, &found));
         }

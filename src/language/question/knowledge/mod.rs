@@ -58,6 +58,7 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
     const RIGHT: &[Basis] = &[basis("RIGHT_OF")];
     const BEHIND: &[Basis] = &[basis("BEHIND")];
     const FRONT: &[Basis] = &[basis("IN_FRONT_OF")];
+    const FACING: &[Basis] = &[swapped("IN_FRONT_OF")];
     const LEANING: &[Basis] = &[basis("LEANING_AGAINST")];
     const HAS: &[Basis] = &[swapped("INSIDE")];
     const BEARS: &[Basis] = &[swapped("ON_TOP_OF"), swapped("INSIDE")];
@@ -72,10 +73,13 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
         Rel::RightOf => RIGHT,
         Rel::Behind => BEHIND,
         Rel::InFrontOf => FRONT,
+        Rel::Facing => FACING,
         Rel::Leaning => LEANING,
         Rel::Has => HAS,
         Rel::Bears => BEARS,
         Rel::Between
+        | Rel::There
+        | Rel::Middle
         | Rel::Outside
         | Rel::From
         | Rel::To

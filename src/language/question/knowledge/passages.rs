@@ -149,6 +149,12 @@ impl Passage {
         self.crossings.last().map_or(self.start, |last| last.into)
     }
 
+    /// Whether it comes into no room twice.
+    pub(in crate::language::question) fn is_straight(&self) -> bool {
+        let rooms = self.crossings.iter().map(|c| c.into).chain([self.start]);
+        rooms.collect::<BTreeSet<_>>().len() == self.crossings.len() + 1
+    }
+
     /// The rooms between its first and its last.
     pub(in crate::language::question) fn between(&self) -> Vec<AreaId> {
         let inner = self.crossings.len().saturating_sub(1);

@@ -6,7 +6,7 @@ use super::Frame;
 use super::Knowledge;
 use super::bases;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Rel, Thing};
+use crate::language::question::query::{Extreme, Rel, Thing};
 use crate::map::{Entity, Mark};
 use crate::units::{AreaId, MapId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashSet};
@@ -76,6 +76,8 @@ impl Knowledge<'_> {
                 found.retain(|t| *t != anchor);
                 found
             }
+            (Rel::Middle, _) => self.in_middle(anchor),
+            (Rel::There, _) => self.related(self.there(anchor), anchor),
             (Rel::Has, _) => self.holders(anchor),
             (Rel::Opens, _) => self.keys_of(anchor),
             (Rel::LeftOf | Rel::RightOf | Rel::Behind | Rel::InFrontOf, Thing::Robot) => {
@@ -100,6 +102,35 @@ impl Knowledge<'_> {
             && furniture(y)
             && self.area_of(x) == self.area_of(y)
             && self.distance(x, y).is_some_and(|d| d <= AT_FURNITURE)
+    }
+
+    /// How things lie to what «там» means: on what bears them, else in it.
+    pub(in crate::language::question) fn there(&self, anchor: Thing) -> Rel {
+        let on = |id: ReplicaId| {
+            !self.by_relation(Rel::On, Thing::Entity(Entity::Replica(id))).is_empty()
+        };
+        let inside = !self.by_relation(Rel::In, anchor).is_empty();
+        if !inside && anchor.replica().is_some_and(on) { Rel::On } else { Rel::In }
+    }
+
+    /// What stands on a room's floor, or on a thing, no farther from its middle than a quarter of its narrower side.
+    fn in_middle(&self, anchor: Thing) -> Vec<Thing> {
+        let (Some((map, middle)), Some(narrower)) =
+            (self.point(anchor), self.measure(Extreme::Narrowest, anchor))
+        else {
+            return Vec::new();
+        };
+        let mut found = match anchor.area() {
+            Some(area) => self.in_area(area),
+            None => self.by_relation(Rel::On, anchor),
+        };
+        let on_floor = |id: ReplicaId| anchor.area().is_none() || self.on_floor().contains(&id);
+        let away = |id: ReplicaId| self.relations.distance_to_point(id, map, middle);
+        found.retain(|t| {
+            t.replica()
+                .is_some_and(|id| on_floor(id) && away(id).is_some_and(|d| d <= narrower / 4.0))
+        });
+        found
     }
 
     /// Keys of a door, or of the doors of a room.

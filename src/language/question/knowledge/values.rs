@@ -2,7 +2,7 @@
 //!
 //! Invariant: what a thing itself says goes before what its object says.
 
-use super::Knowledge;
+use super::{Gate, Knowledge};
 use crate::language::question::query::{Filter, Rel, Thing};
 use crate::language::question::values::{Property, ValueId};
 use crate::map::{DoorKind, DoorStatus, Entity};
@@ -86,7 +86,19 @@ impl Knowledge<'_> {
             return match values.entry(wanted).russian.as_str() {
                 "пустой" => !holds(),
                 "занятый" => holds(),
-                _ => false,
+                // A room is locked where all its doors are.
+                _ => {
+                    let open = values.of_door(DoorStatus::Open);
+                    let own = |gate: &Gate| match gate.is_passage {
+                        true => open.is_some_and(|open| values.is(open, wanted)),
+                        false => self.has_value(gate.thing, wanted),
+                    };
+                    let area = thing.area();
+                    let mut gates =
+                        self.gates().iter().filter(|g| area.is_some_and(|a| g.areas.contains(&a)));
+                    let stated = values.entry(wanted).property == Property::State;
+                    stated && gates.clone().next().is_some() && gates.all(own)
+                }
             };
         }
         let told = own.iter().any(|(_, v, _)| v.is_some_and(|v| values.entry(v).is_emptiness()));

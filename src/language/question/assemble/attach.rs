@@ -1,0 +1,226 @@
+//! Places, values and superlatives handed to the nouns that they belong to.
+//!
+//! Invariant: a place belongs to one noun, and to what narrows that noun.
+
+use super::Frame;
+use super::Spot;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
+use crate::language::question::values::ValueId;
+use crate::language::question::vocabulary::Mark;
+
+impl Frame<'_, '_> {
+    /// A noun with all places, values and superlatives of the sentence, but for the places left out.
+    pub(super) fn with_rest(&self, mut noun: Noun, without: &[usize]) -> Noun {
+        for spot in self.spots.iter().filter(|s| !without.contains(&s.at)) {
+            self.attach(&mut noun, spot);
+        }
+        noun.filters.extend(self.filters());
+        noun.sizes.extend(self.sizes.iter().copied());
+        noun.except.extend(self.except.iter().cloned());
+        // «Что ещё на нём стоит?»
+        noun.other |= noun.head.anything && self.has(Mark::Other);
+        if noun.other {
+            // "What else is in the room with the bed?": the bed is not asked for.
+            let places = noun.restrictions.iter().flat_map(|r| &r.anchors);
+            let having = places.flat_map(|place| &place.restrictions);
+            let named = having.filter(|r| matches!(r.rel, Rel::Has | Rel::Bears));
+            let named: Vec<Noun> = named.flat_map(|r| r.anchors.clone()).collect();
+            noun.except.extend(named);
+        }
+        if let Some(there) = &self.there {
+            let anchors = vec![there.clone()];
+            noun.restrictions.push(Restriction { rel: Rel::There, anchors, negated: false });
+        }
+        self.with_best(noun)
+    }
+
+    /// A place after another place belongs to the latter («на столе в кухне»); a room narrows both.
+    pub(super) fn attach(&self, noun: &mut Noun, spot: &Spot) {
+        if self.is_building(&spot.nouns[0]) && spot.rel == Rel::In {
+            return;
+        }
+        // «двери у кухни»: its own.
+        let windows = self.is_kind(noun, |e| *e == Extension::Windows);
+        if spot.rel == Rel::NextTo
+            && self.is_area(&spot.nouns[0])
+            && (self.is_doors(noun) || windows)
+        {
+            let own = Spot { rel: Rel::In, ..spot.clone() };
+            noun.restrictions.extend(own.restrictions());
+            return;
+        }
+        // «ключ от лаборатории»
+        if matches!(spot.rel, Rel::From | Rel::To | Rel::Of) && self.is_key(noun) {
+            let opens = Spot { rel: Rel::Opens, ..spot.clone() };
+            noun.restrictions.extend(opens.restrictions());
+            return;
+        }
+        // «в комнате с диваном», «стол с лампой»
+        if spot.rel == Rel::Has {
+            let area = self.is_area(noun);
+            let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
+            match last {
+                Some(anchor) if self.is_area(anchor) => {
+                    anchor.restrictions.extend(spot.restrictions())
+                }
+                // "on the table with the vase"
+                Some(anchor)
+                    if !anchor.head.kinds.is_empty()
+                        && self.spots.iter().any(|s| s.at + 1 == spot.at) =>
+                {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    anchor.restrictions.extend(spot.restrictions());
+                }
+                _ if area => noun.restrictions.extend(spot.restrictions()),
+                _ => {
+                    let spot = Spot { rel: Rel::Bears, ..spot.clone() };
+                    noun.restrictions.extend(spot.restrictions());
+                }
+            }
+            return;
+        }
+        let is_room =
+            matches!(spot.rel, Rel::In | Rel::On | Rel::Of) && self.is_area(&spot.nouns[0]);
+        if is_room && !self.is_area(noun) {
+            for restriction in &mut noun.restrictions {
+                for anchor in &mut restriction.anchors {
+                    if !self.is_area(anchor) && anchor.head.things.is_none() && !spot.negated {
+                        anchor.restrictions.extend(spot.restrictions());
+                    }
+                }
+            }
+        }
+        // «в ванной на комоде»: the room that stands before tells which one as well.
+        let own_room = |r: &&Restriction| {
+            !r.negated
+                && matches!(r.rel, Rel::In | Rel::On | Rel::Of)
+                && self.is_area(&r.anchors[0])
+        };
+        let room = noun.restrictions.iter().find(own_room).cloned();
+        let general = spot.nouns.iter().all(|n| {
+            n.head.named.is_empty() && n.head.things.is_none() && !n.head.kinds.is_empty()
+        });
+        if let (Some(room), Rel::On | Rel::Under | Rel::Above, true) = (room, spot.rel, general)
+            && !self.is_area(&spot.nouns[0])
+            && !self.is_area(noun)
+            && !self.is_kind(&spot.nouns[0], |e| matches!(e, Extension::Floor | Extension::Walls))
+            && noun.restrictions.len() == 1
+        {
+            let mut there = spot.clone();
+            there.nouns.iter_mut().for_each(|n| n.restrictions.push(room.clone()));
+            noun.restrictions.extend(there.restrictions());
+            return;
+        }
+        // «рядом со столом у окна»: the window tells which table.
+        let last = noun.restrictions.last_mut().and_then(|r| r.anchors.last_mut());
+        match last {
+            Some(anchor)
+                if !is_room
+                    && !self.is_area(anchor)
+                    && !self.is_kind(anchor, |e| *e == Extension::Floor)
+                    && anchor.head.things.is_none()
+                    && spot.at > 0
+                    && self.spots.iter().any(|s| s.at + 1 == spot.at)
+                    && spot.rel != Rel::To =>
+            {
+                anchor.restrictions.extend(spot.restrictions());
+            }
+            _ => noun.restrictions.extend(spot.restrictions()),
+        }
+    }
+
+    /// The values of the sentence that stand by themselves; of those joined by "or" one will do.
+    pub(super) fn filters(&self) -> Vec<Filter> {
+        let mut filters: Vec<Filter> = Vec::new();
+        let mut last = None;
+        for (value, at, negated) in &self.values {
+            let property = |value: ValueId| &self.lexicon.values.entry(value).property;
+            let joined = at.checked_sub(1).is_some_and(|joint| {
+                // «красная и синяя»: no thing is both.
+                let alike = filters.last().is_some_and(|f| property(f.value) == property(*value));
+                last == joint.checked_sub(1)
+                    && (self.marks.contains(&(Mark::Or, joint))
+                        || (alike && self.marks.contains(&(Mark::And, joint))))
+            });
+            match filters.last_mut() {
+                Some(before) if joined => before.or.push(*value),
+                _ => filters.push(Filter::new(*value, *negated)),
+            }
+            last = Some(*at);
+        }
+        filters
+    }
+
+    /// A comparative that nothing is compared with asks for the most: "Which of the windows is bigger?"
+    fn more_of_several(&self) -> Option<Extreme> {
+        let one = self.nouns.len() + self.spots.iter().filter(|s| s.rel == Rel::From).count() == 1;
+        let more = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::More(extreme) => Some(*extreme),
+            _ => None,
+        });
+        more.filter(|_| one && self.has(Mark::Which) && !self.has(Mark::Than))
+    }
+
+    /// «какой из двух шкафов», "which of the two chairs": the number tells how many there are to choose from.
+    fn chooses_of(&self) -> bool {
+        let of = |key: &String| ["из", "of"].contains(&key.as_str());
+        self.has(Mark::Which) && self.sentence.keys.iter().any(of)
+    }
+
+    /// Hands a superlative that stands by itself to the noun, and its «к столу» to the superlative.
+    fn with_best(&self, mut noun: Noun) -> Noun {
+        let alone = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::Best(extreme) | Mark::BestTo(extreme) => Some(*extreme),
+            Mark::Nearer(Closeness::Nearer) => Some(Extreme::Nearest),
+            Mark::Nearer(Closeness::Farther) => Some(Extreme::Farthest),
+            _ => None,
+        });
+        // «Которое из окон больше?»: of several the most.
+        let alone = alone.or_else(|| self.more_of_several());
+        if noun.best.is_none() {
+            if alone.is_some() && self.chooses_of() {
+                noun.count = None;
+            }
+            // «Какая комната больше всего?» compares rooms; what is counted stands after it.
+            let alone = alone.map(|extreme| match extreme {
+                Extreme::Most => Extreme::Biggest,
+                Extreme::Fewest => Extreme::Smallest,
+                other => other,
+            });
+            noun.best = alone.map(|extreme| Best { extreme, anchor: None });
+        }
+        if noun.rank.is_none() {
+            noun.rank = self.marks.iter().find_map(|(mark, _)| match mark {
+                Mark::Rank(rank) => Some(*rank),
+                _ => None,
+            });
+        }
+        // "the nearest lift", though one of them is called just that
+        if noun.best.is_some() && !noun.head.kinds.is_empty() {
+            noun.head.named.clear();
+        }
+        let Some(best) = &mut noun.best else { return noun };
+        if matches!(best.extreme, Extreme::Nearest | Extreme::Farthest) && best.anchor.is_none() {
+            let is_anchor = |r: &Restriction| {
+                matches!(r.rel, Rel::To | Rel::From | Rel::At | Rel::NextTo | Rel::Near)
+            };
+            let found = noun.restrictions.iter().position(is_anchor);
+            if let Some(at) = found {
+                let anchor = noun.restrictions.remove(at).anchors.into_iter().next();
+                // «ближайший ко мне»: to the robot, as when nothing is said.
+                best.anchor = anchor.map(Box::new);
+            } else if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
+                && let Some(second) = self.nouns.get(1)
+            {
+                // "nearest to the window of the lab"
+                let mut anchor = second.noun.clone();
+                for spot in self.spots.iter().filter(|spot| spot.at > second.at) {
+                    self.attach(&mut anchor, spot);
+                }
+                best.anchor = Some(Box::new(anchor));
+            }
+        }
+        noun
+    }
+}
