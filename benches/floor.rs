@@ -19,6 +19,7 @@ mod peers;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::hint::black_box;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
@@ -53,6 +54,7 @@ fn main() {
     let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
     match arguments[..] {
         ["--alone", program, name] => alone(program, name),
+        ["--write", name, file] => write(name, Path::new(file)).expect("the file can be written"),
         ["--build", name] => {
             let floor = floor(name);
             (0..10).for_each(|_| drop(black_box(plan(&floor.builder.world))));
@@ -294,6 +296,21 @@ fn ask(pairs: &[(Point, Point)], way: impl Fn(Point, Point) -> Option<f64>) {
             println!("way\t{i}\t{}\t{length}", best.as_secs_f64() * 1e6);
         }
     }
+}
+
+/// A floor's triangles and ways for another program, numbers of 32 bits, little-endian: how many triangles, the
+/// corners of each, how many ways, the ends of each; in metres, y upwards.
+fn write(name: &str, file: &Path) -> std::io::Result<()> {
+    let floor = floor(name);
+    let (triangles, pairs) = (peers::triangles(&floor), floor.pairs(QUERIES, RADIUS));
+    let mut bytes = Vec::new();
+    let mut put = |count: usize, points: &mut dyn Iterator<Item = [f32; 3]>| {
+        bytes.extend((count as u32).to_le_bytes());
+        bytes.extend(points.flatten().flat_map(f32::to_le_bytes));
+    };
+    put(triangles.len(), &mut triangles.iter().flatten().copied());
+    put(pairs.len(), &mut pairs.iter().flat_map(|w| [w.0, w.1]).map(|p| peers::metres(p, 0.0)));
+    std::fs::write(file, bytes)
 }
 
 /// One thing after another turns, all over the floor.

@@ -17,7 +17,7 @@ use crate::generated::Generated;
 /// A triangle in metres, y upwards; corners counter-clockwise from above.
 type Triangle = [[f32; 3]; 3];
 
-fn metres(p: Point, height: f64) -> [f32; 3] {
+pub(crate) fn metres(p: Point, height: f64) -> [f32; 3] {
     // Recast's z grows towards the viewer: mirrored, so that floors look up.
     [p.x as f32 / 100.0, height as f32 / 100.0, -p.y as f32 / 100.0]
 }
