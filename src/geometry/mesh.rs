@@ -50,6 +50,28 @@ pub(super) struct Mesh {
     /// [`NONE`] for cells in a ring, and for the last of a tree.
     pub(super) trunk: Vec<u32>,
     buckets: OnDemand<Buckets>,
+    passages: OnDemand<Passages>,
+}
+
+/// An edge of a cell that another cell lies behind.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Passage {
+    /// Seen from inside the cell, `right` comes first counter-clockwise.
+    pub(super) right: Point,
+    pub(super) left: Point,
+    /// Whether a shortest way may bend there.
+    pub(super) right_bends: bool,
+    pub(super) left_bends: bool,
+    /// Whether a branch begins behind it.
+    pub(super) is_branch: bool,
+    pub(super) to: u32,
+}
+
+/// The passages of all cells, one cell after another, as a search wants them.
+#[derive(Debug, Clone)]
+struct Passages {
+    starts: Vec<u32>,
+    all: Vec<Passage>,
 }
 
 impl Mesh {
@@ -99,6 +121,7 @@ impl Mesh {
             components: Kept::take(bytes)?,
             trunk: Kept::take(bytes)?,
             buckets: OnDemand::default(),
+            passages: OnDemand::default(),
         };
         let cells = mesh.len();
         // Numbers that lead nowhere would be asked for later.
@@ -158,6 +181,33 @@ impl Mesh {
         let wanted: f64 = grid.regions(shapes).iter().map(Region::area).sum();
         let own: f64 = self.cells().map(|c| self.polygon(c).signed_area()).sum();
         (own - wanted).abs() <= 1e-6 * wanted.max(1.0)
+    }
+
+    /// The edges of a cell that lead into other cells, counter-clockwise.
+    pub(super) fn passages(&self, cell: u32) -> &[Passage] {
+        let Passages { starts, all } = self.passages.get(|| self.find_passages());
+        &all[starts[cell as usize] as usize..starts[cell as usize + 1] as usize]
+    }
+
+    fn find_passages(&self) -> Passages {
+        let count = self.across.iter().filter(|&&to| to != NONE).count();
+        let mut found = Passages { starts: vec![0], all: Vec::with_capacity(count) };
+        for cell in self.cells() {
+            let (ring, across) = (self.ring(cell), self.across(cell));
+            for (i, &to) in across.iter().enumerate().filter(|e| *e.1 != NONE) {
+                let (u, v) = (ring[i] as usize, *ring.get(i + 1).unwrap_or(&ring[0]) as usize);
+                found.all.push(Passage {
+                    right: self.vertices[u],
+                    left: self.vertices[v],
+                    right_bends: self.is_corner[u],
+                    left_bends: self.is_corner[v],
+                    is_branch: self.trunk[to as usize] == cell,
+                    to,
+                });
+            }
+            found.starts.push(found.all.len() as u32);
+        }
+        found
     }
 
     /// The cells by place.

@@ -10,7 +10,7 @@ use petgraph::unionfind::UnionFind;
 use crate::units::Point;
 
 use super::floor::FragmentFloor;
-use super::mesh::NONE;
+use super::mesh::{NONE, Passage};
 use super::plan::FloorPlan;
 use super::search::{CellKey, Cells, Edge};
 use super::strait::Strait;
@@ -197,87 +197,94 @@ pub(super) struct Walkable<'a> {
     plan: &'a FloorPlan,
     /// Fragments to stay in, sorted.
     within: &'a [u32],
-    /// The cells of branches that lead to the goal or to a Fragment that may be passed, sorted: a way never enters
-    /// the other branches, since it would have to come back over the same border.
-    branches: Vec<CellKey>,
-    /// Of the branches, and of the cells with a doorway that may be passed.
-    may_branch: Sieve,
-    may_leave: Sieve,
+    /// The cells of branches that lead to the goal or to a Fragment that may be passed: a way never enters the other
+    /// branches, since it would have to come back over the same border.
+    branches: CellSet,
+    /// The cells with a doorway that may be passed.
+    exits: CellSet,
 }
 
-/// Which of 256 remainders some cells leave: most others are told apart by it without a search.
-#[derive(Debug, Default)]
-struct Sieve([u64; 4]);
+/// A set of cells that is asked more often than anything else in a search: places are tried one after the other from
+/// where a cell's number leads, in a table that is half empty at least.
+#[derive(Debug)]
+struct CellSet {
+    /// Two to some power.
+    slots: Vec<CellKey>,
+    count: usize,
+}
 
-impl Sieve {
-    fn place((number, cell): CellKey) -> (usize, u64) {
-        let mixed = number.wrapping_mul(0x9e37_79b1) ^ cell.wrapping_mul(0x85eb_ca6b);
-        let remainder = mixed >> 24;
-        ((remainder >> 6) as usize, 1 << (remainder & 63))
+impl CellSet {
+    const NOTHING: CellKey = (NONE, NONE);
+
+    fn new() -> Self {
+        Self { slots: vec![Self::NOTHING; 64], count: 0 }
     }
 
-    fn of(cells: impl Iterator<Item = CellKey>) -> Self {
-        let mut sieve = Self::default();
-        for cell in cells {
-            let (word, bit) = Self::place(cell);
-            sieve.0[word] |= bit;
+    /// Where a cell is or belongs.
+    fn slot(&self, cell: CellKey) -> usize {
+        let mixed = cell.0.wrapping_mul(0x9e37_79b1) ^ cell.1.wrapping_mul(0x85eb_ca6b);
+        let mut at = (mixed >> 8) as usize & (self.slots.len() - 1);
+        while self.slots[at] != cell && self.slots[at] != Self::NOTHING {
+            at = (at + 1) & (self.slots.len() - 1);
         }
-        sieve
+        at
     }
 
-    fn may_hold(&self, cell: CellKey) -> bool {
-        let (word, bit) = Self::place(cell);
-        self.0[word] & bit != 0
+    fn holds(&self, cell: CellKey) -> bool {
+        self.slots[self.slot(cell)] == cell
+    }
+
+    /// Whether the cell is new.
+    fn insert(&mut self, cell: CellKey) -> bool {
+        let at = self.slot(cell);
+        if self.slots[at] == cell {
+            return false;
+        }
+        self.slots[at] = cell;
+        self.count += 1;
+        if 2 * self.count > self.slots.len() {
+            let wider = vec![Self::NOTHING; 4 * self.slots.len()];
+            let before = std::mem::replace(&mut self.slots, wider);
+            for cell in before.into_iter().filter(|&cell| cell != Self::NOTHING) {
+                let at = self.slot(cell);
+                self.slots[at] = cell;
+            }
+        }
+        true
     }
 }
 
 impl<'a> Walkable<'a> {
     pub(super) fn toward(plan: &'a FloorPlan, within: &'a [u32], goal: CellKey) -> Self {
-        let admitted = |p: &&Portal| within.binary_search(&p.to.0).is_ok();
-        let exits = || {
-            let portals = within.iter().flat_map(|&n| &plan.network.portals[n as usize]);
-            portals.filter(admitted).map(|p| p.from)
-        };
-        let mut branches: Vec<CellKey> = Vec::new();
-        for (number, cell) in exits().chain([goal]) {
-            let trunk = &plan.floor(number).cells.trunk;
-            let mut at = cell;
-            while trunk[at as usize] != NONE && branches.last() != Some(&(number, at)) {
-                branches.push((number, at));
-                at = trunk[at as usize];
+        let (mut branches, mut exits) = (CellSet::new(), CellSet::new());
+        for portal in within.iter().flat_map(|&n| &plan.network.portals[n as usize]) {
+            if within.binary_search(&portal.to.0).is_ok() {
+                exits.insert(portal.from);
             }
         }
-        branches.sort_unstable();
-        branches.dedup();
-        let may_branch = Sieve::of(branches.iter().copied());
-        Self { plan, within, branches, may_branch, may_leave: Sieve::of(exits()) }
+        let ends = exits.slots.iter().filter(|&&cell| cell != CellSet::NOTHING).chain([&goal]);
+        for &(number, mut cell) in ends {
+            let trunk = &plan.floor(number).cells.trunk;
+            while trunk[cell as usize] != NONE && branches.insert((number, cell)) {
+                cell = trunk[cell as usize];
+            }
+        }
+        Self { plan, within, branches, exits }
     }
 }
 
 impl Cells for Walkable<'_> {
     fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
-        let mesh = &self.plan.floor(cell.0).cells;
-        let (ring, across) = (mesh.ring(cell.1), mesh.across(cell.1));
         let back = from.filter(|f| f.0 == cell.0).map_or(NONE, |f| f.1);
-        for (i, &next) in across.iter().enumerate() {
-            let is_aside = |next: u32| {
-                let key = (cell.0, next);
-                mesh.trunk[next as usize] == cell.1
-                    && !(self.may_branch.may_hold(key) && self.branches.binary_search(&key).is_ok())
-            };
-            if next == NONE || next == back || is_aside(next) {
+        for passage in self.plan.floor(cell.0).cells.passages(cell.1) {
+            let to = (cell.0, passage.to);
+            if passage.to == back || (passage.is_branch && !self.branches.holds(to)) {
                 continue;
             }
-            let (u, v) = (ring[i] as usize, *ring.get(i + 1).unwrap_or(&ring[0]) as usize);
-            found.push(Edge {
-                right: mesh.vertices[u],
-                left: mesh.vertices[v],
-                right_bends: mesh.is_corner[u],
-                left_bends: mesh.is_corner[v],
-                to: (cell.0, next),
-            });
+            let &Passage { right, left, right_bends, left_bends, .. } = passage;
+            found.push(Edge { right, left, right_bends, left_bends, to });
         }
-        if !self.may_leave.may_hold(cell) {
+        if !self.exits.holds(cell) {
             return;
         }
         for portal in self.plan.network.portals_of(cell) {
@@ -297,4 +304,22 @@ pub(super) fn overlap((a, b): (Point, Point), (c, d): (Point, Point)) -> Option<
     let to = place(c).max(place(d)).min((b - a).norm());
     let end = |t: f64, p: Point, own: f64| if (t - own).abs() < 1e-9 { p } else { a + along * t };
     (to - from > 1e-6).then(|| (end(from, a, 0.0), end(to, b, (b - a).norm())))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_set_of_cells_holds_what_was_put_in() {
+        let cell = |k: u32| (k.wrapping_mul(0x9e37_79b9) % 7, k.wrapping_mul(0x85eb_ca6b) % 400);
+        let mut set = CellSet::new();
+        let mut known = std::collections::HashSet::new();
+        for k in 0..1500 {
+            assert_eq!(set.holds(cell(k)), known.contains(&cell(k)));
+            assert_eq!(set.insert(cell(k)), known.insert(cell(k)));
+        }
+        assert!(known.len() > 1000 && known.iter().all(|&cell| set.holds(cell)));
+        assert!(!set.holds((9, 9)) && set.count == known.len());
+    }
 }

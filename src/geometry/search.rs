@@ -39,6 +39,8 @@ pub(super) struct Edge {
 
 /// Lengths below this are rounding, in cm.
 const EPSILON: f64 = 1e-7;
+/// Cells looked through without asking whether another way is shorter.
+const EAGER: usize = 6;
 /// Points nearer than this to a vertex are the vertex, in cm.
 const SNAP: f64 = 1e-5;
 
@@ -114,6 +116,8 @@ struct Search {
     best: Vec<f64>,
     /// The edges of the cell that is looked at.
     edges: Vec<Edge>,
+    /// What the cell that is looked at leads to.
+    fresh: Vec<SearchNode>,
     nodes: Vec<SearchNode>,
     /// The foremost of the nodes that came last; often it goes before all others, and never sees the heap.
     next: Option<Waiting>,
@@ -138,6 +142,7 @@ impl Search {
         self.goal = goal;
         self.roots.clear();
         self.roots.push(Root { at: start, place: 0, parent: u32::MAX });
+        self.fresh.clear();
         self.places.clear();
         self.best.clear();
         self.best.push(0.0);
@@ -150,6 +155,7 @@ impl Search {
         let mut first = Vec::new();
         cells.edges(from, None, &mut first);
         first.into_iter().for_each(|edge| self.push(0.0, 0, edge, edge.right, edge.left, from));
+        self.queue();
         while let Some(next) = self.take() {
             let node = self.nodes[next.node as usize];
             if node.is_final {
@@ -161,7 +167,7 @@ impl Search {
             if node.cell == to {
                 self.finish(&node);
             } else {
-                self.expand(cells, &node);
+                self.follow(cells, node, to);
             }
         }
         None
@@ -227,9 +233,7 @@ impl Search {
         left: Point,
         from: CellKey,
     ) {
-        let at = self.roots[root as usize].at;
-        let bound = spent + through(at, right, left, self.goal);
-        let node = SearchNode {
+        self.fresh.push(SearchNode {
             spent,
             root,
             right,
@@ -239,8 +243,34 @@ impl Search {
             cell: edge.to,
             from,
             is_final: false,
-        };
-        self.wait(bound, node);
+        });
+    }
+
+    /// Lets what was found wait for its turn.
+    fn queue(&mut self) {
+        let mut fresh = std::mem::take(&mut self.fresh);
+        for node in fresh.drain(..) {
+            let at = self.root(&node);
+            self.wait(node.spent + through(at, node.right, node.left, self.goal), node);
+        }
+        self.fresh = fresh;
+    }
+
+    /// Looks on from cell to cell while there is one way on alone: only where there are several must one wait for
+    /// another.
+    fn follow(&mut self, cells: &impl Cells, mut node: SearchNode, to: CellKey) {
+        for _ in 0..EAGER {
+            self.expand(cells, &node);
+            match self.fresh[..] {
+                [only] if only.cell != to => {
+                    node = only;
+                    self.fresh.clear();
+                }
+                _ => return self.queue(),
+            }
+        }
+        self.fresh.push(node);
+        self.queue();
     }
 
     /// Ends a way whose last stretch lies in the goal's cell.
@@ -271,7 +301,8 @@ impl Search {
         let (right, left) = (node.right, node.left);
         // A root in line with the stretch sees nothing past it, save through its nearer end.
         let area = side(at, right, left);
-        let is_flat = area <= EPSILON * (left - right).norm().max(EPSILON);
+        let width = (left - right).norm_squared().max(EPSILON * EPSILON);
+        let is_flat = area <= 0.0 || area * area <= EPSILON * EPSILON * width;
         let mut edges = std::mem::take(&mut self.edges);
         edges.clear();
         cells.edges(node.cell, Some(node.from), &mut edges);
@@ -293,7 +324,7 @@ impl Search {
             if !r_left && !l_right {
                 let seen_right = if r_right { meet(at, right, r, l) } else { r };
                 let seen_left = if l_left { meet(at, left, r, l) } else { l };
-                if (seen_left - seen_right).norm() > EPSILON {
+                if (seen_left - seen_right).norm_squared() > EPSILON * EPSILON {
                     self.push(node.spent, node.root, edge, seen_right, seen_left, node.cell);
                 }
             }
@@ -324,7 +355,7 @@ impl Search {
 
     /// A stretch that is seen only from the end `bend` of the last one.
     fn push_bent(&mut self, node: &SearchNode, bend: Point, edge: Edge, right: Point, left: Point) {
-        if (left - right).norm() <= EPSILON {
+        if (left - right).norm_squared() <= EPSILON * EPSILON {
             return;
         }
         let at = self.root(node);
