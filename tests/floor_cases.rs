@@ -30,7 +30,7 @@ fn free_area(plan: &FloorPlan) -> f64 {
 }
 
 fn raw_area(plan: &FloorPlan) -> f64 {
-    plan.fragments().flat_map(|f| f.raw.iter().map(Region::area).collect::<Vec<_>>()).sum()
+    plan.fragments().flat_map(|f| f.raw().iter().map(Region::area).collect::<Vec<_>>()).sum()
 }
 
 /// The length of the shortest way, checked; none if there is none.
@@ -56,7 +56,7 @@ fn boxes_that_touch_along_a_side_leave_no_slit() {
     let (b, _) = room(&[[150., 0., 50., 100., 0.], [200., 0., 50., 100., 0.]]);
     let plan = build(&b);
     assert!((raw_area(&plan) - 110_000.0).abs() < 1e-3);
-    assert!(plan.fragments().all(|f| f.dead_zones.is_empty()));
+    assert!(plan.fragments().all(|f| f.dead_zones().is_empty()));
     assert!(way(&b, LEFT, RIGHT).is_some());
 }
 
@@ -123,7 +123,7 @@ fn a_room_with_less_floor_than_the_robot_is_all_dead() {
     let (b, hall) = room(&[[0., 0., 400., 260., 0.]]);
     let plan = build(&b);
     assert!(plan.passframes(hall).is_empty());
-    assert!((plan.fragment(hall).unwrap().dead_zones[0].area() - 16_000.0).abs() < 1.0);
+    assert!((plan.fragment(hall).unwrap().dead_zones()[0].area() - 16_000.0).abs() < 1.0);
 }
 
 #[test]

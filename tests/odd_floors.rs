@@ -156,10 +156,10 @@ fn check_floor(b: &Builder, plan: &FloorPlan, solids: &Solids, seen: &mut Seen) 
         let free: f64 = regions.iter().map(Region::area).sum();
         let own: f64 = frames.iter().map(|f| f.polygon.signed_area()).sum();
         assert!((own - free).abs() <= 1e-6 * free.max(1.0), "partition {own} of {free}");
-        let dead: f64 = floor.dead_zones.iter().map(Region::area).sum();
-        let raw: f64 = floor.raw.iter().map(Region::area).sum();
+        let dead: f64 = floor.dead_zones().iter().map(Region::area).sum();
+        let raw: f64 = floor.raw().iter().map(Region::area).sum();
         let rim: f64 = floor
-            .raw
+            .raw()
             .iter()
             .flat_map(Region::contours)
             .flat_map(Polygon::edges)
@@ -181,7 +181,7 @@ fn check_floor(b: &Builder, plan: &FloorPlan, solids: &Solids, seen: &mut Seen) 
             }
             one.borders.iter().for_each(|border| check_border(b, plan, border, seen));
         }
-        for zone in &floor.dead_zones {
+        for zone in floor.dead_zones() {
             seen.zones += 1;
             let around = plan.around(floor, zone);
             assert!(!around.owners.is_empty(), "nothing stands around {:?}", zone.outer);

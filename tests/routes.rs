@@ -22,8 +22,8 @@ pub(crate) fn check_invariants(plan: &FloorPlan) {
         let frames: f64 = floor.passframes().iter().map(|f| f.polygon.signed_area()).sum();
         let free = area_of(&floor.free());
         assert!((frames - free).abs() <= 1e-6 * free.max(1.0), "partition {frames} of {free}");
-        let dead: f64 = floor.dead_zones.iter().map(|z| z.area()).sum();
-        assert!(free + dead <= area_of(&floor.raw) + 1.0);
+        let dead: f64 = floor.dead_zones().iter().map(|z| z.area()).sum();
+        assert!(free + dead <= area_of(&floor.raw()) + 1.0);
         for (i, frame) in floor.passframes().iter().enumerate() {
             assert!(frame.polygon.is_convex(1e-6), "{:?}", frame.polygon);
             let c = frame.polygon.centroid();
@@ -229,7 +229,7 @@ fn heights_decide_what_stands_in_the_way() {
     assert_eq!(who(250.0), None);
     assert_eq!(who(400.0), None);
     assert_eq!(who(530.0), Some(Blocker::Replica { replica: shelf, item: 0 }));
-    assert!((area_of(&floor.raw) - (600.0 * 300.0 - 2.0 * 6000.0)).abs() < 1e-3);
+    assert!((area_of(&floor.raw()) - (600.0 * 300.0 - 2.0 * 6000.0)).abs() < 1e-3);
 }
 
 #[test]
@@ -383,7 +383,7 @@ fn every_room_of_the_flat_is_reached_from_every_other() {
             "{}: {} Passframes, {} dead zones",
             world.areas[&floor.area].name,
             floor.passframes().len(),
-            floor.dead_zones.len()
+            floor.dead_zones().len()
         );
     }
 }

@@ -211,7 +211,7 @@ fn floor_layer(floor: &FloorPlan, only: Option<AreaId>) -> FloorLayer {
                 .iter()
                 .map(|p| (p.polygon.clone(), format!("{} · {}", p.id, p.kind.name()))),
         );
-        layer.dead_zones.extend(fragment.dead_zones.iter().cloned());
+        layer.dead_zones.extend(fragment.dead_zones().iter().cloned());
     }
     layer
 }

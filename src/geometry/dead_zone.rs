@@ -25,21 +25,24 @@ pub struct Surroundings {
 }
 
 /// The dead zones among pieces of floor that the robot does not cover.
-pub(super) fn dead_zones(grid: &Grid, dead: &Shapes) -> Vec<Region> {
+pub(super) fn dead_zones(grid: &Grid, dead: Shapes) -> Shapes {
     let rim = |r: &Region| {
         r.contours().flat_map(Polygon::edges).map(|(a, b)| (b - a).norm()).sum::<f64>()
     };
-    let zone = |r: Region| {
-        let area = r.area();
-        if area > RIM * rim(&r).max(1.0) {
-            vec![r]
+    let zone = |shape: Vec<Contour>| {
+        let shape = vec![shape];
+        let regions = grid.regions(&shape);
+        let area: f64 = regions.iter().map(Region::area).sum();
+        let rim: f64 = regions.iter().map(rim).sum();
+        if area > RIM * f64::max(rim, 1.0) {
+            shape
         } else if area > PI * LEAST * LEAST {
-            without_rims(grid, r)
+            without_rims(grid, &regions)
         } else {
-            Vec::new()
+            Shapes::new()
         }
     };
-    grid.regions(dead).into_iter().flat_map(zone).collect()
+    dead.into_iter().flat_map(zone).collect()
 }
 
 /// What rounding leaves along the walls is less wide than this, in cm, and no zone.
@@ -50,13 +53,12 @@ const LEAST: f64 = 0.03;
 
 /// What is left of a piece when only places count that hold a small disc. A zone may hang on the slivers along a
 /// long wall, which are no part of it.
-fn without_rims(grid: &Grid, piece: Region) -> Vec<Region> {
-    let piece = [piece];
-    let core = grid.regions(&positive(&shrink(grid, &piece, LEAST)));
-    let covered = grow(grid, &core, LEAST, &piece);
+fn without_rims(grid: &Grid, piece: &[Region]) -> Shapes {
+    let core = grid.regions(&positive(&shrink(grid, piece, LEAST)));
+    let covered = grow(grid, &core, LEAST, piece);
     let own: Vec<Contour> =
         piece.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect();
-    grid.regions(&overlay(&covered, &own, OverlayRule::Intersect, FillRule::Positive))
+    overlay(&covered, &own, OverlayRule::Intersect, FillRule::Positive)
 }
 
 /// What stands around a dead zone, for a robot that keeps `reach` from everything.

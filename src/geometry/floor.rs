@@ -27,7 +27,7 @@ use super::buckets::Buckets;
 use super::dead_zone::dead_zones;
 use super::doors::Doorway;
 use super::edging::Edging;
-use super::grid::{Contour, Grid, difference, intersection, overlays, smooth};
+use super::grid::{Contour, Grid, Outlines, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
@@ -60,16 +60,15 @@ pub struct FragmentFloor {
     pub bounds: Bounds,
     /// Height of the floor in the Map's frame, in cm.
     pub level: f64,
-    /// Floor that nothing stands on, dead zones included; reaches into the open doorways' other sides.
-    pub raw: Vec<Region>,
-    /// The grid of the cells.
+    /// See [`Self::raw`].
+    pub(super) bare: Outlines,
+    /// The grid of the outlines and cells.
     pub(super) grid: Grid,
     pub obstacles: Vec<Obstacle>,
     /// Walls and jambs, whatever the state of the doors.
     pub walls: Vec<(Point, Point)>,
-    /// Floor that the robot cannot cover from any place where it fits; what stands around, see
-    /// [`super::FloorPlan::around`].
-    pub dead_zones: Vec<Region>,
+    pub(super) dead: Outlines,
+    pub(super) dead_zones: OnDemand<Vec<Region>>,
     pub(super) edging: Edging,
     /// The cells of the Passframes, sorted by place.
     pub(super) frames: Mesh,
@@ -167,7 +166,7 @@ impl FragmentFloor {
         blocked.extend(storey.inner_walls.iter().map(|p| grid.contour(p)));
 
         let mut inside = difference(&floor, &blocked);
-        let raw = grid.regions(&inside);
+        let (raw, bare) = (grid.regions(&inside), Outlines::of(&inside));
         let [all_centres, centre] = overlays(
             &shrink(&grid, &raw, reach - SLACK),
             &beyond,
@@ -191,16 +190,17 @@ impl FragmentFloor {
         debug_assert!(cells.fills(&grid, &centre) && frames.fills(&grid, &free), "{area:?}");
         let exits = exits(&cells, &open);
         let walls = walls(site, placed);
-        let dead_zones = dead_zones(&grid, &dead);
+        let dead = Outlines::of(&dead_zones(&grid, dead));
         let mut built = Self {
             area,
             bounds,
             level: storey.level,
-            raw,
+            bare,
             grid,
             obstacles,
             walls,
-            dead_zones,
+            dead,
+            dead_zones: OnDemand::default(),
             edging: Edging::default(),
             ids: ids(&frames),
             passframes: OnDemand::default(),
@@ -226,6 +226,19 @@ impl FragmentFloor {
     #[must_use]
     pub fn fits(&self, p: Point) -> bool {
         self.cells.locate(p, 1e-6).is_some()
+    }
+
+    /// Floor that nothing stands on, dead zones included; reaches into the open doorways' other sides.
+    #[must_use]
+    pub fn raw(&self) -> Vec<Region> {
+        self.bare.regions(&self.grid)
+    }
+
+    /// Floor that the robot cannot cover from any place where it fits; what stands around, see
+    /// [`super::FloorPlan::around`].
+    #[must_use]
+    pub fn dead_zones(&self) -> &[Region] {
+        self.dead_zones.get(|| self.dead.regions(&self.grid))
     }
 
     /// Floor that nothing stands on and that the robot covers from somewhere.
@@ -259,7 +272,7 @@ impl FragmentFloor {
     /// The dead zone that holds a point of the floor.
     #[must_use]
     pub fn dead_zone_at(&self, p: Point) -> Option<&Region> {
-        self.dead_zones.iter().find(|z| z.contains(p, 1e-3))
+        self.dead_zones().iter().find(|z| z.contains(p, 1e-3))
     }
 
     /// What stands on a point of the floor.

@@ -14,14 +14,14 @@ use crate::units::{AreaId, DoorId, Point, ReplicaId};
 
 use super::edging::{Edging, Face, Mark};
 use super::floor::{Exit, FragmentFloor};
-use super::grid::{Grid, Node};
+use super::grid::{Grid, Node, Outlines};
 use super::obstacle::{Blocker, Obstacle};
 use super::passframe::{Beyond, PassframeId};
 use super::storey::Side;
-use super::{Bounds, Polygon, Region};
+use super::{Bounds, Polygon};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 5");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 6");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -68,7 +68,13 @@ fn is_sound(floor: &FragmentFloor) -> bool {
     let is_edge = |exit: &Exit| {
         (exit.cell as usize) < floor.cells.len() && exit.edge < floor.cells.ring(exit.cell).len()
     };
+    let is_filled = |outlines: &Outlines| {
+        outlines.ends.is_sorted_by_key(|end| end.0)
+            && outlines.ends.last().map_or(0, |end| end.0 as usize) == outlines.nodes.len()
+    };
     floor.ids.len() == floor.frames.len()
+        && is_filled(&floor.bare)
+        && is_filled(&floor.dead)
         && floor.edging.doorways.iter().all(is_doorway)
         && floor.exits.iter().all(is_edge)
 }
@@ -221,7 +227,7 @@ macro_rules! kept_structs {
 kept_structs! {
     Polygon { corners }
     Grid { origin, scale, cos, sin }
-    Region { outer, holes }
+    Outlines { nodes, ends }
     Bounds { min, max }
     Obstacle { blocker, polygon, side, bottom, top }
     Side { item, side, start, end, permeability }
@@ -230,8 +236,8 @@ kept_structs! {
     Edging { doorways, sides, marks }
     Exit { doorway, cell, edge }
     FragmentFloor {
-        area, bounds, level, raw, grid, obstacles, walls, dead_zones, edging, frames, ids, passframes,
-        cells, exits
+        area, bounds, level, bare, grid, obstacles, walls, dead, dead_zones, edging, frames, ids,
+        passframes, cells, exits
     }
 }
 

@@ -87,8 +87,9 @@ impl Narrows {
         if pieces.len() < 2 {
             return narrows;
         }
-        let raw = floors.iter().flat_map(|(_, f)| &f.raw).flat_map(Region::contours);
-        let raw: Vec<Contour> = raw.map(|c| grid.contour(c)).collect();
+        let raw: Vec<Region> = floors.iter().flat_map(|(_, f)| f.raw()).collect();
+        let raw: Vec<Contour> =
+            raw.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect();
         let mut floor = overlay(&raw, &[], OverlayRule::Subject, FillRule::Positive);
         if numbers.len() > 1 {
             // Rooms that share a wall without thickness would grow together.

@@ -124,7 +124,7 @@ impl Faces {
         let boxes: Vec<Bounds> =
             all.iter().map(|f| Bounds::of([f.start, f.end]).grown(TOUCH)).collect();
         let zones: Vec<Bounds> =
-            floor.dead_zones.iter().map(|z| z.outer.bounds().grown(TOUCH)).collect();
+            floor.dead_zones().iter().map(|z| z.outer.bounds().grown(TOUCH)).collect();
         Self { all, buckets: Buckets::of(&boxes), zones: Buckets::of(&zones), boxes }
     }
 
@@ -302,13 +302,13 @@ fn what_stands_along<'a>(
     }
     let mut zones = Vec::new();
     faces.zones.meeting(&Bounds::of([middle]), &mut zones);
-    let off_zone = |k: usize| floor.dead_zones[k].outer.border_distance(middle);
+    let off_zone = |k: usize| floor.dead_zones()[k].outer.border_distance(middle);
     let nearest = |zones: &mut dyn Iterator<Item = usize>| {
         zones.map(|k| (off_zone(k), k)).min_by(|x, y| x.0.total_cmp(&y.0))
     };
     let zone = nearest(&mut zones.into_iter().map(|k| k as usize))
         .filter(|(off, _)| *off < TOUCH)
-        .or_else(|| nearest(&mut (0..floor.dead_zones.len())));
+        .or_else(|| nearest(&mut (0..floor.dead_zones().len())));
     match zone.map(|z| z.1) {
         Some(zone) => (Beyond::DeadZone(zone), None),
         // A sliver of rounding: whatever is nearest.

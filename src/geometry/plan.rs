@@ -163,7 +163,7 @@ impl FloorPlan {
     }
 
     fn with_site<T>(&self, world: &World, work: impl FnOnce(&Site<'_>) -> T) -> T {
-        let nearby = |bounds: &Bounds| self.index.near(bounds);
+        let nearby = |bounds: &Bounds| self.index.near(&self.scene, bounds);
         work(&Site {
             world,
             scene: &self.scene,

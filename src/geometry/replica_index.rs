@@ -18,7 +18,6 @@ pub(super) struct ReplicaIndex {
     cells: HashMap<(i32, i32), Vec<ReplicaId>, RandomState>,
     /// Those that are spread over too many cells to list in each.
     wide: Vec<ReplicaId>,
-    bounds: HashMap<ReplicaId, Bounds, RandomState>,
 }
 
 impl ReplicaIndex {
@@ -39,9 +38,7 @@ impl ReplicaIndex {
     }
 
     pub(super) fn insert(&mut self, replica: &PlacedReplica) {
-        let reach = replica.reach.grown(MARGIN);
-        self.bounds.insert(replica.id, reach);
-        match Self::cells_of(&reach) {
+        match Self::cells_of(&replica.reach.grown(MARGIN)) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
             }
@@ -51,7 +48,6 @@ impl ReplicaIndex {
 
     pub(super) fn remove(&mut self, replica: &PlacedReplica) {
         let is_other = |id: &ReplicaId| *id != replica.id;
-        self.bounds.remove(&replica.id);
         match Self::cells_of(&replica.reach.grown(MARGIN)) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
@@ -66,13 +62,13 @@ impl ReplicaIndex {
         (cell(bounds.min), cell(bounds.max))
     }
 
-    /// The replicas whose boxes come near `bounds`, in the order of their ids.
-    pub(super) fn near(&self, bounds: &Bounds) -> Vec<ReplicaId> {
+    /// The replicas of its scene whose boxes come near `bounds`, in the order of their ids.
+    pub(super) fn near(&self, scene: &Scene, bounds: &Bounds) -> Vec<ReplicaId> {
         let ((left, bottom), (right, top)) = Self::span(bounds);
         let cells =
             (i64::from(right) - i64::from(left) + 1) * (i64::from(top) - i64::from(bottom) + 1);
         let mut found: Vec<ReplicaId> = if cells > self.cells.len() as i64 {
-            self.bounds.keys().copied().collect()
+            scene.replicas.keys().copied().collect()
         } else {
             (left..=right)
                 .flat_map(|x| (bottom..=top).map(move |y| (x, y)))
@@ -84,7 +80,10 @@ impl ReplicaIndex {
         };
         found.sort_unstable();
         found.dedup();
-        found.retain(|r| self.bounds[r].meets(bounds));
+        let meets = |r: &ReplicaId| {
+            scene.replicas.get(r).is_some_and(|r| r.reach.grown(MARGIN).meets(bounds))
+        };
+        found.retain(meets);
         found
     }
 }
