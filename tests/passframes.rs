@@ -7,6 +7,7 @@ use orthoframe::map::*;
 use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
+use crate::floors::{Builder, rectangle};
 
 fn build(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
@@ -87,6 +88,36 @@ fn ids_last_where_nothing_changed() {
     }
     eprintln!("{kept} of {all} Passframes away from what moved kept their ids");
     assert!(all > 50 && kept * 10 >= all * 9, "{kept} of {all}");
+}
+
+/// Among hundreds of Passframes short ids would meet, and one that comes would take another's.
+#[test]
+fn ids_last_in_a_crowded_hall() {
+    let mut b = Builder::new();
+    let hall = b.area("Зал", &rectangle(4000.0, 3000.0), Frame::IDENTITY, &[]);
+    let mut random = Random(3);
+    for _ in 0..300 {
+        let (x, y) = (random.between(50.0, 3900.0), random.between(50.0, 2900.0));
+        b.put(hall, x, y, 30.0, 30.0, random.between(0.0, 90.0), 80.0);
+    }
+    let mut plan = build(&b.world);
+    let ids: Vec<ReplicaId> = b.world.replicas.keys().copied().collect();
+    let (mut ever, mut lasted) = (BTreeMap::<Vec<[u64; 2]>, PassframeId>::new(), 0);
+    for step in 0..40 {
+        for frame in plan.passframes(hall) {
+            let place = frame.polygon.corners.iter().map(|c| [c.x.to_bits(), c.y.to_bits()]);
+            let first = *ever.entry(place.collect()).or_insert(frame.id);
+            assert_eq!(first, frame.id, "step {step}");
+        }
+        lasted = ever.len();
+        let moved = ids[(random.unit() * ids.len() as f64) as usize];
+        let replica = b.world.replicas.get_mut(&moved).unwrap();
+        let (x, y) = (random.between(50.0, 3900.0), random.between(50.0, 2900.0));
+        replica.frame = Frame::new(x, y, 0.0, replica.frame.angle);
+        plan.rebuild(&b.world, &[moved]);
+    }
+    let distinct: BTreeSet<PassframeId> = ever.values().copied().collect();
+    assert!(lasted > 900 && distinct.len() == lasted, "{} ids of {lasted}", distinct.len());
 }
 
 /// Everything about a floor that can be asked, for two that must be the same.

@@ -19,13 +19,18 @@ use super::mesh::{Mesh, NONE};
 use super::obstacle::Blocker;
 use super::{Bounds, Polygon, nearest_on_segment};
 
-/// Unique in its Fragment.
+/// Unique in its Fragment; said in digits and letters of which none is taken for another.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct PassframeId(pub u32);
 
 impl fmt::Display for PassframeId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "П-{:05}", self.0)
+        const SIGNS: [char; 32] = [
+            '0', '1', '2', '3', '4', '5', '6', '7', '8', '9', 'A', 'B', 'C', 'D', 'E', 'F', 'G',
+            'H', 'J', 'K', 'M', 'N', 'P', 'Q', 'R', 'S', 'T', 'V', 'W', 'X', 'Y', 'Z',
+        ];
+        let signs = (0..7).rev().map(|k| SIGNS[(self.0 >> (5 * k)) as usize % SIGNS.len()]);
+        write!(f, "П-{}", signs.collect::<String>())
     }
 }
 
@@ -322,32 +327,27 @@ fn what_stands_along<'a>(
     }
 }
 
-/// Ids from the corners' places in the Area, to the tenth of a millimetre: what lasts keeps its id.
+/// Ids from the corners' places in the Map, to the tenth of a millimetre: what lasts keeps its id, whatever comes or
+/// goes elsewhere. Two of a thousand Passframes have one hash in one of nine thousand Fragments; then the later one by
+/// place takes another.
 pub(super) fn ids(frames: &Mesh) -> Vec<PassframeId> {
-    const COUNT: u32 = 100_000;
-    let mut taken = HashSet::new();
+    let mut taken = HashSet::with_capacity(frames.len());
     frames
         .cells()
         .map(|cell| {
-            let mut hash = 0x811c_9dc5_u32; // FNV-1a
+            let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
+            let mut mix = |byte: u8| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
             for &vertex in frames.ring(cell) {
                 let p = frames.vertices[vertex as usize];
                 for x in [p.x, p.y] {
-                    for byte in ((x * 100.0).round() as i64).to_le_bytes() {
-                        hash = (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193);
-                    }
+                    ((x * 100.0).round() as i64).to_le_bytes().into_iter().for_each(&mut mix);
                 }
             }
-            let mut id = hash % COUNT;
-            // More Passframes than numbers would spin for ever: number on beyond them.
-            while !taken.insert(id) {
-                id = if taken.len() < COUNT as usize {
-                    (id + 1) % COUNT
-                } else {
-                    taken.len() as u32
-                };
+            // The upper half depends on every byte.
+            while !taken.insert((hash >> 32) as u32) {
+                hash = (hash ^ 1).wrapping_mul(0x0100_0000_01b3);
             }
-            PassframeId(id)
+            PassframeId((hash >> 32) as u32)
         })
         .collect()
 }
