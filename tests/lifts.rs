@@ -138,6 +138,25 @@ fn a_lift_behind_a_shut_door_is_left_aside() {
 }
 
 #[test]
+fn a_lift_opens_its_doors_where_it_is_called() {
+    let mut house = house();
+    let open = way(&house.world, p(100., 100.), p(200., 100.)).expect("both lifts run");
+    for door in house.world.doors.values_mut() {
+        door.state = DoorState::CLOSED;
+    }
+    let closed = way(&house.world, p(100., 100.), p(200., 100.)).expect("it is called");
+    assert_eq!(closed, open);
+    let engine = Engine::in_memory(house.world.clone(), None).expect("built-in rules");
+    let journey = engine.journey("Холл-1", "Холл-2", Method::Shortest).expect("both are known");
+    assert!(journey.rides.len() == 1 && journey.legs.iter().all(|leg| leg.route.is_ok()));
+    // On one floor a cabin whose door is closed is shut off as any room is.
+    let plan = &plans(&house.world)[&MapId(1)];
+    let cabin = plan.doorways()[0].areas.into_iter().find(|area| *area != house.halls[0]);
+    let target = Target::Area(cabin.expect("a cabin"));
+    assert!(plan.route(&house.world, p(100., 100.), target, Method::Shortest).is_err());
+}
+
+#[test]
 fn without_a_lift_there_is_no_way_and_stairs_are_none() {
     let mut house = house();
     let lifts = std::mem::take(&mut house.world.domain.lifts);

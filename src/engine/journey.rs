@@ -92,8 +92,10 @@ impl Surroundings<'_> {
             }
             Err(no) => {
                 let advice = floors.get(&no.map).and_then(|floor| {
-                    let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
                     let alone = start.map == goal.map;
+                    let called = (!alone).then(|| floor.with_lifts_open(world));
+                    let floor = called.as_ref().unwrap_or(floor);
+                    let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
                     let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
                     (alone || opens()).then(|| Advice::of(world, floor, remedy))
                 });

@@ -1,20 +1,22 @@
 //! Ways between Maps (M6): over the floors by routes, from floor to floor by lift.
 //!
 //! The uppermost level of the network: start, goal and the lifts' stops are nodes; a route over one Map is an edge
-//! as long as it is, a ride one as long as the robot could have driven meanwhile. Stairs, whose stops are Areas
+//! as long as it is, a ride one as long as the robot could have driven meanwhile. A lift opens its doors where it is
+//! called, so that closed ones bar no way from Map to Map. Stairs, whose stops are Areas
 //! of a type with the trait `stairs`, are no way for a robot on wheels.
 //!
 //! **Invariant**: legs and rides alternate; a leg begins where the ride before it ends, in the middle of the stop.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::graph::{DiGraph, NodeIndex};
 
-use crate::map::World;
-use crate::units::{AreaId, MapId, Point};
+use crate::map::{DoorState, LiftStop, World};
+use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::blocked::NoRoute;
-use super::plan::FloorPlan;
+use super::doors::Doorway;
+use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Route, Target};
 
 /// A ride from one stop to another.
@@ -76,16 +78,19 @@ pub fn across(
     (goal_map, target): (MapId, Target),
     method: Method,
 ) -> Result<Vec<Leg>, Box<NoWay>> {
-    let drive_on = |map: MapId, from: Point, target: Target| {
+    let drive_on = |plans: &BTreeMap<_, FloorPlan>, map: MapId, from: Point, target: Target| {
         let plan = plans.get(&map).ok_or(NoRoute::NoFloor);
         plan.and_then(|p| p.route(world, from, target, method))
             .map_err(|why| Box::new(NoWay { map, from, target, why }))
     };
     if map == goal_map {
-        let route = drive_on(map, from, target)?;
+        let route = drive_on(plans, map, from, target)?;
         return Ok(vec![Leg { map, route, ride: None }]);
     }
-    let stops = stops(world, plans);
+    let plans: BTreeMap<MapId, FloorPlan> =
+        plans.iter().map(|(&map, plan)| (map, plan.with_lifts_open(world))).collect();
+    let drive_on = |map: MapId, from: Point, target: Target| drive_on(&plans, map, from, target);
+    let stops = stops(world, &plans);
     let mut graph = DiGraph::<MapId, (f64, Edge)>::new();
     let nodes: Vec<NodeIndex> = stops.iter().map(|s| graph.add_node(s.map)).collect();
     let (start, goal) = (graph.add_node(map), graph.add_node(goal_map));
@@ -161,20 +166,26 @@ pub fn across(
     Ok(legs)
 }
 
+/// The Areas where lifts stop, with the lift's index.
+fn cabins(world: &World) -> impl Iterator<Item = (usize, AreaId)> + '_ {
+    let lifts = world.domain.lifts.iter().map(|(_, stops)| stops).enumerate();
+    let is_lift = move |stops: &[LiftStop]| {
+        !stops.iter().any(|stop| world.area_has_trait(stop.area, "stairs"))
+    };
+    lifts
+        .filter(move |(_, stops)| is_lift(stops))
+        .flat_map(|(lift, stops)| stops.iter().map(move |stop| (lift, stop.area)))
+}
+
 fn stops(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> Vec<Stop> {
     let mut found = Vec::new();
-    for (lift, (_, stops)) in world.domain.lifts.iter().enumerate() {
-        if stops.iter().any(|s| world.area_has_trait(s.area, "stairs")) {
-            continue;
-        }
-        for area in stops.iter().map(|s| s.area) {
-            let Some((map, frame)) = world.placement(area) else { continue };
-            let floor = world.domain.maps.iter().find(|m| m.map == map);
-            let height = floor.map_or(0.0, |m| m.frame.z.get()) + frame.z.get();
-            // A cabin in which the robot does not fit is no stop.
-            let Some(at) = plans.get(&map).and_then(|p| p.rest_in(area)) else { continue };
-            found.push(Stop { lift, area, map, at, height });
-        }
+    for (lift, area) in cabins(world) {
+        let Some((map, frame)) = world.placement(area) else { continue };
+        let floor = world.domain.maps.iter().find(|m| m.map == map);
+        let height = floor.map_or(0.0, |m| m.frame.z.get()) + frame.z.get();
+        // A cabin in which the robot does not fit is no stop.
+        let Some(at) = plans.get(&map).and_then(|p| p.rest_in(area)) else { continue };
+        found.push(Stop { lift, area, map, at, height });
     }
     found
 }
@@ -191,6 +202,17 @@ fn area_of(world: &World, target: Target, map: MapId) -> AreaId {
 }
 
 impl FloorPlan {
+    /// The same floor with the closed doors of lifts open, as they are where a lift was called; locked ones stay.
+    #[must_use]
+    pub fn with_lifts_open(&self, world: &World) -> Self {
+        let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).collect();
+        let leads_in = |d: &&Doorway| d.areas.iter().any(|area| cabins.contains(area));
+        let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
+        let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);
+        let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).collect();
+        if open.is_empty() { self.clone() } else { self.with_doors(world, &open) }
+    }
+
     /// The place nearest to an Area's middle where the robot fits.
     #[must_use]
     pub fn rest_in(&self, area: AreaId) -> Option<Point> {
