@@ -1,8 +1,10 @@
 //! Free floor and routes on generated floors, beside Recast and polyanya in the same run.
 //!
-//! `cargo bench --bench floor [-- NAME]` prints three tables: building, asking the way, rebuilding after a move.
+//! `cargo bench --bench floor [-- NAME]` prints four tables: building, memory, asking the way, rebuilding after a move.
 //! Every program does its part of a floor in a process of its own, so that memory is told apart. Builds are medians,
 //! of the processor's time of all threads together and on the clock; a query is the least of five on the clock.
+//! With `DETOUR` set to a command (`floor/detour.cpp` or `floor/detour.mjs`, which say how they are run), Recast and
+//! Detour themselves take part; `-- --write NAME FILE` writes what they are given.
 //! `-- --build NAME` builds one floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
@@ -20,6 +22,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::hint::black_box;
 use std::path::Path;
+use std::process::Command;
 use std::time::{Duration, Instant};
 
 use cpu_time::ProcessTime;
@@ -28,9 +31,7 @@ use orthoframe::geometry::{DoorStates, FloorPlan, Method, Target};
 use orthoframe::map::World;
 use orthoframe::units::{Cm, Deg, Frame, MapId, Point, ReplicaId};
 
-/// Name, and Detour's mean of a query in µs in a WebAssembly build on floors of these sizes.
-const FLOORS: [(&str, f64); 4] =
-    [("room-20", 16.7), ("flat-80", 16.5), ("office-3000", 147.0), ("hospital-40000", 2423.0)];
+const FLOORS: [&str; 4] = ["room-20", "flat-80", "office-3000", "hospital-40000"];
 const RADIUS: f64 = 20.0;
 const QUERIES: usize = 200;
 
@@ -83,8 +84,19 @@ struct Told {
 impl Told {
     fn by(program: &str, name: &str) -> Self {
         let own = std::env::current_exe().expect("a program knows its place");
-        let run = std::process::Command::new(own).args(["--alone", program, name]).output();
-        let run = run.expect("it runs once more");
+        Self::of(Command::new(own).args(["--alone", program, name]))
+    }
+
+    /// What Recast and Detour themselves tell, if there is a command to run them.
+    fn by_detour(name: &str) -> Self {
+        let Ok(command) = std::env::var("DETOUR") else { return Self::default() };
+        let file = tempfile::NamedTempFile::new().expect("a file can be made");
+        write(name, file.path()).expect("the file can be written");
+        Self::of(Command::new("sh").args(["-c", &format!("{command} \"$0\"")]).arg(file.path()))
+    }
+
+    fn of(command: &mut Command) -> Self {
+        let run = command.output().expect("it runs");
         let mut told = Self::default();
         for line in String::from_utf8_lossy(&run.stdout).lines() {
             let fields: Vec<&str> = line.split('\t').collect();
@@ -119,29 +131,33 @@ fn ratio(above: Option<&f64>, below: Option<&f64>) -> String {
 
 fn tables(wanted: &str) {
     let mut build = String::from(
-        "| floor | build, ms (on the clock) | Recast, ms (on the clock; without detail mesh) | times faster | on the clock | polyanya, ms | Passframes | Recast's polygons |\n|---|---|---|---|---|---|---|---|\n",
+        "| floor | build, ms (on the clock) | Recast, ms (on the clock; without detail mesh) | times faster | on the clock | Recast itself, ms (on the clock) | times faster | polyanya, ms | Passframes | Recast's polygons |\n|---|---|---|---|---|---|---|---|---|---|\n",
     );
     let mut memory = String::from(
-        "| floor | before building, MB | peak | after | a second floor adds | Recast: before | peak | after | a second adds |\n|---|---|---|---|---|---|---|---|---|\n",
+        "| floor | before building, MB | peak | after | a second floor adds | Recast: before | peak | after | a second adds | Recast itself: before | peak | after | a second adds |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     let mut query = String::from(
-        "| floor | ways | median, µs | p99 | polyanya, median | p99 | Detour's mean elsewhere | our median of it | over the optimum: mean | worst | polyanya's mean |\n|---|---|---|---|---|---|---|---|---|---|---|\n",
+        "| floor | ways | median, µs | p99 | polyanya, median | p99 | Detour, median | p99 | our median of it | over the optimum: mean | worst | polyanya's mean | Detour's mean |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
     );
     let mut rebuild = String::from("| floor | rebuild, ms: median | worst |\n|---|---|---|\n");
-    for (name, detour) in FLOORS.into_iter().filter(|(n, _)| n.contains(wanted)) {
+    for name in FLOORS.into_iter().filter(|n| n.contains(wanted)) {
         let [ours, recast, polyanya, least] =
             ["ours", "recast", "polyanya", "optimum"].map(|program| Told::by(program, name));
-        let faster = |key: &str| ratio(recast.numbers.get(key), ours.numbers.get(key));
+        let detour = Told::by_detour(name);
+        let faster = |peer: &Told, key: &str| ratio(peer.numbers.get(key), ours.numbers.get(key));
         let _ = writeln!(
             build,
-            "| {name} | {} ({}) | {} ({}; {}) | {} | {} | {} | {} | {} |",
+            "| {name} | {} ({}) | {} ({}; {}) | {} | {} | {} ({}) | {} | {} | {} | {} |",
             ours.shown("build", 2),
             ours.shown("clock", 2),
             recast.shown("build", 1),
             recast.shown("clock", 1),
             recast.shown("bare", 1),
-            faster("build"),
-            faster("clock"),
+            faster(&recast, "build"),
+            faster(&recast, "clock"),
+            detour.shown("build", 1),
+            detour.shown("clock", 1),
+            faster(&detour, "build"),
             polyanya.shown("build", 1),
             ours.shown("cells", 0),
             recast.shown("cells", 0),
@@ -149,8 +165,14 @@ fn tables(wanted: &str) {
         let held = |told: &Told| {
             ["before", "peak", "after", "kept"].map(|key| told.shown(key, 0)).join(" | ")
         };
-        let _ = writeln!(memory, "| {name} | {} | {} |", held(&ours), held(&recast));
-        let (own, other) = (ours.times(), polyanya.times());
+        let _ = writeln!(
+            memory,
+            "| {name} | {} | {} | {} |",
+            held(&ours),
+            held(&recast),
+            held(&detour)
+        );
+        let [own, other, theirs] = [&ours, &polyanya, &detour].map(Told::times);
         let at =
             |times: &[f64], share: f64| times.get((times.len() as f64 * share) as usize).copied();
         let shown = |value: Option<f64>| value.map_or("–".to_owned(), |v| format!("{v:.1}"));
@@ -165,16 +187,21 @@ fn tables(wanted: &str) {
         };
         let _ = writeln!(
             query,
-            "| {name} | {} | {} | {} | {} | {} | {detour} | {} | {:.5} | {:.5} | {:.5} |",
+            "| {name} | {} | {} | {} | {} | {} | {} | {} | {} | {:.5} | {:.5} | {:.5} | {:.5} |",
             own.len(),
             shown(at(&own, 0.5)),
             shown(at(&own, 0.99)),
             shown(at(&other, 0.5)),
             shown(at(&other, 0.99)),
-            at(&own, 0.5).map_or("–".to_owned(), |m| format!("{:.2}", m / detour)),
+            shown(at(&theirs, 0.5)),
+            shown(at(&theirs, 0.99)),
+            at(&own, 0.5)
+                .zip(at(&theirs, 0.5))
+                .map_or("–".to_owned(), |(ours, theirs)| format!("{:.2}", ours / theirs)),
             over(&ours).0,
             over(&ours).1,
             over(&polyanya).0,
+            over(&detour).0,
         );
         let _ = writeln!(
             rebuild,
