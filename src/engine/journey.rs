@@ -1,21 +1,15 @@
 //! Ways over several floors, in legs and rides, and what would open a way where there is none.
 
-use std::collections::{BTreeMap, BTreeSet};
-
-use crate::geometry::{FloorPlan, Leg, Method, NoRoute, Remedy, Ride, Target, across};
+use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, Target, across};
 use crate::language::Language;
 use crate::language::report::Detail;
-use crate::map::{DoorState, DoorStatus, World};
-use crate::semantics::lifts;
-use crate::units::{Deg, DoorId, MapId, Point};
+use crate::map::World;
+use crate::units::{Deg, MapId, Point};
 
 use super::advice::Advice;
 use super::route::{End, Located, RouteAnswer, stages};
 use super::surroundings::Surroundings;
 use super::{Engine, Error};
-
-/// A world whose lifts were called, and its floors.
-type Called = (World, BTreeMap<MapId, FloorPlan>);
 
 /// A way from one place to another, over as many maps as it takes.
 #[derive(Debug, Clone)]
@@ -68,17 +62,11 @@ impl Surroundings<'_> {
         let world = self.world()?;
         let floors = self.floors()?;
         let ends = ((start.map, start.at), (goal.map, goal.target));
-        let found = across(world, floors, ends.0, ends.1, method);
-        let called = if found.is_err() { self.with_lifts_called()? } else { None };
-        let found = match &called {
-            Some((world, floors)) => across(world, floors, ends.0, ends.1, method),
-            None => found,
-        };
         let answer = |map, from: &str, (to, end): (&str, End), route: Result<_, NoRoute>| {
             let stages = route.as_ref().map(|r| stages(&floors[&map], r)).unwrap_or_default();
             RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), end, route, stages }
         };
-        match found {
+        match across(world, floors, ends.0, ends.1, method) {
             Ok(found) => {
                 let rides: Vec<Ride> = found.iter().filter_map(|leg| leg.ride.clone()).collect();
                 let lift = |k: usize| rides.get(k).map(|r| world.domain.lifts[r.lift].0.as_str());
@@ -93,8 +81,7 @@ impl Surroundings<'_> {
             Err(no) => {
                 let advice = floors.get(&no.map).and_then(|floor| {
                     let alone = start.map == goal.map;
-                    let called = (!alone).then(|| floor.with_lifts_open(world));
-                    let floor = called.as_ref().unwrap_or(floor);
+                    let floor = &*floor.with_lifts_open(world);
                     let remedy = floor.remedy(world, no.from, no.target, &no.why)?;
                     let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
                     (alone || opens()).then(|| Advice::of(world, floor, remedy))
@@ -103,28 +90,6 @@ impl Surroundings<'_> {
                 Ok(Journey { legs: vec![leg], rides: vec![], advice })
             }
         }
-    }
-
-    /// The world and its floors with the shut doors of lifts open, as they are to whoever has called one; none where
-    /// no lift has such doors.
-    fn with_lifts_called(&self) -> Result<Option<Called>, Error> {
-        let before = self.world()?;
-        let is_shut = |door: &DoorId| {
-            before.doors.get(door).is_some_and(|d| d.state.status == DoorStatus::Closed)
-        };
-        let lifts = lifts(before, self.relations()?);
-        let doors = lifts.iter().flat_map(|lift| &lift.doors).filter_map(|join| join.door);
-        let doors: BTreeSet<DoorId> = doors.filter(is_shut).collect();
-        if doors.is_empty() {
-            return Ok(None);
-        }
-        let mut world = before.clone();
-        for door in doors {
-            world.doors.get_mut(&door).expect("found among them").state = DoorState::OPEN;
-        }
-        let mut floors = self.floors()?.clone();
-        floors.values_mut().for_each(|floor| floor.follow(before, &world));
-        Ok(Some((world, floors)))
     }
 
     /// Whether a change that opens one leg opens the whole way, which other things may bar as well.

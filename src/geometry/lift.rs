@@ -2,11 +2,12 @@
 //!
 //! The uppermost level of the network: start, goal and the lifts' stops are nodes; a route over one Map is an edge
 //! as long as it is, a ride one as long as the robot could have driven meanwhile. A lift opens its doors where it is
-//! called, so that closed ones bar no way from Map to Map. Stairs, whose stops are Areas
+//! called, so that closed ones bar no way from Map to Map, nor into a cabin. Stairs, whose stops are Areas
 //! of a type with the trait `stairs`, are no way for a robot on wheels.
 //!
 //! **Invariant**: legs and rides alternate; a leg begins where the ride before it ends, in the middle of the stop.
 
+use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
 
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -78,18 +79,27 @@ pub fn across(
     (goal_map, target): (MapId, Target),
     method: Method,
 ) -> Result<Vec<Leg>, Box<NoWay>> {
-    let drive_on = |plans: &BTreeMap<_, FloorPlan>, map: MapId, from: Point, target: Target| {
-        let plan = plans.get(&map).ok_or(NoRoute::NoFloor);
-        plan.and_then(|p| p.route(world, from, target, method))
+    let route_on = |plan: &FloorPlan, map: MapId, from: Point, target: Target| {
+        plan.route(world, from, target, method)
             .map_err(|why| Box::new(NoWay { map, from, target, why }))
     };
     if map == goal_map {
-        let route = drive_on(plans, map, from, target)?;
+        let no_floor = || Box::new(NoWay { map, from, target, why: NoRoute::NoFloor });
+        let plan = plans.get(&map).ok_or_else(no_floor)?;
+        // Into a cabin and out of it.
+        let route =
+            route_on(plan, map, from, target).or_else(|no| match plan.with_lifts_open(world) {
+                Cow::Owned(called) => route_on(&called, map, from, target).map_err(|_| no),
+                Cow::Borrowed(_) => Err(no),
+            })?;
         return Ok(vec![Leg { map, route, ride: None }]);
     }
-    let plans: BTreeMap<MapId, FloorPlan> =
+    let plans: BTreeMap<MapId, Cow<'_, FloorPlan>> =
         plans.iter().map(|(&map, plan)| (map, plan.with_lifts_open(world))).collect();
-    let drive_on = |map: MapId, from: Point, target: Target| drive_on(&plans, map, from, target);
+    let drive_on = |map: MapId, from: Point, target: Target| match plans.get(&map) {
+        Some(plan) => route_on(plan, map, from, target),
+        None => Err(Box::new(NoWay { map, from, target, why: NoRoute::NoFloor })),
+    };
     let stops = stops(world, &plans);
     let mut graph = DiGraph::<MapId, (f64, Edge)>::new();
     let nodes: Vec<NodeIndex> = stops.iter().map(|s| graph.add_node(s.map)).collect();
@@ -177,7 +187,7 @@ fn cabins(world: &World) -> impl Iterator<Item = (usize, AreaId)> + '_ {
         .flat_map(|(lift, stops)| stops.iter().map(move |stop| (lift, stop.area)))
 }
 
-fn stops(world: &World, plans: &BTreeMap<MapId, FloorPlan>) -> Vec<Stop> {
+fn stops(world: &World, plans: &BTreeMap<MapId, Cow<'_, FloorPlan>>) -> Vec<Stop> {
     let mut found = Vec::new();
     for (lift, area) in cabins(world) {
         let Some((map, frame)) = world.placement(area) else { continue };
@@ -204,13 +214,17 @@ fn area_of(world: &World, target: Target, map: MapId) -> AreaId {
 impl FloorPlan {
     /// The same floor with the closed doors of lifts open, as they are where a lift was called; locked ones stay.
     #[must_use]
-    pub fn with_lifts_open(&self, world: &World) -> Self {
+    pub fn with_lifts_open(&self, world: &World) -> Cow<'_, Self> {
         let cabins: BTreeSet<AreaId> = cabins(world).map(|(_, area)| area).collect();
         let leads_in = |d: &&Doorway| d.areas.iter().any(|area| cabins.contains(area));
         let closed = |door: &DoorId| self.door_state(world, *door) == DoorState::CLOSED;
         let doors = self.doorways().iter().filter(leads_in).filter_map(|d| d.door);
         let open: DoorStates = doors.filter(closed).map(|door| (door, DoorState::OPEN)).collect();
-        if open.is_empty() { self.clone() } else { self.with_doors(world, &open) }
+        if open.is_empty() {
+            Cow::Borrowed(self)
+        } else {
+            Cow::Owned(self.with_doors(world, &open))
+        }
     }
 
     /// The place nearest to an Area's middle where the robot fits.
