@@ -7,7 +7,7 @@
 use std::collections::HashMap;
 
 use crate::geometry::{Bounds, Polygon};
-use crate::units::{Point, Vector};
+use crate::units::{Frame, Point, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
 use super::font::text_width;
@@ -16,7 +16,60 @@ use super::font::text_width;
 struct Placed {
     at: Point,
     lettering: Lettering,
-    frame: Bounds,
+    /// What it covers: one frame where it is level or upright, a row of small ones where it slants.
+    frames: Vec<Bounds>,
+}
+
+/// What a name may stand on.
+pub(super) struct Ground<'g> {
+    pub(super) bounds: Bounds,
+    /// What stands upon it.
+    pub(super) upon: &'g [Bounds],
+    /// Of a thing that is turned out of the sheet's directions, and clearly longer than wide.
+    pub(super) slant: Option<Slant>,
+}
+
+/// A rectangle by its middle, half its length and width, cm, and the degrees of its length, in which a name is read.
+#[derive(Clone, Copy)]
+pub(super) struct Slant {
+    middle: Point,
+    half: Vector,
+    turn: f64,
+}
+
+impl Slant {
+    /// The smallest rectangle along a frame's axes around some points; none where a level name serves as well.
+    pub(super) fn of(frame: &Frame, points: impl Iterator<Item = Point>) -> Option<Self> {
+        /// Nearer to level or upright, degrees, a name is set so.
+        const LEVEL: f64 = 4.0;
+        /// Of length to width.
+        const LONG: f64 = 1.4;
+        let own = Bounds::of(points.map(|p| frame.invert(p)));
+        let (half, angle) = ((own.max - own.min) / 2.0, frame.angle.get());
+        let is_wide = half.x >= half.y;
+        let (half, turn) =
+            if is_wide { (half, angle) } else { (Vector::new(half.y, half.x), angle + 90.0) };
+        // Read from the left to the right, or upwards.
+        let turn = 90.0 - (90.0 - turn).rem_euclid(180.0);
+        let off = turn.rem_euclid(90.0);
+        let slants = off.min(90.0 - off) > LEVEL && half.x > LONG * half.y;
+        let middle = frame.apply(nalgebra::center(&own.min, &own.max));
+        slants.then_some(Self { middle, half, turn })
+    }
+
+    /// Frames that cover a name's rectangle, so many cm along it and across from the middle.
+    fn cover(&self, (along, across): (f64, f64), (long, tall): (f64, f64)) -> Vec<Bounds> {
+        let (sin, cos) = self.turn.to_radians().sin_cos();
+        let at = |x: f64, y: f64| self.middle + Vector::new(x * cos - y * sin, x * sin + y * cos);
+        let pieces = (long / tall).ceil().max(1.0);
+        let edge = |k: f64| along - long / 2.0 + long * k / pieces;
+        let (low, high) = (across - tall / 2.0, across + tall / 2.0);
+        let piece = |k: f64| {
+            let (x, next) = (edge(k), edge(k + 1.0));
+            Bounds::of([at(x, low), at(next, low), at(next, high), at(x, high)])
+        };
+        (0..pieces as u32).map(|k| piece(f64::from(k))).collect()
+    }
 }
 
 /// Frames that are taken, found by the cell of a coarse grid.
@@ -111,7 +164,7 @@ impl Labels {
         let best = free().find(|f| !self.crosses_line(f)).or_else(|| free().next()).copied();
         if let Some(frame) = best {
             let at = nalgebra::center(&frame.min, &frame.max);
-            self.put(canvas, text, &Placed { at, lettering: style, frame });
+            self.put(canvas, text, &Placed { at, lettering: style, frames: vec![frame] });
         }
     }
 
@@ -152,7 +205,7 @@ impl Labels {
                         + if self.crosses_line(&frame) { 1.2 } else { 0.0 };
                     let better = best.as_ref().is_none_or(|(least, _)| cost < *least);
                     if better && self.is_free(&frame) && holds(room, &frame) {
-                        best = Some((cost, Placed { at: spot, lettering, frame }));
+                        best = Some((cost, Placed { at: spot, lettering, frames: vec![frame] }));
                     }
                 }
             }
@@ -174,12 +227,16 @@ impl Labels {
     pub(super) fn on_thing(
         &mut self,
         canvas: &mut Canvas,
-        (thing, upon): (Bounds, &[Bounds]),
+        &Ground { bounds: thing, upon, slant }: &Ground<'_>,
         text: &str,
         style: Lettering,
         rooms: Option<&[&Polygon]>,
     ) {
         let center = nalgebra::center(&thing.min, &thing.max);
+        let along = |upon| slant.and_then(|slant| self.spot_along(slant, upon, text, style));
+        if let Some(placed) = along(upon).or_else(|| along(&[])) {
+            return self.put(canvas, text, &placed);
+        }
         // To be clear of them, a name is neither turned nor made much smaller.
         let clear = self.spot_on((thing, upon), text, style, (&[1.0, 0.85], &[0.0]));
         let anywhere =
@@ -214,7 +271,7 @@ impl Labels {
                         let leader = Style::line(lettering.color, style.size * 0.05);
                         canvas.segment(center, frame_point(&frame, center), leader);
                     }
-                    return self.put(canvas, text, &Placed { at, lettering, frame });
+                    return self.put(canvas, text, &Placed { at, lettering, frames: vec![frame] });
                 }
             }
         }
@@ -249,13 +306,45 @@ impl Labels {
                         let frame = around(at, width, height);
                         let is_clear = !upon.iter().any(|other| other.meets(&frame));
                         if is_clear && self.is_free(&frame) && !self.crosses_line(&frame) {
-                            return Some(Placed { at, lettering, frame });
+                            return Some(Placed { at, lettering, frames: vec![frame] });
                         }
                     }
                 }
             }
         }
         None
+    }
+
+    /// Where a name fits along a thing that slants, clear of what stands upon it.
+    fn spot_along(
+        &self,
+        slant: Slant,
+        upon: &[Bounds],
+        text: &str,
+        style: Lettering,
+    ) -> Option<Placed> {
+        [1.0, 0.85, 0.72].into_iter().find_map(|share| {
+            let lettering = Lettering { size: style.size * share, turn: slant.turn, ..style };
+            let (long, tall) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
+            let spare = slant.half - Vector::new(long, tall) / 2.0;
+            if spare.x < 0.0 || spare.y < 0.0 {
+                return None;
+            }
+            let shares = [0.0, 0.5, -0.5, 0.9, -0.9];
+            let off = shares.map(|s| (0.0, s * spare.y)).into_iter();
+            off.chain(shares.map(|s| (s * spare.x, 0.0))).find_map(|off| {
+                let frames = slant.cover(off, (long, tall));
+                let is_clear = frames.iter().all(|frame| {
+                    !upon.iter().any(|other| other.meets(frame))
+                        && self.is_free(frame)
+                        && !self.crosses_line(frame)
+                });
+                let (first, last) = (frames.first()?, frames.last()?);
+                let middle = |b: &Bounds| nalgebra::center(&b.min, &b.max);
+                let at = nalgebra::center(&middle(first), &middle(last));
+                is_clear.then_some(Placed { at, lettering, frames })
+            })
+        })
     }
 
     /// A name at a point, or as near to it as there is space.
@@ -267,13 +356,13 @@ impl Labels {
             STEPS.map(|(x, y)| around(spot + Vector::new(x * width, y * height), width, height));
         if let Some(&frame) = frames.iter().find(|f| self.is_free(f) && !self.crosses_line(f)) {
             let at = nalgebra::center(&frame.min, &frame.max);
-            self.put(canvas, text, &Placed { at, lettering: style, frame });
+            self.put(canvas, text, &Placed { at, lettering: style, frames: vec![frame] });
         }
     }
 
     fn put(&mut self, canvas: &mut Canvas, text: &str, placed: &Placed) {
         canvas.text(placed.at, text, placed.lettering);
-        self.take(placed.frame.grown(self.margin));
+        placed.frames.iter().for_each(|frame| self.take(frame.grown(self.margin)));
     }
 }
 
@@ -352,6 +441,7 @@ fn segment_meets(a: Point, b: Point, frame: &Bounds) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::units::Deg;
 
     #[test]
     fn a_segment_meets_a_frame_or_passes_it() {
@@ -362,6 +452,36 @@ mod tests {
         assert!(!meets(-5.0, 2.0, 5.0, 2.0));
         assert!(!meets(2.0, 0.0, 5.0, 0.0));
         assert!(meets(0.5, -3.0, 0.5, 3.0));
+    }
+
+    #[test]
+    fn a_name_runs_along_a_long_thing_that_is_turned_and_stays_on_it() {
+        let along = |angle: f64, (wide, deep): (f64, f64)| {
+            let frame = Frame::new(300.0, -40.0, 0.0, Deg::of(angle));
+            let corners = [(0.0, 0.0), (wide, 0.0), (wide, deep), (0.0, deep)];
+            Slant::of(&frame, corners.map(|(x, y)| frame.apply(Point::new(x, y))).into_iter())
+        };
+        for (angle, size, turn) in [
+            (30.0, (160.0, 60.0), 30.0),
+            (210.0, (160.0, 60.0), 30.0),
+            (120.0, (160.0, 60.0), -60.0),
+            (30.0, (60.0, 160.0), -60.0),
+            (-20.0, (60.0, 160.0), 70.0),
+        ] {
+            let slant = along(angle, size).expect("turned and long");
+            assert!((slant.turn - turn).abs() < 1e-9, "{angle}: {} for {turn}", slant.turn);
+            let style = Lettering::plain(12.0, "#000000");
+            let labels = Labels::new(10.0);
+            let placed = labels.spot_along(slant, &[], "Desk", style).expect("there is space");
+            let frame = Frame::new(300.0, -40.0, 0.0, Deg::of(angle));
+            let on = Bounds { min: Point::origin(), max: Point::new(size.0, size.1) }.grown(6.0);
+            for frame_of in &placed.frames {
+                assert!(on.contains(frame.invert(nalgebra::center(&frame_of.min, &frame_of.max))));
+            }
+            assert!((placed.at - slant.middle).norm() < 1e-9);
+        }
+        assert!(along(2.0, (160.0, 60.0)).is_none() && along(88.0, (160.0, 60.0)).is_none());
+        assert!(along(45.0, (60.0, 60.0)).is_none());
     }
 
     #[test]

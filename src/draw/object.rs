@@ -14,7 +14,7 @@ use crate::units::{Language, Point, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
-use super::labels::Labels;
+use super::labels::{Ground, Labels};
 
 const INK: &str = "#2b2a27";
 const OUTLINE: &str = "#3b3a36";
@@ -316,7 +316,7 @@ fn draw_view(
         let frame = Bounds { min: bounds.min + offset, max: bounds.max + offset };
         labels.on_thing(
             canvas,
-            (frame, &[]),
+            &Ground { bounds: frame, upon: &[], slant: None },
             &s.body.id,
             Lettering::bold(11.0 * pen, "#7a5c2e"),
             None,

@@ -12,7 +12,7 @@ use crate::units::{AreaId, Language, Point, Pose, ReplicaId, Vector};
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
 use super::furniture;
-use super::labels::{Labels, around};
+use super::labels::{Ground, Labels, Slant, around};
 use super::legend::{Entry, Legend, scale_bar, scale_bar_width};
 use super::rooms;
 
@@ -362,7 +362,10 @@ impl PlanDrawing<'_> {
             let home = home.filter(|_| !crowded.contains(&thing.id));
             let rooms: Vec<&Polygon> =
                 home.iter().flat_map(|a| &a.prisms).map(|p| &p.polygon).collect();
-            labels.on_thing(canvas, (thing.bounds, &upon), name, lettering, Some(&rooms));
+            let corners = thing.prisms.iter().flat_map(|p| p.polygon.corners.iter().copied());
+            let slant = Slant::of(&thing.frame, corners);
+            let ground = Ground { bounds: thing.bounds, upon: &upon, slant };
+            labels.on_thing(canvas, &ground, name, lettering, Some(&rooms));
         }
     }
 
