@@ -89,7 +89,7 @@ pub fn across(
         // Into a cabin and out of it.
         let route =
             route_on(plan, map, from, target).or_else(|no| match plan.with_lifts_open(world) {
-                Cow::Owned(called) => route_on(&called, map, from, target).map_err(|_| no),
+                Cow::Owned(called) => route_on(&called, map, from, target).or(Err(no)),
                 Cow::Borrowed(_) => Err(no),
             })?;
         return Ok(vec![Leg { map, route, ride: None }]);
