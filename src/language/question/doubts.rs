@@ -3,10 +3,10 @@
 //! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
 
 use super::knowledge::Knowledge;
+use super::mark::Pronoun;
 use super::query::{Rel, Thing};
 use super::speech;
 use super::values::Property;
-use super::vocabulary::Pronoun;
 use super::{Doubt, Unanswered};
 use crate::language::words::russian::{self, Preposition};
 use crate::language::words::{Case, Gender, Number, alternatives, enumerate};

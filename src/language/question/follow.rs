@@ -1,7 +1,7 @@
 //! Going on from the question before: «А чайник?», "And the other one?", «Красная» where it was asked back which.
 
 use super::grammar::{Item, Sentence};
-use super::vocabulary::{Mark, Pronoun};
+use super::mark::{Mark, Pronoun};
 use super::{Asker, Claim, Extension, Head, Memory, Noun, Query, Thing, assemble};
 use crate::language::words::word_keys;
 use crate::map::Entity;

@@ -17,6 +17,7 @@ mod follow;
 mod grammar;
 mod knowledge;
 mod lexicon;
+mod mark;
 mod opening;
 mod orders;
 mod purposes;
@@ -51,7 +52,7 @@ use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
 
 use grammar::Sentence;
 use knowledge::Knowledge;
-use vocabulary::Pronoun;
+use mark::Pronoun;
 
 /// What the map alone cannot know: where the robot is, ways over the floor, what was seen when.
 pub trait Senses {

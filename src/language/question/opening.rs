@@ -1,7 +1,8 @@
 //! How a sentence begins: whether it asks, asks to be told, or orders.
 
+use super::mark::Mark;
 use super::query::Rel;
-use super::vocabulary::{Mark, longest};
+use super::vocabulary::longest;
 
 /// Whether these words, in [`name_key`](crate::units::name_key) form, begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {

@@ -15,8 +15,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         locked,
         neither,
         everything_switched,
-        that_far,
-        that_room,
+        asked_of_that,
         outwards,
         whence,
         any_room,
@@ -110,16 +109,13 @@ fn everything_switched(words: &Words<'_>) -> Option<String> {
     if all + 1 < words.keys.len() && !words.is(all + 1, &ends) {
         return None;
     }
-    let devices = match Language::of(words.text) {
-        Language::Russian => "все приборы",
-        Language::English => "all devices",
-    };
+    let devices = Language::of(words.text).pick("все приборы", "all devices");
     Some(words.replaced(vec![(all..all + 1, devices.to_owned())]))
 }
 
-/// «Сколько это метров?», «Это далеко?»: how far what was spoken of is.
-fn that_far(words: &Words<'_>) -> Option<String> {
-    const SAID: [&str; 10] = [
+/// «Это далеко?», "Which room is that?": how far what was spoken of is, or in which room.
+fn asked_of_that(words: &Words<'_>) -> Option<String> {
+    const FAR: &[&str] = &[
         "сколько это метров",
         "сколько это в метрах",
         "а сколько это метров",
@@ -131,15 +127,7 @@ fn that_far(words: &Words<'_>) -> Option<String> {
         "is that far",
         "is that far away",
     ];
-    SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
-        Language::Russian => "Как далеко туда?".to_owned(),
-        Language::English => "How far is it?".to_owned(),
-    })
-}
-
-/// "Which room is that?": in which room what was spoken of is.
-fn that_room(words: &Words<'_>) -> Option<String> {
-    const SAID: [&str; 6] = [
+    const ROOM: &[&str] = &[
         "which room is that",
         "what room is that",
         "which room is that in",
@@ -147,10 +135,13 @@ fn that_room(words: &Words<'_>) -> Option<String> {
         "в какой это комнате",
         "это в какой комнате",
     ];
-    SAID.contains(&words.keys.join(" ").as_str()).then(|| match Language::of(words.text) {
-        Language::Russian => "В какой они комнате?".to_owned(),
-        Language::English => "Which room is it in?".to_owned(),
-    })
+    let said = words.keys.join(" ");
+    let asked = [
+        (FAR, ("Как далеко туда?", "How far is it?")),
+        (ROOM, ("В какой они комнате?", "Which room is it in?")),
+    ];
+    let (_, (russian, english)) = asked.into_iter().find(|(all, _)| all.contains(&&*said))?;
+    Some(Language::of(words.text).pick(russian, english).to_owned())
 }
 
 /// «Откуда можно попасть в ванную?»: out of which rooms.

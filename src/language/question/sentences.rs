@@ -1,7 +1,7 @@
 //! A text of several sentences or questions: each is answered, and what only tells is what the others speak of.
 
 use super::grammar::{Item, Sentence};
-use super::vocabulary::Mark;
+use super::mark::Mark;
 use super::{Answer, Asker, Memory, Thing, Unanswered, opening, several};
 use crate::language::words::{Language, word_keys};
 

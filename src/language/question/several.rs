@@ -1,6 +1,7 @@
 //! Several questions in one sentence, and what people hang on a question's end.
 
-use super::vocabulary::{self, Mark};
+use super::mark::Mark;
+use super::vocabulary;
 use crate::language::words::{word_keys, word_ranges};
 
 /// The questions that «и», «а» or "and" join in a text: each has a word of its own that asks. None where it is one.

@@ -6,10 +6,10 @@ use super::Frame;
 use super::Spot;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::{Property, ValueId};
-use crate::language::question::vocabulary::Mark;
 use crate::language::report::Detail;
 
 impl Frame<'_, '_> {

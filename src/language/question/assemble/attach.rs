@@ -5,9 +5,9 @@
 use super::Frame;
 use super::Spot;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Best, Closeness, Extreme, Filter, Noun, Rel, Restriction};
 use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     /// A noun with all places, values and superlatives of the sentence, but for the places left out.

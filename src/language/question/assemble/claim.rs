@@ -5,9 +5,9 @@
 use super::Frame;
 use super::Spot;
 use super::Subject;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Claim, Filter, Noun, Query, Rel, Restriction};
 use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     pub(super) fn why(&self) -> Query {

@@ -6,10 +6,10 @@ use super::Frame;
 use super::Spot;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{
     Best, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
 };
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     /// «В какой комнате больше всего стульев?», "Which table has the most books?"

@@ -10,9 +10,9 @@ use super::things;
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase, Sentence};
 use crate::language::question::lexicon::{Extension, Lexicon};
+use crate::language::question::mark::{Mark, Pronoun};
 use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
-use crate::language::question::vocabulary::{Mark, Pronoun};
 use crate::language::report::Detail;
 
 impl<'s, 't> Frame<'s, 't> {

@@ -17,9 +17,9 @@ mod which;
 use super::Doubt;
 use super::grammar::{Item, Sentence};
 use super::lexicon::Lexicon;
+use super::mark::{Mark, Pronoun};
 use super::query::{Head, Noun, Query, Rel, Restriction, Sized, Thing};
 use super::values::{Property, ValueId};
-use super::vocabulary::{Mark, Pronoun};
 
 /// What a pronoun of the sentence means.
 pub(super) type Referent<'a> = dyn Fn(Pronoun) -> Vec<Thing> + 'a;

@@ -4,8 +4,8 @@
 
 use super::Frame;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Passing, Query, Rel};
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     /// «Можно ли попасть из кухни в спальню, минуя коридор?», "How many doors are there on the way to the bedroom?"

@@ -4,10 +4,10 @@
 
 use super::Frame;
 use crate::language::question::lexicon::{Extension, KindId};
+use crate::language::question::mark::Mark;
 use crate::language::question::purposes;
 use crate::language::question::query::{Claim, Head, Noun, Query, Rel, Sized};
 use crate::language::question::values::{Property, ValueId};
-use crate::language::question::vocabulary::Mark;
 
 /// What the nouns and claims of a query speak of.
 #[derive(Default)]

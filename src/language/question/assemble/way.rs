@@ -5,10 +5,10 @@
 use super::Frame;
 use super::Spot;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{
     Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
 };
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     pub(super) fn way(&self) -> Option<Query> {

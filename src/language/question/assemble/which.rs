@@ -5,8 +5,8 @@
 use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction, Thing};
-use crate::language::question::vocabulary::Mark;
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {

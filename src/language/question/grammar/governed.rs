@@ -4,8 +4,8 @@
 //! Invariant: the words that are read are those that the caller takes.
 
 use super::{Found, Parsed, Phrase, Sentence, Tok, Token, Tokens, fail};
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Filter, Head, Noun, Rel};
-use crate::language::question::vocabulary::Mark;
 use crate::language::words::{Case, Language, Number};
 
 impl Sentence<'_> {

@@ -4,8 +4,9 @@
 
 use super::tokens::number_of;
 use super::{Sentence, Tok, Token};
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Extreme, Rel, Sized};
-use crate::language::question::vocabulary::{self, Mark};
+use crate::language::question::vocabulary;
 use crate::language::words::phrase_at;
 
 /// Units of length in cm.

@@ -26,9 +26,9 @@ use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
 use super::lexicon::KindId;
+use super::mark::{Mark, Pronoun};
 use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
-use super::vocabulary::{Mark, Pronoun};
 use crate::language::words::{Case, Language, Number, Readings};
 use crate::map::Entity;
 use crate::units::name_key;

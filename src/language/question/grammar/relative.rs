@@ -6,8 +6,8 @@ use nom::Parser;
 use nom::multi::many0;
 
 use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction};
-use crate::language::question::vocabulary::Mark;
 use crate::language::words::Language;
 
 impl Sentence<'_> {

@@ -2,9 +2,10 @@
 
 use super::{Found, Sentence, Tok, Token};
 use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Extreme, Quantity, Rel};
 use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary::{self, Mark};
+use crate::language::question::vocabulary;
 use crate::language::words::{Language, word_ranges};
 use crate::map::Entity;
 use crate::units::name_key;

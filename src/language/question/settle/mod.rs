@@ -22,9 +22,9 @@ pub(super) use reply::{Ordered, Waiting};
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
+use super::mark::Mark;
 use super::purposes;
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
-use super::vocabulary::Mark;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
 use crate::language::words::{

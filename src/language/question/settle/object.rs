@@ -10,9 +10,9 @@ use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
+use crate::language::question::mark::Mark;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary::Mark;
 use crate::map::Entity;
 use crate::units::AreaId;
 

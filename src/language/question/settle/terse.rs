@@ -4,7 +4,8 @@
 use super::{Ordered, Settler};
 use crate::language::command::{self, Sort};
 use crate::language::question::grammar::{Item, Sentence};
-use crate::language::question::vocabulary::{self, Mark};
+use crate::language::question::mark::Mark;
+use crate::language::question::vocabulary;
 use crate::language::question::{Asker, Memory, Thing};
 use crate::language::words::{Case, Language, NounPhrase, word_keys, word_ranges};
 

@@ -5,8 +5,8 @@ use std::ops::Range;
 use super::Settler;
 use crate::language::command;
 use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::mark::Mark;
 use crate::language::question::values::ValueId;
-use crate::language::question::vocabulary::Mark;
 
 impl Settler<'_, '_> {
     /// «чашку белую»: the value behind its noun.

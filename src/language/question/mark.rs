@@ -1,0 +1,159 @@
+//! What the words of a question do in it, whichever words they are.
+
+use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
+use crate::language::report::Detail;
+
+/// What a word or phrase does in a question.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Mark {
+    Where,
+    /// «что», "what"
+    What,
+    /// «какой», "which"; in Russian also «каких», «каком».
+    Which,
+    HowMany,
+    HowFar,
+    /// «как проехать», "how do I get"
+    HowGet,
+    How,
+    /// «попасть», "get"
+    Move,
+    /// «куда»
+    Whither,
+    /// "anything"
+    Anything,
+    As,
+    /// «чем к», "than to"
+    ThanTo,
+    /// "nearest to"
+    BestTo(Extreme),
+    When,
+    Why,
+    WhyNot,
+    Who,
+    /// «каких размеров», "how tall"
+    HowBig(Dimension),
+    /// «есть», "is there"
+    Exists,
+    /// "is", "are", «находится», «стоит»
+    Be,
+    /// "have", «имеет»
+    Have,
+    /// «ведёт», "lead"
+    Lead,
+    /// «состоит из», "parts of"
+    Parts,
+    /// «сделан из», "made of"
+    MadeOf,
+    /// «расскажи про», "describe"
+    Describe,
+    /// «перечисли», "list"
+    List,
+    /// «посчитай», "count"
+    Count,
+    /// «видишь», "see"
+    See,
+    /// «видел в последний раз», "last seen"
+    LastSeen,
+    /// «раньше», "before"
+    Before,
+    /// «свободно», «свободное место», "free space"
+    Free,
+    /// «сесть», "sit"
+    Sit,
+    /// «лечь», "lie down"
+    LieDown,
+    /// «положить», "put": where can one
+    PutDown,
+    /// «почитать», "drink from": what is done with a sort of things
+    Deed(u16),
+    /// "can I", «можно»
+    Can,
+    /// «держишь», "holding"
+    Hold,
+    You,
+    Me,
+    Not,
+    /// «без», "without": not having.
+    Without,
+    /// «не заходя в», "avoiding": not through.
+    Avoiding,
+    /// «не открывая дверей», "without opening a door"
+    Unopened,
+    /// «с какой стороны от», "which side of"
+    Side,
+    /// «придётся ли», "have to"
+    Must,
+    /// «нельзя»: not and can.
+    Cannot,
+    /// «отличаются», "differ"
+    Differ,
+    /// «общего», "in common"
+    Alike,
+    /// «сразу», "directly": from room to room.
+    Directly,
+    /// «чем занят»: what is on it or in it
+    OccupiedBy,
+    /// «взял», "took"
+    Took,
+    /// «переставили», "was moved"
+    Moved,
+    /// «не меньше», "at least": before a number
+    Number(Quantity),
+    /// «только один», "only one"
+    OnlyOne,
+    And,
+    Or,
+    Than,
+    All,
+    /// «другой», "other"
+    Other,
+    /// «кроме», "except"
+    Except,
+    Link(Rel),
+    Nearer(Closeness),
+    Best(Extreme),
+    /// «вторая» before «по величине», "second" before "biggest"
+    Rank(u64),
+    /// «что ты умеешь», "what can you do"
+    Help,
+    /// «что ты сделал», "what did you do"
+    Did,
+    /// «куда ты смотришь», "what are you facing"
+    Heading,
+    /// «подробно», "in detail"
+    Detail(Detail),
+    /// «больше», "bigger": of two
+    More(Extreme),
+    /// «такого же цвета», "the same colour"
+    Same,
+    /// «виды», "kinds of"
+    Kinds,
+    /// «висит», "hangs": said of what is on a wall
+    Hang,
+    /// «открывает», "unlocks": what a key does
+    Opens,
+    Pronoun(Pronoun),
+    /// «там», "there"
+    There,
+    /// The noun that an English adjective stands for: "the red one".
+    One,
+    A,
+    The,
+    Filler,
+}
+
+/// Whom a pronoun may mean.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Pronoun {
+    He,
+    /// «его», «нему»: masculine or neuter.
+    HimOrIt,
+    She,
+    It,
+    They,
+    /// English "it": of any gender.
+    Any,
+    /// «там», "there": the place spoken of, or that of the thing spoken of.
+    There,
+}
