@@ -168,7 +168,7 @@ impl Canvas {
             .set("d", self.trace(Data::new(), corners).close())
             .set("fill", color)
             .set("stroke", color)
-            .set("stroke-width", "0.5");
+            .set("stroke-width", "1");
         self.nodes.append(path);
     }
 

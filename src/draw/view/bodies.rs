@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::geometry::{PlacedArea, PlacedReplica, Polygon, Prism};
-use crate::map::{DoorStatus, Permeability, Properties, World};
+use crate::map::{DoorMount, DoorStatus, Permeability, Properties, World};
 use crate::units::{Language, Point, Vector};
 
 use super::bsp::{Facet, Plane};
@@ -20,6 +20,8 @@ const MOVABLE: [f64; 3] = [0.70, 0.76, 0.66];
 /// A window's pane stands so high above the floor, and ends so far below the ceiling, cm.
 const SILL: f64 = 90.0;
 const ABOVE_WINDOW: f64 = 40.0;
+/// What is left of a wall beside an opening is drawn from this length on, cm.
+const SEEN_PIECE: f64 = 0.5;
 
 /// Words for colours as maps have them, and what they look like.
 const COLORS: [(&[&str], [f64; 3]); 14] = [
@@ -107,16 +109,42 @@ impl Collector<'_> {
             let orthoframe = self.view.world.orthoframe_of(item);
             let corners = &prism.polygon.corners;
             let n = corners.len();
+            let world = self.view.world;
+            // The opening in a side between two corners, and how high it is.
+            let opening = |side: usize, ends: (Point, Point)| {
+                let vector = &orthoframe.base[side];
+                if vector.permeability == Permeability::Impermeable {
+                    return None;
+                }
+                let is_here = |m: &&DoorMount| m.item == item.id && m.side == vector.id;
+                let door = world.doors.get(&area.doors.iter().find(is_here)?.door)?;
+                let on_map = |(r, l)| (placed.frame.apply(r), placed.frame.apply(l));
+                let top = if door.height.get() > 0.0 { door.height.get() } else { f64::INFINITY };
+                Some((
+                    world.threshold(placed.id, door.id).map_or(ends, on_map),
+                    (prism.bottom + top).min(prism.top),
+                ))
+            };
             for (i, ((a, b), vector)) in prism.polygon.edges().zip(&orthoframe.base).enumerate() {
                 if self.sees_inside(a, b) != within {
                     continue;
                 }
-                // A wall that goes straight on shows no edge there.
+                // A wall that goes straight on shows no edge there; where it ends at an opening it does.
+                let edge_at = |side: usize, at: Point, turns: bool| {
+                    let ends = (corners[side], corners[(side + 1) % n]);
+                    let is_end = |p: Point| (p - at).norm() <= SEEN_PIECE;
+                    match opening(side, ends) {
+                        _ if turns => f64::INFINITY,
+                        Some(((r, l), lintel)) if is_end(r) || is_end(l) => lintel,
+                        _ => f64::NEG_INFINITY,
+                    }
+                };
                 let turns = |p: Point, q: Point, r: Point| {
                     (q - p).perp(&(r - q)).abs() > 1e-3 * (q - p).norm() * (r - q).norm()
                 };
-                let at_a = turns(corners[(i + n - 1) % n], a, b);
-                let at_b = turns(a, b, corners[(i + 2) % n]);
+                let (before, after) = ((i + n - 1) % n, (i + 1) % n);
+                let at_a = edge_at(before, a, turns(corners[before], a, b));
+                let at_b = edge_at(after, b, turns(a, b, corners[(i + 2) % n]));
                 match vector.permeability {
                     Permeability::Impermeable => {
                         self.wall(a, b, (prism.bottom, prism.top), wall, [at_a, at_b]);
@@ -128,23 +156,14 @@ impl Collector<'_> {
                         }
                     }
                     Permeability::Permeable | Permeability::Conditional => {
-                        let mount =
-                            area.doors.iter().find(|m| m.item == item.id && m.side == vector.id);
-                        let door = mount.and_then(|m| self.view.world.doors.get(&m.door));
-                        let Some(door) = door else { continue };
-                        let (right, left) = self
-                            .view
-                            .world
-                            .threshold(placed.id, door.id)
-                            .map_or((a, b), |(r, l)| {
-                                (placed.frame.apply(r), placed.frame.apply(l))
-                            });
-                        let lintel = prism.bottom + door.height.get();
-                        if door.height.get() > 0.0 && lintel < prism.top {
-                            self.wall(right, left, (lintel, prism.top), wall, [false, false]);
+                        let Some(((right, left), lintel)) = opening(i, (a, b)) else { continue };
+                        if lintel < prism.top {
+                            let none = [f64::NEG_INFINITY; 2];
+                            self.wall(right, left, (lintel, prism.top), wall, none);
                         }
-                        for (p, q, edges) in [(a, right, [at_a, true]), (left, b, [true, at_b])] {
-                            if (q - p).norm() > 0.5 {
+                        for (p, q, edges) in [(a, right, [at_a, lintel]), (left, b, [lintel, at_b])]
+                        {
+                            if (q - p).norm() > SEEN_PIECE {
                                 self.wall(p, q, (prism.bottom, prism.top), wall, edges);
                             }
                         }
@@ -268,19 +287,19 @@ impl Collector<'_> {
         }
     }
 
-    /// A piece of wall; `edges` tells whether its ends at `a` and `b` are seen as lines.
-    fn wall(
-        &mut self,
-        a: Point,
-        b: Point,
-        (low, high): (f64, f64),
-        owner: usize,
-        edges: [bool; 2],
-    ) {
-        let before = self.facets.len();
-        self.upright(a, b, low, high, owner);
-        if let Some(facet) = self.facets.get_mut(before) {
-            facet.is_edge = vec![true, edges[1], true, edges[0]];
+    /// A piece of wall; `edges` tells how high the lines at its ends `a` and `b` are seen.
+    fn wall(&mut self, a: Point, b: Point, (low, high): (f64, f64), owner: usize, edges: [f64; 2]) {
+        let mut levels = vec![low, high];
+        levels.extend(edges.iter().filter(|&&z| low < z && z < high));
+        levels.sort_by(f64::total_cmp);
+        levels.dedup();
+        for row in levels.windows(2) {
+            let before = self.facets.len();
+            self.upright(a, b, row[0], row[1], owner);
+            if let Some(facet) = self.facets.get_mut(before) {
+                let [at_a, at_b] = edges.map(|z| z >= row[1]);
+                facet.is_edge = vec![row[0] == low, at_b, row[1] == high, at_a];
+            }
         }
     }
 

@@ -106,6 +106,12 @@ struct Node {
 
 /// Puts facets in order from far to near as seen from `eye`. Facets of one plane keep the order in which they came.
 pub(super) fn far_to_near(facets: Vec<Facet>, eye: Point3<f64>) -> Vec<Facet> {
+    // What lies lowest hides nothing, and comes first: the lines of what stands on it stay whole.
+    let heights = || facets.iter().flat_map(|f| f.corners.iter().map(|p| p.z));
+    let lowest = heights().fold(eye.z, f64::min) + THICKNESS;
+    let lies_lowest = |facet: &Facet| facet.corners.iter().all(|p| p.z <= lowest);
+    let (mut order, facets): (Vec<Facet>, Vec<Facet>) = facets.into_iter().partition(lies_lowest);
+
     let mut nodes: Vec<Node> = Vec::new();
     // Sets of facets still to be parted, each with the node and the side that it will hang on.
     let mut waiting = vec![(facets, None::<(usize, bool)>)];
@@ -136,7 +142,6 @@ pub(super) fn far_to_near(facets: Vec<Facet>, eye: Point3<f64>) -> Vec<Facet> {
         waiting.push((front, Some((index, true))));
         waiting.push((behind, Some((index, false))));
     }
-    let mut order = Vec::new();
     let mut steps: Vec<(usize, bool)> =
         if nodes.is_empty() { Vec::new() } else { vec![(0, false)] };
     while let Some((index, is_open)) = steps.pop() {
