@@ -137,7 +137,7 @@ fn a_long_robot_passes_a_door_that_its_disc_does_not() {
         let target = Target::Point(p(700.0 + gap, 150.0));
         let route = plan.route(&b.world, p(100.0, 150.0), target, Method::Shortest).unwrap();
         check_outline(&plan, &b.world, &route);
-        assert_eq!(route.doorways, [0]);
+        assert_eq!(plan.passed(&route).doorways, [0]);
         assert_eq!(plan.open_doorways().len(), 1);
         // Shut, the door is what bars the way.
         b.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED);
@@ -388,7 +388,7 @@ fn a_threshold_area_is_passed_lengthwise() {
         let route =
             plan.route(&b.world, p(200., 150.), Target::Point(to), Method::Shortest).unwrap();
         check_outline(&plan, &b.world, &route);
-        assert_eq!(route.doorways, [0, 1]);
+        assert_eq!(plan.passed(&route).doorways, [0, 1]);
         // With something in the closet there is no way any more, and there is one when it is gone.
         let box_in_it = b.put(mid, depth / 2.0 - 1.0, 5.0, 2.0, 20.0, 0.0, 100.0);
         plan.rebuild(&b.world, &[box_in_it]);

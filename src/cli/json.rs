@@ -9,13 +9,13 @@ use crate::engine::{
     steps, surprise_in_words,
 };
 use crate::facts;
-use crate::geometry::{FaceInView, Remedy, Ride, Route};
+use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
 use crate::graphplan::{Limit, NoPlanReason, Outcome};
 use crate::language::Language;
 use crate::map::Entity;
 use crate::semantics::Spot;
 use crate::strips::Replayed;
-use crate::units::{Point, Pose, ReplicaId};
+use crate::units::{AreaId, Point, Pose, ReplicaId};
 
 #[derive(Debug, Serialize)]
 struct StepView {
@@ -169,7 +169,7 @@ pub(super) fn route(world: &World, answer: &RouteAnswer, language: Language) -> 
             view["outcome"] = json!("route");
             view["areas"] =
                 json!(answer.stages.iter().map(|s| &world.areas[&s.area].name).collect::<Vec<_>>());
-            merge(&mut view, way(world, route));
+            merge(&mut view, way(world, route, &answer.chain));
         }
         Err(why) => {
             view["outcome"] = json!("no_route");
@@ -242,7 +242,7 @@ pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> V
     })
 }
 
-fn way(world: &World, route: &Route) -> Value {
+fn way(world: &World, route: &Route, chain: &[(AreaId, PassframeId)]) -> Value {
     let moved = |m: &Option<crate::geometry::Moved>| {
         m.as_ref().map(|m| json!({"from": point(m.from), "to": point(m.to)}))
     };
@@ -250,8 +250,7 @@ fn way(world: &World, route: &Route) -> Value {
         "length_cm": round(route.length),
         "points": route.points.iter().map(|&p| point(p)).collect::<Vec<_>>(),
         "heading_deg": route.heading.map(|h| round(h.get())),
-        "passframes": route
-            .chain
+        "passframes": chain
             .iter()
             .map(|(area, id)| json!({"area": world.areas[area].name, "id": id.to_string()}))
             .collect::<Vec<_>>(),

@@ -218,7 +218,7 @@ pub(super) fn route(world: &World, floor: &FloorPlan, answer: &RouteAnswer, lang
             format!("{} → {}: {}\n{stages}", answer.from, answer.to, decimal(meters, "m", lang))
         }
     };
-    let frames: Vec<String> = route.chain.iter().map(|(_, id)| id.to_string()).collect();
+    let frames: Vec<String> = answer.chain.iter().map(|(_, id)| id.to_string()).collect();
     text.push_str(&format!("\n{} {}", lang.pick("Пассфреймы:", "Passframes:"), frames.join(" → ")));
     let points: Vec<String> =
         route.points.iter().map(|p| format!("({:.1}, {:.1})", p.x, p.y)).collect();

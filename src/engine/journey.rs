@@ -1,13 +1,13 @@
 //! Ways over several floors, in legs and rides, and what would open a way where there is none.
 
-use crate::geometry::{Leg, Method, NoRoute, Remedy, Ride, Target, across};
+use crate::geometry::{Leg, Method, Remedy, Ride, Target, across};
 use crate::language::Language;
 use crate::language::report::Detail;
 use crate::map::World;
 use crate::units::{Deg, MapId, Point};
 
 use super::advice::Advice;
-use super::route::{End, Located, RouteAnswer, stages};
+use super::route::{End, Located, RouteAnswer};
 use super::surroundings::Surroundings;
 use super::{Engine, Error};
 
@@ -62,10 +62,6 @@ impl Surroundings<'_> {
         let world = self.world()?;
         let floors = self.floors()?;
         let ends = ((start.map, start.at), (goal.map, goal.target));
-        let answer = |map, from: &str, (to, end): (&str, End), route: Result<_, NoRoute>| {
-            let stages = route.as_ref().map(|r| stages(&floors[&map], r)).unwrap_or_default();
-            RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), end, route, stages }
-        };
         match across(world, floors, ends.0, ends.1, method) {
             Ok(found) => {
                 let rides: Vec<Ride> = found.iter().filter_map(|leg| leg.ride.clone()).collect();
@@ -73,7 +69,7 @@ impl Surroundings<'_> {
                 let leg = |(k, leg): (usize, Leg)| {
                     let from = k.checked_sub(1).and_then(lift).unwrap_or(from);
                     let to = lift(k).map_or((to, goal.end), |lift| (lift, End::Lift));
-                    answer(leg.map, from, to, Ok(leg.route))
+                    RouteAnswer::new(leg.map, from, to, Ok((leg.passed, leg.route)))
                 };
                 let legs = found.into_iter().enumerate().map(leg).collect();
                 Ok(Journey { legs, rides, advice: None })
@@ -86,7 +82,7 @@ impl Surroundings<'_> {
                     let opens = || self.opens(&remedy, no.map, ends).is_some_and(|opens| opens);
                     (alone || opens()).then(|| Advice::of(world, floor, remedy))
                 });
-                let leg = answer(no.map, from, (to, goal.end), Err(no.why));
+                let leg = RouteAnswer::new(no.map, from, (to, goal.end), Err(no.why));
                 Ok(Journey { legs: vec![leg], rides: vec![], advice })
             }
         }

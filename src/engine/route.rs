@@ -1,6 +1,6 @@
 //! Ways over the floor, and where things are to be stood at.
 
-use crate::geometry::{FloorPlan, Method, NoRoute, Route, Target};
+use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route, Target};
 use crate::map::Entity;
 use crate::units::{AreaId, Deg, MapId, Point, Pose};
 
@@ -17,6 +17,8 @@ pub struct RouteAnswer {
     pub route: Result<Route, NoRoute>,
     /// Names of the Areas passed, in order, and of the doors between them.
     pub stages: Vec<Stage>,
+    /// The Passframes passed, in order.
+    pub chain: Vec<(AreaId, PassframeId)>,
 }
 
 /// What a way leads to.
@@ -33,7 +35,7 @@ pub enum End {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Stage {
     pub area: AreaId,
-    /// Index in [`FloorPlan::doorways`] of the doorway by which the Area is left.
+    /// Index in [`crate::geometry::FloorPlan::doorways`] of the doorway by which the Area is left.
     pub leaves_by: Option<usize>,
 }
 
@@ -60,9 +62,8 @@ impl Engine {
         }
         let floor = self.floor(start.map)?;
         let route = floor.route(world, start.at, goal.target, method);
-        let stages = route.as_ref().map(|r| stages(floor, r)).unwrap_or_default();
-        let (map, end) = (start.map, goal.end);
-        Ok(RouteAnswer { map, from: from.to_owned(), to: to.to_owned(), end, route, stages })
+        let route = route.map(|route| (floor.passed(&route), route));
+        Ok(RouteAnswer::new(start.map, from, (to, goal.end), route))
     }
 
     /// Where a named place is, or a point written as `X,Y`.
@@ -94,12 +95,27 @@ impl Engine {
     }
 }
 
+impl RouteAnswer {
+    pub(super) fn new(
+        map: MapId,
+        from: &str,
+        (to, end): (&str, End),
+        found: Result<(Passed, Route), NoRoute>,
+    ) -> Self {
+        let (route, passed) = match found {
+            Ok((passed, route)) => (Ok(route), passed),
+            Err(no) => (Err(no), Passed::default()),
+        };
+        let (stages, chain) = (stages(&passed), passed.chain);
+        Self { map, from: from.to_owned(), to: to.to_owned(), end, route, stages, chain }
+    }
+}
+
 /// The Areas of a way and the doorways between them.
-pub(super) fn stages(floor: &FloorPlan, route: &Route) -> Vec<Stage> {
-    let mut areas: Vec<AreaId> = route.chain.iter().map(|(area, _)| *area).collect();
+fn stages(passed: &Passed) -> Vec<Stage> {
+    let mut areas: Vec<AreaId> = passed.chain.iter().map(|(area, _)| *area).collect();
     areas.dedup();
-    let leaves_by = route.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));
-    debug_assert!(route.doorways.iter().all(|&d| d < floor.doorways().len()));
+    let leaves_by = passed.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));
     areas.into_iter().zip(leaves_by).map(|(area, leaves_by)| Stage { area, leaves_by }).collect()
 }
 

@@ -11,17 +11,37 @@ use super::mesh::NONE;
 use super::nearest_on_segment;
 use super::passframe::PassframeId;
 use super::plan::FloorPlan;
+use super::route::Route;
 
-/// Passframes in the order in which they are passed.
-type Chain = Vec<(AreaId, PassframeId)>;
+/// What a way passes, in order.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Passed {
+    pub chain: Vec<(AreaId, PassframeId)>,
+    /// By their index in [`FloorPlan::doorways`].
+    pub doorways: Vec<usize>,
+}
 
 impl FloorPlan {
-    /// The Passframes and doorways that a way passes, from one to the next, beginning in a Fragment; none where the way
-    /// leaves the Passframes, as straits do.
-    pub(super) fn walked(&self, points: &[Point], first: u32) -> Option<(Chain, Vec<usize>)> {
+    /// The Passframes and doorways that a way of this plan passes.
+    #[must_use]
+    pub fn passed(&self, route: &Route) -> Passed {
+        let [Some(&first), Some(&last)] = [route.points.first(), route.points.last()] else {
+            return Passed::default();
+        };
+        let number = |p: Point| self.anchor(p, None, None).map(|anchor| anchor.cell.0);
+        let (Some(from), Some(to)) = (number(first), number(last)) else {
+            return Passed::default();
+        };
+        self.walked(&route.points, from)
+            .unwrap_or_else(|| self.clipped(&route.points, &self.network.between(from, to)))
+    }
+
+    /// What a way passes, from one to the next, beginning in a Fragment; none where the way leaves the Passframes, as
+    /// straits do.
+    fn walked(&self, points: &[Point], first: u32) -> Option<Passed> {
         /// Shorter stretches, in cm, only touch a Passframe.
         const TOUCHED: f64 = 1e-3;
-        let (mut chain, mut doorways) = (Chain::new(), Vec::new());
+        let (mut chain, mut doorways) = (Vec::new(), Vec::new());
         let (mut number, mut floor) = (first, self.floor(first));
         let mut cell = floor.frames.locate(points[0], 1e-3)?;
         for leg in points.windows(2) {
@@ -63,12 +83,12 @@ impl FloorPlan {
                 }
             }
         }
-        Some((chain, doorways))
+        Some(Passed { chain, doorways })
     }
 
     /// The same, found by cutting the way at all Passframes near it.
-    pub(super) fn clipped(&self, points: &[Point], among: &[u32]) -> (Chain, Vec<usize>) {
-        let (mut chain, mut doorways) = (Chain::new(), Vec::new());
+    fn clipped(&self, points: &[Point], among: &[u32]) -> Passed {
+        let (mut chain, mut doorways) = (Vec::new(), Vec::new());
         let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.floor(n)).collect();
         let is_among = |&a: &AreaId| fragments.binary_search_by_key(&a, |f| f.area).is_ok();
         let mut near: Vec<usize> = fragments
@@ -118,7 +138,7 @@ impl FloorPlan {
                 }
             }
         }
-        (chain, doorways)
+        Passed { chain, doorways }
     }
 }
 

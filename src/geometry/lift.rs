@@ -16,6 +16,7 @@ use crate::map::{DoorState, LiftStop, World};
 use crate::units::{AreaId, DoorId, MapId, Point};
 
 use super::blocked::NoRoute;
+use super::chain::Passed;
 use super::doors::Doorway;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Route, Target};
@@ -36,6 +37,8 @@ pub struct Ride {
 pub struct Leg {
     pub map: MapId,
     pub route: Route,
+    /// By the doors as they were on the way.
+    pub passed: Passed,
     pub ride: Option<Ride>,
 }
 
@@ -87,12 +90,15 @@ pub fn across(
         let no_floor = || Box::new(NoWay { map, from, target, why: NoRoute::NoFloor });
         let plan = plans.get(&map).ok_or_else(no_floor)?;
         // Into a cabin and out of it.
-        let route =
-            route_on(plan, map, from, target).or_else(|no| match plan.with_lifts_open(world) {
-                Cow::Owned(called) => route_on(&called, map, from, target).or(Err(no)),
-                Cow::Borrowed(_) => Err(no),
-            })?;
-        return Ok(vec![Leg { map, route, ride: None }]);
+        let leg_on = |plan: &FloorPlan| -> Result<Leg, Box<NoWay>> {
+            let route = route_on(plan, map, from, target)?;
+            Ok(Leg { map, passed: plan.passed(&route), route, ride: None })
+        };
+        let leg = leg_on(plan).or_else(|no| match plan.with_lifts_open(world) {
+            Cow::Owned(called) => leg_on(&called).or(Err(no)),
+            Cow::Borrowed(_) => Err(no),
+        })?;
+        return Ok(vec![leg]);
     }
     let plans: BTreeMap<MapId, Cow<'_, FloorPlan>> =
         plans.iter().map(|(&map, plan)| (map, plan.with_lifts_open(world))).collect();
@@ -163,7 +169,8 @@ pub fn across(
             .map(|e| &e.weight().1);
         match edge {
             Some(Edge::Drive(route)) => {
-                legs.push(Leg { map: on, route: Route::clone(route), ride: None });
+                let (route, passed) = (Route::clone(route), plans[&on].passed(route));
+                legs.push(Leg { map: on, route, passed, ride: None });
             }
             Some(Edge::Ride(ride)) => {
                 if let Some(leg) = legs.last_mut() {

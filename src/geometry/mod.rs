@@ -53,6 +53,7 @@ mod strait;
 mod view;
 
 pub use blocked::{Barrier, NoRoute};
+pub use chain::Passed;
 pub use dead_zone::Surroundings;
 pub use doors::{Doorway, doorways};
 pub use faces::{Face, FaceKind, Faces};

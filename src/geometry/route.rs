@@ -57,17 +57,13 @@ pub struct Moved {
     pub blocker: Option<Blocker>,
 }
 
-/// A way for the robot's centre.
+/// A way for the robot's centre; what it passes, see [`FloorPlan::passed`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Route {
     /// From the start to the goal; two at least.
     pub points: Vec<Point>,
     /// Which way to face at the goal.
     pub heading: Option<Deg>,
-    /// The Passframes passed, in order.
-    pub chain: Vec<(AreaId, PassframeId)>,
-    /// The doorways passed, in order, by their index in [`FloorPlan::doorways`].
-    pub doorways: Vec<usize>,
     /// In cm.
     pub length: f64,
     pub moved_start: Option<Moved>,
@@ -153,7 +149,6 @@ impl FloorPlan {
         let start = self.anchor(from, None, within.as_deref()).ok_or(NoRoute::NoFloor)?;
         let goals = self.goals(world, &start, target)?;
         let mut best: Option<Route> = None;
-        let mut passed = Vec::new();
         for goal in &goals {
             if self.region(goal.anchor.cell) != self.region(start.cell) {
                 continue;
@@ -179,28 +174,17 @@ impl FloorPlan {
             if best.as_ref().is_none_or(|b| length < b.length) {
                 best = Some(Route {
                     heading: goal.heading,
-                    chain: Vec::new(),
-                    doorways: Vec::new(),
                     length,
                     moved_start: start.moved.clone(),
                     moved_goal: goal.anchor.moved.clone(),
                     points,
                 });
-                passed = useful;
             }
         }
-        match best {
-            Some(mut route) => {
-                (route.chain, route.doorways) = self
-                    .walked(&route.points, start.cell.0)
-                    .unwrap_or_else(|| self.clipped(&route.points, &passed));
-                Ok(route)
-            }
-            None => {
-                let ends: Vec<CellKey> = goals.iter().map(|g| g.anchor.cell).collect();
-                Err(explain(self, world, start.cell, &ends))
-            }
-        }
+        best.ok_or_else(|| {
+            let ends: Vec<CellKey> = goals.iter().map(|g| g.anchor.cell).collect();
+            explain(self, world, start.cell, &ends)
+        })
     }
 
     /// The least distance from a way to anything solid, in cm; the robot's radius and clearance at least.
@@ -262,7 +246,12 @@ impl FloorPlan {
     }
 
     /// The robot's centre at `p`, or as near as it fits; in a region of the floor if one is named.
-    fn anchor(&self, p: Point, region: Option<u32>, within: Option<&[u32]>) -> Option<Anchor> {
+    pub(super) fn anchor(
+        &self,
+        p: Point,
+        region: Option<u32>,
+        within: Option<&[u32]>,
+    ) -> Option<Anchor> {
         let admits = |number: u32| within.is_none_or(|w| w.contains(&number));
         let in_region = |key: CellKey| region.is_none_or(|r| self.region(key) == r);
         let numbers = || (0..self.fragments().len() as u32).filter(|&n| admits(n));

@@ -71,7 +71,7 @@ pub fn to_route_graph(world: &World, plan: &FloorPlan) -> String {
         else {
             continue;
         };
-        if !route.doorways.contains(&no) {
+        if !plan.passed(&route).doorways.contains(&no) {
             continue;
         }
         graph.join(&route.points, doorway.door);
