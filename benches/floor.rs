@@ -42,7 +42,12 @@ fn floor(name: &str) -> Generated {
         "office-3000" => building(4, 25, 15),
         _ => building(20, 50, 20),
     };
-    floor.builder.world.robot.radius = Cm::of(RADIUS);
+    let world = &mut floor.builder.world;
+    world.robot.radius = Cm::of(RADIUS);
+    // Filled at once, as when they are read from a store, maps have no gaps.
+    world.objects = std::mem::take(&mut world.objects).into_iter().collect();
+    world.orthoframes = std::mem::take(&mut world.orthoframes).into_iter().collect();
+    world.replicas = std::mem::take(&mut world.replicas).into_iter().collect();
     floor
 }
 

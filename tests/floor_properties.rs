@@ -58,7 +58,7 @@ fn solid_distance(plan: &FloorPlan, q: Point) -> f64 {
         for &(a, b) in &floor.walls {
             least = least.min((q - nearest_on_segment(q, a, b)).norm());
         }
-        for obstacle in &floor.obstacles {
+        for obstacle in floor.obstacles() {
             let inside = obstacle.polygon.contains(q, 0.0);
             least = least.min(if inside { 0.0 } else { obstacle.polygon.border_distance(q) });
         }

@@ -123,7 +123,7 @@ fn edges(world: &World, map: MapId) -> Vec<(Point, Point)> {
         }
     }
     for prism in scene.areas.values().flat_map(|a| &a.prisms) {
-        let walls = prism.polygon.edges().zip(&prism.sides);
+        let walls = prism.polygon.edges().zip(prism.sides.iter());
         edges.extend(
             walls.filter(|(_, s)| s.permeability == Permeability::Impermeable).map(|(e, _)| e),
         );

@@ -13,7 +13,7 @@ fn edges_at(plan: &FloorPlan, height: f64) -> Vec<(Point, Point)> {
     let mut edges = Vec::new();
     for area in plan.scene().areas.values() {
         for prism in &area.prisms {
-            let solid = prism.polygon.edges().zip(&prism.sides);
+            let solid = prism.polygon.edges().zip(prism.sides.iter());
             let solid = solid.filter(|(_, s)| s.permeability == Permeability::Impermeable);
             edges.extend(solid.map(|(edge, _)| edge));
         }
@@ -198,7 +198,7 @@ fn panes(plan: &FloorPlan) -> Vec<Pane> {
     let mut levels = Vec::new();
     for (id, area) in &plan.scene().areas {
         for (item, prism) in area.prisms.iter().enumerate() {
-            for (side, ((a, b), s)) in prism.polygon.edges().zip(&prism.sides).enumerate() {
+            for (side, ((a, b), s)) in prism.polygon.edges().zip(prism.sides.iter()).enumerate() {
                 if s.permeability == Permeability::Impermeable {
                     let blocker = Blocker::Wall { area: *id, item, side };
                     let face = Face { blocker, kind: FaceKind::Side(side) };

@@ -307,8 +307,10 @@ impl PlanDrawing<'_> {
         for (_, leg) in &self.route.legs {
             leg.windows(2).for_each(|w| labels.avoid_line(w[0], w[1]));
         }
-        let sides =
-            self.areas().flat_map(|a| &a.prisms).flat_map(|p| p.polygon.edges().zip(&p.sides));
+        let sides = self
+            .areas()
+            .flat_map(|a| &a.prisms)
+            .flat_map(|p| p.polygon.edges().zip(p.sides.iter()));
         for ((a, b), _) in sides.filter(|(_, s)| s.permeability == Permeability::Impermeable) {
             labels.avoid_line(a, b);
         }

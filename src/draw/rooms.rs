@@ -106,7 +106,7 @@ pub(super) fn walls<'a>(
         for (item, prism) in area.prisms.iter().enumerate() {
             let orthoframe = &world.orthoframes[&prism.orthoframe];
             for (((a, b), side), vector) in
-                prism.polygon.edges().zip(&prism.sides).zip(&orthoframe.base)
+                prism.polygon.edges().zip(prism.sides.iter()).zip(&orthoframe.base)
             {
                 match side.permeability {
                     Permeability::Impermeable if world.is_window(vector) => {

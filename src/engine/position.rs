@@ -311,7 +311,7 @@ pub(super) fn faced(
     let placed = scene.areas.get(&area)?;
     for prism in &placed.prisms {
         let Owner::Area(area) = prism.owner else { continue };
-        for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
+        for ((a, b), side) in prism.polygon.edges().zip(prism.sides.iter()) {
             let Some(distance) = hit(pose.at, ray, a, b) else { continue };
             if side.permeability == Permeability::Impermeable {
                 let away = (pose.at - nearest_on_segment(pose.at, a, b)).norm();

@@ -71,7 +71,7 @@ impl NoRoute {
 
 /// Names what stands between a cell and the nearest of some others.
 pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[CellKey]) -> NoRoute {
-    let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component[c.1 as usize]);
+    let piece = |c: CellKey| (c.0, plan.floor(c.0).cells.component(c.1));
     let goals: BTreeSet<Piece> = to.iter().map(|&c| piece(c)).collect();
     let start = piece(from);
     let mut between = Between::of(plan, world);
@@ -280,7 +280,7 @@ fn before(plan: &FloorPlan, index: usize, side: usize) -> Option<Piece> {
     let number = plan.number(doorway.areas[side])? as u32;
     let cells = &plan.floor(number).cells;
     let (_, cell) = cells.nearest(doorway.before(side, plan.reach()), |_| true)?;
-    Some((number, cells.component[cell as usize]))
+    Some((number, cells.component(cell)))
 }
 
 /// What of a doorway itself bars it, if it is not what stands there: what opening the door does not help comes first.
@@ -316,7 +316,7 @@ fn clutter(plan: &FloorPlan, doorway: &Doorway) -> Barrier {
     let mouth = doorway.rectangle(-around, doorway.gap + around, 0.0);
     let bounds = mouth.bounds();
     let fragments = doorway.areas.into_iter().filter_map(|area| plan.fragment(area));
-    let owners = fragments.flat_map(|f| &f.obstacles).filter(|o| {
+    let owners = fragments.flat_map(|f| f.obstacles()).filter(|o| {
         o.polygon.bounds().meets(&bounds) && super::doors::distance(&o.polygon, &mouth) <= 0.0
     });
     let owners: Vec<Blocker> = owners.map(|o| o.blocker).collect();
@@ -363,8 +363,8 @@ fn enclosure(plan: &FloorPlan, start: Piece, goals: &BTreeSet<Piece>) -> Barrier
     }
     let cells = &floor.cells;
     let mut by = Vec::new();
-    for obstacle in &floor.obstacles {
-        let near = cells.cells().filter(|&c| cells.component[c as usize] == start.1).any(|c| {
+    for obstacle in floor.obstacles() {
+        let near = cells.cells().filter(|&c| cells.component(c) == start.1).any(|c| {
             let polygon = cells.polygon(c);
             polygon.bounds().grown(plan.reach() * 1.02).meets(&obstacle.polygon.bounds())
                 && super::doors::distance(&polygon, &obstacle.polygon) <= plan.reach() * 1.02

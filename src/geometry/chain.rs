@@ -63,7 +63,7 @@ impl FloorPlan {
                 if (1.0 - from) * length <= TOUCHED {
                     break;
                 }
-                let across = floor.frames.across(cell)[edge];
+                let across = floor.frames.across(cell).get(edge);
                 if across != NONE {
                     cell = across;
                 } else {

@@ -69,7 +69,7 @@ pub(super) fn surroundings(floor: &FragmentFloor, zone: &Region, reach: f64) -> 
         let stands = bounds.meets(&at) && distance_within(polygon, &zone.outer, TOUCH).is_some();
         stands.then(|| (blocker, polygon.clone(), bounds))
     };
-    let things = floor.obstacles.iter();
+    let things = floor.obstacles().iter();
     let mut near: Vec<(Blocker, Polygon, Bounds)> =
         things.filter_map(|o| beside(o.blocker, &o.polygon)).collect();
     let mut jambs = floor.walls.clone();

@@ -80,7 +80,7 @@ pub(super) fn digests(site: &Site<'_>, areas: &[AreaId]) -> Vec<u64> {
         }
         let all = zones.iter().copied().reduce(|a, b| a.union(&b)).unwrap_or(Bounds::EMPTY);
         for id in (site.nearby)(&all) {
-            let reach = site.scene.replicas[&id].reach;
+            let reach = site.scene.replicas[&id].reach();
             if zones.iter().any(|zone| zone.meets(&reach)) {
                 (id, replica(id)).hash(&mut hash);
             }

@@ -41,7 +41,12 @@ pub(super) struct Edging {
 }
 
 impl Edging {
-    pub(super) fn of(site: &Site<'_>, floor: &FragmentFloor, sides: Vec<Side>) -> Self {
+    pub(super) fn of(
+        site: &Site<'_>,
+        floor: &FragmentFloor,
+        obstacles: &[Obstacle],
+        sides: Vec<Side>,
+    ) -> Self {
         let mut marks: Vec<Mark> = Vec::new();
         let mut mark = |blocker: Blocker, side: usize, vector: &BaseVector| {
             // What leads nowhere is a wall.
@@ -54,7 +59,7 @@ impl Edging {
                 marks.push(Mark { blocker, side, permeability, names });
             }
         };
-        for obstacle in &floor.obstacles {
+        for obstacle in obstacles {
             let base = base_of(site, obstacle.blocker).unwrap_or_default();
             for (side, vector) in base.iter().enumerate() {
                 mark(obstacle.blocker, side, vector);
@@ -110,7 +115,7 @@ impl Edging {
             Face { start, end, beyond, permeability, names: Vec::new() }
         };
         let mut faces = self.doorways.clone();
-        faces.extend(floor.obstacles.iter().flat_map(of_thing));
+        faces.extend(floor.obstacles().iter().flat_map(of_thing));
         faces.extend(self.sides.iter().map(of_side));
         faces.extend(floor.walls.iter().map(of_wall));
         faces

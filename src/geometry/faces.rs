@@ -155,7 +155,7 @@ impl FloorPlan {
                 faces.block(Blocker::DoorLeaf { door: door.id, leaf }, polygon, (bottom, top));
             }
         }
-        for replica in self.scene().replicas.values().filter(|r| r.reach.meets(&near)) {
+        for replica in self.scene().replicas.values().filter(|r| r.reach().meets(&near)) {
             for prism in &replica.prisms {
                 faces.prism(world, replica.id, prism);
             }

@@ -31,7 +31,7 @@ use super::grid::{Contour, Grid, Outlines, difference, intersection, overlays, s
 use super::mesh::{Mesh, NONE};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
-use super::on_demand::OnDemand;
+use super::on_demand::{Folded, OnDemand};
 use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::{Prism, Scene};
@@ -64,7 +64,7 @@ pub struct FragmentFloor {
     pub(super) bare: Outlines,
     /// The grid of the outlines and cells.
     pub(super) grid: Grid,
-    pub obstacles: Vec<Obstacle>,
+    pub(super) obstacles: Folded<Vec<Obstacle>>,
     /// Walls and jambs, whatever the state of the doors.
     pub walls: Vec<(Point, Point)>,
     pub(super) dead: Outlines,
@@ -197,7 +197,7 @@ impl FragmentFloor {
             level: storey.level,
             bare,
             grid,
-            obstacles,
+            obstacles: Folded::of(&obstacles),
             walls,
             dead,
             dead_zones: OnDemand::default(),
@@ -208,8 +208,7 @@ impl FragmentFloor {
             cells,
             exits,
         };
-        built.obstacles.shrink_to_fit();
-        built.edging = Edging::of(site, &built, storey.sides);
+        built.edging = Edging::of(site, &built, &obstacles, storey.sides);
         built
     }
 
@@ -244,13 +243,13 @@ impl FragmentFloor {
     /// Floor that nothing stands on and that the robot covers from somewhere.
     #[must_use]
     pub fn free(&self) -> Vec<Region> {
-        self.frames.outline(&self.grid)
+        self.frames.outline()
     }
 
     /// Where the robot's centre may be.
     #[must_use]
     pub fn centre(&self) -> Vec<Region> {
-        self.cells.outline(&self.grid)
+        self.cells.outline()
     }
 
     /// The Passframes, sorted by place; see [`Passframe::id`].
@@ -275,10 +274,16 @@ impl FragmentFloor {
         self.dead_zones().iter().find(|z| z.contains(p, 1e-3))
     }
 
+    /// What takes floor away.
+    #[must_use]
+    pub fn obstacles(&self) -> &[Obstacle] {
+        self.obstacles.get()
+    }
+
     /// What stands on a point of the floor.
     #[must_use]
     pub fn obstacle_at(&self, p: Point) -> Option<&Obstacle> {
-        self.obstacles.iter().find(|o| o.polygon.contains(p, 1e-6))
+        self.obstacles().iter().find(|o| o.polygon.contains(p, 1e-6))
     }
 }
 
@@ -384,7 +389,7 @@ fn exits(cells: &Mesh, open: &[(usize, &Doorway, usize)]) -> Vec<Exit> {
         return found;
     }
     for cell in cells.cells() {
-        for (edge, &across) in cells.across(cell).iter().enumerate() {
+        for (edge, across) in cells.across(cell).iter().enumerate() {
             if across != NONE {
                 continue;
             }

@@ -100,6 +100,12 @@ pub(super) struct Grid {
     pub(super) sin: f64,
 }
 
+impl Default for Grid {
+    fn default() -> Self {
+        Self::over(&Bounds::EMPTY)
+    }
+}
+
 /// i_overlay's limit for `i32` is 2^30; one bit is left for what sticks out of the bounds.
 const REACH: f64 = (1 << 29) as f64;
 
@@ -127,13 +133,21 @@ impl Grid {
         Self::turned(bounds, self.sin.atan2(self.cos))
     }
 
+    /// A point's place between the grid points, in grid units.
+    pub(super) fn place(&self, p: Point) -> Point {
+        let v: Vector = (p - self.origin) * self.scale;
+        Point::new(v.x * self.cos + v.y * self.sin, v.y * self.cos - v.x * self.sin)
+    }
+
     /// The nearest grid point; points beyond the grid come to its edge.
     pub(super) fn node(&self, p: Point) -> Node {
         let limit = 2.0 * REACH - 1.0;
-        let v: Vector = (p - self.origin) * self.scale;
-        let (x, y) = (v.x * self.cos + v.y * self.sin, v.y * self.cos - v.x * self.sin);
+        let Point { coords: at } = self.place(p);
         // A NaN would become 0: casts saturate, they do not trap.
-        Node::new(x.round().clamp(-limit, limit) as i32, y.round().clamp(-limit, limit) as i32)
+        Node::new(
+            at.x.round().clamp(-limit, limit) as i32,
+            at.y.round().clamp(-limit, limit) as i32,
+        )
     }
 
     pub(super) fn point(&self, n: Node) -> Point {

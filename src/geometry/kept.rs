@@ -1,7 +1,7 @@
 //! Floors as bytes, for the store: what was built once is taken up again while nothing that made it has changed (D4).
 //!
 //! ```text
-//! file  := version:text count:u32 floor*          numbers little-endian, lengths before what they count
+//! file  := version:text count:u32 floor*          numbers little-endian, lengths (7 bits to a byte) before what they count
 //! floor := area:u32 digest:u64 fragment           digest: of all that the Fragment was made from, see `digest`
 //! ```
 //!
@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 6");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 7");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -97,13 +97,31 @@ macro_rules! kept_numbers {
 
 kept_numbers!(u8, u32, i32, u64, f64);
 
+/// Most are small: seven bits to a byte, the low ones first; the last byte is below 128.
 impl Kept for usize {
     fn put(&self, out: &mut Vec<u8>) {
-        (*self as u64).put(out);
+        let mut rest = *self;
+        while rest >= 128 {
+            out.push(rest as u8 | 128);
+            rest >>= 7;
+        }
+        out.push(rest as u8);
     }
 
     fn take(bytes: &mut &[u8]) -> Option<Self> {
-        u64::take(bytes)?.try_into().ok()
+        let mut number = 0;
+        for shift in (0..Self::BITS).step_by(7) {
+            let byte = u8::take(bytes)?;
+            let part = Self::from(byte & 127);
+            if part << shift >> shift != part {
+                return None;
+            }
+            number |= part << shift;
+            if byte < 128 {
+                return Some(number);
+            }
+        }
+        None
     }
 }
 
@@ -313,5 +331,40 @@ impl Kept for Beyond {
             3 => Self::DeadZone(Kept::take(bytes)?),
             _ => return None,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::on_demand::Folded;
+    use super::*;
+
+    #[test]
+    fn lengths_of_any_size_come_back() {
+        for number in [0, 1, 127, 128, 300, usize::MAX >> 1, usize::MAX] {
+            let mut bytes = Vec::new();
+            number.put(&mut bytes);
+            assert_eq!(usize::take(&mut &bytes[..]), Some(number));
+            assert_eq!(usize::take(&mut &bytes[..bytes.len() - 1]), None);
+        }
+        // Eleven bytes that all say that more follows; ten that say more than a number holds.
+        assert_eq!(usize::take(&mut &[255; 11][..]), None);
+        assert_eq!(usize::take(&mut &[255, 255, 255, 255, 255, 255, 255, 255, 255, 127][..]), None);
+    }
+
+    #[test]
+    fn what_is_folded_is_kept_as_it_is_and_comes_back() {
+        let names = vec!["стол".to_owned(), String::new()];
+        let folded = Folded::of(&names);
+        let (mut bytes, mut plain) = (Vec::new(), Vec::new());
+        folded.put(&mut bytes);
+        names.put(&mut plain);
+        assert_eq!(bytes, plain);
+        bytes.push(7);
+        let rest = &mut &bytes[..];
+        let again: Folded<Vec<String>> = Kept::take(rest).unwrap();
+        assert_eq!((again.get(), *rest), (&names, &[7][..]));
+        assert_eq!(again, folded);
+        assert!(Folded::<Vec<String>>::take(&mut &plain[..plain.len() - 1]).is_none());
     }
 }

@@ -6,18 +6,20 @@
 use crate::units::Point;
 
 use super::buckets::Buckets;
-use super::grid::{Contour, Grid, Region, Shapes, positive};
+use super::grid::{Contour, Grid, Node, Region, Shapes, positive};
 use super::half_edge::HalfEdges;
 use super::kept::Kept;
+use super::numbers::{Numbers, Part};
 use super::on_demand::OnDemand;
 use super::{Bounds, Polygon, nearest_on_segment};
 
 /// No cell: the edge is a border of the floor.
-pub(super) const NONE: u32 = u32::MAX;
+pub(super) use super::numbers::NONE;
 
 impl Kept for Mesh {
     fn put(&self, out: &mut Vec<u8>) {
-        self.vertices.put(out);
+        self.grid.put(out);
+        self.nodes.put(out);
         self.is_corner.put(out);
         self.starts.put(out);
         self.ring.put(out);
@@ -35,20 +37,22 @@ impl Kept for Mesh {
 /// A floor cut into convex cells.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub(super) struct Mesh {
-    pub(super) vertices: Vec<Point>,
+    /// The grid of its vertices.
+    grid: Grid,
+    nodes: Vec<Node>,
     /// Whether a shortest way may bend at the vertex: the floor's border turns inwards there.
     pub(super) is_corner: Vec<bool>,
     /// Where the corners of each cell begin in `ring`; one entry more than there are cells.
-    starts: Vec<u32>,
-    ring: Vec<u32>,
-    across: Vec<u32>,
+    starts: Numbers,
+    ring: Numbers,
+    across: Numbers,
     /// Which cells hang together.
-    pub(super) component: Vec<u32>,
+    component: Numbers,
     /// How many components there are.
     pub(super) components: u32,
     /// The cell that a branch of cells hangs on: a way enters the branch over it alone, and leaves it there again.
     /// [`NONE`] for cells in a ring, and for the last of a tree.
-    pub(super) trunk: Vec<u32>,
+    trunk: Numbers,
     buckets: OnDemand<Buckets>,
     passages: OnDemand<Passages>,
 }
@@ -62,15 +66,15 @@ pub(super) struct Passage {
     /// Whether a shortest way may bend there.
     pub(super) right_bends: bool,
     pub(super) left_bends: bool,
-    /// Whether a branch begins behind it.
-    pub(super) is_branch: bool,
     pub(super) to: u32,
 }
 
 /// The passages of all cells, one cell after another, as a search wants them.
 #[derive(Debug, Clone)]
 struct Passages {
-    starts: Vec<u32>,
+    /// Where those of each cell begin in `all`, and of these those behind which a branch begins; one entry more than
+    /// there are cells.
+    starts: Vec<[u32; 2]>,
     all: Vec<Passage>,
 }
 
@@ -84,8 +88,6 @@ impl Mesh {
         edges.merge();
         edges.pair_up(patience);
         let faces = edges.faces();
-        let vertices = edges.nodes.iter().map(|&n| grid.point(n)).collect();
-        let mut mesh = Self { vertices, starts: vec![0], ..Self::default() };
         let mut face_of = vec![NONE; edges.origin.len()];
         for (number, face) in faces.iter().enumerate() {
             face.iter().for_each(|&h| face_of[h as usize] = number as u32);
@@ -95,24 +97,33 @@ impl Mesh {
             twin => face_of[twin as usize],
         };
         let count = faces.iter().map(<[u32]>::len).sum();
-        mesh.ring.reserve_exact(count);
-        mesh.across.reserve_exact(count);
-        mesh.starts.reserve_exact(faces.iter().len());
+        let (mut starts, mut ring, mut across) =
+            (vec![0], Vec::with_capacity(count), Vec::with_capacity(count));
         for face in faces.iter() {
-            mesh.ring.extend(face.iter().map(|&h| edges.origin[h as usize]));
-            mesh.across.extend(face.iter().map(|&h| beyond(h)));
-            mesh.starts.push(mesh.ring.len() as u32);
+            ring.extend(face.iter().map(|&h| edges.origin[h as usize]));
+            across.extend(face.iter().map(|&h| beyond(h)));
+            starts.push(ring.len() as u32);
         }
-        mesh.is_corner = edges.corners();
-        (mesh.component, mesh.components) = mesh.find_components();
-        mesh.trunk = mesh.trunks();
+        let mut mesh = Self {
+            grid: *grid,
+            nodes: edges.nodes.clone(),
+            is_corner: edges.corners(),
+            starts: Numbers::of(&starts),
+            ring: Numbers::of(&ring),
+            across: Numbers::of(&across),
+            ..Self::default()
+        };
+        let (component, components) = mesh.find_components();
+        (mesh.component, mesh.components) = (Numbers::of(&component), components);
+        mesh.trunk = Numbers::of(&mesh.trunks());
         mesh
     }
 
     /// Takes a mesh off the front of bytes; see [`Kept`].
     fn restored(bytes: &mut &[u8]) -> Option<Self> {
         let mesh = Self {
-            vertices: Kept::take(bytes)?,
+            grid: Kept::take(bytes)?,
+            nodes: Kept::take(bytes)?,
             is_corner: Kept::take(bytes)?,
             starts: Kept::take(bytes)?,
             ring: Kept::take(bytes)?,
@@ -124,16 +135,18 @@ impl Mesh {
             passages: OnDemand::default(),
         };
         let cells = mesh.len();
+        let is_cell = |c: u32| c == NONE || (c as usize) < cells;
         // Numbers that lead nowhere would be asked for later.
-        let is_sound = mesh.is_corner.len() == mesh.vertices.len()
+        let is_sound = mesh.is_corner.len() == mesh.nodes.len()
             && mesh.across.len() == mesh.ring.len()
             && mesh.component.len() == cells
             && mesh.trunk.len() == cells
-            && mesh.starts.is_sorted()
-            && mesh.starts.last().map_or(0, |&n| n as usize) == mesh.ring.len()
-            && mesh.ring.iter().all(|&v| (v as usize) < mesh.vertices.len())
-            && mesh.across.iter().chain(&mesh.trunk).all(|&c| c == NONE || (c as usize) < cells)
-            && mesh.component.iter().all(|&c| c < mesh.components);
+            && mesh.starts.all().iter().is_sorted()
+            && mesh.starts.all().iter().last().map_or(0, |n| n as usize) == mesh.ring.len()
+            && mesh.cells().all(|c| mesh.span(c).len() > 2)
+            && mesh.ring.all().iter().all(|v| (v as usize) < mesh.nodes.len())
+            && [&mesh.across, &mesh.trunk].into_iter().flat_map(|n| n.all().iter()).all(is_cell)
+            && mesh.component.all().iter().all(|c| c < mesh.components);
         is_sound.then_some(mesh)
     }
 
@@ -146,34 +159,67 @@ impl Mesh {
     }
 
     fn span(&self, cell: u32) -> std::ops::Range<usize> {
-        self.starts[cell as usize] as usize..self.starts[cell as usize + 1] as usize
+        self.starts.get(cell as usize) as usize..self.starts.get(cell as usize + 1) as usize
     }
 
     /// The vertices of a cell, counter-clockwise.
-    pub(super) fn ring(&self, cell: u32) -> &[u32] {
-        &self.ring[self.span(cell)]
+    pub(super) fn ring(&self, cell: u32) -> Part<'_> {
+        self.ring.part(self.span(cell))
     }
 
     /// The cell across each edge; edge `i` starts at vertex `i` of the ring.
-    pub(super) fn across(&self, cell: u32) -> &[u32] {
-        &self.across[self.span(cell)]
+    pub(super) fn across(&self, cell: u32) -> Part<'_> {
+        self.across.part(self.span(cell))
+    }
+
+    pub(super) fn component(&self, cell: u32) -> u32 {
+        self.component.get(cell as usize)
+    }
+
+    /// The cell that a branch hangs on; see [`Mesh`].
+    pub(super) fn trunk(&self, cell: u32) -> u32 {
+        self.trunk.get(cell as usize)
+    }
+
+    pub(super) fn vertices(&self) -> impl Iterator<Item = Point> + '_ {
+        self.nodes.iter().map(|&node| self.grid.point(node))
+    }
+
+    fn vertex(&self, vertex: u32) -> Point {
+        self.grid.point(self.nodes[vertex as usize])
+    }
+
+    /// The corners of a cell, counter-clockwise.
+    pub(super) fn corners(&self, cell: u32) -> impl Iterator<Item = Point> + '_ {
+        self.ring(cell).iter().map(|v| self.vertex(v))
+    }
+
+    /// The edges of a cell, counter-clockwise, from the one that ends at the first vertex on.
+    fn edges(&self, cell: u32) -> impl Iterator<Item = (Point, Point)> + '_ {
+        let ring = self.ring(cell);
+        let mut from = self.vertex(ring.get(ring.len() - 1));
+        ring.iter().map(move |v| {
+            let to = self.vertex(v);
+            (std::mem::replace(&mut from, to), to)
+        })
     }
 
     pub(super) fn edge(&self, cell: u32, edge: usize) -> (Point, Point) {
         let ring = self.ring(cell);
-        (self.vertices[ring[edge] as usize], self.vertices[ring[(edge + 1) % ring.len()] as usize])
+        let next = if edge + 1 == ring.len() { 0 } else { edge + 1 };
+        (self.vertex(ring.get(edge)), self.vertex(ring.get(next)))
     }
 
     pub(super) fn polygon(&self, cell: u32) -> Polygon {
-        Polygon::new(self.ring(cell).iter().map(|&v| self.vertices[v as usize]).collect())
+        Polygon::new(self.corners(cell).collect())
     }
 
     /// The floor that the cells fill.
-    pub(super) fn outline(&self, grid: &Grid) -> Vec<Region> {
-        let node = |&v: &u32| grid.node(self.vertices[v as usize]);
+    pub(super) fn outline(&self) -> Vec<Region> {
+        let node = |v: u32| self.nodes[v as usize];
         let cells: Vec<Contour> =
             self.cells().map(|c| self.ring(c).iter().map(node).collect()).collect();
-        grid.regions(&positive(&cells))
+        self.grid.regions(&positive(&cells))
     }
 
     /// Whether the cells are as large as the shapes that they were made of.
@@ -183,37 +229,48 @@ impl Mesh {
         (own - wanted).abs() <= 1e-6 * wanted.max(1.0)
     }
 
-    /// The edges of a cell that lead into other cells, counter-clockwise.
-    pub(super) fn passages(&self, cell: u32) -> &[Passage] {
+    /// The edges of a cell that lead into other cells: those that do not lead into a branch, and those that do, each
+    /// counter-clockwise.
+    #[inline]
+    pub(super) fn passages(&self, cell: u32) -> (&[Passage], &[Passage]) {
         let Passages { starts, all } = self.passages.get(|| self.find_passages());
-        &all[starts[cell as usize] as usize..starts[cell as usize + 1] as usize]
+        let ([from, branches], [to, _]) = (starts[cell as usize], starts[cell as usize + 1]);
+        (&all[from as usize..branches as usize], &all[branches as usize..to as usize])
     }
 
     fn find_passages(&self) -> Passages {
-        let count = self.across.iter().filter(|&&to| to != NONE).count();
-        let mut found = Passages { starts: vec![0], all: Vec::with_capacity(count) };
+        let count = self.across.all().iter().filter(|&to| to != NONE).count();
+        let mut starts = Vec::with_capacity(self.len() + 1);
+        let mut all = Vec::with_capacity(count);
         for cell in self.cells() {
             let (ring, across) = (self.ring(cell), self.across(cell));
-            for (i, &to) in across.iter().enumerate().filter(|e| *e.1 != NONE) {
-                let (u, v) = (ring[i] as usize, *ring.get(i + 1).unwrap_or(&ring[0]) as usize);
-                found.all.push(Passage {
-                    right: self.vertices[u],
-                    left: self.vertices[v],
-                    right_bends: self.is_corner[u],
-                    left_bends: self.is_corner[v],
-                    is_branch: self.trunk[to as usize] == cell,
-                    to,
-                });
-            }
-            found.starts.push(found.all.len() as u32);
+            let begin = [false, true].map(|is_branch| {
+                let begin = all.len() as u32;
+                for (i, to) in across.iter().enumerate().filter(|e| e.1 != NONE) {
+                    if (self.trunk(to) == cell) != is_branch {
+                        continue;
+                    }
+                    let next = if i + 1 == ring.len() { 0 } else { i + 1 };
+                    let (u, v) = (ring.get(i), ring.get(next));
+                    all.push(Passage {
+                        right: self.vertex(u),
+                        left: self.vertex(v),
+                        right_bends: self.is_corner[u as usize],
+                        left_bends: self.is_corner[v as usize],
+                        to,
+                    });
+                }
+                begin
+            });
+            starts.push(begin);
         }
-        found
+        starts.push([all.len() as u32; 2]);
+        Passages { starts, all }
     }
 
     /// The cells by place.
     fn buckets(&self) -> &Buckets {
-        let corner = |&v: &u32| self.vertices[v as usize];
-        let reach = |c: u32| Bounds::of(self.ring(c).iter().map(corner)).grown(1e-3);
+        let reach = |c: u32| Bounds::of(self.corners(c)).grown(1e-3);
         self.buckets.get(|| Buckets::of(&self.cells().map(reach).collect::<Vec<_>>()))
     }
 
@@ -224,19 +281,25 @@ impl Mesh {
 
     /// Whether a point lies in a cell, its border within `tolerance` cm.
     pub(super) fn holds(&self, cell: u32, p: Point, tolerance: f64) -> bool {
-        (0..self.ring(cell).len()).all(|i| {
-            let (a, b) = self.edge(cell, i);
-            let side = (b - a).perp(&(p - a));
+        let (at, tolerance) = (self.grid.place(p), tolerance * self.grid.scale);
+        let ring = self.ring(cell);
+        let corner = |v: u32| {
+            let node = self.nodes[v as usize];
+            Point::new(f64::from(node.x), f64::from(node.y))
+        };
+        let mut from = corner(ring.get(ring.len() - 1));
+        ring.iter().all(|v| {
+            let b = corner(v);
+            let a = std::mem::replace(&mut from, b);
+            let side = (b - a).perp(&(at - a));
             side >= 0.0 || side >= -tolerance * (b - a).norm()
         })
     }
 
     /// How far inside a cell a point lies, in cm; negative outside.
     fn depth(&self, cell: u32, p: Point) -> f64 {
-        let ring = self.ring(cell);
         let mut depth = f64::INFINITY;
-        for i in 0..ring.len() {
-            let (a, b) = self.edge(cell, i);
+        for (a, b) in self.edges(cell) {
             let along = b - a;
             let length = along.norm();
             if length > 0.0 {
@@ -252,10 +315,8 @@ impl Mesh {
             if self.depth(cell, p) >= 0.0 {
                 return (0.0, p, cell);
             }
-            let ring = self.ring(cell);
-            (0..ring.len())
-                .map(|i| {
-                    let (a, b) = self.edge(cell, i);
+            self.edges(cell)
+                .map(|(a, b)| {
                     let q = nearest_on_segment(p, a, b);
                     ((q - p).norm(), q, cell)
                 })
@@ -275,8 +336,7 @@ impl Mesh {
         const SHORT: f64 = 0.1;
         let (mut from, mut to) = (0.0_f64, 1.0_f64);
         let mut has_short = false;
-        for i in 0..self.ring(cell).len() {
-            let (u, v) = self.edge(cell, i);
+        for (u, v) in self.edges(cell) {
             let along = v - u;
             let (da, db) = (along.perp(&(a - u)), along.perp(&(b - u)));
             // Most edges have all of the segment on their inner side.
@@ -294,8 +354,7 @@ impl Mesh {
             // Where the long edges leave the segment, the short ones are near.
             let (p, q) = (a + (b - a) * from, a + (b - a) * to);
             let (mut near, mut far) = (0.0, 1.0);
-            for i in 0..self.ring(cell).len() {
-                let (u, v) = self.edge(cell, i);
+            for (u, v) in self.edges(cell) {
                 let along = v - u;
                 let length = along.norm();
                 if length > 0.0 && length < SHORT {
@@ -306,7 +365,7 @@ impl Mesh {
             (from, to) = (from + (to - from) * near, from + (to - from) * far);
         }
         // A needle's sides are within touch of their own line all along it: only its ends end it.
-        let ends = Bounds::of(self.ring(cell).iter().map(|&v| self.vertices[v as usize]));
+        let ends = Bounds::of(self.corners(cell));
         let along = b - a;
         for axis in 0..2 {
             if along[axis].abs() > TOUCH {
@@ -327,9 +386,8 @@ impl Mesh {
         let along = b - a;
         // With how far the place lies from the edge, as a share of the edge.
         let mut first: Option<(f64, usize, f64)> = None;
-        let mut u = self.vertices[ring[0] as usize];
         for edge in 0..ring.len() {
-            let v = self.vertices[*ring.get(edge + 1).unwrap_or(&ring[0]) as usize];
+            let (u, v) = self.edge(cell, edge);
             let side = v - u;
             let outwards = along.perp(&side);
             if outwards > 0.0 {
@@ -343,7 +401,6 @@ impl Mesh {
                     }
                 }
             }
-            u = v;
         }
         first.map(|(share, edge, _)| (share, edge))
     }
@@ -390,7 +447,7 @@ impl Mesh {
 
     /// Cuts cells off that hang on one border, again and again.
     fn trunks(&self) -> Vec<u32> {
-        let borders = |c: u32| self.across(c).iter().copied().filter(|&o| o != NONE);
+        let borders = |c: u32| self.across(c).iter().filter(|&o| o != NONE);
         let mut left: Vec<usize> = self.cells().map(|c| borders(c).count()).collect();
         let mut trunk = vec![NONE; self.len()];
         let mut leaves: Vec<u32> = self.cells().filter(|&c| left[c as usize] == 1).collect();
@@ -420,7 +477,7 @@ impl Mesh {
             let mut open = vec![seed];
             component[seed as usize] = count;
             while let Some(cell) = open.pop() {
-                for &other in self.across(cell) {
+                for other in self.across(cell).iter() {
                     if other != NONE && component[other as usize] == NONE {
                         component[other as usize] = count;
                         open.push(other);
@@ -457,7 +514,7 @@ fn cut(from: f64, to: f64, (da, db): (f64, f64)) -> Option<(f64, f64)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::grid::{Node, difference, doubled_area};
+    use crate::geometry::grid::{difference, doubled_area};
 
     fn rectangle(x: i32, y: i32, w: i32, h: i32) -> Vec<Node> {
         [(x, y), (x + w, y), (x + w, y + h), (x, y + h)].map(|(x, y)| Node::new(x, y)).to_vec()
@@ -478,7 +535,7 @@ mod tests {
         assert!((got - wanted).abs() <= 1e-9 * wanted, "{got} of {wanted}");
         for cell in mesh.cells() {
             assert!(mesh.polygon(cell).is_convex(1e-12));
-            for (i, &other) in mesh.across(cell).iter().enumerate() {
+            for (i, other) in mesh.across(cell).iter().enumerate() {
                 if other != NONE {
                     let (a, b) = mesh.edge(cell, i);
                     let back = (0..mesh.ring(other).len()).any(|j| mesh.edge(other, j) == (b, a));
@@ -507,7 +564,7 @@ mod tests {
         let shapes = vec![vec![rectangle(0, 0, 100, 100)], vec![rectangle(100, 100, 100, 100)]];
         assert_eq!(check(&shapes), 2);
         let mesh = Mesh::of(&unit_grid(), &shapes, 4);
-        assert_ne!(mesh.component[0], mesh.component[1]);
+        assert_ne!(mesh.component(0), mesh.component(1));
     }
 
     #[test]

@@ -36,6 +36,7 @@ mod lift;
 mod mesh;
 mod narrows;
 mod network;
+mod numbers;
 mod obstacle;
 mod offset;
 mod on_demand;

@@ -229,8 +229,7 @@ const ASIDE: f64 = 0.02;
 
 /// A place in each piece of a Fragment's centre space.
 fn pieces(number: u32, floor: &FragmentFloor) -> Vec<(Piece, Point)> {
-    let first =
-        |component| floor.cells.cells().find(|&c| floor.cells.component[c as usize] == component);
+    let first = |component| floor.cells.cells().find(|&c| floor.cells.component(c) == component);
     (0..floor.cells.components)
         .filter_map(|component| {
             let cell = first(component)?;
@@ -312,7 +311,7 @@ fn owner(floor: &FragmentFloor, p: Point) -> Option<Blocker> {
         polygon.bounds().grown(TOUCH).contains(p) && polygon.border_distance(p) <= TOUCH
     };
     let on = |a: Point, b: Point| (nearest_on_segment(p, a, b) - p).norm() <= TOUCH;
-    let thing = floor.obstacles.iter().find(|o| touches(&o.polygon)).map(|o| o.blocker);
+    let thing = floor.obstacles().iter().find(|o| touches(&o.polygon)).map(|o| o.blocker);
     let solid = |s: &&super::storey::Side| s.permeability != Permeability::Permeable;
     let side = || floor.edging.sides.iter().filter(solid).find(|s| on(s.start, s.end));
     let wall = || side().map(|s| Blocker::Wall { area: floor.area, item: s.item, side: s.side });

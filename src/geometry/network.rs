@@ -37,6 +37,8 @@ pub(super) struct Network {
     pub(super) portals: Vec<Vec<Portal>>,
     /// Where the pieces of each Fragment begin in `regions`; one entry more than there are Fragments.
     first: Vec<u32>,
+    /// Where the cells of each Fragment begin among all cells of the plan; one entry more than there are Fragments.
+    cells: Vec<u32>,
     /// Which pieces hang together over open doorways and straits.
     regions: Vec<u32>,
     /// Narrow legs between pieces; of a robot with a convex footprint only.
@@ -62,8 +64,14 @@ impl Network {
             count += fragment.cells.components;
         }
         self.first.push(count);
+        self.cells = std::iter::once(0)
+            .chain(fragments.iter().scan(0, |cells, fragment| {
+                *cells += fragment.cells.len() as u32;
+                Some(*cells)
+            }))
+            .collect();
         let place = |(fragment, cell): CellKey| {
-            let component = fragments[fragment as usize].cells.component[cell as usize];
+            let component = fragments[fragment as usize].cells.component(cell);
             (self.first[fragment as usize] + component) as usize
         };
         let mut sets = UnionFind::<u32>::new(count as usize);
@@ -108,6 +116,11 @@ impl Network {
     /// The Fragments that a shortest way between two of them can pass.
     pub(super) fn between(&self, start: u32, goal: u32) -> Vec<u32> {
         self.branches.between(start, goal)
+    }
+
+    /// A cell's number among all cells of the plan.
+    fn number(&self, (fragment, cell): CellKey) -> u32 {
+        self.cells[fragment as usize] + cell
     }
 
     fn portals_of(&self, cell: CellKey) -> impl Iterator<Item = &Portal> {
@@ -197,97 +210,106 @@ pub(super) struct Walkable<'a> {
     plan: &'a FloorPlan,
     /// Fragments to stay in, sorted.
     within: &'a [u32],
-    /// The cells of branches that lead to the goal or to a Fragment that may be passed: a way never enters the other
-    /// branches, since it would have to come back over the same border.
-    branches: CellSet,
-    /// The cells with a doorway that may be passed.
-    exits: CellSet,
+    marks: &'a Marks,
 }
 
-/// A set of cells that is asked more often than anything else in a search: places are tried one after the other from
-/// where a cell's number leads, in a table that is half empty at least.
-#[derive(Debug)]
-struct CellSet {
-    /// Two to some power.
-    slots: Vec<CellKey>,
-    count: usize,
+/// A cell of a branch that leads to the goal or to a Fragment that may be passed: a way never enters the other
+/// branches, since it would have to come back over the same border.
+const LEADS: u32 = 1;
+/// A cell that such a branch hangs on, or with a doorway that may be passed.
+const FORKS: u32 = 2;
+
+/// What a search is to know of cells, by their numbers in the whole plan. What one search has marked means nothing to
+/// the next, so that nothing need be wiped.
+#[derive(Debug, Default)]
+pub(super) struct Marks {
+    /// With each cell's marks the number of the search that they are of.
+    cells: Vec<u32>,
+    search: u32,
 }
 
-impl CellSet {
-    const NOTHING: CellKey = (NONE, NONE);
-
-    fn new() -> Self {
-        Self { slots: vec![Self::NOTHING; 64], count: 0 }
+impl Marks {
+    /// Forgets all marks, for a plan of so many cells.
+    fn clear(&mut self, cells: u32) {
+        self.search += 1;
+        if self.search >= u32::MAX >> 2 {
+            *self = Self { cells: Vec::new(), search: 1 };
+        }
+        if self.cells.len() < cells as usize {
+            self.cells.resize(cells as usize, 0);
+        }
     }
 
-    /// Where a cell is or belongs.
-    fn slot(&self, cell: CellKey) -> usize {
-        let mixed = cell.0.wrapping_mul(0x9e37_79b1) ^ cell.1.wrapping_mul(0x85eb_ca6b);
-        let mut at = (mixed >> 8) as usize & (self.slots.len() - 1);
-        while self.slots[at] != cell && self.slots[at] != Self::NOTHING {
-            at = (at + 1) & (self.slots.len() - 1);
-        }
-        at
+    fn of(&self, cell: u32) -> u32 {
+        let found = self.cells[cell as usize];
+        if found >> 2 == self.search { found & 3 } else { 0 }
     }
 
-    fn holds(&self, cell: CellKey) -> bool {
-        self.slots[self.slot(cell)] == cell
-    }
-
-    /// Whether the cell is new.
-    fn insert(&mut self, cell: CellKey) -> bool {
-        let at = self.slot(cell);
-        if self.slots[at] == cell {
-            return false;
-        }
-        self.slots[at] = cell;
-        self.count += 1;
-        if 2 * self.count > self.slots.len() {
-            let wider = vec![Self::NOTHING; 4 * self.slots.len()];
-            let before = std::mem::replace(&mut self.slots, wider);
-            for cell in before.into_iter().filter(|&cell| cell != Self::NOTHING) {
-                let at = self.slot(cell);
-                self.slots[at] = cell;
-            }
-        }
-        true
+    /// Adds marks to a cell, and tells what it had.
+    fn add(&mut self, cell: u32, marks: u32) -> u32 {
+        let had = self.of(cell);
+        self.cells[cell as usize] = self.search << 2 | had | marks;
+        had
     }
 }
 
 impl<'a> Walkable<'a> {
-    pub(super) fn toward(plan: &'a FloorPlan, within: &'a [u32], goal: CellKey) -> Self {
-        let (mut branches, mut exits) = (CellSet::new(), CellSet::new());
-        for portal in within.iter().flat_map(|&n| &plan.network.portals[n as usize]) {
+    pub(super) fn toward(
+        plan: &'a FloorPlan,
+        within: &'a [u32],
+        goal: CellKey,
+        marks: &'a mut Marks,
+    ) -> Self {
+        let network = &plan.network;
+        marks.clear(network.cells.last().copied().unwrap_or_default());
+        let mut lead_to = |(number, mut cell): CellKey, mut own: u32| {
+            let cells = &plan.floor(number).cells;
+            loop {
+                let on = cells.trunk(cell);
+                let is_branch = on != NONE;
+                let had = marks
+                    .add(network.number((number, cell)), own | if is_branch { LEADS } else { 0 });
+                if !is_branch || had & LEADS != 0 {
+                    return;
+                }
+                (cell, own) = (on, FORKS);
+            }
+        };
+        lead_to(goal, 0);
+        for portal in within.iter().flat_map(|&n| &network.portals[n as usize]) {
             if within.binary_search(&portal.to.0).is_ok() {
-                exits.insert(portal.from);
+                lead_to(portal.from, FORKS);
             }
         }
-        let ends = exits.slots.iter().filter(|&&cell| cell != CellSet::NOTHING).chain([&goal]);
-        for &(number, mut cell) in ends {
-            let trunk = &plan.floor(number).cells.trunk;
-            while trunk[cell as usize] != NONE && branches.insert((number, cell)) {
-                cell = trunk[cell as usize];
-            }
-        }
-        Self { plan, within, branches, exits }
+        Self { plan, within, marks }
     }
 }
 
 impl Cells for Walkable<'_> {
+    #[inline(always)]
     fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
         let back = from.filter(|f| f.0 == cell.0).map_or(NONE, |f| f.1);
-        for passage in self.plan.floor(cell.0).cells.passages(cell.1) {
-            let to = (cell.0, passage.to);
-            if passage.to == back || (passage.is_branch && !self.branches.holds(to)) {
-                continue;
+        let over = |passage: &Passage| {
+            let &Passage { right, left, right_bends, left_bends, to } = passage;
+            Edge { right, left, right_bends, left_bends, to: (cell.0, to) }
+        };
+        let (through, branches) = self.plan.floor(cell.0).cells.passages(cell.1);
+        for passage in through {
+            if passage.to != back {
+                found.push(over(passage));
             }
-            let &Passage { right, left, right_bends, left_bends, .. } = passage;
-            found.push(Edge { right, left, right_bends, left_bends, to });
         }
-        if !self.exits.holds(cell) {
+        let network = &self.plan.network;
+        if self.marks.of(network.number(cell)) & FORKS == 0 {
             return;
         }
-        for portal in self.plan.network.portals_of(cell) {
+        let leads = |to: u32| self.marks.of(network.number((cell.0, to))) & LEADS != 0;
+        for passage in branches {
+            if passage.to != back && leads(passage.to) {
+                found.push(over(passage));
+            }
+        }
+        for portal in network.portals_of(cell) {
             let Portal { right, left, to, .. } = *portal;
             if from != Some(to) && self.within.binary_search(&to.0).is_ok() {
                 found.push(Edge { right, left, right_bends: true, left_bends: true, to });
@@ -311,15 +333,19 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_set_of_cells_holds_what_was_put_in() {
-        let cell = |k: u32| (k.wrapping_mul(0x9e37_79b9) % 7, k.wrapping_mul(0x85eb_ca6b) % 400);
-        let mut set = CellSet::new();
-        let mut known = std::collections::HashSet::new();
-        for k in 0..1500 {
-            assert_eq!(set.holds(cell(k)), known.contains(&cell(k)));
-            assert_eq!(set.insert(cell(k)), known.insert(cell(k)));
+    fn marks_are_of_one_search_alone() {
+        let mut marks = Marks::default();
+        for search in [1, 2, (u32::MAX >> 2) - 1, 1] {
+            marks.clear(8);
+            assert_eq!(marks.search, search);
+            assert!((0..8).all(|cell| marks.of(cell) == 0));
+            assert_eq!(
+                [marks.add(3, LEADS), marks.add(3, FORKS), marks.add(5, FORKS)],
+                [0, LEADS, 0]
+            );
+            assert_eq!([3, 4, 5].map(|cell| marks.of(cell)), [LEADS | FORKS, 0, FORKS]);
+            // As if many searches had gone by.
+            marks.search = if search == 2 { (u32::MAX >> 2) - 2 } else { marks.search };
         }
-        assert!(known.len() > 1000 && known.iter().all(|&cell| set.holds(cell)));
-        assert!(!set.holds((9, 9)) && set.count == known.len());
     }
 }

@@ -78,7 +78,8 @@ pub(super) fn obstacles_near(site: &Site<'_>, storey: &Storey, zones: &[Bounds])
     let mut found = Vec::new();
     for id in (site.nearby)(&bounds) {
         let Some(replica) = site.scene.replicas.get(&id) else { continue };
-        if !zones.iter().any(|zone| zone.meets(&replica.reach)) {
+        let reach = replica.reach();
+        if !zones.iter().any(|zone| zone.meets(&reach)) {
             continue;
         }
         let under = site.scene.areas.get(&replica.area).map_or(0.0, |placed| {

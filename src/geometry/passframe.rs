@@ -203,7 +203,7 @@ fn borders(
     borders: &mut Vec<Border>,
 ) {
     let (start, end) = floor.frames.edge(cell, edge);
-    let across = floor.frames.across(cell)[edge];
+    let across = floor.frames.across(cell).get(edge);
     if across != NONE {
         borders.push(Border {
             start,
@@ -337,8 +337,7 @@ pub(super) fn ids(frames: &Mesh) -> Vec<PassframeId> {
         .map(|cell| {
             let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
             let mut mix = |byte: u8| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            for &vertex in frames.ring(cell) {
-                let p = frames.vertices[vertex as usize];
+            for p in frames.corners(cell) {
                 for x in [p.x, p.y] {
                     ((x * 100.0).round() as i64).to_le_bytes().into_iter().for_each(&mut mix);
                 }

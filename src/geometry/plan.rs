@@ -184,7 +184,7 @@ impl FloorPlan {
         for &id in replicas {
             if let Some(gone) = scene.replicas.remove(&id) {
                 index.remove(&gone);
-                touched.push(gone.reach.grown(0.2));
+                touched.push(gone.reach().grown(0.2));
             }
             let placed = world.replicas.get(&id).and_then(|replica| {
                 let frame = scene.areas.get(&replica.area)?.frame;
@@ -192,7 +192,7 @@ impl FloorPlan {
             });
             if let Some(placed) = placed {
                 index.insert(&placed);
-                touched.push(placed.reach.grown(0.2));
+                touched.push(placed.reach().grown(0.2));
                 scene.replicas.insert(id, placed);
             }
         }
@@ -354,7 +354,7 @@ impl FloorPlan {
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
     pub(super) fn region(&self, cell: CellKey) -> u32 {
-        self.network.region((cell.0, self.floor(cell.0).cells.component[cell.1 as usize]))
+        self.network.region((cell.0, self.floor(cell.0).cells.component(cell.1)))
     }
 
     /// Whether the robot can pass from a Fragment through a doorway as it stands.

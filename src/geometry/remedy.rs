@@ -147,7 +147,7 @@ impl FloorPlan {
                 let met = r.prisms.iter().filter(move |p| space.meets(p));
                 met.map(move |p| (of(p), p.polygon.clone()))
             });
-            let leaves = self.fragments_near(&space.near).flat_map(|f| &f.obstacles);
+            let leaves = self.fragments_near(&space.near).flat_map(|f| f.obstacles());
             let leaves = leaves.filter_map(|o| match o.blocker {
                 Blocker::DoorLeaf { door: other, .. } if other != door => {
                     Some((o.blocker, o.polygon.clone()))

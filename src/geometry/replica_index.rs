@@ -38,7 +38,7 @@ impl ReplicaIndex {
     }
 
     pub(super) fn insert(&mut self, replica: &PlacedReplica) {
-        match Self::cells_of(&replica.reach.grown(MARGIN)) {
+        match Self::cells_of(&replica.reach().grown(MARGIN)) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().push(replica.id));
             }
@@ -48,7 +48,7 @@ impl ReplicaIndex {
 
     pub(super) fn remove(&mut self, replica: &PlacedReplica) {
         let is_other = |id: &ReplicaId| *id != replica.id;
-        match Self::cells_of(&replica.reach.grown(MARGIN)) {
+        match Self::cells_of(&replica.reach().grown(MARGIN)) {
             Some(cells) => {
                 cells.for_each(|cell| self.cells.entry(cell).or_default().retain(is_other))
             }
@@ -81,7 +81,7 @@ impl ReplicaIndex {
         found.sort_unstable();
         found.dedup();
         let meets = |r: &ReplicaId| {
-            scene.replicas.get(r).is_some_and(|r| r.reach.grown(MARGIN).meets(bounds))
+            scene.replicas.get(r).is_some_and(|r| r.reach().grown(MARGIN).meets(bounds))
         };
         found.retain(meets);
         found

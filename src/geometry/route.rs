@@ -6,6 +6,7 @@
 //!
 //! **Invariant**: every point of a route lies in the centre space, so that the robot keeps its clearance on all of it.
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
 use crate::map::DoorKind;
@@ -14,7 +15,7 @@ use crate::units::{AreaId, Deg, DoorId, PlaceId, Point, Pose, ReplicaId, Vector}
 
 use super::blocked::{Barrier, NoRoute, explain, single};
 use super::doors::Doorway;
-use super::network::Walkable;
+use super::network::{Marks, Walkable};
 use super::obstacle::Blocker;
 use super::passframe::{Beyond, PassframeId};
 use super::plan::FloorPlan;
@@ -55,6 +56,11 @@ pub struct Moved {
     pub to: Point,
     /// What takes the place, if anything does; else it is a dead zone or too near to a wall.
     pub blocker: Option<Blocker>,
+}
+
+thread_local! {
+    /// One search after another marks the same list.
+    static MARKS: RefCell<Marks> = RefCell::default();
 }
 
 /// A way for the robot's centre; what it passes, see [`FloorPlan::passed`].
@@ -197,7 +203,7 @@ impl FloorPlan {
                 .walls
                 .iter()
                 .copied()
-                .chain(fragment.obstacles.iter().flat_map(|o| o.polygon.edges()));
+                .chain(fragment.obstacles().iter().flat_map(|o| o.polygon.edges()));
             for (a, b) in solid.filter(|&(a, b)| super::Bounds::of([a, b]).meets(&reach)) {
                 for leg in points.windows(2) {
                     least = least.min(super::doors::segment_distance(leg[0], leg[1], a, b));
@@ -237,11 +243,10 @@ impl FloorPlan {
         let cells = &self.fragment(area)?.cells;
         let mut pieces: BTreeMap<u32, f64> = BTreeMap::new();
         for cell in cells.cells() {
-            *pieces.entry(cells.component[cell as usize]).or_default() +=
-                cells.polygon(cell).signed_area();
+            *pieces.entry(cells.component(cell)).or_default() += cells.polygon(cell).signed_area();
         }
         let (largest, _) = pieces.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
-        let inside = |cell: u32| cells.component[cell as usize] == largest;
+        let inside = |cell: u32| cells.component(cell) == largest;
         cells.nearest(p, inside).map(|(at, _)| at)
     }
 
@@ -489,8 +494,10 @@ impl FloorPlan {
     }
 
     fn shortest_points(&self, within: &[u32], start: &Anchor, goal: &Anchor) -> Option<Vec<Point>> {
-        let walkable = Walkable::toward(self, within, goal.cell);
-        shortest(&walkable, start.at, start.cell, goal.at, goal.cell).map(|way| way.points)
+        MARKS.with_borrow_mut(|marks| {
+            let walkable = Walkable::toward(self, within, goal.cell, marks);
+            shortest(&walkable, start.at, start.cell, goal.at, goal.cell).map(|way| way.points)
+        })
     }
 
     /// The paper's way: a chain found depth-first, then the middles of the borders crossed. Where the straight

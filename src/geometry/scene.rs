@@ -1,8 +1,9 @@
 //! A Map with every Orthoframe brought into the Map's own frame: what all measuring starts from.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use crate::map::{Item, Permeability, World};
+use crate::map::{Item, Orthoframe, Permeability, World};
 use crate::units::{AreaId, Frame, MapId, OrFrId, Point, ReplicaId};
 
 use super::{Bounds, Polygon};
@@ -15,7 +16,7 @@ pub enum Owner {
 }
 
 /// A side of a placed prism; it stands on the polygon's edge, and is its Orthoframe's base vector, of the same index.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PrismSide {
     pub permeability: Permeability,
 }
@@ -33,7 +34,7 @@ pub struct Prism {
     pub top: f64,
     /// See [`crate::map::Orthoframe::roof_scale`].
     pub roof_scale: f64,
-    pub sides: Vec<PrismSide>,
+    pub sides: Cow<'static, [PrismSide]>,
     /// No side has names or lets anything through.
     pub(super) is_plain: bool,
     pub base_permeability: Permeability,
@@ -86,8 +87,6 @@ pub struct PlacedReplica {
     /// In the order of the Object's items.
     pub prisms: Vec<Prism>,
     pub bounds: Bounds,
-    /// All that it may ever take: open leaves stick out, a Uniframe may be wider than its base.
-    pub(super) reach: Bounds,
     /// Whether doors of its own are mounted on it.
     pub(super) has_doors: bool,
     pub bottom: f64,
@@ -164,13 +163,27 @@ impl PlacedReplica {
         let bounds = prisms.iter().fold(Bounds::EMPTY, |b, f| b.union(&f.bounds));
         let bottom = prisms.iter().map(|f| f.bottom).fold(f64::INFINITY, f64::min);
         let top = prisms.iter().map(|f| f.top).fold(f64::NEG_INFINITY, f64::max);
+        Self { id, area: replica.area, frame, prisms, bounds, has_doors, bottom, top }
+    }
+
+    /// All that it may ever take: open leaves stick out, a Uniframe may be wider than its base.
+    pub(super) fn reach(&self) -> Bounds {
         // A Uniframe is as wide as its roof where that is wider than its base.
-        let widest = prisms.iter().filter(|p| p.roof_scale > 1.0).map(Prism::roof_bounds);
-        let widest = widest.fold(bounds, |b, roof| b.union(&roof));
-        let mut sides = prisms.iter().flat_map(|p| &p.sides);
+        let widest = self.prisms.iter().filter(|p| p.roof_scale > 1.0).map(Prism::roof_bounds);
+        let widest = widest.fold(self.bounds, |b, roof| b.union(&roof));
+        let mut sides = self.prisms.iter().flat_map(|p| p.sides.iter());
         let has_leaves = sides.any(|s| s.permeability == Permeability::Conditional);
-        let reach = widest.grown(if has_leaves { STICKS_OUT } else { 0.0 });
-        Self { id, area: replica.area, frame, prisms, bounds, reach, has_doors, bottom, top }
+        widest.grown(if has_leaves { STICKS_OUT } else { 0.0 })
+    }
+}
+
+/// The sides of an Orthoframe; most are solid all round, and need no list of their own.
+fn sides(orthoframe: &Orthoframe) -> Cow<'static, [PrismSide]> {
+    static SOLID: [PrismSide; 16] = [PrismSide { permeability: Permeability::Impermeable }; 16];
+    let own = orthoframe.base.iter().map(|v| PrismSide { permeability: v.permeability });
+    match SOLID.get(..own.len()) {
+        Some(solid) if own.clone().eq(solid.iter().copied()) => Cow::Borrowed(solid),
+        _ => Cow::Owned(own.collect()),
     }
 }
 
@@ -189,11 +202,7 @@ fn prisms(world: &World, owner: Owner, items: &[Item], frame: &Frame) -> Vec<Pri
             bottom,
             top: bottom + orthoframe.height.get(),
             roof_scale: orthoframe.roof_scale,
-            sides: orthoframe
-                .base
-                .iter()
-                .map(|v| PrismSide { permeability: v.permeability })
-                .collect(),
+            sides: sides(orthoframe),
             is_plain: orthoframe
                 .base
                 .iter()

@@ -152,9 +152,11 @@ impl Search {
     }
 
     fn run(&mut self, cells: &impl Cells, from: CellKey, to: CellKey) -> Option<Way> {
-        let mut first = Vec::new();
+        let mut first = std::mem::take(&mut self.edges);
+        first.clear();
         cells.edges(from, None, &mut first);
-        first.into_iter().for_each(|edge| self.push(0.0, 0, edge, edge.right, edge.left, from));
+        first.iter().for_each(|&edge| self.push(0.0, 0, edge, edge.right, edge.left, from));
+        self.edges = first;
         self.queue();
         while let Some(next) = self.take() {
             let node = self.nodes[next.node as usize];
@@ -296,6 +298,7 @@ impl Search {
         self.wait(bound, last);
     }
 
+    #[inline(always)]
     fn expand(&mut self, cells: &impl Cells, node: &SearchNode) {
         let at = self.root(node);
         let (right, left) = (node.right, node.left);
@@ -314,6 +317,7 @@ impl Search {
         self.edges = edges;
     }
 
+    #[inline(always)]
     fn expand_cone(&mut self, node: &SearchNode, at: Point, edges: &[Edge]) {
         let (right, left) = (node.right, node.left);
         for &edge in edges {

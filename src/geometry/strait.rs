@@ -77,7 +77,7 @@ pub(super) fn way(
         [start.clone(), goal.clone()].into_iter().chain(ends.map(anchor)).collect();
     let mut by_region: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
     let region = |a: &Anchor| {
-        let component = plan.floor(a.cell.0).cells.component[a.cell.1 as usize];
+        let component = plan.floor(a.cell.0).cells.component(a.cell.1);
         plan.network.open_region((a.cell.0, component))
     };
     for (node, anchor) in nodes.iter().enumerate() {
@@ -265,7 +265,7 @@ fn is_clear(robot: &RobotProfile, site: &Site<'_>, strait: &Strait) -> bool {
     let bounds = swept.bounds();
     let is_off = |solid: &Polygon| !solid.bounds().meets(&bounds) || distance(solid, &swept) > 0.0;
     site.fragments.iter().all(|(_, fragment)| {
-        fragment.obstacles.iter().all(|o| is_off(&o.polygon))
+        fragment.obstacles().iter().all(|o| is_off(&o.polygon))
             && fragment.walls.iter().all(|&(a, b)| is_off(&Polygon::new(vec![a, b])))
     })
 }
@@ -293,7 +293,7 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
     let count = ((high - low) / LINE) as usize;
     let regular = (0..=count).map(|k| low + (high - low) * (k as f64 + 0.5) / (count as f64 + 1.0));
     // Between the corners' own lines nothing changes: one line in each stretch misses no gap, however tight.
-    let mut marks: Vec<f64> = room.vertices.iter().map(|p| p.coords.dot(&across)).collect();
+    let mut marks: Vec<f64> = room.vertices().map(|p| p.coords.dot(&across)).collect();
     marks.retain(|m| (low..=high).contains(m));
     marks.sort_by(f64::total_cmp);
     let between = marks.windows(2).filter(|m| m[1] - m[0] > 1e-4).map(|m| (m[0] + m[1]) / 2.0);
@@ -311,7 +311,7 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
                     let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
                     let (s, e) = ((s * length).max(from), (e * length).min(to));
                     if e - s > 2.0 * FOOTHOLD {
-                        let piece = (number, fragment.cells.component[cell as usize]);
+                        let piece = (number, fragment.cells.component(cell));
                         stands.push((s, e, (number, cell), piece));
                     }
                 }

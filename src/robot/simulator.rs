@@ -112,7 +112,7 @@ impl Simulator {
         let mut edges = Vec::new();
         for prism in scene.areas.values().flat_map(|a| &a.prisms) {
             let Owner::Area(area) = prism.owner else { continue };
-            for ((a, b), side) in prism.polygon.edges().zip(&prism.sides) {
+            for ((a, b), side) in prism.polygon.edges().zip(prism.sides.iter()) {
                 if side.permeability == Permeability::Impermeable {
                     edges.push(Edge { a, b, of: Obstruction::Wall(area) });
                 }

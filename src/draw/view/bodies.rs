@@ -219,7 +219,7 @@ impl Collector<'_> {
     fn walls_at(&self, placed: &PlacedReplica) -> Vec<Plane> {
         const TOUCHES: f64 = 1e-3;
         let Some(home) = self.view.scene.areas.get(&placed.area) else { return Vec::new() };
-        let sides = home.prisms.iter().flat_map(|p| p.polygon.edges().zip(&p.sides));
+        let sides = home.prisms.iter().flat_map(|p| p.polygon.edges().zip(p.sides.iter()));
         let walls = sides.filter(|(_, s)| s.permeability == Permeability::Impermeable);
         let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
         let planes = walls.filter_map(|((a, b), _)| {

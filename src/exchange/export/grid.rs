@@ -85,7 +85,7 @@ pub fn to_grid(world: &World, plan: &FloorPlan, cell: f64) -> Option<GridFiles> 
         raster.fill(&Polygon::new(corners).counter_clockwise(), FREE);
     }
     for fragment in plan.fragments() {
-        for obstacle in &fragment.obstacles {
+        for obstacle in fragment.obstacles() {
             if !matches!(obstacle.blocker, Blocker::DoorLeaf { .. } | Blocker::Wall { .. }) {
                 raster.fill(&obstacle.polygon, OCCUPIED);
             }
