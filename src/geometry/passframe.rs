@@ -328,28 +328,60 @@ fn what_stands_along<'a>(
 }
 
 /// Ids from the corners' places in the Map, to the tenth of a millimetre: what lasts keeps its id, whatever comes or
-/// goes elsewhere. Two of a thousand Passframes have one hash in one of nine thousand Fragments; then the later one by
-/// place takes another.
+/// goes elsewhere.
 pub(super) fn ids(frames: &Mesh) -> Vec<PassframeId> {
-    let mut taken = HashSet::with_capacity(frames.len());
-    frames
-        .cells()
-        .map(|cell| {
-            let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
-            let mut mix = |byte: u8| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
-            for p in frames.corners(cell) {
-                for x in [p.x, p.y] {
-                    ((x * 100.0).round() as i64).to_le_bytes().into_iter().for_each(&mut mix);
-                }
+    let hash = |cell: usize, round: u32| {
+        let mut hash = 0xcbf2_9ce4_8422_2325_u64; // FNV-1a
+        let mut mix = |byte: u8| hash = (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3);
+        for p in frames.corners(cell as u32) {
+            for x in [p.x, p.y] {
+                // The exact place tells slivers apart.
+                let word = if round == 0 { (x * 100.0).round() as i64 as u64 } else { x.to_bits() };
+                word.to_le_bytes().into_iter().for_each(&mut mix);
             }
-            // The upper half depends on every byte.
-            while !taken.insert((hash >> 32) as u32) {
-                hash = (hash ^ 1).wrapping_mul(0x0100_0000_01b3);
-            }
-            PassframeId((hash >> 32) as u32)
-        })
-        .collect()
+        }
+        if round > 0 {
+            round.to_le_bytes().into_iter().for_each(&mut mix);
+        }
+        // The upper half depends on every byte.
+        (hash >> 32) as u32
+    };
+    distinct(frames.len(), hash).into_iter().map(PassframeId).collect()
 }
+
+/// Numbers for things, no two alike, from what each hashes to in round after round: whoever meets nobody keeps the
+/// number, all who meet go on to the next round. So a thing's number hangs on those that it meets and on no order; two of
+/// a thousand have one 32-bit hash in one of nine thousand Fragments.
+fn distinct(count: usize, hash: impl Fn(usize, u32) -> u32) -> Vec<u32> {
+    let mut numbers = vec![0; count];
+    let mut taken = HashSet::with_capacity(count);
+    let mut open: Vec<usize> = (0..count).collect();
+    let mut round = 0;
+    while !open.is_empty() {
+        let mut sorted: Vec<(u32, usize)> = open.drain(..).map(|i| (hash(i, round), i)).collect();
+        sorted.sort_unstable();
+        for alike in sorted.chunk_by(|a, b| a.0 == b.0) {
+            match alike {
+                &[(number, i)] if taken.insert(number) => numbers[i] = number,
+                // The same in every round: nothing but the order is left to tell them apart.
+                _ if round >= LAST_ROUND => {
+                    for &(number, i) in alike {
+                        numbers[i] = (number..=u32::MAX)
+                            .chain(0..number)
+                            .find(|&n| taken.insert(n))
+                            .unwrap_or(number);
+                    }
+                }
+                _ => open.extend(alike.iter().map(|a| a.1)),
+            }
+        }
+        round += 1;
+    }
+    numbers
+}
+
+/// After so many rounds things that meet are the same in all that is hashed.
+const LAST_ROUND: u32 = 16;
 
 fn kinds(frames: &[Passframe]) -> Vec<PassframeKind> {
     let at_door =
@@ -381,4 +413,46 @@ fn kinds(frames: &[Passframe]) -> Vec<PassframeKind> {
         }
     };
     (0..frames.len()).map(kind).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Hashes that meet often: of a thing's own name and the round alone.
+    fn poor(name: u32, round: u32) -> u32 {
+        let hash = name.wrapping_mul(0x9e37_79b9).rotate_left(7 * round + 3);
+        if round == 0 { hash % 40 } else { hash }
+    }
+
+    fn numbers(names: &[u32]) -> Vec<(u32, u32)> {
+        let found = distinct(names.len(), |i, round| poor(names[i], round));
+        let mut named: Vec<(u32, u32)> = names.iter().copied().zip(found).collect();
+        named.sort_unstable();
+        named
+    }
+
+    #[test]
+    fn ids_that_meet_hang_on_no_order_and_on_nobody_else() {
+        let names: Vec<u32> = (0..30).map(|k| k * k * 7 + 1).collect();
+        let whole = numbers(&names);
+        let met = names
+            .iter()
+            .filter(|&&n| names.iter().any(|&other| other != n && poor(other, 0) == poor(n, 0)));
+        assert!(met.count() > 6);
+        let distinct: HashSet<u32> = whole.iter().map(|n| n.1).collect();
+        assert_eq!(distinct.len(), names.len());
+        let turned: Vec<u32> = names.iter().rev().copied().collect();
+        assert_eq!(numbers(&turned), whole);
+        // Whoever goes changes only those that it met.
+        for gone in &names {
+            let rest: Vec<u32> = names.iter().copied().filter(|n| n != gone).collect();
+            for (name, number) in numbers(&rest) {
+                let meets = poor(name, 0) == poor(*gone, 0);
+                assert!(meets || whole.contains(&(name, number)), "{name} without {gone}");
+            }
+        }
+        // What hashes alike for ever is told apart all the same.
+        assert_eq!(super::distinct(3, |_, _| u32::MAX), [u32::MAX, 0, 1]);
+    }
 }
