@@ -128,6 +128,80 @@ fn a_gap_narrower_than_the_robot_is_told_with_both_widths() {
     assert!(no.to_string().contains("39 см, роботу нужно 40 см"), "{no}");
 }
 
+/// An outline whose turning point lies at its back and to the right: 10 cm of it to the right, 25 to the left.
+fn aside(b: &mut Builder) {
+    b.world.robot.footprint = vec![p(-20., -10.), p(70., -10.), p(70., 25.), p(-20., 25.)];
+    b.world.robot.radius = Cm::of(74.34);
+}
+
+#[test]
+fn a_robot_whose_centre_lies_aside_needs_its_own_width() {
+    let (from, to) = (p(100.0, 200.0), p(500.0, 200.0));
+    for (turned, width) in [(0.0, 36.0), (0.0, 35.0), (17.3, 35.5), (211.0, 40.0)] {
+        let outer = Frame::new(0.0, 0.0, 0.0, Deg::of(turned));
+        let mut b = gap(width, turned);
+        aside(&mut b);
+        assert!((b.world.robot.passing_width() - 35.0).abs() < 1e-9);
+        let plan = build(&b);
+        // There and back, each on a line of its own.
+        let crossings = [(from, to), (to, from)].map(|(from, to)| {
+            let (from, to) = (outer.apply(from), outer.apply(to));
+            for method in [Method::Shortest, Method::Paper] {
+                let route = plan
+                    .route(&b.world, from, Target::Point(to), method)
+                    .unwrap_or_else(|e| panic!("{width} {turned}: {e}"));
+                check_outline(&plan, &b.world, &route);
+            }
+            let route = plan.route(&b.world, from, Target::Point(to), Method::Shortest).unwrap();
+            let start = Pose { at: from, heading: Deg::ZERO };
+            let mut robot = Simulator::new(b.world.clone(), MapId(1), start);
+            robot.follow(&route.points, None).unwrap();
+            assert!((robot.pose().1.at - to).norm() < 1e-6);
+            let inverse = |q: Point| outer.invert(q);
+            let leg = route.points.windows(2).map(|leg| [inverse(leg[0]), inverse(leg[1])]);
+            let mut through = leg.filter(|[a, b]| (a.x - 300.0) * (b.x - 300.0) < 0.0);
+            through.next().expect("a leg through the gap")[0].y
+        });
+        assert!(crossings[0] < 200.0 && crossings[1] > 200.0, "{crossings:?}");
+    }
+    let mut narrow = gap(34.0, 0.0);
+    aside(&mut narrow);
+    let no = go(&narrow, from, to).unwrap_err();
+    assert!(no.to_string().contains("34 см, роботу нужно 35 см"), "{no}");
+}
+
+/// The skin that is taken off for rounding is as thin where the turning point lies close to the outline.
+#[test]
+fn a_robot_that_turns_about_its_very_edge_is_not_shrunk() {
+    let mut b = gap(60.0, 0.0);
+    b.world.robot.footprint = vec![p(-0.02, -20.), p(90., -20.), p(90., 20.), p(-0.02, 20.)];
+    b.world.robot.radius = Cm::of(92.2);
+    let start = Pose { at: p(100.0, 60.0), heading: Deg::ZERO };
+    let mut robot = Simulator::new(b.world, MapId(1), start);
+    let bump = robot.follow(&[p(300.0, 60.0)], None).unwrap_err();
+    assert!((bump.at.at.x - 190.0).abs() < 0.05, "{:?}", bump.at);
+}
+
+/// A turn is looked at as a whole: a post that stands between two degrees is met, and told by its angle.
+#[test]
+fn a_turning_outline_meets_a_post_however_thin() {
+    let mut b = Builder::new();
+    let hall = b.area("Зал", &rectangle(600.0, 600.0), Frame::IDENTITY, &[]);
+    b.world.robot.footprint = vec![p(-10., -10.), p(100., -10.), p(100., 10.), p(-10., 10.)];
+    b.world.robot.radius = Cm::of(100.5);
+    // Just within the circle on which the corners turn, at 45°.
+    let at = p(300.0, 300.0) + Vector::new(0.5_f64.sqrt(), 0.5_f64.sqrt()) * 100.4;
+    b.put(hall, at.x, at.y, 0.2, 0.2, 45.0, 100.0);
+    let start = Pose { at: p(300.0, 300.0), heading: Deg::ZERO };
+    for (turn, met) in [(90.0, 45.0 - 10.0_f64.atan2(100.0).to_degrees()), (30.0, 90.0)] {
+        let mut robot = Simulator::new(b.world.clone(), MapId(1), start);
+        let bump = robot.follow(&[], Some(Deg::of(turn)));
+        assert_eq!(bump.is_err(), met < turn, "{bump:?}");
+        let reached = robot.pose().1.heading.signed();
+        assert!((reached - met.min(turn)).abs() < 0.5, "{reached} of {met}");
+    }
+}
+
 #[test]
 fn a_long_robot_passes_a_door_that_its_disc_does_not() {
     for gap in [0.0, 12.0] {
@@ -169,7 +243,11 @@ fn no_route_of_a_long_robot_touches_anything() {
         let mut b = random_world(seed);
         let mut random = Random(seed + 7);
         let (length, width) = (random.between(50.0, 110.0), random.between(20.0, 50.0));
-        long_robot(&mut b, length, width);
+        if seed % 3 == 2 {
+            shaped(&mut b, (seed % 6) as usize, &mut random);
+        } else {
+            long_robot(&mut b, length, width);
+        }
         let plan = build(&b);
         for _ in 0..4 {
             let from = p(random.between(0.0, 400.0), random.between(0.0, 300.0));
@@ -311,7 +389,14 @@ fn shaped(b: &mut Builder, kind: usize, random: &mut Random) {
 fn spots(plan: &FloorPlan, random: &mut Random) -> Vec<Point> {
     let regions: Vec<Region> = plan.fragments().flat_map(|f| f.centre()).collect();
     let mut found = Vec::new();
-    for region in regions.iter().filter(|r| r.area() > 25.0) {
+    for region in &regions {
+        let middle = region.outer.centroid();
+        if region.area() < 25.0 {
+            // A few square millimetres are a place, too.
+            let is_place = region.area() > 0.03 && region.contains(middle, 0.0);
+            found.extend(is_place.then_some(middle));
+            continue;
+        }
         let at = region.outer.bounds();
         for _ in 0..60 {
             let q = p(random.between(at.min.x, at.max.x), random.between(at.min.y, at.max.y));
@@ -341,17 +426,17 @@ fn no_straight_strait_is_missed() {
                 continue;
             }
             apart_still += 1;
-            let along = to - from;
-            let (sin, cos) = along.y.atan2(along.x).sin_cos();
-            // Both ways about, with a little to spare.
-            let sides =
-                plan.robot().footprint.iter().flat_map(|c| [c.coords * 1.05, c.coords * -1.05]);
-            let turned = sides.map(|c| Vector::new(c.x * cos - c.y * sin, c.x * sin + c.y * cos));
-            let swept = convex_hull(turned.flat_map(|v| [from + v, to + v]).collect());
-            assert!(
-                solids.iter().any(|solid| !apart(&swept, solid, 0.0)),
-                "seed {seed}: nothing stands between {from:?} and {to:?}"
-            );
+            // There and back, the robot ahead both times, with a little to spare.
+            let is_barred = [(from, to), (to, from)].into_iter().any(|(from, to)| {
+                let along = to - from;
+                let (sin, cos) = along.y.atan2(along.x).sin_cos();
+                let sides = plan.robot().footprint.iter().map(|c| c.coords * 1.05);
+                let turned =
+                    sides.map(|c| Vector::new(c.x * cos - c.y * sin, c.x * sin + c.y * cos));
+                let swept = convex_hull(turned.flat_map(|v| [from + v, to + v]).collect());
+                solids.iter().any(|solid| !apart(&swept, solid, 0.0))
+            });
+            assert!(is_barred, "seed {seed}: nothing stands between {from:?} and {to:?}");
         }
     }
     assert!(apart_still > 100, "{apart_still}");

@@ -7,7 +7,7 @@ use orthoframe::map::*;
 use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
-use crate::floors::{Builder, rectangle};
+use crate::floors::{Builder, Opening, p, rectangle, two_rooms};
 
 fn build(world: &World) -> FloorPlan {
     FloorPlan::build(world, MapId(1), &world.robot, &DoorStates::new())
@@ -199,5 +199,44 @@ fn bytes_that_are_no_floor_are_not_taken_for_one() {
         // It may be read or not; it does not end the program, nor take all memory.
         let (plan, _) = FloorPlan::restore(&world, MapId(1), &world.robot, &states, &spoiled);
         assert_eq!(plan.fragments().len(), 2);
+    }
+}
+
+/// Behind a leaf that stands ajar the robot can poke its nose in and no more: that is no way into the room.
+#[test]
+fn a_wedge_behind_a_leaf_that_stands_ajar_opens_no_doorway() {
+    let mut wedges = 0;
+    for (gap, opening) in [0.0, 12.0, 30.0]
+        .into_iter()
+        .flat_map(|gap| (0..=10).map(move |tenth| (gap, f64::from(tenth) * 10.0)))
+    {
+        let state = DoorState { status: DoorStatus::Open, opening };
+        let (b, one, _, door) = two_rooms(gap, DoorKind::Hinged, state);
+        let plan = build(&b.world);
+        let door = b.world.doors.get(&door);
+        let is_open = plan.doorways()[0].clear_width(door, state) >= 50.0;
+        assert_eq!(plan.open_doorways().len(), usize::from(is_open), "{gap} cm, {opening} %");
+        assert_eq!(plan.are_joined(p(100., 150.), p(700., 150.)), is_open);
+        let room = plan.fragment(one).unwrap();
+        let on_line = |y: i32| room.fits(p(400.0 + gap / 2.0, f64::from(y)));
+        wedges += usize::from(!is_open && (100..190).any(on_line));
+    }
+    assert!(wedges > 3, "{wedges}");
+}
+
+/// A threshold that is less deep than the robot leads through all the same.
+#[test]
+fn a_threshold_less_deep_than_the_robot_is_an_open_doorway_on_both_sides() {
+    for depth in [5.0, 20.0, 60.0] {
+        let mut b = Builder::new();
+        let side = |x: f64| [p(0., 0.), p(x, 0.), p(x, 300.), p(0., 300.)];
+        let one = b.area("Один", &side(300.), Frame::IDENTITY, &[(1, Opening::Passage)]);
+        let at = |x: f64| Frame::new(x, 0., 0., Deg::ZERO);
+        let both = [(1, Opening::Passage), (3, Opening::Passage)];
+        let mid = b.area("Порог", &side(depth), at(300.), &both);
+        let two = b.area("Два", &side(300.), at(300. + depth), &[(3, Opening::Passage)]);
+        b.link(one, 1, mid, 3);
+        b.link(mid, 1, two, 3);
+        assert_eq!(build(&b.world).open_doorways().len(), 2, "{depth}");
     }
 }

@@ -270,8 +270,9 @@ fn no_push_is_shorter_than_the_one_named() {
 /// What is told of a gap is what would let the robot through were it so much thinner: the widest of all gaps.
 #[test]
 fn the_gap_that_is_told_is_the_widest() {
-    let (mut told, mut widest) = (0, 0);
-    for seed in 0..30 {
+    let mut told = 0;
+    // The latter ones have a wider way over a pocket, or over several.
+    for seed in (0..30).chain([131, 165, 254, 296, 386, 584]) {
         let (mut b, from, to) = match seed % 3 {
             0 => (cluttered(seed), p(60., 200.), p(560., 200.)),
             1 => (row(seed), p(60., 200.), p(440., 200.)),
@@ -285,8 +286,17 @@ fn the_gap_that_is_told_is_the_widest() {
         };
         let target = Target::Point(to);
         let Err(no) = plan.route(&b.world, from, target, Method::Shortest) else { continue };
-        let [Barrier::Gap { width, needed, .. }] = no.barriers() else { continue };
-        assert!((needed - plan.robot().passing_width()).abs() < 1e-9);
+        let gap = |barrier: &Barrier| match barrier {
+            Barrier::Gap { width, needed, .. } => {
+                assert!((needed - plan.robot().passing_width()).abs() < 1e-9);
+                Some(*width)
+            }
+            _ => None,
+        };
+        let Some(gaps) = no.barriers().iter().map(gap).collect::<Option<Vec<f64>>>() else {
+            continue;
+        };
+        let width = gaps.into_iter().fold(f64::INFINITY, f64::min);
         let (mut low, mut high) = (0.5, b.world.robot.radius.get());
         while high - low > 0.02 {
             let radius = f64::midpoint(low, high);
@@ -294,9 +304,7 @@ fn the_gap_that_is_told_is_the_widest() {
             *(if build(&b.world).are_joined(from, to) { &mut low } else { &mut high }) = radius;
         }
         told += 1;
-        widest += usize::from((width - 2.0 * low).abs() < 0.1);
-        // Less is told only where the wider way has two gaps.
-        assert!(*width < 2.0 * low + 0.1, "seed {seed}: {no}, and {} passes", 2.0 * low);
+        assert!((width - 2.0 * low).abs() < 0.1, "seed {seed}: {no}, and {} passes", 2.0 * low);
     }
-    assert!(told > 12 && widest + 3 > told, "{widest} of {told}");
+    assert!(told > 24, "{told}");
 }

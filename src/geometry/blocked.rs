@@ -3,7 +3,8 @@
 //! Pieces of the centre space are nodes; a closed door, an opening too narrow and a dead zone between two pieces
 //! are edges between them. The way over the fewest names what would have to change.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap, HashMap};
 
 use miette::Diagnostic;
 use thiserror::Error;
@@ -141,14 +142,30 @@ struct Reached {
 }
 
 impl Reached {
-    /// The barriers from the end to a region.
-    fn barriers(&self, mut region: u32) -> Vec<Barrier> {
+    /// The barriers from the end to a region, each with the region behind it.
+    fn barriers(&self, mut region: u32) -> Vec<(Barrier, u32)> {
         let mut barriers = Vec::new();
         while let Some((before, barrier)) = &self.by[&region].before {
-            barriers.push(barrier.clone());
+            barriers.push((barrier.clone(), region));
             region = *before;
         }
         barriers.reverse();
+        barriers
+    }
+
+    /// Of several ends the one from which a region is reached.
+    fn end_of(&self, region: u32) -> u32 {
+        let before = |region: &u32| Some(self.by[region].before.as_ref()?.0);
+        std::iter::successors(Some(region), before).last().unwrap_or(region)
+    }
+
+    /// The barriers from a region to the end, each with the region behind it.
+    fn barriers_back(&self, mut region: u32) -> Vec<(Barrier, u32)> {
+        let mut barriers = Vec::new();
+        while let Some((before, barrier)) = &self.by[&region].before {
+            barriers.push((barrier.clone(), *before));
+            region = *before;
+        }
         barriers
     }
 }
@@ -160,8 +177,11 @@ impl<'a> Between<'a> {
         Self { plan, world, pieces, narrows, side_by_side, only_passing: true }
     }
 
-    /// The fewest barriers from the first set of regions to the second, of as few those that lack least: breadth-first
-    /// from both, a whole ring of the smaller side at a time, so that a way out of a closet does not search the building.
+    /// The fewest barriers from the first set of regions to the second, of as few those that lack least; gaps one after
+    /// the other are one narrow way, and of its ways the widest is taken.
+    ///
+    /// Breadth-first from both, a whole ring of the smaller side at a time, so that a way out of a closet does not search
+    /// the building.
     fn fewest(&mut self, ends: [BTreeSet<u32>; 2]) -> Option<Vec<Barrier>> {
         let first = |r: u32| (r, Step { before: None, lack: 0.0 });
         let mut sides = ends.map(|end| Reached {
@@ -173,8 +193,9 @@ impl<'a> Between<'a> {
             let met = sides[0].by.keys().filter_map(|r| Some((lack(r)?, *r)));
             if let Some((_, met)) = met.min_by(|a, b| a.0.total_cmp(&b.0)) {
                 let mut barriers = sides[0].barriers(met);
-                barriers.extend(sides[1].barriers(met).into_iter().rev());
-                return Some(barriers);
+                let start = sides[0].end_of(met);
+                barriers.extend(sides[1].barriers_back(met));
+                return Some(self.widened(start, &barriers));
             }
             if sides.iter().any(|s| s.rim.is_empty()) {
                 return None;
@@ -195,6 +216,51 @@ impl<'a> Between<'a> {
             side.rim.extend(ring.keys());
             side.by.append(&mut ring);
         }
+    }
+
+    /// Barriers with every run of gaps as wide as it can be, given by what stands between a region and those behind.
+    fn widened(&mut self, start: u32, barriers: &[(Barrier, u32)]) -> Vec<Barrier> {
+        let mut widened = Vec::new();
+        let mut from = start;
+        for run in barriers.chunk_by(|a, b| [a, b].iter().all(|b| gap_width(&b.0).is_some())) {
+            let to = run.last().map_or(from, |b| b.1);
+            let widths = run.iter().filter_map(|b| gap_width(&b.0));
+            let wider = widths.reduce(f64::min).and_then(|least| self.wider(from, to, least));
+            widened.extend(wider.unwrap_or_else(|| run.iter().map(|b| b.0.clone()).collect()));
+            from = to;
+        }
+        widened
+    }
+
+    /// The gaps on the widest way over gaps alone from one region to another, of as wide those that are fewest, if all
+    /// are wider than `least`.
+    fn wider(&mut self, from: u32, to: u32, least: f64) -> Option<Vec<Barrier>> {
+        // How a region is reached: by the gap that leads there, and the step before.
+        let mut steps: Vec<(u32, Option<(Barrier, usize)>)> = vec![(from, None)];
+        let mut done = BTreeSet::new();
+        // Widths are positive, so their bits are in their order.
+        let mut open = BinaryHeap::from([(f64::INFINITY.to_bits(), Reverse(0), Reverse(0))]);
+        while let Some((narrowest, Reverse(count), Reverse(step))) = open.pop() {
+            let region = steps[step].0;
+            if region == to {
+                let back = std::iter::successors(steps[step].1.as_ref(), |s| steps[s.1].1.as_ref());
+                let mut gaps: Vec<Barrier> = back.map(|s| s.0.clone()).collect();
+                gaps.reverse();
+                return Some(gaps);
+            }
+            if !done.insert(region) {
+                continue;
+            }
+            for (next, barrier) in self.around(region) {
+                let Some(width) = gap_width(&barrier).filter(|&w| w >= least + TOLD) else {
+                    continue;
+                };
+                let narrowest = narrowest.min(width.to_bits());
+                open.push((narrowest, Reverse(count + 1), Reverse(steps.len())));
+                steps.push((next, Some((barrier, step))));
+            }
+        }
+        None
     }
 
     /// The regions behind one barrier, and the barriers: of several gaps in a row the narrowest of the widest way.
@@ -260,6 +326,16 @@ impl<'a> Between<'a> {
         }
         found.retain(|(other, _)| *other != region);
         found
+    }
+}
+
+/// Gaps that differ by less, in cm, are told alike.
+const TOLD: f64 = 0.1;
+
+fn gap_width(barrier: &Barrier) -> Option<f64> {
+    match barrier {
+        Barrier::Gap { width, .. } => Some(*width),
+        _ => None,
     }
 }
 

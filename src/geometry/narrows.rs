@@ -16,7 +16,7 @@
 //! ```
 
 use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
+use std::collections::{BTreeMap, BTreeSet, BinaryHeap, HashMap};
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -28,6 +28,7 @@ use super::buckets::Buckets;
 use super::dead_zone::jamb;
 use super::floor::{FragmentFloor, SLACK};
 use super::grid::{Contour, Grid, difference, overlay};
+use super::mesh::Mesh;
 use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;
@@ -103,13 +104,16 @@ impl Narrows {
         let chords = chords(&grid.regions(&floor), 2.0 * plan.reach());
         let cuts: Vec<Contour> = chords.iter().map(|c| grid.contour(&strip(c, &grid))).collect();
         narrows.floor = floor.into_iter().flatten().collect();
-        let basins = grid.regions(&difference(&narrows.floor, &cuts));
-        let boxes: Vec<Bounds> = basins.iter().map(|b| b.outer.bounds()).collect();
-        let basin_at = |p: Point| {
-            let holds = |&i: &usize| boxes[i].contains(p) && basins[i].contains(p, 0.0);
-            (0..basins.len()).find(holds)
-        };
-        narrows.beyond.resize(basins.len(), Vec::new());
+        // A basin is a component of the mesh.
+        let basins = Mesh::of(&grid, &difference(&narrows.floor, &cuts), 0);
+        let mut boxes = vec![Bounds::EMPTY; basins.components as usize];
+        for cell in basins.cells() {
+            let reach = &mut boxes[basins.component(cell) as usize];
+            *reach = reach.union(&basins.polygon(cell).bounds());
+        }
+        let basin_at = |p: Point| Some(basins.component(basins.locate(p, 0.0)?) as usize);
+        let owners: Vec<Owners<'_>> = floors.iter().map(|(_, f)| Owners::of(f)).collect();
+        narrows.beyond.resize(boxes.len(), Vec::new());
         for (piece, at) in pieces {
             if let Some(basin) = basin_at(at) {
                 narrows.home.insert(piece, basin);
@@ -123,7 +127,7 @@ impl Narrows {
             else {
                 continue;
             };
-            let owners = [p, q].map(|end| floors.iter().find_map(|(_, f)| owner(f, end)));
+            let owners = [p, q].map(|end| owners.iter().find_map(|known| known.at(end)));
             // What nobody owns is the rim of the floor that is looked at, and no gap.
             if let ([Some(a), Some(b)], true) = (owners, one != other) {
                 let between = if a == b { vec![a] } else { vec![a, b] };
@@ -244,8 +248,12 @@ fn chords(floor: &[Region], widest: f64) -> Vec<(Point, Point)> {
         floor.iter().flat_map(Region::contours).flat_map(Polygon::edges).collect();
     let boxes: Vec<Bounds> = edges.iter().map(|&(a, b)| Bounds::of([a, b])).collect();
     let buckets = Buckets::of(&boxes);
+    let reach = boxes.iter().fold(Bounds::EMPTY, |all, b| all.union(b));
     let (mut near, mut about) = (Vec::new(), Vec::new());
     let mut found: Vec<(Point, Point)> = Vec::new();
+    // Those that were found, by the places of their middles.
+    let mut known: HashMap<(i64, i64), Vec<usize>> = HashMap::new();
+    let place = |p: Point| ((p.x / TOUCH).floor() as i64, (p.y / TOUCH).floor() as i64);
     for (i, &one) in edges.iter().enumerate() {
         buckets.meeting(&boxes[i].grown(widest), &mut near);
         for &j in near.iter().filter(|&&j| j as usize > i) {
@@ -260,11 +268,28 @@ fn chords(floor: &[Region], widest: f64) -> Vec<(Point, Point)> {
                 let (a, b) = edges[k as usize];
                 (nearest_on_segment(middle, a, b) - middle).norm() < width / 2.0 - PLAY
             });
-            let is_known = |&(u, v): &(Point, Point)| (u - p).norm() + (v - q).norm() < TOUCH;
-            if !is_met
-                && floor.iter().any(|r| r.contains(middle, 0.0))
-                && !found.iter().any(|&(u, v)| is_known(&(u, v)) || is_known(&(v, u)))
-            {
+            if is_met {
+                continue;
+            }
+            let ray = Bounds { min: middle, max: Point::new(reach.max.x, middle.y) };
+            buckets.meeting(&ray, &mut about);
+            let crosses = |&&k: &&u32| {
+                let (a, b) = edges[k as usize];
+                let x = || a.x + (middle.y - a.y) / (b.y - a.y) * (b.x - a.x);
+                (a.y > middle.y) != (b.y > middle.y) && x() > middle.x
+            };
+            if about.iter().filter(crosses).count() % 2 == 0 {
+                continue;
+            }
+            let is_same = |&(u, v): &(Point, Point)| {
+                let apart = |p: Point, q: Point| (u - p).norm() + (v - q).norm();
+                apart(p, q).min(apart(q, p)) < TOUCH
+            };
+            let (x, y) = place(middle);
+            let around = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+            let mut alike = around.filter_map(|at| known.get(&at)).flatten();
+            if !alike.any(|&k| is_same(&found[k])) {
+                known.entry((x, y)).or_default().push(found.len());
                 found.push((p, q));
             }
         }
@@ -305,16 +330,32 @@ fn thick((a, b): (Point, Point), walls: &[(Point, Point)], grid: &Grid) -> Polyg
     Polygon::new(vec![a - aside, b - aside, b + aside, a + aside])
 }
 
-/// What a point on the rim of a Fragment's floor belongs to.
-fn owner(floor: &FragmentFloor, p: Point) -> Option<Blocker> {
-    let touches = |polygon: &Polygon| {
-        polygon.bounds().grown(TOUCH).contains(p) && polygon.border_distance(p) <= TOUCH
-    };
-    let on = |a: Point, b: Point| (nearest_on_segment(p, a, b) - p).norm() <= TOUCH;
-    let thing = floor.obstacles().iter().find(|o| touches(&o.polygon)).map(|o| o.blocker);
-    let solid = |s: &&super::storey::Side| s.permeability != Permeability::Permeable;
-    let side = || floor.edging.sides.iter().filter(solid).find(|s| on(s.start, s.end));
-    let wall = || side().map(|s| Blocker::Wall { area: floor.area, item: s.item, side: s.side });
-    let jamb = || floor.walls.iter().any(|&(a, b)| on(a, b)).then(|| jamb(floor));
-    thing.or_else(wall).or_else(jamb)
+/// What the points on the rim of a Fragment's floor belong to.
+struct Owners<'a> {
+    floor: &'a FragmentFloor,
+    obstacles: Buckets,
+}
+
+impl<'a> Owners<'a> {
+    fn of(floor: &'a FragmentFloor) -> Self {
+        let boxes: Vec<Bounds> =
+            floor.obstacles().iter().map(|o| o.polygon.bounds().grown(TOUCH)).collect();
+        Self { floor, obstacles: Buckets::of(&boxes) }
+    }
+
+    fn at(&self, p: Point) -> Option<Blocker> {
+        let floor = self.floor;
+        let touches = |polygon: &Polygon| {
+            polygon.bounds().grown(TOUCH).contains(p) && polygon.border_distance(p) <= TOUCH
+        };
+        let on = |a: Point, b: Point| (nearest_on_segment(p, a, b) - p).norm() <= TOUCH;
+        let mut near = self.obstacles.near(p).iter().map(|&k| &floor.obstacles()[k as usize]);
+        let thing = near.find(|o| touches(&o.polygon)).map(|o| o.blocker);
+        let solid = |s: &&super::storey::Side| s.permeability != Permeability::Permeable;
+        let side = || floor.edging.sides.iter().filter(solid).find(|s| on(s.start, s.end));
+        let wall =
+            || side().map(|s| Blocker::Wall { area: floor.area, item: s.item, side: s.side });
+        let jamb = || floor.walls.iter().any(|&(a, b)| on(a, b)).then(|| jamb(floor));
+        thing.or_else(wall).or_else(jamb)
+    }
 }

@@ -80,7 +80,7 @@ impl Network {
         }
         self.open = if straits.is_empty() { Vec::new() } else { sets.clone().into_labeling() };
         for strait in &straits {
-            let [a, b] = strait.cells.map(place);
+            let [a, b] = strait.cells().map(place);
             sets.union(a as u32, b as u32);
         }
         self.regions = sets.into_labeling();

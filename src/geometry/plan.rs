@@ -17,7 +17,7 @@ use super::buckets::Buckets;
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
 use super::doors::{Doorway, doorways};
-use super::floor::{FragmentFloor, Site};
+use super::floor::{FragmentFloor, SLACK, Site};
 use super::kept;
 use super::network::{Network, Portal, overlap};
 use super::replica_index::ReplicaIndex;
@@ -380,7 +380,27 @@ impl FloorPlan {
     #[must_use]
     pub fn open_doorways(&self) -> BTreeSet<usize> {
         let narrow = self.network.straits.iter().flat_map(|s| s.doorways.iter().map(|d| d.0));
-        self.network.portals.iter().flatten().map(|p| p.doorway).chain(narrow).collect()
+        let portals = self.network.portals.iter().flatten();
+        let whole = portals
+            .filter(|p| [p.from, p.to].into_iter().all(|cell| self.leads_on(cell, p.doorway)));
+        whole.map(|p| p.doorway).chain(narrow).collect()
+    }
+
+    /// Whether from a cell at a doorway the whole robot comes clear of the doorway, or through a further one: the
+    /// wedge behind a leaf that stands ajar leads nowhere.
+    fn leads_on(&self, (number, cell): CellKey, index: usize) -> bool {
+        let (floor, doorway) = (self.floor(number), &self.doorways[index]);
+        let component = floor.cells.component(cell);
+        let is_own = |&cell: &u32| floor.cells.component(cell) == component;
+        let mut portals = self.network.portals[number as usize].iter();
+        let is_first = doorway.index_of(floor.area) == Some(0);
+        let is_clear = |corner: Point| {
+            let out = (corner - doorway.at(0.0, 0.0)).dot(&doorway.out());
+            let depth = if is_first { -out } else { out - doorway.gap };
+            depth >= self.reach() - SLACK
+        };
+        portals.any(|p| p.doorway != index && is_own(&p.from.1))
+            || floor.cells.cells().filter(is_own).any(|c| floor.cells.corners(c).any(is_clear))
     }
 
     /// The doorways of a Fragment, by their index in [`Self::doorways`], each with the Fragment's side.

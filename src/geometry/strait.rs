@@ -2,7 +2,7 @@
 //!
 //! The free floor is made for the disc that covers the footprint: there the robot may turn as it likes. Between two
 //! pieces of that floor, where they come close, a strait is looked for: one straight leg, from a place of one piece
-//! to a place of the other, along which the footprint is driven with its heading along the leg, forwards or backwards.
+//! to a place of the other, along which the footprint is driven ahead with its heading along the leg.
 //! Pieces of different Fragments are joined over every doorway on the line, also where a Fragment between them, such as
 //! a threshold or a narrow corridor, has no piece of its own.
 //!
@@ -16,20 +16,23 @@
 //!   └────────┘
 //! ```
 //!
-//! Deliberately absent: turning or shifting the heading within a strait. A bend too narrow for the covering disc is
-//! no way.
+//! A footprint may lie aside of the centre on which it turns; then the way back leads along a line of its own, since
+//! the robot drives ahead both times. A strait has both ways, so that where the robot came in it comes out.
 //!
-//! **Invariant**: both ends of a strait lie in centre space; the footprint with its clearance (less [`SLACK`]) keeps
-//! to the floor on all of it, whichever of its ends goes first.
+//! Deliberately absent: turning, shifting the heading or backing within a strait. A bend too narrow for the covering
+//! disc is no way.
+//!
+//! **Invariant**: the ends of a strait lie in centre space; the footprint with its clearance (less [`SLACK`]) keeps
+//! to the floor on all of it, driven ahead.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
-use std::f64::consts::PI;
+use std::f64::consts::{PI, SQRT_2};
 
 use crate::map::{RobotProfile, World};
 use crate::units::{Point, Vector};
 
-use super::doors::distance;
+use super::doors::{distance, segment_distance};
 use super::floor::{FragmentFloor, SLACK};
 use super::grid::{Contour, Grid, difference};
 use super::mesh::Mesh;
@@ -40,18 +43,36 @@ use super::route::Anchor;
 use super::search::CellKey;
 use super::{Bounds, Polygon, convex_hull};
 
-/// A straight leg between two pieces of centre space.
+/// Straight legs between two pieces of centre space, one for each way.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Strait {
-    pub(super) ends: [Point; 2],
-    pub(super) cells: [CellKey; 2],
+    pub(super) lanes: [Lane; 2],
     /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
     pub(super) doorways: Vec<(usize, [u32; 2])>,
 }
 
 impl Strait {
-    pub(super) fn length(&self) -> f64 {
+    /// The cells at its ends.
+    pub(super) fn cells(&self) -> [CellKey; 2] {
+        self.lanes[0].cells
+    }
+}
+
+/// A straight leg from the first to the second of two places.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lane {
+    pub(super) ends: [Point; 2],
+    pub(super) cells: [CellKey; 2],
+}
+
+impl Lane {
+    fn length(&self) -> f64 {
         (self.ends[1] - self.ends[0]).norm()
+    }
+
+    fn reversed(&self) -> Self {
+        let ([a, b], [from, to]) = (self.ends, self.cells);
+        Self { ends: [b, a], cells: [to, from] }
     }
 }
 
@@ -59,7 +80,7 @@ impl Strait {
 const TURN: f64 = PI / 12.0;
 /// Lines are tried at this distance, in cm.
 const LINE: f64 = 2.0;
-/// How far a strait leads into the centre space at its ends, in cm.
+/// How far a strait leads into the centre space at its ends, in cm; to the middle of less.
 const FOOTHOLD: f64 = 0.5;
 
 /// The shortest way over open floor and straits: `leg` finds the points between two places of one open region.
@@ -72,7 +93,8 @@ pub(super) fn way(
     leg: impl Fn(&Anchor, &Anchor) -> Option<Vec<Point>>,
 ) -> Option<Vec<Point>> {
     let anchor = |(at, cell): (Point, CellKey)| Anchor::at(at, cell);
-    let ends = plan.network.straits.iter().flat_map(|s| s.ends.into_iter().zip(s.cells));
+    let lanes = plan.network.straits.iter().flat_map(|s| s.lanes);
+    let ends = lanes.flat_map(|lane| lane.ends.into_iter().zip(lane.cells));
     let nodes: Vec<Anchor> =
         [start.clone(), goal.clone()].into_iter().chain(ends.map(anchor)).collect();
     let mut by_region: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
@@ -116,9 +138,9 @@ pub(super) fn way(
             }
             return Some(way);
         }
-        if node > GOAL {
-            // Straight through to the strait's other end.
-            let other = node ^ 1;
+        if node > GOAL && node % 2 == 0 {
+            // Straight through to the lane's other end.
+            let other = node + 1;
             legs.push(vec![nodes[node].at, nodes[other].at]);
             let bound = spent[node] + length(&legs[legs.len() - 1]) + left(other);
             open.push((Reverse(bound.to_bits()), other, node, Some(legs.len() - 1)));
@@ -145,6 +167,8 @@ struct Site<'a> {
     place: Bounds,
     /// Headings worth trying besides the usual ones, as angles.
     headings: Vec<f64>,
+    /// A place in each piece so small that the usual lines may miss it.
+    spots: &'a [Point],
 }
 
 /// The straits within a Fragment.
@@ -184,10 +208,10 @@ pub(super) fn through(plan: &FloorPlan, world: &World, index: usize) -> Vec<Stra
     }
     let mut found = join(plan, &numbers);
     for strait in &mut found {
-        let [a, b] = strait.ends;
         let crossed = passed.iter().filter(|&&(d, _)| {
             let (right, left) = plan.doorways()[d].line();
-            super::doors::segment_distance(a, b, right, left) <= 0.0
+            let crosses = |[a, b]: [Point; 2]| segment_distance(a, b, right, left) <= 0.0;
+            strait.lanes.iter().any(|lane| crosses(lane.ends))
         });
         strait.doorways = crossed.copied().collect();
         strait.doorways.sort_unstable();
@@ -204,7 +228,9 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
     let narrows = Narrows::of(plan, numbers);
     let around = 2.0 * plan.reach() + 60.0;
     let mut sites: Vec<Site<'_>> = Vec::new();
-    for gap in narrows.parting(plan.robot().passing_width() - 4.0 * SLACK) {
+    let gaps = narrows.parting(plan.robot().passing_width() - 4.0 * SLACK);
+    let spots: Vec<Point> = fragments.iter().flat_map(|(_, f)| small_pieces(&f.cells)).collect();
+    for gap in &gaps {
         let heading = (gap.along.y.atan2(gap.along.x) + PI / 2.0).rem_euclid(PI);
         let near = gap.reach.grown(around / 2.0);
         let holds = |s: &&mut Site<'_>| s.place.contains(near.min) && s.place.contains(near.max);
@@ -216,34 +242,70 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
                 fragments: &fragments,
                 place: gap.reach.grown(around),
                 headings: vec![heading],
+                spots: &spots,
             }),
         }
     }
-    let mut best: BTreeMap<(Piece, Piece), Strait> = BTreeMap::new();
-    for (pieces, strait) in sites.iter().flat_map(|site| self::best(plan, site)) {
-        let is_shorter = best.get(&pieces).is_none_or(|b| strait.length() < b.length());
+    for site in &mut sites {
+        let near: Vec<Point> = spots.iter().copied().filter(|&p| site.place.contains(p)).collect();
+        let middles = gaps.iter().map(|gap| gap.middle).filter(|&m| site.place.contains(m));
+        let goals: Vec<Point> = near.iter().copied().chain(middles).collect();
+        let ways = near.iter().flat_map(|&from| goals.iter().map(move |&to| to - from));
+        site.headings.extend(ways.filter(|way| way.norm() > LINE).map(|way| way.y.atan2(way.x)));
+    }
+    let mut best: BTreeMap<(Piece, Piece), Lane> = BTreeMap::new();
+    for (pieces, lane) in sites.iter().flat_map(|site| self::best(plan, site)) {
+        let is_shorter = best.get(&pieces).is_none_or(|b| lane.length() < b.length());
         if is_shorter {
-            best.insert(pieces, strait);
+            best.insert(pieces, lane);
         }
     }
-    best.into_values().collect()
+    let both =
+        best.iter().filter(|((from, to), _)| from < to).filter_map(|(&(from, to), &lane)| {
+            Some(Strait { lanes: [lane, *best.get(&(to, from))?], doorways: Vec::new() })
+        });
+    both.collect()
 }
 
-/// The shortest strait between every two pieces that a site joins.
-fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<((Piece, Piece), Strait)> {
+/// A place in each piece of centre space of so little area that lines may miss it.
+fn small_pieces(cells: &Mesh) -> Vec<Point> {
+    let mut pieces = vec![(0.0, 0.0, Point::origin()); cells.components as usize];
+    for cell in cells.cells() {
+        let (area, largest, place) = &mut pieces[cells.component(cell) as usize];
+        let polygon = cells.polygon(cell);
+        let own = polygon.signed_area();
+        *area += own;
+        if own > *largest {
+            (*largest, *place) = (own, polygon.centroid());
+        }
+    }
+    const SMALL: f64 = 10.0 * LINE * LINE;
+    pieces.into_iter().filter(|piece| piece.0 < SMALL).map(|piece| piece.2).collect()
+}
+
+/// The shortest lane from every piece to every other that a site joins.
+fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<((Piece, Piece), Lane)> {
     let mut headings: Vec<f64> = (0..12).map(|k| f64::from(k) * TURN).collect();
     headings.extend(site.headings.iter().map(|h| h.rem_euclid(PI)));
     headings.sort_by(f64::total_cmp);
     headings.dedup_by(|a, b| (*a - *b).abs() < 1e-6);
-    let mut best: BTreeMap<(Piece, Piece), Vec<Strait>> = BTreeMap::new();
+    let is_symmetric = is_symmetric(&plan.robot().footprint);
+    let mut best: BTreeMap<(Piece, Piece), Vec<Lane>> = BTreeMap::new();
     for heading in headings {
-        for (pieces, strait) in along(plan, site, heading) {
+        let mut lanes = along(plan, site, heading);
+        if is_symmetric {
+            let back = |&((from, to), lane): &((Piece, Piece), Lane)| ((to, from), lane.reversed());
+            lanes.extend(lanes.iter().map(back).collect::<Vec<_>>());
+        } else {
+            lanes.extend(along(plan, site, heading + PI));
+        }
+        for (pieces, lane) in lanes {
             let found = best.entry(pieces).or_default();
-            if found.first().is_none_or(|b| strait.length() < b.length() - 1.0) {
+            if found.first().is_none_or(|b| lane.length() < b.length() - 1.0) {
                 found.clear();
             }
-            if found.first().is_none_or(|b| strait.length() < b.length() + 1.0) {
-                found.push(strait);
+            if found.first().is_none_or(|b| lane.length() < b.length() + 1.0) {
+                found.push(lane);
             }
         }
     }
@@ -252,13 +314,18 @@ fn best(plan: &FloorPlan, site: &Site<'_>) -> Vec<((Piece, Piece), Strait)> {
         let middle = found.len() / 2;
         (pieces, found.swap_remove(middle))
     });
-    middle.filter(|(_, strait)| is_clear(plan.robot(), site, strait)).collect()
+    middle.filter(|(_, lane)| is_clear(plan.robot(), site, lane)).collect()
 }
 
-/// Whether the body on its way along a strait touches nothing solid: asked of the things themselves, whatever the
+/// Whether a footprint is the same when it has turned half about.
+fn is_symmetric(footprint: &[Point]) -> bool {
+    footprint.iter().all(|p| footprint.iter().any(|q| (p.coords + q.coords).norm() < 1e-9))
+}
+
+/// Whether the body on its way along a lane touches nothing solid: asked of the things themselves, whatever the
 /// floor made of them says.
-fn is_clear(robot: &RobotProfile, site: &Site<'_>, strait: &Strait) -> bool {
-    let [a, b] = strait.ends;
+fn is_clear(robot: &RobotProfile, site: &Site<'_>, lane: &Lane) -> bool {
+    let [a, b] = lane.ends;
     let Some(way) = (b - a).try_normalize(0.0) else { return false };
     let swept = body(robot, way).into_iter().flat_map(|v| [a + v, b + v]).collect();
     let swept = Polygon::new(convex_hull(swept));
@@ -270,8 +337,8 @@ fn is_clear(robot: &RobotProfile, site: &Site<'_>, strait: &Strait) -> bool {
     })
 }
 
-/// The straits of one heading, each with the pieces that it joins.
-fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece), Strait)> {
+/// The lanes of one heading, each with the pieces from and to which it leads.
+fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece), Lane)> {
     let way = Vector::new(heading.cos(), heading.sin());
     let across = Vector::new(-way.y, way.x);
     let room = shrunk(plan.robot(), site, way);
@@ -297,7 +364,9 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
     marks.retain(|m| (low..=high).contains(m));
     marks.sort_by(f64::total_cmp);
     let between = marks.windows(2).filter(|m| m[1] - m[0] > 1e-4).map(|m| (m[0] + m[1]) / 2.0);
-    for offset in regular.chain(between) {
+    let through = site.spots.iter().map(|p| p.coords.dot(&across));
+    let through = through.filter(|offset| (low..=high).contains(offset));
+    for offset in regular.chain(between).chain(through) {
         let at = |t: f64| Point::from(way * t + across * offset);
         let (a, b) = (at(left), at(right));
         let length = right - left;
@@ -310,7 +379,7 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
                 for &cell in &near {
                     let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
                     let (s, e) = ((s * length).max(from), (e * length).min(to));
-                    if e - s > 2.0 * FOOTHOLD {
+                    if e - s > 1e-6 {
                         let piece = (number, fragment.cells.component(cell));
                         stands.push((s, e, (number, cell), piece));
                     }
@@ -322,25 +391,16 @@ fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece)
                 if near.3 == far.3 || far.0 <= near.1 {
                     continue;
                 }
-                let ends = [at(left + near.1 - FOOTHOLD), at(left + far.0 + FOOTHOLD)];
-                let strait = Strait { ends, cells: [near.2, far.2], doorways: Vec::new() };
-                found.push(if near.3 < far.3 {
-                    ((near.3, far.3), strait)
-                } else {
-                    let turned = Strait {
-                        ends: [ends[1], ends[0]],
-                        cells: [far.2, near.2],
-                        doorways: Vec::new(),
-                    };
-                    ((far.3, near.3), turned)
-                });
+                let foothold = |(s, e, ..): (f64, f64, CellKey, Piece)| FOOTHOLD.min((e - s) / 2.0);
+                let ends = [at(left + near.1 - foothold(near)), at(left + far.0 + foothold(far))];
+                found.push(((near.3, far.3), Lane { ends, cells: [near.2, far.2] }));
             }
         }
     }
     found
 }
 
-/// Where the centre of a robot that heads along `way`, or back, may be at the site.
+/// Where the centre of a robot that heads along `way` may be at the site.
 fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
     let body = body(robot, way);
     let extent = body.iter().map(|v| v.norm()).fold(0.0, f64::max);
@@ -350,8 +410,7 @@ fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
         let polygon = site.grid.polygon(contour);
         for (a, b) in polygon.edges() {
             if Bounds::of([a, b]).meets(&reach) {
-                // The body is symmetric about the centre, so it is its own mirror image.
-                let swept = body.iter().flat_map(|&v| [a + v, b + v]).collect();
+                let swept = body.iter().flat_map(|&v| [a - v, b - v]).collect();
                 blocked.push(site.grid.contour(&Polygon::new(convex_hull(swept))));
             }
         }
@@ -359,24 +418,25 @@ fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
     Mesh::of(&site.grid, &difference(site.floor, &blocked), 0)
 }
 
-/// The footprint turned to a heading and back, with its clearance, as one convex polygon about the centre.
+/// The footprint turned to a heading, with its clearance, as one convex polygon about the centre.
 fn body(robot: &RobotProfile, way: Vector) -> Vec<Vector> {
     let across = Vector::new(-way.y, way.x);
     let clearance = (robot.clearance.get() - SLACK) / (PI / 8.0).cos();
+    let bounds = Bounds::of(robot.footprint.iter().copied());
+    let middle = nalgebra::center(&bounds.min, &bounds.max);
     let mut points = Vec::new();
     for p in &robot.footprint {
-        for sign in [1.0, -1.0] {
-            let corner = (way * p.x + across * p.y) * sign;
-            for k in 0..8 {
-                let (sin, cos) = (f64::from(k) * PI / 4.0 + PI / 8.0).sin_cos();
-                let away = if clearance > 0.0 {
-                    way * (cos * clearance) + across * (sin * clearance)
-                } else {
-                    // Without clearance the body itself gives way by the slack.
-                    corner.try_normalize(0.0).map_or_else(Vector::zeros, |v| v * clearance)
-                };
-                points.push(Point::origin() + corner + away);
-            }
+        let corner = way * p.x + across * p.y;
+        for k in 0..8 {
+            let (sin, cos) = (f64::from(k) * PI / 4.0 + PI / 8.0).sin_cos();
+            let away = if clearance > 0.0 {
+                way * (cos * clearance) + across * (sin * clearance)
+            } else {
+                // Without clearance the body itself gives way by the slack, to both sides.
+                let inward = (middle - p).map(|d| if d == 0.0 { 0.0 } else { d.signum() });
+                (way * inward.x + across * inward.y) * (SLACK / SQRT_2)
+            };
+            points.push(Point::origin() + corner + away);
         }
     }
     convex_hull(points).into_iter().map(|p| p.coords).collect()

@@ -132,9 +132,11 @@ impl RobotProfile {
     /// The narrowest straight way that the robot passes, its clearance on both sides included, in cm.
     #[must_use]
     pub fn passing_width(&self) -> f64 {
-        let widest = self.footprint.iter().map(|p| p.y.abs()).fold(0.0, f64::max);
-        let half = if self.footprint.is_empty() { self.radius.get() } else { widest };
-        2.0 * (half + self.clearance.get())
+        let radius = self.radius.get();
+        let sides = self.footprint.iter().map(|p| (p.y, p.y));
+        let (right, left) =
+            sides.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1))).unwrap_or((-radius, radius));
+        left - right + 2.0 * self.clearance.get()
     }
 }
 

@@ -2,19 +2,21 @@
 //! prisms and door leaves of a world of its own.
 //!
 //! That world is the truth; it may differ from the Map that a mission believes, and then the robot bumps.
-//! Collisions are found by casting its shape along each straight piece (exact between the end points, no time
-//! steps), independent of the free floor that the route was made from; a footprint that turns is looked at in
-//! every degree. Time is simulated; nothing is random, so a run repeats itself.
+//! Collisions are found by casting its shape along each straight piece, and by the arcs on which corners pass edges
+//! in a turn (exact between the end points, no time steps), independent of the free floor that the route was made
+//! from. Time is simulated; nothing is random, so a run repeats itself.
+
+use std::f64::consts::TAU;
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
-use parry2d_f64::query::{ShapeCastOptions, cast_shapes, intersection_test};
+use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
 use crate::geometry::{
     Bounds, Doorway, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
 };
 use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
 use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 use super::eye::View;
@@ -185,20 +187,33 @@ impl Simulator {
         prism.bottom < self.profile.height.get() && prism.top > self.profile.step.get()
     }
 
+    /// The corners of the robot's footprint, less the skin; none of a disc.
+    fn outline(&self) -> Vec<Point> {
+        let corners = &self.profile.footprint;
+        let n = corners.len();
+        let inward = |i: usize| {
+            let along = (corners[(i + 1) % n] - corners[i % n]).normalize();
+            Vector::new(-along.y, along.x)
+        };
+        let inset = |i: usize| {
+            let (before, after) = (inward(i + n - 1), inward(i));
+            corners[i] + (before + after) * (SKIN / (1.0 + before.dot(&after)))
+        };
+        let outline: Vec<Point> = (0..n).map(inset).collect();
+        let keeps_its_way = (0..n).all(|i| {
+            let (was, is) = (corners[(i + 1) % n] - corners[i], outline[(i + 1) % n] - outline[i]);
+            was.dot(&is) > 0.0
+        });
+        // What is thinner than two skins has none.
+        if keeps_its_way { outline } else { corners.clone() }
+    }
+
     /// The robot's body, less the skin.
     fn body(&self) -> Box<dyn Shape> {
-        let footprint = &self.profile.footprint;
-        let edges =
-            (0..footprint.len()).map(|i| (footprint[i], footprint[(i + 1) % footprint.len()]));
-        let inner = edges.map(|(a, b)| (b - a).perp(&-a.coords) / (b - a).norm()).reduce(f64::min);
-        let polygon = inner.filter(|&inner| inner > SKIN).and_then(|inner| {
-            let scale = 1.0 - SKIN / inner;
-            let corners = footprint.iter().map(|p| ShapeVector::new(p.x * scale, p.y * scale));
-            ConvexPolygon::from_convex_polyline(corners.collect())
-        });
-        match polygon {
-            Some(polygon) => Box::new(polygon),
-            None => Box::new(Ball::new(self.profile.radius.get() - SKIN)),
+        let corners = self.outline().iter().map(|p| ShapeVector::new(p.x, p.y)).collect();
+        match ConvexPolygon::from_convex_polyline(corners) {
+            Some(polygon) if !self.profile.footprint.is_empty() => Box::new(polygon),
+            _ => Box::new(Ball::new(self.profile.radius.get() - SKIN)),
         }
     }
 
@@ -234,30 +249,50 @@ impl Simulator {
             .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
     }
 
+    /// The first contact of the robot when it turns by so many degrees: how far it gets, and against what. A corner
+    /// of the outline meets an edge, or an edge's end meets the outline, where a circle about the centre cuts it.
+    fn contact_in_turn(&self, turn: f64) -> Option<(f64, Obstruction)> {
+        let Pose { at, heading } = self.pose;
+        let outline = Polygon::new(self.outline());
+        let near = Bounds::of([at]).grown(self.profile.radius.get());
+        let toward = |p: Point| p.y.atan2(p.x);
+        let mut first: Option<(f64, Obstruction)> = None;
+        for edge in self.edges.iter().filter(|e| Bounds::of([e.a, e.b]).meets(&near)) {
+            // As seen from the robot before it turns.
+            let seen = |p: Point| {
+                let (sin, cos) = heading.radians().sin_cos();
+                let v = p - at;
+                Point::new(v.x * cos + v.y * sin, v.y * cos - v.x * sin)
+            };
+            let (a, b) = (seen(edge.a), seen(edge.b));
+            let corners = outline.corners.iter().flat_map(|&corner| {
+                at_distance(corner.coords.norm(), a, b).map(move |met| (corner, met))
+            });
+            let ends = [a, b].into_iter().flat_map(|end| {
+                let sides = outline.edges();
+                let met = sides.flat_map(move |(u, v)| at_distance(end.coords.norm(), u, v));
+                met.map(move |met| (met, end))
+            });
+            for (from, to) in corners.chain(ends) {
+                let angle = (toward(to) - toward(from)) * turn.signum();
+                let angle = angle.rem_euclid(TAU).to_degrees();
+                if angle <= turn.abs() && first.is_none_or(|f| (angle, edge.of) < f) {
+                    first = Some((angle, edge.of));
+                }
+            }
+        }
+        first
+    }
+
     /// Turns on the spot, by the shorter way.
     fn turn_to(&mut self, heading: Deg) -> Result<(), Bump> {
         let turn = (heading - self.pose.heading).signed();
-        let start = self.pose;
-        let steps = if self.profile.footprint.is_empty() { 0 } else { turn.abs().ceil() as usize };
-        let body = self.body();
-        let near = Bounds::of([start.at]).grown(self.profile.radius.get());
-        for step in 1..=steps {
-            let turned = start.heading + Deg::of(turn * step as f64 / steps as f64);
-            let pose = placed(Pose { heading: turned, ..start });
-            let touches = |e: &&Edge| {
-                let edge =
-                    Segment::new(ShapeVector::new(e.a.x, e.a.y), ShapeVector::new(e.b.x, e.b.y));
-                Bounds::of([e.a, e.b]).meets(&near)
-                    && intersection_test(&pose, &*body, &ShapePose::identity(), &edge)
-                        .expect("parry tests a polygon against a segment")
-                        .intersecting
-            };
-            if let Some(against) = self.edges.iter().find(touches).map(|e| e.of) {
-                let done = (step - 1) as f64 / steps as f64;
-                let heading = start.heading + Deg::of(turn * done);
-                self.advance(turn.abs() * done / self.profile.turn_rate, Pose { heading, ..start });
-                return Err(Bump { at: self.pose, against });
-            }
+        if let Some((angle, against)) = self.contact_in_turn(turn) {
+            let skin = (SKIN / self.profile.radius.get()).to_degrees();
+            let done = (angle - skin).max(0.0);
+            let heading = self.pose.heading + Deg::of(done * turn.signum());
+            self.advance(done / self.profile.turn_rate, Pose { heading, ..self.pose });
+            return Err(Bump { at: self.pose, against });
         }
         self.advance(turn.abs() / self.profile.turn_rate, Pose { heading, ..self.pose });
         Ok(())
@@ -296,6 +331,16 @@ impl Simulator {
         );
         Ok((nearest - self.pose.at).norm() <= self.profile.radius.get() + ARM_REACH)
     }
+}
+
+/// The places on a segment that are so far from the origin.
+fn at_distance(radius: f64, a: Point, b: Point) -> impl Iterator<Item = Point> {
+    let along = b - a;
+    // |a + t along|² = radius²
+    let (square, half) = (along.norm_squared(), a.coords.dot(&along));
+    let root = (half * half - square * (a.coords.norm_squared() - radius * radius)).sqrt();
+    let places = [-root, root].map(|root| (root - half) / square);
+    places.into_iter().filter(|t| (0.0..=1.0).contains(t)).map(move |t| a + along * t)
 }
 
 /// A pose as parry has it.
