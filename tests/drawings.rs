@@ -3,6 +3,7 @@
 
 use orthoframe::Engine;
 use orthoframe::engine::{Drawing, Lens, parse_pose};
+use orthoframe::exchange::{Options, read};
 use orthoframe::map::{Format, World};
 use orthoframe::units::{Language, Source};
 
@@ -190,4 +191,40 @@ fn a_png_has_its_letters_without_any_font_of_the_machine() {
     assert_ne!(picture(&svg), picture(&bare));
     assert!(orthoframe::draw::png("not a drawing", None).is_err());
     assert!(orthoframe::draw::png(&svg, Some(u32::MAX)).is_err());
+}
+
+/// Where much stands close together, what bears no name bears a number, told below the plan; no letters are too small.
+#[test]
+fn what_has_no_place_for_its_name_is_told_by_a_number() {
+    let path = std::path::Path::new("../shared/data/virtualhome/TestScene2_graph.json");
+    if !path.exists() {
+        return;
+    }
+    let imported = read(path, &Options::default()).unwrap();
+    let engine = Engine::in_memory(imported.world, None).unwrap();
+    let world = engine.world().unwrap();
+    let (map, _) = engine.sheet_named(None).unwrap();
+    let svg = engine.draw(map, &Drawing::default()).unwrap();
+    let shown = texts(&svg);
+    let number = |text: &str| text.parse::<usize>().ok().filter(|&n| n > 0);
+    let below = shown.iter().find(|t| t.0 == "мебель").unwrap().2;
+    let on_plan: Vec<usize> =
+        shown.iter().filter(|t| t.2 < below).filter_map(|t| number(&t.0)).collect();
+    let listed: Vec<usize> =
+        shown.iter().filter(|t| t.2 > below).filter_map(|t| number(&t.0)).collect();
+    assert!(listed.len() > 20, "{}", listed.len());
+    assert_eq!(listed, (1..=listed.len()).collect::<Vec<_>>());
+    let mut sorted = on_plan;
+    sorted.sort_unstable();
+    assert_eq!(sorted, listed);
+    // Each is the number of one thing, which is named nowhere else.
+    for replica in world.replicas.values() {
+        assert!(shown.iter().filter(|t| t.0 == replica.name).count() < 2, "{}", replica.name);
+    }
+    let number_after = |name: &str| -> f64 {
+        svg.split(name).nth(1).and_then(|rest| rest.split([' ', '"']).next()?.parse().ok()).unwrap()
+    };
+    let pixels = number_after(" width=\"") / number_after("viewBox=\"0 0 ");
+    let smallest = shown.iter().map(|t| t.3 * pixels).fold(f64::INFINITY, f64::min);
+    assert!(smallest > 7.9, "letters of {smallest} pixels");
 }

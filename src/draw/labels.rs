@@ -2,7 +2,8 @@
 //!
 //! Candidates are tried and the cheapest feasible one is taken: rooms first, then things from the large to the small.
 //!
-//! **Invariant.** No two names overlap; one that finds no place is left out.
+//! **Invariant.** No two names overlap, and none is set smaller than it can be read; one that finds no place is left
+//! out, or told by its number ([`super::legend::List`]).
 
 use std::collections::HashMap;
 
@@ -11,6 +12,9 @@ use crate::units::{Frame, Point, Vector};
 
 use super::canvas::{Canvas, Lettering, Style};
 use super::font::text_width;
+
+/// The share of its size to which the name of a thing shrinks.
+const SMALLEST: f64 = 0.85;
 
 /// A name that found its place.
 struct Placed {
@@ -181,14 +185,17 @@ impl Labels {
     ) {
         let bounds = room.bounds();
         let spots = spots(room, bounds);
+        // The second line is smaller, as long as it can be read.
+        let second = |size: f64| (size * 0.6).max(style.size * 0.4);
         let mut best: Option<(f64, Placed)> = None;
         for share in [1.0, 0.82, 0.66, 0.52, 0.42] {
             for turn in [0.0, 90.0] {
                 let lettering = Lettering { size: style.size * share, turn, ..style };
                 let size = lettering.size;
                 let long =
-                    text_width(text, size, style.bold).max(text_width(below, size * 0.6, false));
-                let tall = size * if below.is_empty() { 1.15 } else { 1.9 };
+                    text_width(text, size, style.bold).max(text_width(below, second(size), false));
+                let more = if below.is_empty() { 0.0 } else { 1.25 * second(size) };
+                let tall = size * 1.15 + more;
                 let (width, height) = if turn > 0.0 { (tall, long) } else { (long, tall) };
                 if width > bounds.max.x - bounds.min.x || height > bounds.max.y - bounds.min.y {
                     continue;
@@ -217,13 +224,14 @@ impl Labels {
         let size = placed.lettering.size;
         let down = if placed.lettering.turn > 0.0 { Vector::x() } else { -Vector::y() };
         let name = Placed { at: placed.at - down * size * 0.38, ..placed };
-        let small = Lettering { size: size * 0.6, bold: false, ..name.lettering };
-        canvas.text(name.at + down * size * 0.95, below, small);
+        let small = Lettering { size: second(size), bold: false, ..name.lettering };
+        canvas.text(name.at + down * (size * 0.5 + second(size) * 0.75), below, small);
         self.put(canvas, text, &name);
     }
 
     /// The name of a thing: on it where it fits, rather beside what stands upon it than over that; else near it on the
-    /// floor of its room, clear of the walls, with a thin line to it; anywhere near where there are no rooms at all.
+    /// floor of its room, clear of the walls, with a thin line to it; anywhere near where there are no rooms at all. Says
+    /// whether it found a place.
     pub(super) fn on_thing(
         &mut self,
         canvas: &mut Canvas,
@@ -231,20 +239,18 @@ impl Labels {
         text: &str,
         style: Lettering,
         rooms: Option<&[&Polygon]>,
-    ) {
+    ) -> bool {
         let center = nalgebra::center(&thing.min, &thing.max);
         let along = |upon| slant.and_then(|slant| self.spot_along(slant, upon, text, style));
-        if let Some(placed) = along(upon).or_else(|| along(&[])) {
-            return self.put(canvas, text, &placed);
+        // To be clear of them, a name is not turned.
+        let clear = || self.spot_on((thing, upon), text, style, &[0.0]);
+        let anywhere = || self.spot_on((thing, &[]), text, style, &[0.0, 90.0]);
+        let on_it = along(upon).or_else(|| along(&[])).or_else(clear).or_else(anywhere);
+        if let Some(placed) = on_it {
+            self.put(canvas, text, &placed);
+            return true;
         }
-        // To be clear of them, a name is neither turned nor made much smaller.
-        let clear = self.spot_on((thing, upon), text, style, (&[1.0, 0.85], &[0.0]));
-        let anywhere =
-            || self.spot_on((thing, &[]), text, style, (&[1.0, 0.85, 0.72], &[0.0, 90.0]));
-        if let Some(placed) = clear.or_else(anywhere) {
-            return self.put(canvas, text, &placed);
-        }
-        let lettering = Lettering { size: style.size * 0.85, ..style };
+        let lettering = Lettering { size: style.size * SMALLEST, ..style };
         let (width, height) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
         let reach = (thing.max - thing.min) / 2.0 + Vector::new(width, height) / 2.0;
         for distance in [0.12, 0.7, 1.5, 2.6] {
@@ -271,22 +277,24 @@ impl Labels {
                         let leader = Style::line(lettering.color, style.size * 0.05);
                         canvas.segment(center, frame_point(&frame, center), leader);
                     }
-                    return self.put(canvas, text, &Placed { at, lettering, frames: vec![frame] });
+                    self.put(canvas, text, &Placed { at, lettering, frames: vec![frame] });
+                    return true;
                 }
             }
         }
+        false
     }
 
-    /// Where a name fits on a thing, clear of what stands upon it, in one of some sizes and turns.
+    /// Where a name fits on a thing, clear of what stands upon it, in one of some turns.
     fn spot_on(
         &self,
         (thing, upon): (Bounds, &[Bounds]),
         text: &str,
         style: Lettering,
-        (shares, turns): (&[f64], &[f64]),
+        turns: &[f64],
     ) -> Option<Placed> {
         let center = nalgebra::center(&thing.min, &thing.max);
-        for share in shares {
+        for share in [1.0, SMALLEST] {
             for &turn in turns {
                 let lettering = Lettering { size: style.size * share, turn, ..style };
                 let long = text_width(text, lettering.size, style.bold);
@@ -323,7 +331,7 @@ impl Labels {
         text: &str,
         style: Lettering,
     ) -> Option<Placed> {
-        [1.0, 0.85, 0.72].into_iter().find_map(|share| {
+        [1.0, SMALLEST].into_iter().find_map(|share| {
             let lettering = Lettering { size: style.size * share, turn: slant.turn, ..style };
             let (long, tall) = (text_width(text, lettering.size, style.bold), lettering.size * 1.1);
             let spare = slant.half - Vector::new(long, tall) / 2.0;

@@ -1,4 +1,4 @@
-//! What stands under a plan: the scale bar, what colours mean, and the directives by number.
+//! What stands under a plan: the scale bar, what colours mean, the directives and things by number.
 
 use crate::geometry::Bounds;
 use crate::units::{Language, Point, Vector};
@@ -94,6 +94,51 @@ impl Legend {
                 }
                 Entry::Line(text) => canvas.text(*at, text, lettering),
             }
+        }
+    }
+}
+
+/// Names by the numbers that stand on a plan, from 1 on, in columns.
+pub(super) struct List {
+    names: Vec<String>,
+    at: Point,
+    columns: usize,
+    column: f64,
+    pen: f64,
+}
+
+impl List {
+    /// Its upper left corner is at `at`; all columns are `width` wide at most.
+    pub(super) fn new(names: Vec<String>, at: Point, width: f64, pen: f64) -> Self {
+        let longest = names.iter().map(|n| text_width(n, Self::LETTER, false)).fold(0.0, f64::max);
+        let column = (Self::NUMBER + longest + 16.0) * pen;
+        let columns = ((width / column) as usize).max(1);
+        Self { names, at, columns, column, pen }
+    }
+
+    const LETTER: f64 = 9.5;
+    const ROW: f64 = 14.0;
+    /// The width of a number with the space behind it.
+    const NUMBER: f64 = 26.0;
+
+    fn rows(&self) -> usize {
+        self.names.len().div_ceil(self.columns)
+    }
+
+    /// cm on the sheet
+    pub(super) fn height(&self) -> f64 {
+        if self.names.is_empty() { 0.0 } else { (self.rows() as f64 + 1.0) * Self::ROW * self.pen }
+    }
+
+    pub(super) fn draw(&self, canvas: &mut Canvas) {
+        let plain = Lettering::plain(Self::LETTER * self.pen, INK);
+        let lettering = Lettering { anchor: Anchor::Start, halo: false, ..plain };
+        for (k, name) in self.names.iter().enumerate() {
+            let (column, row) = (k / self.rows(), k % self.rows());
+            let down = (row as f64 + 0.5) * Self::ROW * self.pen;
+            let at = self.at + Vector::new(column as f64 * self.column, -down);
+            canvas.text(at, &(k + 1).to_string(), Lettering { bold: true, ..lettering });
+            canvas.text(at + Vector::new(Self::NUMBER * self.pen, 0.0), name, lettering);
         }
     }
 }

@@ -13,7 +13,7 @@ use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
 use super::furniture;
 use super::labels::{Ground, Labels, Slant, around};
-use super::legend::{Entry, Legend, scale_bar, scale_bar_width};
+use super::legend::{Entry, Legend, List, scale_bar, scale_bar_width};
 use super::rooms;
 
 /// Free floor and its partition, as the drawing needs them.
@@ -163,9 +163,14 @@ impl PlanDrawing<'_> {
         let leaves = doors.iter().flat_map(|d| d.leaf.corners.iter().chain(&d.arc));
         let whole = extent.union(&Bounds::of(leaves.copied()));
         let legend = self.legend(whole, pen);
+        // Names are placed before the sheet's size is known, which hangs on how many are listed below the plan.
+        let names = whole.grown(30.0 * pen);
+        let numbered = self.labels(&mut Canvas::new(whole), names, pen);
         let mut sheet = whole.grown(34.0 * pen);
-        sheet.min.y -= legend.height() + 22.0 * pen;
         sheet.max.x = sheet.max.x.max(sheet.min.x + 640.0 * pen).max(legend.right() + 20.0 * pen);
+        let list = Point::new(whole.min.x, whole.min.y - legend.height() - 24.0 * pen);
+        let list = List::new(numbered, list, sheet.max.x - 20.0 * pen - whole.min.x, pen);
+        sheet.min.y -= legend.height() + list.height() + 22.0 * pen;
         let heading = self.heading();
         if heading.is_some() {
             sheet.max.y += 30.0 * pen;
@@ -184,10 +189,6 @@ impl PlanDrawing<'_> {
         self.network(&mut canvas, pen);
         self.view(&mut canvas, pen);
         self.route(&mut canvas, pen);
-        let names = Bounds {
-            min: Point::new(sheet.min.x + 4.0 * pen, whole.min.y - 30.0 * pen),
-            max: Point::new(sheet.max.x - 4.0 * pen, whole.max.y + 30.0 * pen),
-        };
         self.labels(&mut canvas, names, pen);
         if let Some(heading) = heading {
             let lettering = Lettering {
@@ -200,6 +201,7 @@ impl PlanDrawing<'_> {
         let below = Point::new(whole.min.x, whole.min.y - 42.0 * pen);
         scale_bar(&mut canvas, below, pen, self.language);
         legend.draw(&mut canvas);
+        list.draw(&mut canvas);
         canvas.into_svg(&self.title())
     }
 
@@ -301,8 +303,9 @@ impl PlanDrawing<'_> {
         }
     }
 
-    /// Names of places, rooms and furniture, the large before the small.
-    fn labels(&self, canvas: &mut Canvas, sheet: Bounds, pen: f64) {
+    /// Names of places, rooms and furniture, the large before the small. Things whose names find no place bear numbers
+    /// where a way bears none: gives their names in the order of the numbers, which is that of the rooms.
+    fn labels(&self, canvas: &mut Canvas, sheet: Bounds, pen: f64) -> Vec<String> {
         let mut labels = Labels::new(10.0 * pen).within(sheet);
         for (_, leg) in &self.route.legs {
             leg.windows(2).for_each(|w| labels.avoid_line(w[0], w[1]));
@@ -353,13 +356,14 @@ impl PlanDrawing<'_> {
         let mut things: Vec<_> = self.things().collect();
         let size = |b: &Bounds| (b.max.x - b.min.x) * (b.max.y - b.min.y);
         things.sort_by(|a, b| size(&b.bounds).total_cmp(&size(&a.bounds)).then(a.id.cmp(&b.id)));
+        let mut nameless = Vec::new();
         for (k, thing) in things.iter().enumerate() {
             let upon = things[k + 1..].iter().map(|t| t.bounds).filter(|b| b.meets(&thing.bounds));
             let upon: Vec<Bounds> = upon.collect();
             let replica = &self.world.replicas[&thing.id];
             let name = self.named(&replica.name, &replica.name_en);
             // On the sheet of a large building names beside small things would hide the things.
-            let lettering = Lettering::plain(8.5 * pen, "#5b5647");
+            let lettering = Lettering::plain(9.5 * pen, "#5b5647");
             let home = self.scene.areas.get(&thing.area).filter(|_| pen < LARGE);
             let home = home.filter(|_| !crowded.contains(&thing.id));
             let rooms: Vec<&Polygon> =
@@ -367,8 +371,29 @@ impl PlanDrawing<'_> {
             let corners = thing.prisms.iter().flat_map(|p| p.polygon.corners.iter().copied());
             let slant = Slant::of(&thing.frame, corners);
             let ground = Ground { bounds: thing.bounds, upon: &upon, slant };
-            labels.on_thing(canvas, &ground, name, lettering, Some(&rooms));
+            if !labels.on_thing(canvas, &ground, name, lettering, Some(&rooms)) {
+                nameless.push((thing, upon, name));
+            }
         }
+        if !self.route.legs.is_empty() {
+            return Vec::new();
+        }
+        let row = |b: &Bounds| (-b.max.y / (40.0 * pen)).floor();
+        nameless.sort_by(|(a, ..), (b, ..)| {
+            let down = row(&a.bounds).total_cmp(&row(&b.bounds));
+            let right = a.bounds.min.x.total_cmp(&b.bounds.min.x);
+            a.area.cmp(&b.area).then(down).then(right).then(a.id.cmp(&b.id))
+        });
+        let mut numbered = Vec::new();
+        for (thing, upon, name) in nameless {
+            let number = (numbered.len() + 1).to_string();
+            let ground = Ground { bounds: thing.bounds, upon: &upon, slant: None };
+            let lettering = Lettering::plain(9.5 * pen, INK);
+            if labels.on_thing(canvas, &ground, &number, lettering, Some(&[])) {
+                numbered.push(name.to_owned());
+            }
+        }
+        numbered
     }
 
     /// What stands in a crowd on or in another thing.
