@@ -293,12 +293,13 @@ impl Collector<'_> {
         levels.extend(edges.iter().filter(|&&z| low < z && z < high));
         levels.sort_by(f64::total_cmp);
         levels.dedup();
-        for row in levels.windows(2) {
+        let last = levels.len() - 2;
+        for (k, row) in levels.windows(2).enumerate() {
             let before = self.facets.len();
             self.upright(a, b, row[0], row[1], owner);
             if let Some(facet) = self.facets.get_mut(before) {
                 let [at_a, at_b] = edges.map(|z| z >= row[1]);
-                facet.is_edge = vec![row[0] == low, at_b, row[1] == high, at_a];
+                facet.is_edge = vec![k == 0, at_b, k == last, at_a];
             }
         }
     }
