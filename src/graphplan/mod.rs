@@ -23,6 +23,7 @@ mod any;
 mod bits;
 mod counting;
 mod cuts;
+mod detours;
 mod extract;
 mod fewest;
 mod first_use;

@@ -2,13 +2,15 @@
 //! where it has nothing to do and out again, keys to such rooms, a thing put down only to be taken up again.
 //!
 //! Backward from the goal an operator is *kept* when it adds a needed fact, and then its preconditions are needed too
-//! (P. Haslum, M. Helmert, A. Jonsson, 2013, go further than that in another way). Two kinds of operators are not
+//! (P. Haslum, M. Helmert, A. Jonsson, 2013, go further than that in another way). Three kinds of operators are not
 //! kept although they add a needed fact:
 //!
 //! 1. **Returns.** The operator needs a fact that lies *beyond* the one it adds: it excludes it, and was come to from
 //!    it, all the way by operators that are not kept. Who takes no such way never lost what the return brings back.
 //! 2. **Undone for nothing.** The operator gives up `p`, and whoever uses what it adds does so only to have `p`
 //!    again. Who keeps `p` needs neither.
+//! 3. **Detours.** The operator leaves a fact that no kept operator uses, and to which one need not have come: see
+//!    [`detours`](super::detours).
 //!
 //! Let a plan be given, and leave out of it all that is not kept. By induction over its steps every needed fact that
 //! holds in the course of the whole plan holds in the course of the rest, too, but for what an operator of the second
@@ -17,6 +19,7 @@
 //! more steps and no more actions; parallel steps lose members and stay parallel. The conditions are read off below.
 
 use super::bits;
+use super::detours::{Detours, Uses};
 use super::pairs::ReachedPairs;
 use super::{Limit, Limits};
 use crate::strips::{FactId, OperatorId, Task};
@@ -33,7 +36,8 @@ impl Reduced {
     /// Time or memory is up.
     pub(super) fn of(task: &Task, limits: &Limits) -> Result<Self, Limit> {
         let pairs = ReachedPairs::of(task, limits)?;
-        let mut relevance = Relevance::new(task, &pairs);
+        let uses = Uses::of(task, &pairs);
+        let mut relevance = Relevance::new(task, &pairs, &uses);
         relevance.settle(limits)?;
         let (kept, needed) = (relevance.kept, relevance.needed);
         let operators: Vec<OperatorId> =
@@ -43,7 +47,7 @@ impl Reduced {
             operator.add_effects.iter().for_each(|fact| added[fact.index()] = true);
             operator.del_effects.iter().for_each(|fact| deleted[fact.index()] = true);
         }
-        let (initially, is_goal) = (relevance.initially, relevance.is_goal);
+        let (initially, is_goal) = (&uses.initially, &uses.is_goal);
         // What holds and is never given up need not be asked for; what nobody needs still keeps operators apart, of
         // which one adds it and one deletes it.
         let counts = |fact: usize| {
@@ -83,11 +87,8 @@ impl Reduced {
 struct Relevance<'a> {
     task: &'a Task,
     pairs: &'a ReachedPairs,
-    added_by: Vec<Vec<OperatorId>>,
-    needed_by: Vec<Vec<OperatorId>>,
-    deleted_by: Vec<Vec<OperatorId>>,
-    initially: Vec<bool>,
-    is_goal: Vec<bool>,
+    uses: &'a Uses,
+    detours: Detours<'a>,
     kept: Vec<bool>,
     /// The kept ones in the order in which they came to be kept.
     kept_in_order: Vec<OperatorId>,
@@ -106,32 +107,16 @@ struct Beyond {
 }
 
 impl<'a> Relevance<'a> {
-    fn new(task: &'a Task, pairs: &'a ReachedPairs) -> Self {
+    fn new(task: &'a Task, pairs: &'a ReachedPairs, uses: &'a Uses) -> Self {
         let count = task.facts.len();
-        let (mut added_by, mut needed_by, mut deleted_by) =
-            (vec![Vec::new(); count], vec![Vec::new(); count], vec![Vec::new(); count]);
-        for id in task.operator_ids().filter(|id| pairs.applicable[id.index()]) {
-            let operator = task.operator(id);
-            operator.add_effects.iter().for_each(|f| added_by[f.index()].push(id));
-            operator.preconditions.iter().for_each(|f| needed_by[f.index()].push(id));
-            operator.del_effects.iter().for_each(|f| deleted_by[f.index()].push(id));
-        }
-        let marked = |facts: &[FactId]| {
-            let mut marks = vec![false; count];
-            facts.iter().for_each(|fact| marks[fact.index()] = true);
-            marks
-        };
         Self {
             task,
             pairs,
-            added_by,
-            needed_by,
-            deleted_by,
-            initially: marked(&task.init),
-            is_goal: marked(&task.goal),
+            uses,
+            detours: Detours::new(task, pairs, uses),
             kept: vec![false; task.operators.len()],
             kept_in_order: Vec::new(),
-            needed: marked(&task.goal),
+            needed: uses.is_goal.clone(),
             beyond: (0..count).map(|_| None).collect(),
             given_up: vec![false; count],
             missing: vec![false; count],
@@ -149,8 +134,8 @@ impl<'a> Relevance<'a> {
             let mut changed = false;
             while let Some(fact) = open.pop() {
                 limits.check(0)?;
-                for at in 0..self.added_by[fact.index()].len() {
-                    let id = self.added_by[fact.index()][at];
+                for at in 0..self.uses.added_by[fact.index()].len() {
+                    let id = self.uses.added_by[fact.index()][at];
                     if self.kept[id.index()] || self.is_needless(id) {
                         continue;
                     }
@@ -174,11 +159,14 @@ impl<'a> Relevance<'a> {
         let operator = self.task.operator(id);
         let mut brought = Vec::new();
         for &fact in &operator.add_effects {
-            if self.needed[fact.index()] && !self.is_return(id, fact) {
+            if self.needed[fact.index()]
+                && !self.is_return(id, fact)
+                && !self.detours.adds_nothing(id, fact)
+            {
                 brought.push(fact);
             }
         }
-        if brought.is_empty() {
+        if brought.is_empty() || self.detours.leaves_one(id, &self.kept) {
             return true;
         }
         let gives_up = operator.preconditions.iter().filter(|f| operator.del_effects.contains(f));
@@ -204,7 +192,7 @@ impl<'a> Relevance<'a> {
 
     /// Whether no kept operator deletes a fact that need not hold then: while it is lost, none of them deletes it.
     fn is_given_up_only_by_need(&self, fact: FactId) -> bool {
-        self.deleted_by[fact.index()]
+        self.uses.deleted_by[fact.index()]
             .iter()
             .filter(|id| self.kept[id.index()])
             .all(|&id| self.task.operator(id).preconditions.contains(&fact))
@@ -220,10 +208,10 @@ impl<'a> Relevance<'a> {
             let apart = |beyond: &[u64]| {
                 beyond.iter().zip(pairs.row(p)).all(|(beyond, beside)| beyond & beside == 0)
             };
-            !self.is_goal[fact.index()]
+            !self.uses.is_goal[fact.index()]
                 && !self.given_up[fact.index()]
                 && pairs.is_exclusive(fact, p)
-                && self.needed_by[fact.index()]
+                && self.uses.needed_by[fact.index()]
                     .iter()
                     .filter(|id| self.kept[id.index()])
                     .flat_map(|&id| &self.task.operator(id).add_effects)
@@ -275,8 +263,8 @@ impl<'a> Relevance<'a> {
         };
         let mut gone = Vec::new();
         for member in members {
-            let stays = !self.initially[member]
-                && self.added_by[member].iter().all(|&id| comes_from_there(&beyond, id));
+            let stays = !self.uses.initially[member]
+                && self.uses.added_by[member].iter().all(|&id| comes_from_there(&beyond, id));
             if !stays && bits::has(&beyond, member) {
                 bits::take(&mut beyond, member);
                 gone.push(member);
@@ -284,7 +272,7 @@ impl<'a> Relevance<'a> {
         }
         // Whoever came from there may have come from nowhere else.
         while let Some(member) = gone.pop() {
-            for &id in self.needed_by[member].iter().filter(|id| !self.kept[id.index()]) {
+            for &id in self.uses.needed_by[member].iter().filter(|id| !self.kept[id.index()]) {
                 if comes_from_there(&beyond, id) {
                     continue;
                 }

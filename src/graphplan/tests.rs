@@ -602,3 +602,58 @@ fn what_no_shortest_plan_needs_is_left_out() {
     }
     assert!(smaller > 3000 && solved > 1000, "{smaller} {solved}");
 }
+
+/// A robot at one of many chairs that carries a cup past them: nobody has anything to do at a chair.
+#[test]
+fn what_is_only_passed_through_is_left_out() {
+    let places: Vec<String> = (0..6).map(|n| format!("place{n}")).collect();
+    let mut names: Vec<String> = places.clone();
+    names.extend(["cup at place0", "cup held", "cup at place5", "hand"].map(str::to_owned));
+    let fact = |name: &str| {
+        FactId(names.iter().position(|own| own == name).expect("a name of the list") as u32)
+    };
+    let mut operators = Vec::new();
+    let mut operator = |needs: Vec<FactId>, adds: Vec<FactId>, deletes: Vec<FactId>| {
+        let sorted = |mut facts: Vec<FactId>| {
+            facts.sort_unstable();
+            facts
+        };
+        operators.push(Operator {
+            name: format!("o{}", operators.len()).into(),
+            args: Vec::new(),
+            preconditions: sorted(needs),
+            add_effects: sorted(adds),
+            del_effects: sorted(deletes),
+            cost: 1,
+        });
+    };
+    for from in &places {
+        for to in places.iter().filter(|to| *to != from) {
+            operator(vec![fact(from)], vec![fact(to)], vec![fact(from)]);
+        }
+    }
+    let (hand, held) = (fact("hand"), fact("cup held"));
+    for place in ["place0", "place5"] {
+        let (here, lies) = (fact(place), fact(&format!("cup at {place}")));
+        operator(vec![here, hand, lies], vec![held], vec![hand, lies]);
+        operator(vec![here, held], vec![hand, lies], vec![held]);
+    }
+    let init = vec![fact("place3"), fact("cup at place0"), hand];
+    let init = {
+        let mut init = init;
+        init.sort_unstable();
+        init
+    };
+    let goal = vec![fact("cup at place5")];
+    let facts = names
+        .iter()
+        .map(|name| Fact { predicate: name.as_str().into(), args: Vec::new(), negated: false })
+        .collect();
+    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+    task.check_invariants();
+    let reduced = needed::Reduced::of(&task, &Limits::default()).unwrap();
+    assert_eq!(fewest_steps(&reduced.task), Some(4));
+    // From the start to the cup and on: between places 0, 3 and 5 alone, and none of the ways back to the start.
+    let left: Vec<String> = reduced.task.facts.iter().map(|f| f.predicate.to_string()).collect();
+    assert!(!left.iter().any(|fact| ["place1", "place2", "place4"].contains(&&**fact)), "{left:?}");
+}

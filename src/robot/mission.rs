@@ -14,6 +14,7 @@ use thiserror::Error;
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
+use super::idle::without_idle;
 use super::placing::{spot_in, spot_on, spot_on_floor};
 use super::solve::{Solved, solve_again};
 
@@ -168,7 +169,7 @@ impl<'r> Mission<'r> {
         let mut problem = Problem::new();
         let relations = derive(&self.belief.world, self.relations, Profile::Surveyed)?;
         let (facts, places) = self.belief.initial(&relations);
-        for fact in &facts {
+        for fact in &without_idle(facts, goal) {
             state(&mut problem, fact);
         }
         for fact in goal {

@@ -8,6 +8,7 @@ mod belief;
 mod directive;
 mod drive;
 mod eye;
+mod idle;
 mod mission;
 mod placing;
 mod seek;
