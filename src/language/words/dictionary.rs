@@ -3,6 +3,7 @@
 //! The dictionary is opened at the first question (some 4 ms; its 20 MB are mapped, not read) and never before.
 //! Without the feature `rumorph` every answer is "not known", and the rules by ending decide alone.
 
+use super::grammar::Number;
 use super::noun::{Known, Noun};
 
 /// What part of speech a nominative may be.
@@ -14,11 +15,20 @@ pub(crate) struct Readings {
     pub(crate) noun: bool,
     /// It is the nominative of an adjective.
     pub(crate) adjective: bool,
+    /// It is the nominative of a person's first name.
+    pub(crate) first_name: bool,
+    /// It is some form of a person's surname.
+    pub(crate) surname: bool,
 }
 
 /// The noun whose nominative is `word` (lower case), if the dictionary has it.
 pub(crate) fn noun(word: &str, known: Known) -> Option<Noun> {
     source::noun(word, known)
+}
+
+/// The noun that a number governs in this form: «стула» after «два», «стульев» after «пять».
+pub(crate) fn counted(word: &str, number: Number) -> Option<Noun> {
+    source::counted(word, number)
 }
 
 pub(crate) fn readings(word: &str) -> Readings {
@@ -38,7 +48,7 @@ pub(crate) fn ordering_verb(word: &str) -> Option<String> {
 
 #[cfg(not(feature = "rumorph"))]
 mod source {
-    use super::{Known, Noun, Readings};
+    use super::{Known, Noun, Number, Readings};
 
     pub(super) fn noun(_word: &str, _known: Known) -> Option<Noun> {
         None
@@ -49,6 +59,10 @@ mod source {
     }
 
     pub(super) fn ordering_verb(_word: &str) -> Option<String> {
+        None
+    }
+
+    pub(super) fn counted(_word: &str, _number: Number) -> Option<Noun> {
         None
     }
 }
@@ -74,12 +88,30 @@ mod source {
         let Some(dictionary) = dictionary() else { return readings };
         for (_, tag) in known_analyses(dictionary, word) {
             readings.known = true;
+            readings.surname |= tag.has_label("Surn");
             if tag.feat("Case") == Some("Nom") {
+                readings.first_name |= tag.has_label("Name");
                 readings.noun |= matches!(tag.pos(), "NOUN" | "PROPN");
                 readings.adjective |= matches!(tag.pos(), "ADJ" | "DET");
             }
         }
         readings
+    }
+
+    pub(super) fn counted(word: &str, number: Number) -> Option<Noun> {
+        let dictionary = dictionary()?;
+        let counted = |tag: &UdTag<'_>| {
+            matches!(tag.pos(), "NOUN")
+                && tag.feat("Case") == Some("Gen")
+                && number_of(*tag) == Some(number)
+        };
+        let analyses = known_analyses(dictionary, word).filter(|(_, tag)| counted(tag));
+        let likely = analyses.max_by_key(|(analysis, _)| (analysis.prob * 1e6) as u64);
+        let lemma = likely?.0.lemma;
+        match lexicon::find(&lemma) {
+            Some(_) => Some(Noun::by_rules(&lemma, Known::default())),
+            None => noun(&lemma, Known::default()),
+        }
     }
 
     pub(super) fn ordering_verb(word: &str) -> Option<String> {

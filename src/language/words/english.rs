@@ -56,8 +56,10 @@ pub fn plural(noun: &str) -> String {
         .rfind(|c: char| !c.is_alphabetic())
         .map_or(0, |at| at + noun[at..].chars().next().map_or(1, char::len_utf8));
     let (before, word) = noun.split_at(cut);
-    // A name in Russian letters takes no English ending.
-    if word.is_empty() || word.chars().any(is_cyrillic) {
+    // A name in Russian letters takes no English ending, nor does the tag of one: "Room 12a".
+    let is_tag = !before.is_empty()
+        && (before.ends_with(|c: char| c.is_ascii_digit()) || word.chars().count() == 1);
+    if is_tag || word.is_empty() || word.chars().any(is_cyrillic) {
         return noun.to_owned();
     }
     // "chest of drawers", "thing to drink from": the head stands before.
@@ -240,7 +242,11 @@ fn word_of(word: &str) -> Option<String> {
     if let Some((_, english)) = adjective {
         return Some(cased_like(word, english));
     }
-    is_tag(word).then(|| latin(word))
+    // «ТВ» is no tag that only looks so.
+    match word {
+        "ТВ" => Some("TV".to_owned()),
+        _ => is_tag(word).then(|| latin(word)),
+    }
 }
 
 /// «стулья» is "chairs"; after a noun the same letters may be its genitive («кабинет директора»).

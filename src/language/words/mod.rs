@@ -26,6 +26,7 @@ mod lexicon;
 mod list;
 mod measure;
 mod noun;
+mod number;
 mod parse;
 mod phrase;
 pub mod russian;

@@ -11,6 +11,7 @@ use super::grammar::{Animacy, Evidence, Gender, Number, WordHints};
 use super::letters::{Run, is_acronym, runs, to_cyrillic};
 use super::lexicon;
 use super::noun::{Known, Noun};
+use super::number::Cardinal;
 use super::phrase::{NounPhrase, Piece};
 
 /// Words after which a tail begins.
@@ -42,7 +43,12 @@ const PREPOSITIONS: [&str; 24] = [
 ];
 
 /// First parts of compounds that never decline.
-const FIXED_FIRST: [&str; 30] = [
+const FIXED_FIRST: [&str; 35] = [
+    "бар",
+    "мастер",
+    "штаб",
+    "дизель",
+    "стоп",
     "мини",
     "макси",
     "супер",
@@ -85,6 +91,8 @@ pub(super) struct Parser<'a> {
     coordinated: bool,
     /// The head has several words: «кухня-гостиная», which is «в», though «кухня» is «на».
     compound: bool,
+    /// A word of it ends in a full stop.
+    abbreviated: bool,
 }
 
 /// Words joined by hyphens: `runs[from..to]`, words and the hyphens between them.
@@ -106,6 +114,7 @@ impl<'a> Parser<'a> {
             evidence: Evidence::Given,
             coordinated: false,
             compound: false,
+            abbreviated: false,
         }
     }
 
@@ -114,7 +123,11 @@ impl<'a> Parser<'a> {
         let mut at_head = true;
         let mut tail = false;
         let mut next_run = 0;
-        for (index, group) in groups.iter().enumerate() {
+        let counted = if self.counted(&groups) { 2 } else { 0 };
+        if counted > 0 {
+            (at_head, next_run) = (false, groups[1].to);
+        }
+        for (index, group) in groups.iter().enumerate().skip(counted) {
             let gap = self.gap(next_run, group.from);
             self.pieces.push(Piece::Fixed(gap.to_owned()));
             next_run = group.to;
@@ -129,12 +142,18 @@ impl<'a> Parser<'a> {
                 self.coordinated = true;
             }
             let joint = matches!(word, "и" | "или");
-            if tail
+            // «Каб. 203»
+            let cut = word.chars().count() <= 5
+                && self.gap(group.to, self.runs.len()).starts_with('.')
+                && !dictionary::readings(&word.to_lowercase()).known;
+            self.abbreviated |= cut;
+            if cut
+                || tail
                 || joint
                 || PREPOSITIONS.contains(&word)
                 || gap.contains(['(', '"', '«', '“']) && !at_head
             {
-                tail |= !joint;
+                tail |= !joint && !cut;
                 self.fixed(*group);
             } else if at_head && self.is_modifier(*group, &groups[index + 1..]) {
                 self.agreeing(*group);
@@ -174,7 +193,9 @@ impl<'a> Parser<'a> {
                 .unwrap_or_default(),
             evidence: match noun {
                 Some(_) => self.evidence,
-                None if self.name.chars().any(is_cyrillic_lower) => Evidence::Guess,
+                None if !self.abbreviated && self.name.chars().any(is_cyrillic_lower) => {
+                    Evidence::Guess
+                }
                 None => Evidence::Rule,
             },
             given: self.hints.forms.clone(),
@@ -284,6 +305,13 @@ impl<'a> Parser<'a> {
 
     fn agrees_with_head(&self, group: Group) -> bool {
         match (self.adjective(group), &self.head) {
+            // «Стол Петровой»
+            (Some((lower, _)), Some(_))
+                if self.text(group).starts_with(char::is_uppercase)
+                    && dictionary::readings(&lower).surname =>
+            {
+                false
+            }
             (Some((_, adjective)), Some((_, head))) => {
                 adjective.number() == head.number
                     && (head.number == Number::Plural || adjective.gender() == head.gender)
@@ -292,16 +320,19 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// A person's or an animal's next name declines with the first: «Иван Петрович», «Кот Барсик».
+    /// A person's or an animal's next name declines with the first: «Иван Петрович», «Кот Барсик»; so does a person's
+    /// first name behind anything: «Кукла Маша».
     fn is_second_name(&self, group: Group) -> bool {
         let Some((_, head)) = &self.head else { return false };
         let capital = self.text(group).starts_with(char::is_uppercase);
-        let mut words = self.words(group).map(|run| to_cyrillic(run.text).to_lowercase());
-        head.animacy == Animacy::Animate
+        let words = self.words(group).map(|run| to_cyrillic(run.text).to_lowercase());
+        let words: Vec<String> = words.collect();
+        let named = || words.iter().all(|word| dictionary::readings(word).first_name);
+        (head.animacy == Animacy::Animate || named())
             && head.number == Number::Singular
             && capital
             && self.is_word(group)
-            && words.all(|word| is_nominative(&word))
+            && words.iter().all(|word| is_nominative(word))
     }
 
     fn agreeing(&mut self, group: Group) {
@@ -357,7 +388,9 @@ impl<'a> Parser<'a> {
             let fixed = !run.is_word
                 || stopped
                 || !is_declinable(text)
-                || (at + 1 < group.to && FIXED_FIRST.contains(&lower.as_str()));
+                || (FIXED_FIRST.contains(&lower.as_str()) && self.declines_after(at, group))
+                // «точка-сбора»: the second is of the first.
+                || (found && is_oblique(&lower));
             if fixed {
                 self.pieces.push(Piece::Fixed(text.to_owned()));
             } else {
@@ -372,6 +405,32 @@ impl<'a> Parser<'a> {
             }
         }
         found
+    }
+
+    /// Whether a word of a group stands before another that may be its head.
+    fn declines_after(&self, at: usize, group: Group) -> bool {
+        let mut others = self.runs[at + 1..group.to].iter();
+        others.any(|run| run.is_word && is_declinable(run.text))
+    }
+
+    /// «Два стула»: the number and the noun that it governs, which stand in the nominative as they are written.
+    fn counted(&mut self, groups: &[Group]) -> bool {
+        let [number, noun, ..] = groups else { return false };
+        let Some(cardinal) = Cardinal::read(&self.text(*number).to_lowercase()) else {
+            return false;
+        };
+        let lower = to_cyrillic(self.text(*noun)).to_lowercase();
+        let Some(found) = dictionary::counted(&lower, cardinal.governs) else { return false };
+        let written = |group: &Group| self.text(*group).to_owned();
+        let (number, gap, noun) =
+            (written(number), self.gap(number.to, noun.from).to_owned(), written(noun));
+        self.pieces.push(Piece::Numeral { written: number, cardinal });
+        self.pieces.push(Piece::Fixed(gap));
+        let found = Noun { number: Number::Plural, ..found };
+        self.pieces.push(Piece::Counted { written: noun, noun: Box::new(found.clone()) });
+        self.evidence = self.evidence.max(found.evidence);
+        self.head = Some((lower, found));
+        true
     }
 
     fn take(&mut self, written: &str, lower: &str, noun: Noun) {
@@ -409,6 +468,12 @@ pub(crate) fn may_be_noun(said: &str) -> bool {
     const VERBAL: [&str; 14] =
         ["ет", "ёт", "ит", "ют", "ут", "ат", "ят", "ть", "л", "ла", "ло", "ли", "ся", "шь"];
     readings.noun || !readings.known || !VERBAL.iter().any(|ending| lower.ends_with(ending))
+}
+
+/// Whether the dictionary knows the word, and only as a form that is no nominative.
+fn is_oblique(word: &str) -> bool {
+    let readings = dictionary::readings(word);
+    readings.known && !readings.noun && !readings.adjective && lexicon::find(word).is_none()
 }
 
 /// Whether the word can be the nominative of a noun, as far as anything here knows it.

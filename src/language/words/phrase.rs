@@ -22,6 +22,7 @@ use super::adjective::Adjective;
 use super::grammar::{Animacy, Case, Evidence, Gender, Number, PlaceSense, WordHints};
 use super::letters::recase;
 use super::noun::Noun;
+use super::number::Cardinal;
 use super::parse::Parser;
 use super::russian::Counted;
 
@@ -50,6 +51,16 @@ pub(super) enum Piece {
     Agreeing {
         written: String,
         adjective: Adjective,
+    },
+    /// «Два» of «Два стула».
+    Numeral {
+        written: String,
+        cardinal: Cardinal,
+    },
+    /// «Стула» of «Два стула»: in the nominative as it is written.
+    Counted {
+        written: String,
+        noun: Box<Noun>,
     },
     /// «2-й»: the digits stay, the ending agrees.
     Ordinal {
@@ -186,8 +197,10 @@ impl NounPhrase {
     #[must_use]
     pub fn sources(&self) -> Vec<(String, Evidence)> {
         let of = |piece: &Piece| match piece {
-            Piece::Fixed(_) => None,
-            Piece::Noun { written, noun } => Some((written.clone(), noun.evidence)),
+            Piece::Fixed(_) | Piece::Numeral { .. } => None,
+            Piece::Noun { written, noun } | Piece::Counted { written, noun } => {
+                Some((written.clone(), noun.evidence))
+            }
             Piece::Agreeing { written, .. } => Some((written.clone(), Evidence::Rule)),
             Piece::Ordinal { digits, ending } => {
                 let form = ending.form(Case::Nominative, self.number, self.gender, self.animacy);
@@ -254,6 +267,11 @@ impl NounPhrase {
                 let number = if noun.number == Number::Plural { Number::Plural } else { number };
                 recase(written, noun.paradigm.form(number, case))
             }
+            Piece::Numeral { written, cardinal } => recase(written, cardinal.form(case)),
+            Piece::Counted { written, noun } => match case {
+                Case::Nominative | Case::Accusative => written.clone(),
+                _ => recase(written, noun.paradigm.form(Number::Plural, case)),
+            },
             Piece::Agreeing { written, adjective } => {
                 recase(written, &adjective.form(case, number, self.gender, self.animacy))
             }
