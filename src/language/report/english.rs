@@ -86,6 +86,7 @@ impl Facing {
             Self::Object(object) => format!("facing {}", object.english()),
             Self::Wall | Self::OwnWall => "facing the wall".into(),
             Self::OtherWall => "facing another wall".into(),
+            Self::Inward if matches!(spot, Some(Spot::InMiddle)) => "facing free space".into(),
             Self::Inward => "facing the middle".into(),
         }
     }

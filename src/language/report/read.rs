@@ -336,7 +336,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         if self.one_of(&["стене"]).is_some() {
             return Some(SaidFacing::Wall);
         }
-        if self.one_of(&["середине"]).is_some() {
+        if self.one_of(&["середине"]).is_some()
+            || self.maybe(|r| r.all_of("свободному месту")).is_some()
+        {
             return Some(SaidFacing::Inward);
         }
         if self.one_of(&["ней", "нему", "ним"]).is_some() {
@@ -486,7 +488,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         if self.all_of("the wall").is_some() {
             return Some(SaidFacing::Wall);
         }
-        if self.all_of("the middle").is_some() {
+        if self.all_of("the middle").is_some() || self.all_of("free space").is_some() {
             return Some(SaidFacing::Inward);
         }
         if self.all_of("it").is_some() {

@@ -112,6 +112,9 @@ impl Facing {
             Self::OwnWall if told => "лицом к ней".into(),
             Self::Wall | Self::OwnWall => "лицом к стене".into(),
             Self::OtherWall => "лицом к другой стене".into(),
+            Self::Inward if matches!(spot, Some(Spot::InMiddle)) => {
+                "лицом к свободному месту".into()
+            }
             Self::Inward => "лицом к середине".into(),
         }
     }
