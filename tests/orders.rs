@@ -128,3 +128,45 @@ fn a_condition_decides_what_is_done() {
     assert_eq!(heard(&engine, order), "[Close");
     assert_eq!(heard(&engine, unless), "[Bring");
 }
+
+/// What cannot be put away is told, and the others are put away all the same.
+#[test]
+fn what_cannot_be_put_away_lets_the_rest_be_tidied() {
+    let mut world = crate::worlds::rb2();
+    for door in ["Дверь-ZY", "Дверь-КY"] {
+        let Entity::Door(id) = world.find(door)[0] else { panic!("{door}") };
+        world.doors.get_mut(&id).unwrap().state = DoorState::LOCKED;
+    }
+    // By their names the book comes first; the bedroom, where it is kept, is locked.
+    for (thing, on) in [("Книга-4", "Комод-1"), ("Чашка-1", "Письменный стол")]
+    {
+        let Entity::Replica(id) = world.find(thing)[0] else { panic!("{thing}") };
+        let properties = &mut world.replicas.get_mut(&id).unwrap().properties;
+        properties.insert("ХРАНИТСЯ_НА".to_owned(), on.to_owned());
+    }
+    let answer = perform(&world, "Приберись в гостиной");
+    assert!(matches!(answer.ending, TaskEnding::Done), "{:?}", answer.ending);
+    let left: Vec<&str> = answer.left.iter().map(|(goal, _)| goal.args[0].as_str()).collect();
+    assert_eq!(left, ["Книга-4"]);
+    assert_eq!(actions(&answer).last(), Some(&"Вернуть-на-место"));
+}
+
+/// Whither it is told to look the robot looks: a window and a wall have no names of their own.
+#[test]
+fn it_turns_to_windows_and_walls() {
+    let world = crate::worlds::rb2();
+    let engine = Engine::in_memory(world.clone(), None).unwrap();
+    for (order, facing) in [
+        ("Повернись к окну", "лицом к окну"),
+        ("Встань в спальне лицом к окну", "лицом к окну"),
+        ("Face the wall", "лицом к стене"),
+    ] {
+        let answer = perform(&world, order);
+        assert!(matches!(answer.ending, TaskEnding::Done), "{order}: {:?}", answer.ending);
+        let place = &answer.goal[0].args[0];
+        assert!(place.contains(&facing.replace(' ', "-")), "{order}: {place}");
+        let found = engine.locate(answer.end_map, answer.end, true).unwrap();
+        let told = found.position.say(Language::Russian);
+        assert!(told.contains("лицом к ") && !told.contains("лицом внутрь"), "{order}: {told}");
+    }
+}

@@ -225,7 +225,8 @@ pub(super) fn perform(
         super::draw::put_driven(common, &engine, &answer, path)?;
     }
     Ok(match answer.ending {
-        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,
+        TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
+        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::No,
         TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
     })
 }

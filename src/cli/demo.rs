@@ -11,6 +11,8 @@ use crate::engine::{
 };
 use crate::graphplan::Outcome;
 use crate::language::Language;
+use crate::language::command::{in_time, is_order};
+use crate::language::question::{Conditional, conditional};
 use crate::robot::Directive;
 
 use super::args::{Common, Lang};
@@ -73,7 +75,12 @@ pub(super) fn perform(
         Some([order, question]) if engine.is_command(order)? => (order.as_str(), Some(question)),
         _ => (task, None),
     };
-    let answer = perform_told(common, engine, order)?;
+    let in_order = in_time(order).filter(|order| is_order(order));
+    let order = in_order.as_deref().unwrap_or(order);
+    let answer = match conditional(order) {
+        Some(conditional) => perform_if(common, engine, order, &conditional)?,
+        None => perform_told(common, engine, order)?,
+    };
     // A store that is only read keeps nothing.
     if !common.read_only && common.as_of.is_none() {
         engine.remember(&answer, std::time::SystemTime::now().into())?;
@@ -90,6 +97,26 @@ pub(super) fn perform(
         })?;
     }
     Ok(answer)
+}
+
+/// Tells whether a condition holds, and does what is then to be done.
+fn perform_if(
+    common: &Common,
+    engine: &Engine,
+    task: &str,
+    conditional: &Conditional,
+) -> Result<TaskAnswer, Failure> {
+    if !common.json
+        && let Ok((holds, answer)) = engine.holds(conditional, &mut Memory::default())?
+    {
+        say(&answer.text)?;
+        let order = if holds { &conditional.then } else { &conditional.otherwise };
+        if order.is_none() && conditional.first.is_none() {
+            say(conditional.undone())?;
+            return Ok(engine.perform(task, &mut |_| {})?);
+        }
+    }
+    perform_told(common, engine, task)
 }
 
 fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnswer, Failure> {
@@ -229,13 +256,32 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
         decimal(length, lang.pick("м", "m"), lang),
         decimal(answer.seconds, lang.pick("с", "s"), lang)
     );
-    match &answer.ending {
+    let mut told = match &answer.ending {
         TaskEnding::Done => match lang {
             Lang::Ru => format!("\nСделано: {spent}."),
             Lang::En => format!("\nDone: {spent}."),
         },
-        TaskEnding::AlreadyTrue => match &answer.reported {
+        ending => unfinished(world, ending, answer, lang),
+    };
+    for (goal, ending) in &answer.left {
+        let thing = goal.args.first().map(|name| name_in(world, name, lang.language()));
+        let stays = lang.pick("осталось не на месте", "is not in its place");
+        let why = unfinished(world, ending, answer, lang);
+        told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
+    }
+    told
+}
+
+fn unfinished(world: &World, ending: &TaskEnding, answer: &TaskAnswer, lang: Lang) -> String {
+    match ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
             Some(position) => position.say(lang.language()),
+            None if answer.tidies => {
+                let kept = "Всё уже на своих местах: там, где хранится или было на карте.";
+                let english =
+                    "Everything is in its place already: where it is kept, or was surveyed.";
+                lang.pick(kept, english).to_owned()
+            }
             None => lang.pick("Так уже и есть.", "It is so already.").to_owned(),
         },
         TaskEnding::NoPlan(planned) => {

@@ -324,6 +324,10 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         }
         TaskEnding::Done | TaskEnding::AlreadyTrue => {}
     }
+    if !answer.left.is_empty() {
+        let left = answer.left.iter().map(|(goal, _)| json!(goal.args)).collect::<Vec<_>>();
+        view["left"] = json!(left);
+    }
     if let Some(position) = &answer.reported {
         view["ru"] = json!(position.say(Language::Russian));
         view["en"] = json!(position.say(Language::English));

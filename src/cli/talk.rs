@@ -16,7 +16,7 @@ use serde_json::json;
 
 use crate::engine::{Engine, Error, Memory, TaskAnswer, task_in_words};
 use crate::language::Language;
-use crate::language::command::{Command, Misheard, has_verb, likely_verb};
+use crate::language::command::{Command, Misheard, has_verb, in_time, is_order, likely_verb};
 use crate::language::question::{Conditional, conditional, sentences};
 use crate::units::name_key;
 
@@ -136,6 +136,9 @@ impl Dialogue {
         if let Some(whole) = self.engine.resumed(line, &self.memory)? {
             return self.command(&whole).map(|()| true);
         }
+        if let Some(line) = in_time(line).filter(|line| is_order(line)) {
+            return self.command(&line).map(|()| true);
+        }
         if let Some(conditional) = conditional(line) {
             return self.if_so(&conditional, shows).map(|()| true);
         }
@@ -167,19 +170,18 @@ impl Dialogue {
         if let Some(first) = &conditional.first {
             self.hear_one(first, shows)?;
         }
-        let language = Language::of(&conditional.question);
         let (holds, answer) = match self.engine.holds(conditional, &mut self.memory)? {
             Ok(found) => found,
-            Err(unanswered) => return self.put("not_understood", &unanswered.text),
+            Err(unanswered) => {
+                let text = conditional.unwatched().unwrap_or(&unanswered.text);
+                return self.put("not_understood", text);
+            }
         };
         self.put("found", &answer.text)?;
         let order = if holds { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => self.hear(order).map(|_| ()),
-            None => {
-                let nothing = language.pick("Тогда делать нечего.", "Then there is nothing to do.");
-                self.put("waiting", nothing)
-            }
+            None => self.put("waiting", conditional.undone()),
         }
     }
 

@@ -130,7 +130,7 @@ struct TaskPoint {
     case: Case,
 }
 
-const TASK_POINTS: [TaskPoint; 5] = [
+const TASK_POINTS: [TaskPoint; 7] = [
     TaskPoint {
         prefix: BY_WINDOW,
         dative: "окну",
@@ -156,6 +156,22 @@ const TASK_POINTS: [TaskPoint; 5] = [
         case: Case::Genitive,
     },
     TaskPoint {
+        prefix: FACING_WINDOW,
+        dative: "месту лицом к окну",
+        other: "место лицом к окну",
+        english: "the place facing the window in",
+        preposition: Some(Preposition::V),
+        case: Case::Prepositional,
+    },
+    TaskPoint {
+        prefix: FACING_WALL,
+        dative: "месту лицом к стене",
+        other: "место лицом к стене",
+        english: "the place facing the wall in",
+        preposition: Some(Preposition::V),
+        case: Case::Prepositional,
+    },
+    TaskPoint {
         prefix: FACING,
         dative: "месту лицом",
         other: "место лицом",
@@ -176,6 +192,8 @@ const TASK_POINTS: [TaskPoint; 5] = [
 const BY_WINDOW: &str = "Место-у-окна-в-";
 const ON_FLOOR: &str = "Место-на-полу-в-";
 const IN_MIDDLE: &str = "Место-посреди-";
+const FACING_WINDOW: &str = "Место-лицом-к-окну-в-";
+const FACING_WALL: &str = "Место-лицом-к-стене-в-";
 const FACING: &str = "Место-лицом-к-";
 const BETWEEN: &str = "Место-между-";
 /// Between the names of two things.
@@ -208,6 +226,16 @@ pub(super) fn middle_place(room: &str) -> String {
 /// The name of a point from which the robot is to look at something, for the time of a task.
 pub(super) fn facing_place(thing: &str) -> String {
     format!("{FACING}{thing}")
+}
+
+/// The name of a point from which the robot is to look at a window of a room, for the time of a task.
+pub(super) fn facing_window(room: &str) -> String {
+    format!("{FACING_WINDOW}{room}")
+}
+
+/// The name of a point in a room from which the robot is to look at a wall, for the time of a task.
+pub(super) fn facing_wall(room: &str) -> String {
+    format!("{FACING_WALL}{room}")
 }
 
 /// The name of the point between two things, for the time of a task.

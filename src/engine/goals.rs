@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::language::command::{Command, Relation};
-use crate::map::{Entity, World};
+use crate::map::{DoorStatus, Entity, World};
 use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
@@ -48,6 +48,14 @@ impl Engine {
             {
                 wanted = self.put_back(what.id, belief)?;
             }
+            // What is not locked is unlocked already; to close it would be something else.
+            if let Command::Unlock(what) = command {
+                let locks =
+                    |c: &Command<Entity>| matches!(c, Command::Lock(other) if other.id == what.id);
+                if !commands[..n].iter().any(locks) && !self.is_locked(what.id, now)? {
+                    wanted.clear();
+                }
+            }
             let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
             match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
                 (true, [facts]) => {
@@ -79,7 +87,7 @@ impl Engine {
         let one = |fact: GoalFact| vec![vec![fact]];
         Ok(match command {
             Command::GoTo { to, via, facing } => {
-                let goal = vec![self.standing(to, *facing, now, relations, belief)?];
+                let goal = vec![self.standing(to, facing.as_ref(), now, relations, belief)?];
                 match via {
                     Some(Entity::Door(door)) => {
                         let mut goals = self.through(*door, now, relations)?;
@@ -91,6 +99,7 @@ impl Engine {
                     None => vec![goal],
                 }
             }
+            Command::Face(facing) => one(self.turned_here(facing, now, belief)?),
             Command::GoThrough(Entity::Door(door)) => self.through(*door, now, relations)?,
             Command::GoThrough(place) => one(self.being_at(*place, now, relations)?),
             Command::Leave(place) => {
@@ -402,24 +411,35 @@ impl Engine {
         Ok(fact(predicate::CABIN_AT, vec![lift.name.clone(), join.opening.clone()]))
     }
 
-    /// A state of a door, said for every pair of Areas that it joins.
-    fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
+    /// A door, or the door of a room that has only one: «Отопри лабораторию».
+    fn door_of(&self, entity: Entity) -> Result<DoorId, Error> {
         let world = self.world()?;
-        let relations = self.relations()?;
-        let joins = relations.joins();
         let door = match entity {
             Entity::Door(door) => Some(door),
-            // «Отопри лабораторию»: its door, if it has only one.
             Entity::Area(area) => {
                 let leafed = |d: &DoorId| world.doors.get(d).is_some_and(|d| !d.leaves.is_empty());
+                let joins = self.relations()?.joins();
                 let own = joins.iter().filter(|j| j.from == area).filter_map(|j| j.door);
                 let doors: BTreeSet<DoorId> = own.filter(leafed).collect();
                 doors.first().copied().filter(|_| doors.len() == 1)
             }
             _ => None,
         };
-        let door =
-            door.ok_or_else(|| RequestError::NotADoor { name: world.name(entity).to_owned() })?;
+        let name = || RequestError::NotADoor { name: world.name(entity).to_owned() };
+        Ok(door.ok_or_else(name)?)
+    }
+
+    fn is_locked(&self, entity: Entity, now: &Now) -> Result<bool, Error> {
+        let door = self.door_of(entity)?;
+        Ok(now.world.doors.get(&door).is_some_and(|door| door.state.status == DoorStatus::Locked))
+    }
+
+    /// A state of a door, said for every pair of Areas that it joins.
+    fn door_facts(&self, predicate: &str, entity: Entity) -> Result<Vec<GoalFact>, Error> {
+        let world = self.world()?;
+        let relations = self.relations()?;
+        let joins = relations.joins();
+        let door = self.door_of(entity)?;
         // A lift opens its door by itself when it has come.
         let lift = lifts(world, relations).into_iter().find_map(|lift| {
             let join = lift.doors.iter().find(|join| join.door == Some(door))?;

@@ -1,15 +1,18 @@
 //! Where the robot is to stand: at what is named, at a window, in the middle of a room, between two things, and what it
 //! is to look at there.
 
-use crate::language::command::{Placement, Relation};
-use crate::map::Entity;
+use crate::geometry::nearest_on_segment;
+use crate::language::command::{Facing, Placement, Relation};
+use crate::map::{Entity, Permeability};
 use crate::robot::{Belief, GoalFact};
 use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, Deg, MapId, Point};
 
-use super::deeds::{between_places, facing_place, middle_place, window_place};
+use super::deeds::{
+    between_places, facing_place, facing_wall, facing_window, middle_place, window_place,
+};
 use super::memory::Now;
-use super::{Engine, Error, RequestError};
+use super::{Engine, Error, Method, RequestError};
 
 /// A point of the floor that has no name on the Map.
 struct Stance {
@@ -26,7 +29,7 @@ impl Engine {
     pub(super) fn standing(
         &self,
         to: &Placement<Entity>,
-        facing: Option<Entity>,
+        facing: Option<&Facing<Entity>>,
         now: &Now,
         relations: &Relations,
         belief: &mut Belief,
@@ -36,23 +39,80 @@ impl Engine {
             (Relation::Between, Some(other), _) => self.between(to.anchor, other)?,
             (Relation::Middle, ..) => self.in_the_middle(to.anchor)?,
             (.., None) => return self.being_at(to.anchor, now, relations),
-            (.., Some(_)) => self.at_named(to.anchor)?,
+            (.., Some(_)) => self.at_named(to.anchor, now)?,
         };
         let place = match facing {
             None => belief.name_point(stance.name, stance.area, stance.at),
-            Some(seen) => {
-                let name = facing_place(self.world()?.name(seen));
-                let (map, middle) = self.middle_of(seen)?;
-                let here = self.world()?.placement(stance.area).map(|(map, _)| map);
-                let away = middle - stance.at;
-                if here != Some(map) || away.norm() < 1.0 {
-                    return Err(self.not_a_place(seen));
-                }
-                let heading = Deg::from_radians(away.y.atan2(away.x));
-                belief.name_view(name, stance.area, stance.at, heading)
-            }
+            Some(facing) => self.turned(&stance, facing, belief)?,
         };
         Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
+    }
+
+    /// What holds when the robot has turned where it stands.
+    ///
+    /// # Errors
+    /// What it is to look at is on another storey, or where it stands itself.
+    pub(super) fn turned_here(
+        &self,
+        facing: &Facing<Entity>,
+        now: &Now,
+        belief: &mut Belief,
+    ) -> Result<GoalFact, Error> {
+        let area = self.around()?.floor(now.map)?.locate(now.pose.at);
+        let (area, _) = area.ok_or(RequestError::RobotNowhere)?;
+        let stance = Stance { area, at: now.pose.at, name: String::new() };
+        let place = self.turned(&stance, facing, belief)?;
+        Ok(GoalFact { predicate: predicate::ROBOT_AT_PLACE.to_owned(), args: vec![place] })
+    }
+
+    /// The name of the pose at a stance from which something is looked at.
+    fn turned(
+        &self,
+        stance: &Stance,
+        facing: &Facing<Entity>,
+        belief: &mut Belief,
+    ) -> Result<String, Error> {
+        let world = self.world()?;
+        let room = world.name(Entity::Area(stance.area));
+        let here = world.placement(stance.area).map(|(map, _)| map);
+        let unseen = |name: &str| Error::from(RequestError::NotAPlace { name: name.to_owned() });
+        let (name, map, seen) = match facing {
+            Facing::Thing(thing) => {
+                let (map, middle) = self.middle_of(*thing)?;
+                (facing_place(world.name(*thing)), Some(map), middle)
+            }
+            Facing::Window(window) => {
+                let window = &self.mind()?.lexicon.windows[*window as usize];
+                // Through a wall no window is seen.
+                let map = here.filter(|_| window.area == stance.area);
+                let room = world.name(Entity::Area(window.area));
+                (facing_window(room), map, nalgebra::center(&window.ends.0, &window.ends.1))
+            }
+            Facing::Wall => {
+                let wall =
+                    here.and_then(|map| self.wall_near(map, stance)).ok_or_else(|| unseen(room))?;
+                (facing_wall(room), here, wall)
+            }
+        };
+        let away = seen - stance.at;
+        if map.is_none() || here != map || away.norm() < 1.0 {
+            return Err(match facing {
+                Facing::Thing(thing) => self.not_a_place(*thing),
+                Facing::Window(_) | Facing::Wall => unseen(room),
+            });
+        }
+        let heading = Deg::from_radians(away.y.atan2(away.x));
+        Ok(belief.name_view(name, stance.area, stance.at, heading))
+    }
+
+    /// The point of the room's walls that is nearest to a stance.
+    fn wall_near(&self, map: MapId, stance: &Stance) -> Option<Point> {
+        let around = self.around().ok()?;
+        let room = around.floor(map).ok()?.scene().areas.get(&stance.area)?;
+        let sides = room.prisms.iter().flat_map(|p| p.polygon.edges().zip(p.sides.iter()));
+        let walls = sides.filter(|(_, side)| side.permeability == Permeability::Impermeable);
+        let points = walls.map(|((a, b), _)| nearest_on_segment(stance.at, a, b));
+        points.min_by(|p, q| (p - stance.at).norm().total_cmp(&(q - stance.at).norm()))
     }
 
     fn not_a_place(&self, entity: Entity) -> Error {
@@ -93,15 +153,22 @@ impl Engine {
         Ok(Stance { area, at, name: middle_place(world.name(entity)) })
     }
 
-    fn at_named(&self, entity: Entity) -> Result<Stance, Error> {
+    /// Where the way to it ends, if it is on this storey.
+    fn at_named(&self, entity: Entity, now: &Now) -> Result<Stance, Error> {
         if let Entity::Area(_) = entity {
             return self.in_the_middle(entity);
         }
         let around = self.around()?;
         let located = around.locate_entity(entity)?;
-        let area = around.floor(located.map)?.locate(located.at);
-        let (area, _) = area.ok_or_else(|| self.not_a_place(entity))?;
-        Ok(Stance { area, at: located.at, name: String::new() })
+        let floor = around.floor(located.map)?;
+        let way = || {
+            let on_storey = located.map == now.map;
+            let target = Some(located.target).filter(|_| on_storey)?;
+            floor.route(&now.world, now.pose.at, target, Method::Shortest).ok()?.points.pop()
+        };
+        let at = way().unwrap_or(located.at);
+        let (area, _) = floor.locate(at).ok_or_else(|| self.not_a_place(entity))?;
+        Ok(Stance { area, at, name: String::new() })
     }
 
     /// The middle of a thing; where another place is to be stood at or in.

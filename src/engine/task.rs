@@ -5,7 +5,9 @@ use std::collections::BTreeSet;
 
 use crate::graphplan::Limits;
 use crate::language::Language;
-use crate::language::command::{Command, Listener, Misheard, Placement, Relation, preamble};
+use crate::language::command::{
+    Command, Facing, Listener, Misheard, Placement, Relation, preamble,
+};
 use crate::language::question::{
     Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
 };
@@ -83,6 +85,10 @@ pub struct TaskAnswer {
     pub replans: usize,
     pub seconds: f64,
     pub ending: TaskEnding,
+    /// What was to be tidied and stays where it is, with the ending of each; the others are in their places.
+    pub left: Vec<(GoalFact, TaskEnding)>,
+    /// Whether it was told to tidy: «Убери со стола».
+    pub tidies: bool,
     /// Where the robot stands, when it was told to report and no directive ends with a report.
     pub reported: Option<Position>,
     /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
@@ -205,6 +211,8 @@ impl Engine {
             }
         };
         let mut ending = TaskEnding::AlreadyTrue;
+        let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
+        let tidies = commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::PutBack(_)));
         let mut begun = 0;
         for goal in &goals {
             begun += 1;
@@ -214,18 +222,28 @@ impl Engine {
                 (Err(MissionError::Rules(_)), Some(surprise)) => Ending::Stuck(surprise),
                 (Err(error), _) => return Err(error.into()),
             };
-            match ended {
-                Ending::Done => ending = TaskEnding::Done,
-                Ending::AlreadyTrue => {}
-                Ending::NoPlan(planned) => {
-                    ending = TaskEnding::NoPlan(planned);
-                    break;
+            let failed = match ended {
+                Ending::Done => {
+                    ending = TaskEnding::Done;
+                    continue;
                 }
-                Ending::Stuck(surprise) => {
-                    ending = TaskEnding::Stuck(surprise);
+                Ending::AlreadyTrue => continue,
+                Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
+                Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
+            };
+            // What cannot be put away lets the rest be tidied.
+            match &goal[..] {
+                [fact] if tidies && fact.predicate == predicate::IN_ITS_PLACE => {
+                    left.push((fact.clone(), failed));
+                }
+                _ => {
+                    ending = failed;
                     break;
                 }
             }
+        }
+        if matches!(ending, TaskEnding::AlreadyTrue) && !left.is_empty() {
+            ending = left.remove(0).1;
         }
         let trace = drive.trace();
         let last = trace.last().expect("a run begins with a moment");
@@ -242,6 +260,8 @@ impl Engine {
             replans: plans - begun,
             seconds: last.time,
             ending,
+            left,
+            tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_))),
             reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
         })
@@ -300,9 +320,12 @@ impl Engine {
             Some(first) => self.understood(first, memory)?,
             None => Vec::new(),
         };
-        let holds = self
-            .holds(conditional, memory)?
-            .map_err(|unanswered| Error::from(Misheard::NoneSuch(Box::new(unanswered))))?;
+        let holds = self.holds(conditional, memory)?.map_err(|mut unanswered| {
+            if let Some(text) = conditional.unwatched() {
+                text.clone_into(&mut unanswered.text);
+            }
+            Error::from(Misheard::NoneSuch(Box::new(unanswered)))
+        })?;
         let order = if holds.0 { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => commands.extend(self.understand_in(order, memory)?),
@@ -459,11 +482,28 @@ impl Engine {
 /// Windows have no names: a command that names a room for its window gets it back, in the order of the sentence.
 fn place_windows(commands: &mut [Command<Entity>], meant: &[(Entity, Option<u32>)]) {
     let mut left = meant.to_vec();
+    let mut window = |place: Entity, inside: bool| {
+        let own = |(room, window): &(Entity, Option<u32>)| {
+            *room == place && !(inside && window.is_some())
+        };
+        left.remove(left.iter().position(own)?).1
+    };
     for command in commands {
-        let Command::GoTo { to, .. } = command else { continue };
-        let Some(at) = left.iter().position(|(room, _)| *room == to.anchor) else { continue };
-        if let (_, Some(window)) = left.remove(at) {
-            to.relation = Relation::AtWindow(window);
+        let facing = match command {
+            Command::GoTo { to, facing, .. } => {
+                if let Some(window) = window(to.anchor, to.relation == Relation::In) {
+                    to.relation = Relation::AtWindow(window);
+                }
+                facing.as_mut()
+            }
+            Command::Face(facing) => Some(facing),
+            _ => None,
+        };
+        if let Some(facing) = facing
+            && let Facing::Thing(room) = facing
+            && let Some(window) = window(*room, false)
+        {
+            *facing = Facing::Window(window);
         }
     }
 }

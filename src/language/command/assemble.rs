@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::roles::{cases_after, choose, direction, question, within};
 use super::vocabulary::{Haunt, Role, Verb, verbs};
-use super::{Command, Listener, Misheard, Placement, Relation, Thing, gathered};
+use super::{Command, Facing, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::language::words::{Case, Hit};
 use crate::units::{Source, nearest_name};
 
@@ -44,7 +44,15 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
     }
     let mut commands = Vec::new();
     for clause in clauses(items) {
-        commands.extend(reader.clause(&clause)?);
+        for command in reader.clause(&clause)? {
+            match (commands.last_mut(), command) {
+                // "Drive into the kitchen and face the window"
+                (Some(Command::GoTo { facing: facing @ None, .. }), Command::Face(seen)) => {
+                    *facing = Some(seen);
+                }
+                (_, command) => commands.push(command),
+            }
+        }
     }
     Ok(commands)
 }
@@ -57,7 +65,10 @@ struct Clause<'i, 's, T> {
     dangling: Option<&'i Range<usize>>,
     with_key: bool,
     on_floor: bool,
+    to_wall: bool,
     haunt: Option<Haunt>,
+    /// Whether each argument without a preposition stands behind «и».
+    listed: bool,
 }
 
 /// Cuts the items before a second verb: at the «и» between the two, if the objects stand before their verbs.
@@ -90,9 +101,15 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
         dangling: None,
         with_key: false,
         on_floor: false,
+        to_wall: false,
         haunt: None,
+        listed: true,
     };
-    for item in items {
+    for (at, item) in items.iter().enumerate() {
+        let joined = || at.checked_sub(1).is_some_and(|at| matches!(items[at], Item::And));
+        if let Item::Argument(Argument { link: None, .. }) = item {
+            clause.listed &= joined();
+        }
         match item {
             // «мне нужно принести»: the real verb wins.
             Item::Verb(verb, words) if clause.verb.is_none_or(|(other, _)| other == Verb::Need) => {
@@ -103,6 +120,7 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
             Item::Dangling(words) => clause.dangling = Some(words),
             Item::WithKey => clause.with_key = true,
             Item::OnFloor => clause.on_floor = true,
+            Item::FacingWall => clause.to_wall = true,
             Item::Haunt(haunt) => clause.haunt = Some(*haunt),
             Item::Verb(..) | Item::And | Item::Not(_) | Item::Filler => {}
         }
@@ -127,9 +145,10 @@ struct Roles<T> {
     at: Option<Placement<T>>,
     to: Option<Placement<T>>,
     via: Option<T>,
-    facing: Option<T>,
+    facing: Option<Facing<T>>,
     to_me: bool,
     on_floor: bool,
+    listed: bool,
 }
 
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
@@ -169,6 +188,10 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             clause.before.iter().chain(&clause.after).copied().collect();
         let mut roles = self.roles(verb, &arguments)?;
         roles.on_floor = clause.on_floor;
+        roles.listed = clause.listed;
+        if clause.to_wall {
+            roles.facing = Some(Facing::Wall);
+        }
         self.command(verb, words, roles)
     }
 
@@ -205,7 +228,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         words: &Range<usize>,
         roles: Roles<T>,
     ) -> Result<Vec<Command<T>>, Misheard> {
-        let Roles { mut objects, mut at, mut to, via, facing, to_me, on_floor } = roles;
+        let Roles { mut objects, mut at, mut to, via, facing, to_me, on_floor, listed } = roles;
         let on_floor = on_floor
             && matches!(verb, Verb::Put | Verb::Move | Verb::Clear | Verb::Leave | Verb::SetDown);
         let verb = match verb {
@@ -238,11 +261,26 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         {
             return Err(self.unable(words));
         }
+        // «Позови оператора на кухню»: from there. What else is named with such a verb says something that it does not do.
+        let alone = match verb {
+            Verb::CallOperator => Some(Command::CallOperator),
+            Verb::Report => Some(Command::Report),
+            Verb::CallLift => Some(Command::CallLift),
+            _ => None,
+        };
+        if let Some(command) = alone {
+            if !objects.is_empty() || (verb == Verb::CallLift && (to.is_some() || at.is_some())) {
+                return Err(self.not_understood(words, "скажите это отдельно".into()));
+            }
+            let there = to.or(at).map(|to| Command::GoTo { to, via, facing });
+            return Ok(there.into_iter().chain([command]).collect());
+        }
         match verb {
-            Verb::CallOperator => return Ok(vec![Command::CallOperator]),
-            Verb::CallLift => return Ok(vec![Command::CallLift]),
-            Verb::Report => return Ok(vec![Command::Report]),
             Verb::Stop => return Ok(vec![Command::Stop]),
+            Verb::Face => {
+                let facing = facing.ok_or_else(|| self.incomplete(words, question(verb)))?;
+                return Ok(vec![Command::Face(facing)]);
+            }
             Verb::Charge => return Ok(vec![Command::Charge]),
             Verb::Leave => {
                 let place = at.map(|place| place.anchor).or_else(|| objects.pop());
@@ -252,8 +290,18 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             Verb::Tidy | Verb::Clear
                 if to.is_none() && (verb == Verb::Tidy || objects.is_empty()) =>
             {
-                let place = at.map(|place| place.anchor).or_else(|| objects.pop());
-                return Ok(vec![Command::Tidy(place)]);
+                let places = at.map(|place| place.anchor).into_iter().chain(objects);
+                let tidied: Vec<_> = places.map(|place| Command::Tidy(Some(place))).collect();
+                return Ok(if tidied.is_empty() { vec![Command::Tidy(None)] } else { tidied });
+            }
+            // «Съезди на кухню и в спальню» is two verbs; «на кухню и спальню» has one preposition.
+            Verb::GoTo if to.is_some() && !objects.is_empty() && listed && via.is_none() => {
+                let to = to.into_iter().chain(objects.into_iter().map(|anchor| {
+                    let relation = Relation::At;
+                    Placement::new(relation, anchor)
+                }));
+                let to = to.map(|to| Command::GoTo { to, via: None, facing: facing.clone() });
+                return Ok(to.collect());
             }
             Verb::GoTo if to.is_some() && !objects.is_empty() => {
                 let hint = "эта команда ничего с собой не везёт; может быть, «отвези … в …»?";
@@ -263,7 +311,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
                 let bare = |anchor: T| Placement::new(Relation::At, anchor);
                 let to = to.or(at).or_else(|| objects.pop().map(bare));
-                let to = to.or_else(|| facing.clone().map(bare));
+                let seen = match &facing {
+                    Some(Facing::Thing(thing)) => Some(bare(thing.clone())),
+                    _ => None,
+                };
+                let to = to.or(seen);
+                if let (None, None, Some(facing)) = (&to, &via, &facing) {
+                    return Ok(vec![Command::Face(facing.clone())]);
+                }
                 return match (to, via) {
                     (Some(to), via) => {
                         // "Go to the fridge and open it"; the book of «Возьми книгу, поезжай на кухню и положи её» stays.
@@ -348,6 +403,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::Return
                 | Verb::Leave
                 | Verb::Wait
+                | Verb::Face
                 | Verb::Unable
                 | Verb::Stop,
                 _,
@@ -367,6 +423,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             facing: None,
             to_me: false,
             on_floor: false,
+            listed: true,
         };
         let mut latest_is_to = None;
         let mut seconds: Vec<usize> = Vec::new();
@@ -387,7 +444,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             let mut place = Placement::new(link.relation, anchor);
             match link.relation {
                 Relation::Facing => {
-                    roles.facing = Some(place.anchor);
+                    roles.facing = Some(Facing::Thing(place.anchor));
                     continue;
                 }
                 // «между столом и диваном»: the second has no preposition of its own.

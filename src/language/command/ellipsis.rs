@@ -62,7 +62,7 @@ fn segments(said: &Said) -> Vec<Segment> {
 }
 
 /// The first word that is no politeness.
-fn first_word(said: &Said, words: &Range<usize>) -> Option<usize> {
+pub(super) fn first_word(said: &Said, words: &Range<usize>) -> Option<usize> {
     let mut at = words.start;
     while at < words.end {
         match said.meaning(at) {
@@ -90,66 +90,6 @@ fn object(said: &Said, words: &Range<usize>) -> (Range<usize>, Option<(Relation,
         }
     }
     (named.unwrap_or(at..at), None)
-}
-
-/// "Go to the bedroom, but first switch off the lamp", «прежде чем ехать в спальню, выключи лампу»: in the order of time.
-pub(super) fn in_time(said: &Said) -> Option<String> {
-    const FIRST: [&str; 14] = [
-        "but first",
-        "but before that",
-        "but before you go",
-        "but before you do",
-        "before that",
-        "но сначала",
-        "но сперва",
-        "но прежде",
-        "но перед этим",
-        "а перед этим",
-        "а сначала",
-        "а до этого",
-        "только сначала",
-        "only first",
-    ];
-    const BEFORE: [&str; 7] = [
-        "before",
-        "before you",
-        "прежде чем",
-        "перед тем как",
-        "до того как",
-        "right before",
-        "right before you",
-    ];
-    const AFTER: [&str; 6] =
-        ["after", "after you", "once you have", "после того как", "как только", "when you have"];
-    let end = said.keys.len();
-    let cut = (1..end).find_map(|at| Some((at, said.phrase(at, &FIRST)?)));
-    if let Some((at, taken)) = cut.filter(|(at, taken)| at + taken < end) {
-        let (later, first) = (said.of(&(0..at)), said.of(&(at + taken..end)));
-        return Some(format!("{first}, {} {later}", Language::of(first).pick("потом", "then")));
-    }
-    let begin = first_word(said, &(0..end))?;
-    let before = said.phrase(begin, &BEFORE).map(|taken| (taken, true));
-    let (taken, before) = before.or(said.phrase(begin, &AFTER).map(|taken| (taken, false)))?;
-    let one = begin + taken;
-    // "After you have closed the door"
-    let have = one + usize::from(said.is(one, &["have", "ve"]));
-    if let Some(base) = said.keys.get(have).and_then(|key| participle_of(key)) {
-        return Some(said.with(&(one..have + 1), base));
-    }
-    let (verb, length, _) = said.verb_from(one)?;
-    let next = (verb + length..end).find(|&n| said.parted(n))?;
-    said.verb_from(next).filter(|_| first_word(said, &(one..next)) == Some(verb))?;
-    let (one, other) = (said.of(&(one..next)), said.of(&(next..end)));
-    let (first, later) = if before { (other, one) } else { (one, other) };
-    Some(format!("{first}, {} {later}", Language::of(first).pick("потом", "then")))
-}
-
-/// The verb of command that an English participle comes from: "closed", "switched".
-fn participle_of(key: &str) -> Option<&str> {
-    let bases = [key.strip_suffix('d'), key.strip_suffix("ed")];
-    bases.into_iter().flatten().find(|base| {
-        matches!(*base, "close" | "open" | "lock" | "unlock" | "turn" | "switch" | "pick" | "place")
-    })
 }
 
 /// «Лампу включи, книгу принеси»: each verb before what it is done to, where a sentence has several.

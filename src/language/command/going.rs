@@ -50,13 +50,55 @@ pub(super) fn where_it_is(said: &Said) -> Option<String> {
             .filter(|&n| !said.is(n, &IS))
             .map(|n| &said.text[said.words[n].clone()])
             .collect();
+        // «в комнату, где стоит диван»: that the noun itself is meant.
+        let before = |n: usize| match said.meaning(n) {
+            Some((_, Meaning::Link(_))) => true,
+            Some(_) => false,
+            None => Sort::of(kind) == Sort::Go,
+        };
+        let room = (from..at).any(before);
         // «где ты был» says nothing of a thing.
-        if kept.is_empty() || (at + told..end).any(|n| said.is(n, &["you", "ты", "i", "я", "it"]))
+        if room
+            || kept.is_empty()
+            || (at + told..end).any(|n| said.is(n, &["you", "ты", "i", "я", "it"]))
         {
             continue;
         }
         let link = Language::of(&said.keys[verb]).pick(russian, english);
         return Some(said.with(&(at..end), &format!("{link} {}", kept.join(" "))));
+    }
+    None
+}
+
+/// «Повернись к окну», "face the window": what it is to look at.
+pub(super) fn faced(said: &Said) -> Option<String> {
+    let mut from = 0;
+    while let Some((verb, taken, kind)) = said.verb_from(from) {
+        from = verb + taken;
+        let link = said.meaning(from);
+        let facing = matches!(
+            link,
+            Some((_, Meaning::FacingWall))
+                | Some((
+                    _,
+                    Meaning::Link(super::vocabulary::Link { relation: Relation::Facing, .. })
+                ))
+        );
+        if kind != Verb::Face || facing || from >= said.clause_end(verb) {
+            continue;
+        }
+        let language = Language::of(&said.keys[verb]);
+        let (turn, facing) =
+            (language.pick("повернись", "face"), language.pick("лицом к", "facing"));
+        let (length, is_link) = match link {
+            Some((length, Meaning::Link(link))) => (length, link.relation == Relation::At),
+            _ => (0, language == Language::English),
+        };
+        let seen = from + length;
+        if is_link && seen < said.clause_end(verb) {
+            let first = said.of(&(seen..seen + 1));
+            return Some(said.with(&(verb..seen + 1), &format!("{turn} {facing} {first}")));
+        }
     }
     None
 }
@@ -181,13 +223,13 @@ pub(super) fn there_and_back(said: &Said) -> Option<String> {
 /// "Put it where you found it", «отвези туда, откуда взял»: where it is kept.
 pub(super) fn where_it_was(said: &Said) -> Option<String> {
     const WAS: [&str; 17] = [
+        "to where it was",
         "where you found it",
         "where it was",
         "where you took it from",
         "where it came from",
         "where you got it",
         "where you got it from",
-        "to where it was",
         "туда где взял",
         "туда где взяла",
         "откуда взял",
@@ -202,7 +244,10 @@ pub(super) fn where_it_was(said: &Said) -> Option<String> {
     let (verb, taken, kind) = said.verb_from(0)?;
     let (at, length) =
         (verb + taken..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &WAS)?)))?;
-    if !matches!(kind, Verb::Put | Verb::PutBack | Verb::Return) {
+    if !matches!(
+        kind,
+        Verb::Put | Verb::PutBack | Verb::Return | Verb::Move | Verb::Bring | Verb::Take
+    ) {
         return None;
     }
     let back = Language::of(&said.keys[verb]).pick("верни на место", "put back");

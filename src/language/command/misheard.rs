@@ -163,7 +163,14 @@ fn quoted(names: &[String]) -> Vec<String> {
     names.iter().map(|name| format!("\"{name}\"")).collect()
 }
 
+/// Names in the language of the sentence; to who speaks Russian also those of a map that has no others.
 fn offer(near: &[String], language: Language) -> String {
+    let own: Vec<String> =
+        near.iter().filter(|name| Language::of(name) == language).cloned().collect();
+    let near = match (own.is_empty(), language) {
+        (true, Language::Russian) => near,
+        _ => &own[..],
+    };
     match (near, language) {
         ([], Language::Russian) => "проверьте название".into(),
         ([], Language::English) => String::new(),

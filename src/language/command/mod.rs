@@ -25,6 +25,7 @@ mod misheard;
 mod quantity;
 mod roles;
 mod spoken;
+mod time;
 mod verbs;
 mod vocabulary;
 
@@ -76,6 +77,16 @@ impl<T> Placement<T> {
     }
 }
 
+/// What the robot is to look at where it stands.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Facing<T> {
+    Thing(T),
+    /// By its number among the windows of the map.
+    Window(u32),
+    /// The nearest to it.
+    Wall,
+}
+
 /// A thing, and where it was said to be: «чашку со стола».
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Thing<T> {
@@ -91,9 +102,10 @@ pub enum Command<T> {
     GoTo {
         to: Placement<T>,
         via: Option<T>,
-        /// What it is to look at there.
-        facing: Option<T>,
+        facing: Option<Facing<T>>,
     },
+    /// «Повернись к окну»: where it is.
+    Face(Facing<T>),
     /// «Проедь через дверь»: to its other side.
     GoThrough(T),
     /// Out of a room; without one, out of that in which the robot is.
@@ -194,6 +206,12 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
         }
         assemble::commands(text, self)
     }
+}
+
+/// A text that tells by a conjunction in which order it is to be done, in that order.
+#[must_use]
+pub fn in_time(text: &str) -> Option<String> {
+    spoken::in_time(text)
 }
 
 /// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.

@@ -100,6 +100,7 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
         | Verb::CallLift
         | Verb::Report
         | Verb::Wait
+        | Verb::Face
         | Verb::Unable
         | Verb::Stop => ("что сделать", "what to do"),
     }

@@ -9,6 +9,7 @@ use std::ops::Range;
 use super::ellipsis;
 use super::going;
 use super::quantity;
+use super::time;
 use super::vocabulary::{Meaning, Role, Verb, longest};
 use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
@@ -87,8 +88,11 @@ impl Said {
 pub(super) fn plain(text: &str) -> String {
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 26] = [
-        ellipsis::in_time,
+    let rewritings: [fn(&Said) -> Option<String>; 29] = [
+        time::at_the_end,
+        time::told_when,
+        time::in_time,
+        going::faced,
         without_forbidden,
         contrasted,
         excluded,
@@ -125,6 +129,12 @@ pub(super) fn plain(text: &str) -> String {
         }
     }
     said.text
+}
+
+/// See [`super::in_time`].
+pub(super) fn in_time(text: &str) -> Option<String> {
+    let said = Said::new(text.to_owned());
+    [time::at_the_end, time::told_when, time::in_time].iter().find_map(|rewrite| rewrite(&said))
 }
 
 /// "Don't go to the kitchen, go to the bedroom": what is not to be done, beside what is.

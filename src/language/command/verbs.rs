@@ -28,7 +28,7 @@ pub(in crate::language) enum Sort {
 impl Sort {
     pub(super) fn of(verb: Verb) -> Self {
         match verb {
-            Verb::GoTo | Verb::Charge => Self::Go,
+            Verb::GoTo | Verb::Face | Verb::Charge => Self::Go,
             Verb::Leave => Self::Leave,
             Verb::Bring | Verb::Get | Verb::Need | Verb::Take => Self::Carry,
             Verb::Put | Verb::SetDown | Verb::Move | Verb::Clear | Verb::Return | Verb::PutBack => {
@@ -188,10 +188,12 @@ const RELATIVE: [&str; 73] = [
 
 /// Whether a word begins what only describes: «что на столе», "the one by the window".
 pub(super) fn is_relative(keys: &[String], at: usize) -> bool {
+    const NEAREST: [&str; 5] = ["ближайш", "nearest", "closest", "farthest", "furthest"];
     const POINTING: [&str; 8] = ["ту", "тот", "то", "те", "где", "куда", "where", "that"];
     let said = |length: usize| keys.get(at..at + length).map(|words| words.join(" "));
-    keys.get(at).is_some_and(|key| POINTING.contains(&key.as_str()))
-        || (1..=3).filter_map(said).any(|words| RELATIVE.contains(&words.as_str()))
+    keys.get(at).is_some_and(|key| {
+        POINTING.contains(&key.as_str()) || NEAREST.iter().any(|stem| key.starts_with(stem))
+    }) || (1..=3).filter_map(said).any(|words| RELATIVE.contains(&words.as_str()))
 }
 
 fn without_relatives(text: &str) -> Cow<'_, str> {
@@ -206,6 +208,11 @@ fn without_relatives(text: &str) -> Cow<'_, str> {
                 keys.get(at + length).and_then(|_| meaning_at(&keys, at + length)),
                 Some((_, Meaning::Link(_)))
             );
+            let pointing = keys.get(at..at + length).is_some_and(|said| said == ["the", "one"]);
+            let nearest = keys.get(at + length).is_some_and(|key| {
+                matches!(key.as_str(), "nearest" | "closest" | "farthest" | "furthest")
+            });
+            let before_place = before_place || pointing && nearest;
             before_place && said.is_some_and(|said| RELATIVE.contains(&said.join(" ").as_str()))
         });
         if let Some(length) = relative {

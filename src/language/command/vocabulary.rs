@@ -17,6 +17,8 @@ pub(super) enum Meaning {
     WithKey,
     /// «на пол»: what is put goes onto no thing.
     OnFloor,
+    /// «лицом к стене»: the nearest.
+    FacingWall,
     /// «домой», «на зарядку»: a place of the robot's own.
     Haunt(Haunt),
     And,
@@ -68,6 +70,8 @@ pub(super) enum Verb {
     /// «выйди»: out of the room in which the robot is.
     Leave,
     Wait,
+    /// «повернись к окну»
+    Face,
     /// What people ask of robots and this one cannot do.
     Unable,
 }
@@ -104,7 +108,7 @@ const fn link(relation: Relation, role: Role) -> Meaning {
 const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::Verb(Verb::GoTo),
-        "поезжай|поезжайте|поехал|подъехал|езжай|езжайте|поехали|едь|едьте|ехать|поехать|съезди|съездите|подъедь|подъедьте|подъезжай|подъезжайте|\
+        "приезжай|приехать|прибудь|окажись|добравшись|поезжай|поезжайте|поехал|подъехал|езжай|езжайте|поехали|едь|едьте|ехать|поехать|съезди|съездите|подъедь|подъедьте|подъезжай|подъезжайте|\
         подъехать|заедь|заезжай|иди|идите|идти|пойди|пойдите|пойти|сходи|сходите|подойди|подойдите|подойти|зайди|зайдите|зайти|пройди|пройдите|\
         пройти|перейди|перейдите|перейти|отправляйся|отправляйтесь|отправиться|двигайся|двигайтесь|двигаться|переместись|переместитесь|\
         поднимись|поднимитесь|подняться|спускайся|спускайтесь|поднимайся|поднимайтесь|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
@@ -130,11 +134,15 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "подожди|подождите|подождать|жди|ждите|обожди|побудь|постой|wait|hold on|stay",
     ),
     (
+        Meaning::Verb(Verb::Face),
+        "повернись|повернитесь|повернуться|поворачивайся|поверни|face|turn yourself|turn to face|turn to|turn towards|turn toward|turn yourself to|turn yourself towards",
+    ),
+    (
         Meaning::Verb(Verb::Unable),
         "объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
         почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
-        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|face|turn around|turn round|turn to|rotate|spin|развернись|повернись|повернись к|вытри|\
+        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
         repair|fix|buy|order|wake up|play|photograph|say|speak|slice|eat|boil|make",
     ),
     (
@@ -153,7 +161,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Take),
-        "возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
+        "сними|снимите|снять|возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
     ),
     (
         Meaning::Verb(Verb::Put),
@@ -201,7 +209,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::CallOperator),
-        "позови оператора|позовите оператора|вызови оператора|вызовите оператора|позвать оператора|вызвать оператора|\
+        "приведи оператора|приведи сюда оператора|пригласи оператора|bring the operator|bring the operator here|позови оператора|позовите оператора|вызови оператора|вызовите оператора|позвать оператора|вызвать оператора|\
         позвони оператору|свяжись с оператором|кликни оператора|крикни оператора|call operator|call the operator|call an operator|ask the operator|\
         get the operator|fetch the operator|call for the operator|summon the operator|call for help|get help|alert the operator|ask the operator to come|на помощь|позови кого нибудь на помощь|tell the operator to come|скажи оператору|скажи оператору подойти|call someone|call somebody|call a human|call a person|call a man|get someone|get somebody|позови человека|позовите человека|позови кого нибудь|позовите кого нибудь|позови людей|вызови человека|позови помощь|зови на помощь|оператора сюда|оператор сюда|operator please|operator over here|позови на помощь|зови оператора",
     ),
@@ -283,6 +291,10 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     (
         Meaning::OnFloor,
         "на пол|на полу|на землю|on floor|on the floor|onto the floor|to the floor|down on the floor|on the ground|onto the ground",
+    ),
+    (
+        Meaning::FacingWall,
+        "лицом к стене|лицом к стенке|передом к стене|носом к стене|facing the wall|facing a wall|facing wall|facing the nearest wall|лицом к ближайшей стене",
     ),
     (Meaning::WithKey, "на ключ|на замок|with the key|with a key"),
     (

@@ -64,6 +64,8 @@ pub struct Conditional {
     /// What is to be done if so.
     pub then: Option<String>,
     pub otherwise: Option<String>,
+    /// «когда», "as soon as": it was to be waited for.
+    pub waits: bool,
 }
 
 /// An order under a condition; none where the text has none, or orders nothing under it.
@@ -71,6 +73,18 @@ pub struct Conditional {
 pub fn conditional(text: &str) -> Option<Conditional> {
     const IF: [&str; 7] =
         ["если", "if", "in case", "provided", "provided that", "в случае если", "unless"];
+    /// What is waited for; of the person and the robot itself nothing is known beforehand.
+    const WHEN: [&str; 8] = [
+        "когда",
+        "как только",
+        "сразу как",
+        "when",
+        "whenever",
+        "once",
+        "as soon as",
+        "the moment",
+    ];
+    const PERSONS: [&str; 7] = ["you", "i", "we", "ты", "я", "мы", "вы"];
     const SO: [&str; 12] = [
         "если да",
         "если так",
@@ -182,7 +196,14 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         (phrase(n, &IF).is_some() && said && ends(n + 2)).then_some(2)
     };
     let polite = |n: usize| command::small_words(&keys[n..]) > 1;
-    let at = (0..keys.len()).find(|&n| {
+    let begins = |n: usize| n == 0 || parted(n) || is_order(&text[..words[n].start]);
+    let event = |n: usize| {
+        let claim = n + phrase(n, &WHEN)?;
+        let person = keys.get(claim).is_some_and(|key| PERSONS.contains(&key.as_str()));
+        let told = claim < keys.len() && !person && !is_order(&text[words[claim].start..]);
+        (told && begins(n) && !polite(n)).then_some(claim)
+    };
+    let condition = (0..keys.len()).find(|&n| {
         let asks = n.checked_sub(1).is_some_and(|b| ASKS.contains(&keys[b].as_str()));
         phrase(n, &IF).is_some()
             && whole(n, &SO).is_none()
@@ -211,10 +232,14 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         let then = order(at + taken..end);
         let first = Some(first).filter(|first| word_ranges(first).len() > 1).map(str::to_owned);
         let otherwise = order((end + length).min(keys.len())..keys.len());
-        return Some(Conditional { first, about: None, question, then, otherwise });
+        let waits = false;
+        return Some(Conditional { first, about: None, question, then, otherwise, waits });
     }
-    let at = at?;
-    let from = at + phrase(at, &IF)?;
+    let gathered = command::in_time(text);
+    let awaited = || (0..keys.len()).filter(|_| gathered.is_none()).find(|&n| event(n).is_some());
+    let waits = condition.is_none();
+    let at = condition.or_else(awaited)?;
+    let from = if waits { event(at)? } else { at + phrase(at, &IF)? };
     let orders = |n: usize| is_order(&text[words[n].start..]);
     let leads = said(0..at).is_none_or(|before| !is_order(&before));
     let (claim, then, end, length) = if leads {
@@ -234,14 +259,48 @@ pub fn conditional(text: &str) -> Option<Conditional> {
     let claim = said(claim)?;
     let question = match Language::of(&claim) {
         Language::Russian => format!("{claim}?"),
-        Language::English => asked(&claim)?,
+        Language::English => match asked(&claim) {
+            Some(question) => question,
+            // "when the door opens"
+            None if waits => format!("{claim}?"),
+            None => return None,
+        },
     };
     let then = order(then);
     let otherwise = order((end + length).min(keys.len())..keys.len());
     let (then, otherwise) = if unless { (otherwise, then) } else { (then, otherwise) };
     let about = then.clone().or(otherwise.clone()).filter(|_| !leads);
     let orders = then.is_some() || otherwise.is_some();
-    orders.then_some(Conditional { first: None, about, question, then, otherwise })
+    orders.then_some(Conditional { first: None, about, question, then, otherwise, waits })
+}
+
+impl Conditional {
+    /// What is told where the condition does not hold, and nothing else is to be done.
+    #[must_use]
+    pub fn undone(&self) -> &'static str {
+        let language = Language::of(&self.question);
+        match self.waits {
+            true => language.pick(
+                "Пока это не так, а ждать событий я не умею: скажите ещё раз, когда так будет.",
+                "It is not so yet, and I do not wait for events: tell me again when it is.",
+            ),
+            false => language.pick(
+                "Тогда делать нечего: проверено сейчас, следить за этим я не буду.",
+                "Then there is nothing to do: I looked now, and do not keep watching.",
+            ),
+        }
+    }
+
+    /// What is told where the condition is not understood: an event, mostly.
+    #[must_use]
+    pub fn unwatched(&self) -> Option<&'static str> {
+        self.waits.then(|| {
+            Language::of(&self.question).pick(
+                "Ждать событий я не умею: скажите, когда это случится.",
+                "I do not wait for events: tell me when it has happened.",
+            )
+        })
+    }
 }
 
 /// An order and the question after it, or the question that is to be reported: «доложи, что ты видишь».

@@ -11,6 +11,7 @@
 
 mod governed;
 mod measures;
+mod nearest;
 mod relative;
 mod tokens;
 
@@ -27,7 +28,7 @@ use nom::{IResult, Input, Needed, Parser};
 
 use super::lexicon::KindId;
 use super::mark::{Mark, Pronoun};
-use super::query::{Best, Extreme, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
+use super::query::{Best, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
 use crate::language::words::{Case, Language, Number, Readings};
 use crate::map::Entity;
@@ -238,11 +239,27 @@ impl<'t> Sentence<'t> {
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
-        let more = pair(pair(joint, again), |i| self.phrase(i));
+        // «на комоде, и чашку»: of another case it is nothing that the preposition governs.
+        let like = |i| {
+            self.phrase(i).and_then(|(rest, other)| match self.agrees(&first, &other) {
+                true => Ok((rest, other)),
+                false => fail(rest),
+            })
+        };
+        let more = pair(pair(joint, again), like);
         let (rest, more) = many0(more).parse(rest)?;
         let either = more.iter().any(|((joint, _), _)| *joint == Mark::Or);
         let nouns = std::iter::once(first).chain(more.into_iter().map(|(_, noun)| noun)).collect();
         Ok((rest, Item::Place { rel, nouns, either }))
+    }
+
+    /// Whether one preposition may govern both: in Russian they have a case in common.
+    fn agrees(&self, one: &Phrase, other: &Phrase) -> bool {
+        let has = |phrase: &Phrase, case: Case| phrase.cases.iter().any(|r| r.has_case(case));
+        self.language == Language::English
+            || one.cases.is_empty()
+            || other.cases.is_empty()
+            || Case::ALL.iter().any(|case| has(one, *case) && has(other, *case))
     }
 
     /// A noun that no preposition governs. Then «лампы» are several: as a genitive it would follow a noun or «нет».
@@ -380,7 +397,7 @@ impl<'t> Sentence<'t> {
                     Some(filter) => filter.or.push(value),
                     None => noun.filters.push(Filter::new(value, false)),
                 },
-                Modifier::Best(extreme) => noun.best = Some(Best { extreme, anchor: None }),
+                Modifier::Best(best) => noun.best = Some(best),
                 Modifier::Rank(rank) => noun.rank = Some(rank),
             }
         }
@@ -409,12 +426,18 @@ impl<'t> Sentence<'t> {
             Tok::Mark(Mark::All) => Modifier::All,
             Tok::Mark(Mark::Other) => Modifier::Other,
             Tok::Mark(Mark::Same) => Modifier::Same,
-            Tok::Mark(Mark::Best(extreme)) => Modifier::Best(extreme),
+            Tok::Mark(Mark::Best(extreme)) => match self.nearest_to(extreme, rest) {
+                Some((rest, anchor)) => {
+                    let anchor = Some(Box::new(anchor));
+                    return Ok((rest, Modifier::Best(Best { extreme, anchor })));
+                }
+                None => Modifier::Best(Best { extreme, anchor: None }),
+            },
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
             // "the smaller wardrobe": of two the one that is so.
             Tok::Mark(Mark::More(extreme)) if self.is_the_more(first, rest) => {
-                Modifier::Best(extreme)
+                Modifier::Best(Best { extreme, anchor: None })
             }
             Tok::Number(count) => Modifier::Number(count),
             // «Закрыта дверь?» says it of the door; it does not tell which.
@@ -583,7 +606,7 @@ impl<'t> Sentence<'t> {
     }
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 enum Modifier {
     The,
     A,
@@ -594,7 +617,7 @@ enum Modifier {
     Value(ValueId, bool),
     /// «… или белые»: another value that will do.
     OrValue(ValueId),
-    Best(Extreme),
+    Best(Best),
     Rank(u64),
     Quantity(Quantity),
 }

@@ -13,6 +13,12 @@ use crate::language::words::Language;
 impl Sentence<'_> {
     /// A noun with the relative clause behind it, where there is one.
     pub(super) fn relative<'a>(&self, input: Tokens<'a>, phrase: Phrase) -> (Tokens<'a>, Phrase) {
+        if let Some((rest, best)) = self.nearest_after(input, &phrase) {
+            let (mut phrase, taken) = (phrase, input.0.len() - rest.0.len());
+            phrase.words.end = input.0[taken - 1].to as usize;
+            phrase.noun.best = Some(best);
+            return (rest, phrase);
+        }
         let read = self.borne(input, &phrase).or_else(|| self.standing(input, &phrase));
         let Some((rest, restrictions, filters)) = read else { return (input, phrase) };
         let mut phrase = phrase;
@@ -23,7 +29,7 @@ impl Sentence<'_> {
         (rest, phrase)
     }
 
-    fn is_pronoun(&self, token: &Token) -> bool {
+    pub(super) fn is_pronoun(&self, token: &Token) -> bool {
         let key = self.keys[token.from as usize].as_str();
         // "that" points, unless it stands behind a noun and before a verb: see `standing`.
         (token.kind == Tok::Mark(Mark::Which) && (key.starts_with("котор") || key == "which"))
@@ -132,7 +138,7 @@ impl Sentence<'_> {
         (!restrictions.is_empty()).then_some((rest, restrictions, Vec::new()))
     }
 
-    fn without_verbs<'a>(&self, mut input: Tokens<'a>) -> Tokens<'a> {
+    pub(super) fn without_verbs<'a>(&self, mut input: Tokens<'a>) -> Tokens<'a> {
         while let [Token { kind: Tok::Mark(Mark::Be | Mark::Exists | Mark::Hang), .. }, rest @ ..] =
             input.0
         {

@@ -88,6 +88,15 @@ impl Settler<'_, '_> {
     ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
         match found {
             [only] => Ok(Some(*only)),
+            // "The lightest thing from the dresser", whose weights the map does not give: there are things.
+            [] if noun.best.is_some() => {
+                let plain = Noun { best: None, ..noun.clone() };
+                let all = self.candidates(&plain, within).map_err(|doubt| (doubt, at.clone()))?;
+                match all.is_empty() {
+                    true => self.one(&plain, within, &all, at),
+                    false => Err((self.knowledge.ambiguous(noun, &all), at)),
+                }
+            }
             [] if is_described(noun, within) && !self.knowledge.base(&noun.head).is_empty() => {
                 Err((self.knowledge.none_such(&with(noun, &self.resting(within))), at))
             }

@@ -266,12 +266,7 @@ impl Settler<'_, '_> {
         }
         let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
-        // A window has no name: it is told by its room.
-        let told = match (thing, self.knowledge.area_of(thing)) {
-            (Thing::Window(_), Some(room)) => Thing::Entity(Entity::Area(room)),
-            _ => thing,
-        };
-        let name = self.knowledge.form(told, case_of(spot.rel, true));
+        let name = self.knowledge.form(self.told_by(thing), case_of(spot.rel, true));
         let at = self.said(&spot.phrase.words);
         edits.push(Edit {
             at,
@@ -291,12 +286,11 @@ impl Settler<'_, '_> {
         within: &[Restriction],
         edits: &mut Vec<Edit>,
     ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
-        let Item::Place { nouns, .. } = &self.sentence.items()[spot.item] else { return Ok(None) };
         let mut last = None;
-        for phrase in nouns {
+        for phrase in spot.nouns {
             let at = self.bytes(&phrase.words);
             let found = self.candidates(&phrase.noun, within).map_err(|d| (d, at.clone()))?;
-            let pair = nouns.len() == 1 && found.len() == 2;
+            let pair = spot.nouns.len() == 1 && found.len() == 2;
             let things = match self.one(&phrase.noun, within, &found, at.clone()) {
                 _ if pair => found,
                 one => one?.into_iter().collect(),
@@ -320,11 +314,11 @@ impl Settler<'_, '_> {
     }
 
     fn settle(&self, text: &str) -> Result<Vec<Edit>, (Doubt, Range<usize>)> {
-        let items = self.sentence.items();
         let clauses = command::clauses(text);
         let clause_at =
             |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
+        let items = self.freed(self.sentence.items(), |byte| sort(clause_at(byte)));
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
         let place = self.knowledge.memory.last_thing();
@@ -356,19 +350,15 @@ impl Settler<'_, '_> {
         let (facing, others): (Vec<&Spot<'i>>, Vec<&Spot<'i>>) =
             own.into_iter().partition(|spot| sort == Sort::Go && self.is_faced(spot.phrase));
         own = others;
-        for spot in facing {
-            if let Some(thing) = self.place(spot, &spot.within)? {
-                let at = self.bytes(&spot.phrase.words);
-                let name = self.knowledge.form(thing, Case::Dative);
-                edits.push(Edit { at, name, things: vec![thing], object: false, goal: None });
-                edits.extend(spot.attached.iter().map(Edit::deletion));
-            }
-        }
         let goal = self.destination(sort, &own, !objects.is_empty());
         let whither = match goal {
             Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
             None => None,
         };
+        let stands = whither.and_then(|thing| self.knowledge.area_of(thing)).or(told.gone_to);
+        for spot in facing {
+            self.face(spot, stands, edits)?;
+        }
         let there = self.area_of_there(clause, told);
         let (mut skipped, mut until_word) = (None, 0);
         for (n, (at, phrase)) in objects.iter().enumerate() {

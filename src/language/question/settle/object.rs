@@ -84,7 +84,7 @@ impl Settler<'_, '_> {
                 (_, rel) => rel,
             };
             let anchors = match spot.rel {
-                Rel::Between => self.both_ends(spot).unwrap_or(anchors),
+                Rel::Between => spot.nouns.iter().map(|p| p.noun.clone()).collect(),
                 _ => anchors,
             };
             within.push(Restriction { rel, anchors, negated: false });
@@ -237,14 +237,6 @@ impl Settler<'_, '_> {
             || before.is_some_and(said)
             || (words.len() > 1 && one(words.start))
             || before.is_some_and(one)
-    }
-
-    /// «между кухней и коридором»
-    fn both_ends(&self, spot: &Spot<'_>) -> Option<Vec<Noun>> {
-        match &self.sentence.items()[spot.item] {
-            Item::Place { nouns, .. } => Some(nouns.iter().map(|p| p.noun.clone()).collect()),
-            _ => None,
-        }
     }
 }
 

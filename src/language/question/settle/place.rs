@@ -7,14 +7,17 @@ use super::{Edit, Settler};
 use crate::language::command::{self, Sort};
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::query::{Noun, Rel, Restriction, Thing};
+use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::language::words::{Case, Language};
 use crate::map::Entity;
+use crate::units::AreaId;
 
 /// A place that was said: the preposition, what follows it, and the places that tell where that is.
 pub(super) struct Spot<'i> {
     pub(super) rel: Rel,
     pub(super) phrase: &'i Phrase,
+    /// With those that a joint adds to it: the two between which something is.
+    pub(super) nouns: &'i [Phrase],
     pub(super) within: Vec<Restriction>,
     /// Bytes, with the preposition.
     pub(super) at: Range<usize>,
@@ -88,6 +91,7 @@ impl Settler<'_, '_> {
             spots.push(Spot {
                 rel: *rel,
                 phrase,
+                nouns,
                 within: Vec::new(),
                 at,
                 attached: Vec::new(),
@@ -121,11 +125,30 @@ impl Settler<'_, '_> {
             Rel::In | Rel::On if self.means_storey(phrase) => !self.means_storey(last.phrase),
             // «в холле на втором этаже»
             Rel::On if !last.within.is_empty() => area(phrase),
-            Rel::In | Rel::On | Rel::At | Rel::From => area(phrase) && !area(last.phrase),
-            Rel::To | Rel::Through => false,
+            Rel::In | Rel::On | Rel::At | Rel::From if area(phrase) => !area(last.phrase),
+            // «рядом с чайником на тумбе»: what can be carried lies on something.
+            Rel::In | Rel::On => self.is_beside(last),
+            Rel::At | Rel::From | Rel::To | Rel::Through => false,
+            // «комната с диваном»
+            Rel::Has => true,
             // A room is not told by what it is beside.
             _ => !area(last.phrase),
         }
+    }
+
+    /// Whether a place is beside what can be carried.
+    fn is_beside(&self, spot: &Spot<'_>) -> bool {
+        let base = self.knowledge.base(&spot.phrase.noun.head);
+        matches!(
+            spot.rel,
+            Rel::NextTo
+                | Rel::Near
+                | Rel::LeftOf
+                | Rel::RightOf
+                | Rel::InFrontOf
+                | Rel::Behind
+                | Rel::Between
+        ) && base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
     }
 
     /// Whether what is named is a storey, whichever.
@@ -204,6 +227,48 @@ impl Settler<'_, '_> {
             found.retain(own);
         }
         self.nearest(&found)
+    }
+
+    /// What the robot is to look at, in the room where it stands if it is there. A wall is named by no name.
+    pub(super) fn face(
+        &self,
+        spot: &Spot<'_>,
+        stands: Option<AreaId>,
+        edits: &mut Vec<Edit>,
+    ) -> Result<(), (Doubt, Range<usize>)> {
+        if self.knowledge.is_walls(&spot.phrase.noun) {
+            return Ok(());
+        }
+        let room = stands.map(|area| {
+            let things = Some(vec![Thing::Entity(Entity::Area(area))]);
+            let anchors =
+                vec![Noun { head: Head { things, ..Head::default() }, ..Noun::default() }];
+            Restriction { rel: Rel::In, anchors, negated: false }
+        });
+        let within: Vec<Restriction> = spot.within.iter().cloned().chain(room).collect();
+        let there = self.place(spot, &within).unwrap_or_default();
+        let seen = there.map_or_else(|| self.place(spot, &spot.within), |there| Ok(Some(there)))?;
+        if let (Some(thing @ Thing::Window(_)), Some(stands)) = (seen, stands)
+            && self.knowledge.area_of(thing) != Some(stands)
+        {
+            let noun = with(&spot.phrase.noun, &within);
+            return Err((self.knowledge.none_such(&noun), self.bytes(&spot.phrase.words)));
+        }
+        if let Some(thing) = seen {
+            let at = self.bytes(&spot.phrase.words);
+            let name = self.knowledge.form(self.told_by(thing), Case::Dative);
+            edits.push(Edit { at, name, things: vec![thing], object: false, goal: None });
+            edits.extend(spot.attached.iter().map(Edit::deletion));
+        }
+        Ok(())
+    }
+
+    /// What a thing is named by: a window has no name, and is told by its room.
+    pub(super) fn told_by(&self, thing: Thing) -> Thing {
+        match (thing, self.knowledge.area_of(thing)) {
+            (Thing::Window(_), Some(room)) => Thing::Entity(Entity::Area(room)),
+            _ => thing,
+        }
     }
 
     /// The one thing that a place means, none where the words are left to be read as they are.

@@ -3,9 +3,10 @@
 use std::ops::Range;
 
 use super::Settler;
-use crate::language::command;
+use crate::language::command::{self, Sort};
 use crate::language::question::grammar::{Item, Phrase};
 use crate::language::question::mark::Mark;
+use crate::language::question::query::Rel;
 use crate::language::question::values::ValueId;
 
 impl Settler<'_, '_> {
@@ -38,6 +39,32 @@ impl Settler<'_, '_> {
             _ => return None,
         };
         Some((except, from))
+    }
+
+    /// "the book on the dresser and the cup from the kitchen": what is named behind a place and its joint is an object
+    /// of the verb, where the verb can be done to it and not to what the place names.
+    pub(super) fn freed(&self, items: Vec<Item>, sort: impl Fn(usize) -> Sort) -> Vec<Item> {
+        let mut freed = Vec::with_capacity(items.len());
+        for item in items {
+            let Item::Place { rel, mut nouns, either } = item else {
+                freed.push(item);
+                continue;
+            };
+            let done = nouns.first().map_or(Sort::Other, |n| sort(self.bytes(&n.words).start));
+            let able = |phrase: &Phrase| {
+                let base = self.knowledge.base(&phrase.noun.head);
+                base.iter().any(|t| self.knowledge.can(done, *t))
+            };
+            let carried = matches!(done, Sort::Carry | Sort::Switch) && rel != Rel::Between;
+            let from = (1..nouns.len()).find(|&n| carried && !able(&nouns[0]) && able(&nouns[n]));
+            let objects = from.map(|from| nouns.split_off(from)).unwrap_or_default();
+            freed.push(Item::Place { rel, nouns, either });
+            for object in objects {
+                freed.push(Item::Mark(if either { Mark::Or } else { Mark::And }));
+                freed.push(Item::Noun(object));
+            }
+        }
+        freed
     }
 
     /// «лицом к столу», "facing the table": what the robot is to look at.

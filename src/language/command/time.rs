@@ -1,0 +1,291 @@
+//! In which order orders are to be done, where a conjunction of time says so: "before leaving, close the door",
+//! «когда приедешь на кухню, включи свет», "tell me when you have found the keys". By words alone, as
+//! [`spoken`](super::spoken).
+
+use super::ellipsis::first_word;
+use super::spoken::Said;
+use super::vocabulary::{Meaning, Verb, longest};
+use crate::language::words::Language;
+
+const BEFORE: [&str; 11] = [
+    "before",
+    "before you",
+    "right before",
+    "right before you",
+    "just before",
+    "just before you",
+    "прежде чем",
+    "прежде чем ты",
+    "перед тем как",
+    "перед тем как ты",
+    "до того как",
+];
+const AFTER: [&str; 18] = [
+    "after",
+    "after you",
+    "right after",
+    "once",
+    "once you",
+    "when you",
+    "as soon as you",
+    "having",
+    "после того как",
+    "после того как ты",
+    "как только",
+    "как только ты",
+    "когда",
+    "когда ты",
+    "сразу как",
+    "как",
+    "лишь только",
+    "едва",
+];
+
+/// «Когда закончишь», "before leaving", with nothing behind it: when the sentence is spoken it is so.
+pub(super) fn at_the_end(said: &Said) -> Option<String> {
+    const DONE: [&str; 40] = [
+        "as soon as you finish",
+        "once you are finished",
+        "как только закончишь",
+        "как только все сделаешь",
+        "when you are done",
+        "when you re done",
+        "when done",
+        "when you finish",
+        "when you are finished",
+        "when you have finished",
+        "when finished",
+        "once you are done",
+        "once you re done",
+        "once done",
+        "once you have finished",
+        "as soon as you are done",
+        "after you are done",
+        "before leaving",
+        "before you leave",
+        "before you go",
+        "before going",
+        "on your way out",
+        "on your way",
+        "on the way",
+        "по дороге",
+        "когда закончишь",
+        "как закончишь",
+        "когда все сделаешь",
+        "как все сделаешь",
+        "как сделаешь",
+        "когда сделаешь",
+        "когда освободишься",
+        "перед отъездом",
+        "перед уходом",
+        "перед выездом",
+        "перед выходом",
+        "уходя",
+        "уезжая",
+        "выходя",
+        "по окончании",
+    ];
+    let (at, taken) = (0..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &DONE)?)))?;
+    let end = at + taken;
+    let joint = matches!(said.meaning(end), Some((_, Meaning::And | Meaning::Verb(_))));
+    if end < said.keys.len() && !said.parted(end) && !joint {
+        return None;
+    }
+    let rest = [0..at, end..said.keys.len()];
+    let rest = rest.iter().filter(|words| !words.is_empty()).map(|words| said.of(words));
+    let rest = rest.collect::<Vec<_>>().join(", ");
+    (!rest.is_empty()).then_some(rest)
+}
+
+/// "Tell me when you have found the keys": each order ends with a report.
+pub(super) fn told_when(said: &Said) -> Option<String> {
+    const TELL: [&str; 18] = [
+        "tell me",
+        "let me know",
+        "inform me",
+        "report",
+        "report to me",
+        "report back",
+        "say",
+        "notify me",
+        "сообщи",
+        "сообщи мне",
+        "скажи",
+        "скажи мне",
+        "доложи",
+        "доложи мне",
+        "дай знать",
+        "дай мне знать",
+        "сообщите",
+        "скажите",
+    ];
+    let begin = first_word(said, &(0..said.keys.len()))?;
+    let when = begin + said.phrase(begin, &TELL)?;
+    let one = when + said.phrase(when, &AFTER)?;
+    let rest = said.of(&(one..said.keys.len()));
+    match of_verb(said, one) {
+        Some((words, base)) => Some(format!("{base} {}", said.of(&(words..said.keys.len())))),
+        None => said.verb_from(one).filter(|(verb, ..)| *verb == one).map(|_| rest.to_owned()),
+    }
+}
+
+/// "Go to the bedroom, but first switch off the lamp", «прежде чем ехать в спальню, выключи лампу», "close the door
+/// before leaving the room": in the order of time.
+pub(super) fn in_time(said: &Said) -> Option<String> {
+    const FIRST: [&str; 14] = [
+        "but first",
+        "but before that",
+        "but before you go",
+        "but before you do",
+        "before that",
+        "но сначала",
+        "но сперва",
+        "но прежде",
+        "но перед этим",
+        "а перед этим",
+        "а сначала",
+        "а до этого",
+        "только сначала",
+        "only first",
+    ];
+    let end = said.keys.len();
+    let cut = (1..end).find_map(|at| Some((at, said.phrase(at, &FIRST)?)));
+    if let Some((at, taken)) = cut.filter(|(at, taken)| at + taken < end) {
+        let (later, first) = (said.of(&(0..at)), said.of(&(at + taken..end)));
+        return Some(in_order(first, later));
+    }
+    let conjunction = |at: usize| {
+        let before = said.phrase(at, &BEFORE).map(|taken| (taken, true));
+        before.or(said.phrase(at, &AFTER).map(|taken| (taken, false)))
+    };
+    // «После» alone is a word of politeness, «после того как» is not.
+    let word = first_word(said, &(0..end))?;
+    let begin = (0..word).find(|&at| conjunction(at).is_some()).unwrap_or(word);
+    let leads = conjunction(begin).is_some();
+    let orders = |at: usize| said.verb_from(0).is_some_and(|(verb, ..)| verb < at);
+    let at = match leads {
+        true => begin,
+        false => (begin + 1..end).find(|&at| conjunction(at).is_some() && orders(at))?,
+    };
+    let (taken, before) = conjunction(at)?;
+    let one = at + taken;
+    // "after closing the door", "once you have closed the door"
+    if let Some((words, base)) = of_verb(said, one) {
+        let rest = if words < end { said.of(&(words..end)) } else { "" };
+        let told = format!("{} {base} {rest}", said.of(&(0..one)));
+        return Some(told.trim_end().to_owned());
+    }
+    let (verb, length, _) = said.verb_from(one)?;
+    if first_word(said, &(one..end)) != Some(verb) {
+        return None;
+    }
+    let joined = |n: usize| {
+        matches!(said.meaning(n), Some((length, Meaning::And))
+            if said.verb_from(n + length).is_some_and(|(next, ..)| first_word(said, &(n + length..end)) == Some(next)))
+    };
+    let next = (verb + length..end).find(|&n| said.parted(n) || (!leads && joined(n)));
+    let clause = said.of(&(one..next.unwrap_or(end)));
+    if leads {
+        let other = said.of(&(next.filter(|&n| said.verb_from(n).is_some())?..end));
+        return Some(if before { in_order(other, clause) } else { in_order(clause, other) });
+    }
+    let other = said.of(&(0..at));
+    let both = if before { in_order(other, clause) } else { in_order(clause, other) };
+    Some(match next {
+        Some(next) => format!("{both}, {}", said.of(&(next..end))),
+        None => both,
+    })
+}
+
+fn in_order(first: &str, later: &str) -> String {
+    format!("{first}, {} {later}", Language::of(first).pick("потом", "then"))
+}
+
+/// The verb of command that an English gerund or participle at a word comes from, and the word behind it: "leaving",
+/// "have closed", "picking up".
+fn of_verb(said: &Said, at: usize) -> Option<(usize, String)> {
+    const IRREGULAR: [(&str, &str); 12] = [
+        ("taken", "take"),
+        ("brought", "bring"),
+        ("found", "find"),
+        ("gone", "go"),
+        ("left", "leave"),
+        ("shut", "shut"),
+        ("put", "put"),
+        ("got", "get"),
+        ("gotten", "get"),
+        ("laid", "lay"),
+        ("driven", "drive"),
+        ("set", "set"),
+    ];
+    // "Once you are in the hall", «когда будешь в коридоре»
+    let placed = matches!(said.meaning(at + 1), Some((_, Meaning::Link(_))));
+    if placed && said.is(at, &["are", "re", "get", "будешь", "окажешься"]) {
+        return Some((at + 1, Language::of(&said.keys[at]).pick("поезжай", "go").to_owned()));
+    }
+    let have = usize::from(said.is(at, &["have", "ve", "having"]));
+    let key = said.keys.get(at + have)?.as_str();
+    let irregular = IRREGULAR.iter().find(|(form, _)| have > 0 && *form == key);
+    let stems = [key.strip_suffix("ing"), key.strip_suffix("ed"), key.strip_suffix('d')];
+    let mut bases: Vec<String> =
+        irregular.map(|(_, base)| (*base).to_owned()).into_iter().collect();
+    for stem in stems.into_iter().flatten() {
+        let mut letters = stem.chars().rev();
+        let doubled = letters.next().is_some_and(|last| letters.next() == Some(last));
+        bases.push(stem.to_owned());
+        bases.push(format!("{stem}e"));
+        bases.extend(doubled.then(|| stem[..stem.len() - 1].to_owned()));
+    }
+    let rest = said.keys[at + have + 1..].iter().map(String::as_str);
+    let is_verb = |base: &String| {
+        let keys: Vec<&str> = std::iter::once(base.as_str()).chain(rest.clone()).collect();
+        matches!(longest(&keys.into_iter()), Some((_, Meaning::Verb(verb))) if verb != Verb::Need)
+    };
+    let base = bases.into_iter().find(is_verb)?;
+    Some((at + have + 1, base))
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::language::command::gathered;
+
+    #[test]
+    fn orders_follow_in_time() {
+        for (said, order) in [
+            ("Before leaving, close the door", "close the door"),
+            ("Close the door before leaving", "Close the door"),
+            ("Перед отъездом выключи телевизор", "выключи телевизор"),
+            ("Когда закончишь, вернись на зарядку", "вернись на зарядку"),
+            ("Bring the cup and when you are done, go home", "Bring the cup and, go to base"),
+            ("Tell me when you have found the keys", "find the keys"),
+            ("Сообщи мне, когда найдёшь лекарство", "найдёшь лекарство"),
+            ("Close the door before leaving the room", "Close the door, then leave the room"),
+            (
+                "Go to the hall after picking up the pen and call the operator",
+                "pick up the pen, then Go to the hall, and call the operator",
+            ),
+            ("Before going to the hall, take the pen", "take the pen, then go to the hall"),
+            ("Когда приедешь на кухню, включи свет", "приедешь на кухню, потом включи свет"),
+            ("Open the door once you get to the hall", "go to the hall, then Open the door"),
+            (
+                "Go to your charger, but first switch off the lamp",
+                "switch off the lamp, then Go to your charger",
+            ),
+            ("Прежде чем ехать в спальню, выключи лампу", "выключи лампу, потом ехать в спальню"),
+            ("After you have closed the door, come here", "close the door, then come here"),
+            (
+                "Когда дверь откроется, поезжай в спальню",
+                "Когда дверь откроется, поезжай в спальню",
+            ),
+            (
+                "После того как возьмёшь ключ, позови оператора",
+                "возьмёшь ключ, потом позови оператора",
+            ),
+            ("Let me know once you are in the hall", "go in the hall"),
+            ("Скажи, когда будешь в ванной", "поезжай в ванной"),
+            ("Как закрыть дверь?", "Как закрыть дверь?"),
+        ] {
+            assert_eq!(gathered(said), order, "{said}");
+        }
+    }
+}

@@ -1,0 +1,88 @@
+//! What the nearest is nearest to: «ближайшая к кровати тумбочка», «чашка, ближайшая к окну», "the cup nearest to the
+//! window", «ложка, которая ближе к тостеру».
+//!
+//! Invariant: a superlative that is not read to the end of its «к окну» leaves the noun and the tokens as they were.
+
+use nom::Parser;
+use nom::multi::many0;
+
+use super::{Phrase, Sentence, Tok, Token, Tokens};
+use crate::language::question::mark::Mark;
+use crate::language::question::query::{Best, Closeness, Extreme, Head, Noun, Rel};
+use crate::language::words::Language;
+
+impl Sentence<'_> {
+    /// A noun with the superlative of distance behind it: behind a comma, a relative pronoun, or in English at once.
+    pub(super) fn nearest_after<'a>(
+        &self,
+        input: Tokens<'a>,
+        phrase: &Phrase,
+    ) -> Option<(Tokens<'a>, Best)> {
+        let first = input.0.first()?;
+        let comma = self.comma_between(phrase.words.end, first.from as usize);
+        let related = self.is_pronoun(first) || self.keys[first.from as usize] == "что";
+        if phrase.noun.best.is_some() || (self.language == Language::Russian && !comma) {
+            return None;
+        }
+        let rest = if related { self.without_verbs(Tokens(&input.0[1..])) } else { input };
+        let (extreme, rest) = match rest.0 {
+            [Token { kind: Tok::Mark(Mark::BestTo(extreme)), .. }, after @ ..] => {
+                let (rest, anchor) = self.phrase(Tokens(after)).ok()?;
+                return Some((rest, best(*extreme, &anchor)?));
+            }
+            [Token { kind: Tok::Mark(Mark::Best(extreme)), .. }, after @ ..] => (*extreme, after),
+            // «которая ближе к тостеру»: than the others are.
+            [Token { kind: Tok::Mark(Mark::Nearer(closeness)), .. }, after @ ..] if related => {
+                match closeness {
+                    Closeness::Nearer => (Extreme::Nearest, after),
+                    Closeness::Farther => (Extreme::Farthest, after),
+                }
+            }
+            _ => return None,
+        };
+        let (rest, anchor) = self.phrase(self.measured_from(extreme, Tokens(rest))?).ok()?;
+        Some((rest, best(extreme, &anchor)?))
+    }
+
+    /// «к кровати» between the superlative and the noun: one noun with its adjectives.
+    pub(super) fn nearest_to<'a>(
+        &self,
+        extreme: Extreme,
+        input: Tokens<'a>,
+    ) -> Option<(Tokens<'a>, Noun)> {
+        let (rest, parts) =
+            many0(|i| self.modifier(i)).parse(self.measured_from(extreme, input)?).ok()?;
+        let [Token { kind: Tok::Noun(n), from, to }, after @ ..] = rest.0 else { return None };
+        let next = after.first().map(|t| t.kind);
+        // «к окну Комнаты-Z стул»: whose the first is, is left to what reads the whole sentence.
+        let owned = matches!(
+            after,
+            [Token { kind: Tok::Noun(_), .. }, Token { kind: Tok::Noun(_), .. }, ..]
+        );
+        if owned || !parts.is_empty() || !matches!(next, Some(Tok::Noun(_) | Tok::Value(_))) {
+            return None;
+        }
+        let found = &self.nouns[*n as usize];
+        let head =
+            Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() };
+        let text = self.said(&(*from as usize..*to as usize)).to_owned();
+        Some((Tokens(after), Noun { head, text, ..Noun::default() }))
+    }
+
+    /// Behind the preposition of what a distance is measured from.
+    fn measured_from<'a>(&self, extreme: Extreme, input: Tokens<'a>) -> Option<Tokens<'a>> {
+        let wanted = match extreme {
+            Extreme::Nearest => Rel::To,
+            Extreme::Farthest => Rel::From,
+            _ => return None,
+        };
+        let (rest, _) = self.mark(input, |m| m == Mark::Link(wanted)).ok()?;
+        Some(rest)
+    }
+}
+
+/// None where the distance is to the robot or the person, or to what was spoken of.
+fn best(extreme: Extreme, anchor: &Phrase) -> Option<Best> {
+    let named = anchor.person.is_none() && anchor.pronoun.is_none();
+    named.then(|| Best { extreme, anchor: Some(Box::new(anchor.noun.clone())) })
+}
