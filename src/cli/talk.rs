@@ -194,7 +194,10 @@ impl Dialogue {
         // "Two spoons to the table, please" asks nothing, though a question may begin so.
         let please = |word: &str| matches!(name_key(word).as_str(), "please" | "пожалуйста");
         let words = || line.split(|c: char| !c.is_alphanumeric());
-        let begs = !asks && !line.contains('?') && words().any(please);
+        let begs = !asks
+            && !line.contains('?')
+            && words().any(please)
+            && !self.engine.asks_something(line)?;
         if !asks && self.engine.is_command(line)? || begs && self.engine.orders_tersely(line)? {
             return self.command(line);
         }
@@ -212,6 +215,8 @@ impl Dialogue {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
                 let kind = unanswered.doubt.kind();
                 let not_understood = kind != "ambiguous" && !line.contains('?');
+                // What the map lacks is an answer to a question, whatever its words are like.
+                let asked = kind == "unknown" && self.engine.asks_something(line)?;
                 let heard = || self.engine.understand_in(line, &mut self.memory.clone());
                 let commands = || match heard() {
                     // A question with such a verb in it stays a question.
@@ -225,7 +230,7 @@ impl Dialogue {
                 if orders && (commands() || self.engine.orders_tersely(line)?) {
                     return self.command(line);
                 }
-                if let Some((at, verb)) = likely_verb(line) {
+                if let Some((at, verb)) = likely_verb(line).filter(|_| !asked) {
                     let said = &line[at.clone()];
                     let text = match Language::of(line) {
                         Language::Russian => {

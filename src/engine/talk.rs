@@ -107,6 +107,15 @@ impl Engine {
         Ok((!asks && is_command(text)) || (is_order(text) && !asker.asks_to_tell(text)))
     }
 
+    /// Whether a text begins as a question does.
+    ///
+    /// # Errors
+    /// As [`Engine::ask`].
+    pub fn asks_something(&self, text: &str) -> Result<bool, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.begins_as_question(text))
+    }
+
     /// What is to be heard one after the other: «Скажи, где ваза, и принеси её» is a question and an order, "Go to the
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     ///
@@ -289,6 +298,9 @@ impl Senses for RobotSenses<'_> {
             Language::Russian => russian.to_owned(),
             Language::English => english.to_owned(),
         };
+        // From a storey one starts where one is on it.
+        let here = self.engine.robot_pose().map(|(map, _)| Thing::Entity(Entity::Map(map)));
+        let from = from.filter(|start| Some(*start) != here);
         if let Thing::Entity(Entity::Map(map)) = to
             && self.engine.robot_pose().is_some_and(|(here, _)| here == map)
             && from.is_none()

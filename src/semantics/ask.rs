@@ -155,6 +155,42 @@ impl Relations {
         found
     }
 
+    /// How far a thing is from a wall, cm, and what stands in the strip between the thing's whole side and the wall.
+    #[must_use]
+    pub fn before_wall(&self, a: ReplicaId, wall: (Point, Point)) -> Option<(f64, Vec<ReplicaId>)> {
+        let bodies = &self.measurements().bodies;
+        let (body, away) = (bodies.get(&a)?, self.distance_to_segment(a, wall)?);
+        let along = (wall.1 - wall.0).try_normalize(1e-9)?;
+        let inwards = Vector::new(-along.y, along.x);
+        let places = body.hull.polygon.corners.iter().map(|p| (p - wall.0).dot(&along));
+        let (from, to) = places.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| {
+            (low.min(at), high.max(at))
+        });
+        let (from, to) = (from.max(0.0), to.min((wall.1 - wall.0).norm()));
+        if to - from < BETWEEN_LEAST {
+            return None;
+        }
+        let corner = |at: f64, off: f64| wall.0 + along * at + inwards * off;
+        let strip = Footprint::new(Polygon::new(vec![
+            corner(from, 0.0),
+            corner(to, 0.0),
+            corner(to, away),
+            corner(from, away),
+        ]));
+        let within = |id: &ReplicaId| {
+            let other = &bodies[id];
+            *id != a
+                && other.map == body.map
+                && other.bottom < body.top
+                && other.top > body.bottom
+                && self.area_of(*id) == self.area_of(a)
+                && !self.holds_up(a, *id)
+                && !self.holds_up(*id, a)
+                && overlap_area(&other.hull, &strip) >= BETWEEN_LEAST
+        };
+        Some((away, bodies.keys().copied().filter(within).collect()))
+    }
+
     /// Whether `b` is under `a` as its support, or the support of that.
     fn holds_up(&self, a: ReplicaId, b: ReplicaId) -> bool {
         let mut at = a;

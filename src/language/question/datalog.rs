@@ -125,6 +125,10 @@ impl Rule<'_, '_> {
                 }
                 (thing, pick("верно ли", "is it so"))
             }
+            // Walls stand in no facts.
+            Query::Anchor { of, what: Some(what), .. } if self.knowledge.is_walls(what) => {
+                (self.noun(of), pick("стены измерены", "walls are measured"))
+            }
             Query::Anchor { rel, of, .. } => {
                 let thing = self.noun(of);
                 let other = self.variable();
@@ -178,6 +182,7 @@ impl Rule<'_, '_> {
                 (self.noun(of), pick("остальное измерено", "the rest is measured"))
             }
             Query::Distance { from, to }
+            | Query::Duration { from, to }
             | Query::Way { from, to, .. }
             | Query::Passing { from, to, .. }
             | Query::CanReach { from, to } => {
@@ -189,6 +194,11 @@ impl Rule<'_, '_> {
                     pick("путь и расстояние измеряются", "way and distance are measured"),
                 )
             }
+            Query::WhichWay { of, .. } => {
+                let ends = of.iter().flat_map(|(from, to)| from.iter().chain([to]));
+                let terms: Vec<String> = ends.map(|n| self.noun(n)).collect();
+                (terms.join(", "), pick("длины путей сравниваются", "lengths of ways are compared"))
+            }
             Query::Closer { what, near, than, .. } => {
                 let terms = [what, near, than].map(|n| self.noun(n));
                 (terms.join(", "), pick("расстояния сравниваются", "distances are compared"))
@@ -197,7 +207,11 @@ impl Rule<'_, '_> {
                 let terms: Vec<String> = of.iter().map(|n| self.noun(n)).collect();
                 (terms.join(", "), pick("по местам и значениям", "by places and values"))
             }
-            Query::WhichMore { of, .. } | Query::Same { of, .. } | Query::MoreOf { of, .. } => {
+            Query::WhichMore { of, .. } => {
+                let terms: Vec<String> = of.iter().map(|n| self.noun(n)).collect();
+                (terms.join(", "), pick("сравнение", "compared"))
+            }
+            Query::Same { of, .. } | Query::MoreOf { of, .. } => {
                 let terms = [&of[0], &of[1]].map(|n| self.noun(n));
                 (terms.join(", "), pick("сравнение", "compared"))
             }

@@ -2,14 +2,18 @@
 //!
 //! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
 
+use super::everyday;
 use super::knowledge::Knowledge;
+use super::lexicon::{Extension, Meaning};
 use super::mark::Pronoun;
-use super::query::{Rel, Thing};
+use super::query::{Noun, Query, Rel, Thing};
 use super::speech;
 use super::values::Property;
 use super::{Doubt, Unanswered};
 use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Case, Gender, Number, alternatives, enumerate};
+use crate::language::words::{
+    Case, Gender, NounPhrase, Number, WordHints, alternatives, enumerate, word_ranges,
+};
 use crate::map::Entity;
 use crate::units::{AreaId, ReplicaId};
 
@@ -19,6 +23,12 @@ impl Knowledge<'_> {
         let last = &self.memory.last;
         match pronoun {
             Pronoun::They if !last.is_empty() => last.clone(),
+            // "Which room is the fridge in, and is it closed?"
+            Pronoun::Any if matches!(self.memory.query, Some(Query::RoomOf(_))) => {
+                let mut things = self.memory.spoken.iter().copied();
+                let latest = things.clone().next();
+                things.find(|t| t.area().is_none()).or(latest).into_iter().collect()
+            }
             Pronoun::They | Pronoun::Any => {
                 self.memory.spoken.first().copied().into_iter().collect()
             }
@@ -32,11 +42,34 @@ impl Knowledge<'_> {
                 };
                 let agrees = |t: &&Thing| {
                     let (gender, number) = self.gender(**t);
-                    fits(gender) && number == Number::Singular
+                    let said = || self.genders_said(**t).into_iter().any(fits);
+                    (fits(gender) && number == Number::Singular) || said()
                 };
                 self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
             }
         }
+    }
+
+    /// Genders of the words of the last question that mean the one thing of its answer.
+    fn genders_said(&self, thing: Thing) -> Vec<Gender> {
+        if self.memory.last != [thing] {
+            return Vec::new();
+        }
+        let lexicon = self.lexicon();
+        let means = |word: &&str| {
+            let plain = everyday::plain(word, lexicon);
+            let hits = lexicon.nouns.find(&plain);
+            let kinds = hits.iter().filter_map(|hit| match hit.id {
+                Meaning::Kind(kind) => Some(lexicon.kind(*kind).extension),
+                Meaning::Entity(_) => None,
+            });
+            let general = |e: &Extension| matches!(e, Extension::ObjectType(_));
+            kinds.filter(general).any(|kind| self.members(&kind).contains(&thing))
+        };
+        let words = &self.memory.words;
+        let said = word_ranges(words).into_iter().map(|range| &words[range]);
+        let phrases = said.filter(means).map(|w| NounPhrase::parse(w, &WordHints::default()));
+        phrases.filter(|p| p.number() == Number::Singular).map(|p| p.gender()).collect()
     }
 
     /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
@@ -45,7 +78,10 @@ impl Knowledge<'_> {
         let bears = |id: ReplicaId| {
             ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
         };
-        let Some(id) = latest.replica().filter(|id| !bears(*id)) else { return Some(latest) };
+        // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
+        let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
+        let told = |id: &ReplicaId| placed && self.memory.last.contains(&latest) || !bears(*id);
+        let Some(id) = latest.replica().filter(told) else { return Some(latest) };
         let support = self.relations.support_of(id).map(|id| Thing::Entity(Entity::Replica(id)));
         let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
         support.or_else(area).or(Some(latest))
@@ -119,6 +155,9 @@ impl Knowledge<'_> {
                 };
                 return (text, near.clone());
             }
+            Doubt::NoneSuch { noun } if self.has_no_order(noun) => self
+                .pick("сравнить их карта не даёт", "the map does not let them be compared")
+                .to_owned(),
             Doubt::NoneSuch { noun } => {
                 let place = self.restrictions(noun);
                 let none = self.none_of(noun);
@@ -139,6 +178,12 @@ impl Knowledge<'_> {
             }
         };
         (text, Vec::new())
+    }
+
+    /// «Где самая тяжёлая вещь?»: there are such things, but no measure of them.
+    fn has_no_order(&self, noun: &Noun) -> bool {
+        let unordered = Noun { best: None, rank: None, ..noun.clone() };
+        noun.best.is_some() && self.find(&unordered, true).is_ok_and(|all| !all.is_empty())
     }
 
     /// The candidates, each with what tells it from the others.

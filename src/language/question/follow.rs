@@ -2,7 +2,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
-use super::{Asker, Claim, Extension, Head, Memory, Noun, Query, Thing, assemble};
+use super::{
+    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Thing, assemble, several,
+};
 use crate::language::words::word_keys;
 use crate::map::Entity;
 
@@ -13,6 +15,9 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
+        if let Some(query) = self.turned_round(&key, last).or_else(|| by_how_much(&key, last)) {
+            return Some(query);
+        }
         let of_those = self.asks_of_those(text);
         if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
             return None;
@@ -26,6 +31,11 @@ impl Asker<'_> {
         let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
         let mut query = last.clone();
+        // "And the one in the living room?": another of what was asked of.
+        let another = noun.head.anything && !noun.restrictions.is_empty() && noun.best.is_none();
+        if another && let Some(query) = another_placed(last, &noun) {
+            return Some(query);
+        }
         if noun.head == Head::default() {
             return Some(match self.elsewhere(query, noun)? {
                 Query::Count(noun) if of_those => Query::Find(noun),
@@ -49,6 +59,93 @@ impl Asker<'_> {
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// «А обратно?», «Через какую дверь?»: the way that was asked for, the other way or by its doors.
+    fn turned_round(&self, key: &str, last: &Query) -> Option<Query> {
+        const BACK: [&str; 12] = [
+            "а обратно",
+            "обратно",
+            "а назад",
+            "а в обратную сторону",
+            "а наоборот",
+            "and back",
+            "and back again",
+            "and the way back",
+            "what about the way back",
+            "and the other way",
+            "and the other way round",
+            "and vice versa",
+        ];
+        let words: Vec<&str> = key.split(|c: char| !c.is_alphanumeric()).collect();
+        let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
+        let (Query::Way { from, to, .. }
+        | Query::CanReach { from, to }
+        | Query::Duration { from, to }
+        | Query::Distance { from, to }
+        | Query::Passing { from, to, .. }) = last
+        else {
+            return None;
+        };
+        // "Through which doors?"
+        let (through, which) = match &words[..] {
+            ["а" | "и" | "and", through, which, ..] | [through, which, ..] => (*through, *which),
+            _ => ("", ""),
+        };
+        let asks = which.starts_with("как") || ["which", "what"].contains(&which);
+        if ["через", "through"].contains(&through) && asks && words.len() < 5 {
+            let (from, to) = (from.clone(), to.clone());
+            return Some(Query::Way { from, to, detail: Detail::default() });
+        }
+        // «Через сколько комнат?», "Through how many doors?"
+        let counts = ["сколько", "how"].contains(&which);
+        let counted = words.iter().find_map(|word| match () {
+            () if word.starts_with("двер") || word.starts_with("door") => Some(Passing::Doors),
+            () if word.starts_with("комнат") || word.starts_with("room") => {
+                Some(Passing::Rooms)
+            }
+            () => None,
+        });
+        if let (true, true, Some(asks)) = (["через", "through"].contains(&through), counts, counted)
+        {
+            let (from, to) = (from.clone(), to.clone());
+            let (through, avoiding) = (Vec::new(), Vec::new());
+            return Some(Query::Passing { from, to, through, avoiding, asks });
+        }
+        const LONG: [&str; 14] = [
+            "сколько это по времени",
+            "а сколько это по времени",
+            "сколько это займет",
+            "а сколько это займет",
+            "сколько это займет времени",
+            "сколько времени это займет",
+            "а сколько времени это займет",
+            "как долго",
+            "how long does it take",
+            "how long does that take",
+            "how long will it take",
+            "how long would it take",
+            "how long would that take",
+            "and how long does it take",
+        ];
+        if LONG.contains(&words.join(" ").as_str()) {
+            return Some(Query::Duration { from: from.clone(), to: to.clone() });
+        }
+        if !BACK.contains(&words.join(" ").as_str()) {
+            return None;
+        }
+        let mut query = last.clone();
+        if let Query::Way { from, to, .. }
+        | Query::CanReach { from, to }
+        | Query::Duration { from, to }
+        | Query::Distance { from, to }
+        | Query::Passing { from, to, .. } = &mut query
+        {
+            let head = Head { things: Some(vec![Thing::Robot]), ..Head::default() };
+            let start = from.take().unwrap_or(Noun { head, ..Noun::default() });
+            *from = Some(std::mem::replace(to, start));
+        }
+        Some(query)
     }
 
     /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
@@ -129,6 +226,16 @@ impl Asker<'_> {
                 return Some(query);
             }
             // «Книга на столе? А на полу?»
+            // «Ноутбук включён? А открыт?»
+            Query::Holds { claims, negated, .. } if !noun.filters.is_empty() => {
+                *claims = noun.filters.into_iter().map(Claim::Value).collect();
+                *negated = false;
+                return Some(query);
+            }
+            Query::Choice { subject, .. } if !noun.filters.is_empty() => {
+                let claims = noun.filters.into_iter().map(Claim::Value).collect();
+                return Some(Query::Holds { subject: subject.clone(), claims, negated: false });
+            }
             Query::Holds { claims, .. } if !noun.restrictions.is_empty() => {
                 *claims = noun.restrictions.into_iter().map(Claim::Related).collect();
                 return Some(query);
@@ -180,6 +287,10 @@ impl Asker<'_> {
     /// «Красная» after «Какая чашка – белая или красная?»: the question that waited, with the thing that is meant.
     pub(super) fn clarified(&self, text: &str, memory: &Memory) -> Option<Query> {
         let pending = memory.pending.as_ref()?;
+        // "Which is the biggest of the rooms?" asks anew.
+        if text.trim_end().ends_with('?') && several::asks_in(text) {
+            return None;
+        }
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
         let knowledge = self.knowledge(pending.language, memory);
@@ -204,4 +315,56 @@ impl Asker<'_> {
         });
         Some(query)
     }
+}
+
+/// «На сколько?», "By how much?": the difference of what was compared.
+fn by_how_much(key: &str, last: &Query) -> Option<Query> {
+    const BY: [&str; 12] = [
+        "на сколько",
+        "а на сколько",
+        "насколько",
+        "а насколько",
+        "и на сколько",
+        "by how much",
+        "and by how much",
+        "how much",
+        "by how many",
+        "how many more",
+        "how much more",
+        "and how much",
+    ];
+    let key = key.trim_end_matches(['?', '.', '!', ' ']);
+    if !BY.contains(&key) {
+        return None;
+    }
+    let mut query = last.clone();
+    match &mut query {
+        Query::Larger { by, .. } | Query::MoreOf { by, .. } => *by = true,
+        Query::WhichMore { of, extreme, to } => {
+            let [what, than] = &of[..] else { return None };
+            let (what, than) = (what.clone(), than.clone());
+            let (extreme, to) = (*extreme, to.clone());
+            return Some(Query::Larger { what, than, extreme, to, by: true });
+        }
+        _ => return None,
+    }
+    Some(query)
+}
+
+/// A question about one thing, put of another of its kind that is elsewhere.
+fn another_placed(last: &Query, noun: &Noun) -> Option<Query> {
+    let mut query = last.clone();
+    let mut first = true;
+    let mut placed = false;
+    query.each_noun(&mut |old| {
+        if std::mem::take(&mut first) && !old.head.anything && old.head.things.is_none() {
+            old.restrictions.clone_from(&noun.restrictions);
+            old.filters.extend(noun.filters.iter().cloned());
+            if !old.head.kinds.is_empty() {
+                old.head.named.clear();
+            }
+            placed = true;
+        }
+    });
+    placed.then_some(query)
 }

@@ -120,6 +120,8 @@ pub struct Lexicon {
     kinds: Vec<Kind>,
     /// Kinds that a head word covers beside its own: «стол» – «Письменный стол».
     narrower: HashMap<(bool, String), Vec<KindId>>,
+    /// English words that the map itself gives to its types, as keys.
+    own_english: BTreeSet<String>,
     /// The kinds of each sort, the sort itself first.
     sorts: Vec<Vec<KindId>>,
     pub values: Values,
@@ -134,6 +136,7 @@ impl Lexicon {
             nouns: FormIndex::default(),
             kinds: Vec::new(),
             narrower: HashMap::new(),
+            own_english: BTreeSet::new(),
             sorts: Vec::new(),
             values: Values::of(world),
             windows: windows(world),
@@ -159,6 +162,10 @@ impl Lexicon {
             }
         }
         let used = used_types(world);
+        let entries = [&world.types.object, &world.types.area];
+        let entries = entries.into_iter().flat_map(|list| list.entries.values());
+        let words = entries.flat_map(|e| e.synonyms.iter().chain([&e.name_en]));
+        lexicon.own_english = words.map(|word| name_key(word)).collect();
         for (list, make) in [
             (&world.types.object, Extension::ObjectType as fn(TypeId) -> Extension),
             (&world.types.area, Extension::AreaType),
@@ -251,6 +258,10 @@ impl Lexicon {
             self.nouns.insert(phrase, Meaning::Kind(id));
         }
         let english_name = match english_name {
+            // What a dictionary makes of «зал» is not this hall, where the map calls another so.
+            "" if self.own_english.contains(&name_key(&self.kinds[usize::from(id.0)].english)) => {
+                String::new()
+            }
             "" => self.kinds[usize::from(id.0)].english.clone(),
             name => name.to_owned(),
         };

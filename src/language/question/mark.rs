@@ -13,6 +13,8 @@ pub(super) enum Mark {
     Which,
     HowMany,
     HowFar,
+    /// «сколько времени», "how long does it take"
+    HowLong,
     /// «как проехать», "how do I get"
     HowGet,
     How,

@@ -9,6 +9,7 @@
 
 mod answer;
 mod assemble;
+mod compared;
 mod courtesy;
 mod datalog;
 mod doubts;
@@ -32,14 +33,12 @@ mod values;
 mod vocabulary;
 mod why;
 
+pub use compared::{Closeness, Dimension, Extreme, Quantity};
 pub use courtesy::Courtesy;
 pub use knowledge::{Frame, Mind};
 pub use lexicon::{Extension, Lexicon, Window};
 pub use orders::{Conditional, conditional};
-pub use query::{
-    Best, Claim, Closeness, Dimension, Extreme, Filter, Head, Noun, Passing, Quantity, Query, Rel,
-    Restriction, Thing, Use,
-};
+pub use query::{Best, Claim, Filter, Head, Noun, Passing, Query, Rel, Restriction, Thing, Use};
 pub use settle::{Settled, Strict};
 pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
@@ -119,6 +118,8 @@ pub struct Memory {
     /// The last several things that an answer told, in its order: «вторую» counts them.
     listed: Vec<Thing>,
     facts: Vec<Fact>,
+    /// The words of the last question: who asked for a «софа» calls a «Диван» «она».
+    words: String,
     /// What was asked last, for «А чайник?»
     query: Option<Query>,
     /// A question that waits for the person to say which thing was meant.
@@ -170,6 +171,7 @@ impl Memory {
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.facts.clone_from(&answer.facts);
             self.query = Some(answer.query.clone());
+            self.words.clone_from(&answer.words);
         }
         if answer.topic.is_empty() {
             return;
@@ -264,6 +266,8 @@ pub struct Answer {
     /// A count, or a measure in cm or cm².
     pub number: Option<f64>,
     topic: Vec<Thing>,
+    /// The words of the question.
+    words: String,
 }
 
 impl Answer {
@@ -281,6 +285,7 @@ impl Answer {
             facts: Vec::new(),
             number: None,
             topic: Vec::new(),
+            words: String::new(),
         };
         let mut queries = Vec::new();
         let texts: Vec<String> = answers.iter().map(|a| a.text.clone()).collect();
@@ -290,6 +295,7 @@ impl Answer {
             whole.symbols.extend(answer.symbols);
             whole.facts.extend(answer.facts);
             whole.topic.extend(answer.topic);
+            whole.words = answer.words;
         }
         whole.text = texts.join(" ");
         whole.query = Query::Several(queries);
@@ -480,7 +486,11 @@ impl Asker<'_> {
     /// Whether a text begins as a question of this grammar does, whatever follows.
     #[must_use]
     pub fn begins_as_question(&self, text: &str) -> bool {
+        // «Я хочу спать, где можно лечь?»
+        let told = text.split_once(',').filter(|(told, _)| opening::is_of_me(&word_keys(told)));
         opening::begins_question(&word_keys(text))
+            || opening::begs_to_tell(text)
+            || told.is_some_and(|(_, asked)| opening::begins_question(&word_keys(asked)))
     }
 
     /// Whether a text asks to be told something, in the words of an order: "Give me directions …".
@@ -516,6 +526,8 @@ impl Asker<'_> {
             None => self.read(text, memory).map_err(|doubt| Box::new((doubt, None)))?,
         };
         let knowledge = self.knowledge(language, memory);
-        knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))))
+        let answer = knowledge.answer(&query);
+        let answer = answer.map(|answer| Answer { words: text.to_owned(), ..answer });
+        answer.map_err(|doubt| Box::new((doubt, Some(query))))
     }
 }

@@ -3,6 +3,7 @@
 use super::mark::Mark;
 use super::query::Rel;
 use super::vocabulary::longest;
+use crate::language::words::word_keys;
 
 /// Whether these words, in [`name_key`](crate::units::name_key) form, begin a question: after small words, one that asks.
 pub(super) fn begins_question(words: &[String]) -> bool {
@@ -42,8 +43,26 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     false
 }
 
+/// «Скажите, а чайник электрический?»: who begs to be told and asks gives no order.
+pub(super) fn begs_to_tell(text: &str) -> bool {
+    let first = word_keys(text).into_iter().next().unwrap_or_default();
+    let tells = ["скажи", "подскажи"].iter().any(|stem| first.starts_with(stem));
+    tells && text.trim_end().ends_with('?')
+}
+
+/// "I am hungry", «мне холодно»: what a person tells of itself.
+pub(super) fn is_of_me(words: &[String]) -> bool {
+    longest(words).is_some_and(|(_, mark)| mark == Mark::Me)
+}
+
 /// Whether these words begin, after small ones, with a way, a list or a description to be told.
 pub(super) fn asks_to_tell(words: &[String]) -> bool {
+    // «Дай знать, где телевизор»
+    let begs =
+        matches!(words, [first, second, ..] if first.starts_with("дай") && second == "знать");
+    if begs && begins_question(&words[2..]) {
+        return true;
+    }
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {

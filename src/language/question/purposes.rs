@@ -142,7 +142,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "место для мусора",
         "place for rubbish",
-        "выбросить мусор|выкинуть мусор|выбросить|выкинуть|throw away rubbish|throw rubbish|throw away|throw out|throw trash|throw the trash|dispose of|throw it away|throw this away|throw it out|throw this out|throw that away",
+        "выбросить мусор|выкинуть мусор|выбросить|выкинуть|throw away rubbish|throw rubbish|throw away|throw out|throw trash|throw the trash|dispose of|throw it away|throw this away|throw it out|throw this out|throw that away|throw something away|throw things away|throw it away|throw this away|get rid of the trash",
         "bin|trash can|garbage can|waste bin|rubbish bin|мусорное ведро|мусорная корзина|урна",
     ),
     sort(

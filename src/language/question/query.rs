@@ -7,6 +7,7 @@ use crate::language::report::Detail;
 use crate::map::Entity;
 use crate::units::{AreaId, ReplicaId};
 
+pub(super) use super::compared::{Closeness, Dimension, Extreme, Quantity, Sized};
 use super::courtesy::Courtesy;
 use super::lexicon::KindId;
 use super::values::{Property, ValueId};
@@ -48,44 +49,6 @@ pub enum Rel {
     Opens,
     /// «в метре от стола», "within 50 cm of the door": not farther than so many cm, surface to surface.
     Within(u32),
-}
-
-/// What a superlative compares.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Extreme {
-    Nearest,
-    Farthest,
-    Biggest,
-    Smallest,
-    Tallest,
-    Lowest,
-    Widest,
-    Narrowest,
-    Longest,
-    /// By the weight that the map gives.
-    Heaviest,
-    Lightest,
-    LeftMost,
-    RightMost,
-    /// Having the most of something; the anchor of the superlative tells of what.
-    Most,
-    Fewest,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Closeness {
-    Nearer,
-    Farther,
-}
-
-/// What a question for a size is after.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Dimension {
-    All,
-    Height,
-    Width,
-    Length,
-    Area,
 }
 
 /// Anything that can be an answer.
@@ -130,31 +93,6 @@ pub struct Head {
     pub anything: bool,
 }
 
-/// How a number is meant: «не меньше трёх», "more than three".
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord, Hash)]
-pub enum Quantity {
-    #[default]
-    Exactly,
-    AtLeast,
-    AtMost,
-    MoreThan,
-    FewerThan,
-}
-
-impl Quantity {
-    /// Whether so many are as many as `asked` means.
-    #[must_use]
-    pub fn admits(self, number: u64, asked: u64) -> bool {
-        match self {
-            Self::Exactly => number == asked,
-            Self::AtLeast => number >= asked,
-            Self::AtMost => number <= asked,
-            Self::MoreThan => number > asked,
-            Self::FewerThan => number < asked,
-        }
-    }
-}
-
 /// A value that the thing must, or must not, have.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Filter {
@@ -174,25 +112,6 @@ impl Filter {
     /// All values that will do.
     pub fn values(&self) -> impl Iterator<Item = ValueId> + '_ {
         std::iter::once(self.value).chain(self.or.iter().copied())
-    }
-}
-
-/// «выше двух метров», "larger than 20 m²": what a superlative would compare, against a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Sized {
-    pub extreme: Extreme,
-    /// cm; of areas cm²
-    pub than: u64,
-    pub negated: bool,
-}
-
-impl Sized {
-    /// Whether a measure is beyond the number, or not where that is denied.
-    #[must_use]
-    pub fn admits(self, measure: f64) -> bool {
-        let less = matches!(self.extreme, Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest);
-        let than = self.than as f64;
-        (if less { measure < than } else { measure > than }) != self.negated
     }
 }
 
@@ -324,6 +243,16 @@ pub enum Query {
         from: Option<Noun>,
         to: Noun,
     },
+    /// How long the way takes.
+    Duration {
+        from: Option<Noun>,
+        to: Noun,
+    },
+    /// Which of two ways is shorter, or longer.
+    WhichWay {
+        of: Vec<(Option<Noun>, Noun)>,
+        extreme: Extreme,
+    },
     /// Is `what` closer to `near` than to `than`.
     Closer {
         what: Noun,
@@ -331,9 +260,9 @@ pub enum Query {
         than: Noun,
         closeness: Closeness,
     },
-    /// Which of two is closer to the third, or bigger.
+    /// Which of two or more is closer to another, or bigger.
     WhichMore {
-        of: [Noun; 2],
+        of: Vec<Noun>,
         extreme: Extreme,
         to: Option<Noun>,
     },
@@ -351,6 +280,8 @@ pub enum Query {
         of: [Noun; 2],
         extreme: Extreme,
         asks: bool,
+        /// By how many is asked.
+        by: bool,
     },
     /// Have both the same value.
     Same {
@@ -505,6 +436,7 @@ impl Query {
             | Self::SameAll { of, .. } => of.each(act),
             Self::Way { from, to, .. }
             | Self::CanReach { from, to }
+            | Self::Duration { from, to }
             | Self::Distance { from, to } => {
                 from.iter_mut().for_each(|n| n.each(act));
                 to.each(act);
@@ -512,6 +444,11 @@ impl Query {
             Self::Passing { from, to, through, avoiding, .. } => {
                 let others = through.iter_mut().chain(avoiding).chain([to]);
                 from.iter_mut().chain(others).for_each(|n| n.each(act));
+            }
+            Self::WhichWay { of, .. } => {
+                for (from, to) in of {
+                    from.iter_mut().chain([to]).for_each(|n| n.each(act));
+                }
             }
             Self::Closer { what, near, than, .. } => {
                 [what, near, than].into_iter().for_each(|n| n.each(act));
@@ -568,6 +505,8 @@ impl Query {
             Self::CanReach { .. } => "can_reach",
             Self::Passing { .. } => "passing",
             Self::Distance { .. } => "distance",
+            Self::Duration { .. } => "duration",
+            Self::WhichWay { .. } => "which_way",
             Self::Closer { .. } => "closer",
             Self::WhichMore { .. } => "which_more",
             Self::Larger { .. } => "larger",

@@ -28,6 +28,12 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         on_it,
         around,
         numbers_joined,
+        looks_at,
+        borne_by_it,
+        behind_ones_back,
+        of_the_most,
+        can_be_moved,
+        lies_or_stands,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -282,10 +288,85 @@ fn numbers_joined(words: &Words<'_>) -> Option<String> {
     Some(words.replaced(vec![(joint + 1..joint + 2, format!("{said} {second}"))]))
 }
 
+/// "What does the stand have on it?": what is on the stand.
+fn borne_by_it(words: &Words<'_>) -> Option<String> {
+    let last = words.keys.len().checked_sub(1)?;
+    let what = words.find(&["what"]).filter(|n| words.is(*n + 1, &["does", "do"]))?;
+    let tail = words.is(last, &["it", "them"])
+        && last >= what + 5
+        && words.is(last - 1, &["on", "in", "inside", "under"])
+        && words.is(last - 2, &["have", "has"]);
+    let rel = tail.then(|| words.text[words.at[last - 1].clone()].to_owned())?;
+    Some(words.replaced(vec![
+        (what + 1..what + 2, format!("is {rel}")),
+        (last - 2..last + 1, String::new()),
+    ]))
+}
+
+/// «Что у тебя за спиной?»: what is behind you.
+fn behind_ones_back(words: &Words<'_>) -> Option<String> {
+    let back = words.find(&["спиной"]).filter(|n| *n > 1 && words.is(*n - 1, &["за"]))?;
+    let whose = words.is(back - 2, &["тебя", "вас", "твоей", "вашей"]);
+    let from = if back > 2 && words.is(back - 3, &["у"]) { back - 3 } else { back - 2 };
+    whose.then(|| words.replaced(vec![(from..back + 1, "позади тебя".to_owned())]))
+}
+
+/// «три самых высоких шкафа»: the superlative as it stands alone.
+fn of_the_most(words: &Words<'_>) -> Option<String> {
+    let most = words.find(&["самых"])?;
+    let next = words.text.get(words.at.get(most + 1)?.clone())?;
+    let stem = next.strip_suffix("их").map(|stem| (stem, "ие"));
+    let (stem, end) = stem.or_else(|| next.strip_suffix("ых").map(|stem| (stem, "ые")))?;
+    Some(words.replaced(vec![(most..most + 2, format!("самые {stem}{end}"))]))
+}
+
+/// "Which things can I move?": which can be moved.
+fn can_be_moved(words: &Words<'_>) -> Option<String> {
+    let last = words.keys.len().checked_sub(1)?;
+    let moved = last > 2
+        && words.is(last, &["move", "carry"])
+        && words.is(last - 1, &["i", "you", "we"])
+        && words.is(last - 2, &["can", "could"]);
+    let verb = if words.is(last, &["move"]) { "can be moved" } else { "can be carried" };
+    moved.then(|| words.replaced(vec![(last - 2..last + 1, verb.to_owned())]))
+}
+
+/// «Смотрит ли кресло на телевизор?»: whether it is turned to it.
+fn looks_at(words: &Words<'_>) -> Option<String> {
+    let looks = words.find(&["смотрит", "смотрят"])?;
+    let at = (looks + 1..words.keys.len()).find(|n| words.is(*n, &["на", "в"]))?;
+    Some(
+        words.replaced(vec![
+            (looks..looks + 1, "стоит".to_owned()),
+            (at..at + 1, "лицом к".to_owned()),
+        ]),
+    )
+}
+
+/// «Книга лежит или стоит?», "Is the book lying or standing?": how it is turned, where nothing else is asked.
+fn lies_or_stands(words: &Words<'_>) -> Option<String> {
+    const LIES: [&str; 5] = ["лежит", "лежат", "lying", "flat", "lie"];
+    const STANDS: [&str; 6] = ["стоит", "стоят", "standing", "upright", "stand", "стоймя"];
+    let either = |n: usize| words.is(n, &LIES) || words.is(n, &STANDS);
+    let or = words.find(&["или", "or"]).filter(|or| *or > 0)?;
+    let both =
+        either(or - 1) && either(or + 1) && words.is(or - 1, &LIES) != words.is(or + 1, &LIES);
+    let asks = ["что", "где", "кто", "какой", "какая", "какие", "какое", "what", "where", "which"];
+    let whole = both && !(0..words.keys.len()).any(|n| words.is(n, &asks));
+    let turned = |n: usize| match (words.is(n, &LIES), Language::of(words.text)) {
+        (true, Language::Russian) => "горизонтальный",
+        (false, Language::Russian) => "вертикальный",
+        (true, Language::English) => "horizontal",
+        (false, Language::English) => "vertical",
+    };
+    let by = |n: usize| (n..n + 1, turned(n).to_owned());
+    whole.then(|| words.replaced(vec![by(or - 1), by(or + 1)]))
+}
+
 /// "Do I have any apples left?"
 fn any_left(words: &Words<'_>) -> Option<String> {
     let last = words.keys.len() - 1;
-    let any = words.find(&["any", "some"])?;
+    let any = words.find(&["any", "some", "many", "much"])?;
     (any + 1 < last && words.is(last, &["left"]))
         .then(|| words.replaced(vec![(last..last + 1, String::new())]))
 }
@@ -316,6 +397,13 @@ mod tests {
         check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
         check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");
         check("4 стула и 2 стола", "4 стула и 2 стола");
+        check("Смотрит ли кресло на диван?", "стоит ли кресло лицом к диван?");
+        check("What does the TV stand have on it?", "What is on the TV stand ?");
+        check("Что у тебя за спиной?", "Что позади тебя?");
+        check("Назови три самых высоких шкафа", "Назови три самые высокие шкафа");
+        check("Which things can I move?", "Which things can be moved?");
+        check("Книга-1 лежит или стоит?", "Книга-1 горизонтальный или вертикальный?");
+        check("Что лежит или стоит на столе?", "Что лежит или стоит на столе?");
         check("", "");
     }
 }

@@ -65,6 +65,9 @@ impl Asker<'_> {
                     | Mark::HowBig(_)
                     | Mark::MadeOf
                     | Mark::HowFar
+                    | Mark::HowMany
+                    | Mark::Exists
+                    | Mark::There
             ),
             Item::Link(_) | Item::Property(_) => true,
             Item::Noun(_) => asks_of(n),
@@ -73,7 +76,7 @@ impl Asker<'_> {
         !items.is_empty() && (0..items.len()).all(small)
     }
 
-    /// The head of the last noun of a question, as it was said.
+    /// The head of the last noun of a question and what follows, as it was said: «книг на стеллаже».
     fn last_head(&self, part: &str) -> Option<String> {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
@@ -84,7 +87,7 @@ impl Asker<'_> {
             _ => None,
         });
         let words = nouns.next_back()?;
-        Some(sentence.said(&(words.end.checked_sub(1)?..words.end)).to_owned())
+        Some(sentence.said(&(words.end.checked_sub(1)?..sentence.words.len())).to_owned())
     }
 
     /// "I lost my cup. Where is it?": the last sentence asks; those before it are questions too, or tell what it is

@@ -355,7 +355,17 @@ impl Knowledge<'_> {
         for restriction in &noun.restrictions {
             let mut anchors: Vec<Thing> = Vec::new();
             let mut text = String::new();
+            let walls = restriction.anchors.iter().any(|anchor| self.is_walls(anchor));
             if restriction.rel == Rel::Between
+                && walls
+                && let Some(Ok(thing)) =
+                    restriction.anchors.iter().find(|a| !self.is_walls(a)).map(|a| self.one(a))
+            {
+                text = match self.is_russian() {
+                    true => format!("между {} и стеной", self.form(thing, Case::Instrumental)),
+                    false => format!("between {} and the wall", self.name(thing)),
+                };
+            } else if restriction.rel == Rel::Between
                 && let Ok(ends) = self.ends_between(restriction)
             {
                 text = self.place(Rel::Between, &ends);

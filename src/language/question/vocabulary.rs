@@ -24,7 +24,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Anything,
-        "anything|something|nothing|что нибудь|что либо|чего нибудь|что то|чего либо|ничего|ничто",
+        "anything|something|nothing|что нибудь|что либо|чему нибудь|чему либо|чём нибудь|чём либо|чего нибудь|что то|чего либо|ничего|ничто",
     ),
     (
         Mark::Kinds,
@@ -39,7 +39,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::How, "как|how|каким образом"),
     (
         Mark::Move,
-        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|reach|reached|be reached|accessible|drive|walk|travel|come|move|navigate|get there",
+        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|enter|reach|reached|be reached|accessible|drive|walk|travel|come|move|navigate|get there",
     ),
     (Mark::As, "as|что и|как и|с чем"),
     (
@@ -61,6 +61,11 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::HowFar,
         "как далеко|далеко ли|далеко|насколько далеко|какое расстояние|каково расстояние|расстояние|на каком расстоянии|как близко|близко ли|сколько метров|сколько сантиметров|сколько ехать|сколько идти|\
         how far|how far away is it|is it far|how far away|how far apart|how close|how near|what is the distance|what s the distance|the distance|distance|how long is the way|how long is the route|how many metres is it|how many meters is it|how many metres|how many meters|how many centimetres",
+    ),
+    (
+        Mark::HowLong,
+        "сколько времени|сколько времени займёт|сколько времени занимает|сколько времени уйдёт|сколько времени уйдёт на|сколько времени понадобится|сколько времени тебе понадобится|сколько времени потребуется|сколько времени нужно|сколько времени надо|сколько времени нужно на|сколько минут|сколько секунд|как долго|долго ли|за сколько|за сколько времени|за сколько минут|за сколько секунд|за какое время|как скоро|как быстро|\
+        how long does it take|how long would it take|how long will it take|how long does it take you|how long would it take you|how long will it take you|how long do you need|how long would you need|how long will you need|how long is the drive|how long is the trip|how much time|how much time does it take|how much time would it take|how much time will it take|how much time do you need|how many minutes|how many minutes does it take|how many seconds|how many seconds does it take|how many seconds would it take|how fast can you|how quickly can you|how soon can you",
     ),
     (
         Mark::HowGet,
@@ -120,7 +125,7 @@ const WORDS: &[(Mark, &str)] = &[
         "keep|keeps|kept|живёт|живут|обитает|lives|live|living in|является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
-        stand|stands|standing|lie|lies|lying|sits|sitting on|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
+        stand|stands|standing|lie|lies|lying|sits|sitting|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
         я оставил|я оставила|я положил|я положила|я поставил|оставил|оставила|мы оставили|делся|девался|девалась",
     ),
     (
@@ -129,7 +134,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "share a door|shares a door|have a door between them|have a common door|share a wall with a door|имеют общую дверь|смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "share a door|shares a door|have a door between them|have a common door|share a wall with a door|имеют общую дверь|смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединено|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -143,7 +148,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Describe,
-        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что известно об|что известно про|опиши мне|describe|tell me everything about|tell me all about|tell me everything you know about|everything about|tell me about|расскажи всё про|расскажи всё о|расскажи всё об|расскажи мне про|расскажи мне о|расскажи мне об|что есть про|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая",
+        "как называется|как называются|what is the name of|what s the name of|look like|looks like|what can you tell me about|can you tell me about|could you tell me about|what can you say about|что можешь рассказать о|что можешь рассказать про|что скажешь о|что скажешь про|что ты можешь сказать о|что это за|что это такое|расскажи про|расскажи о|расскажи об|расскажи|опиши|опишите|что ты знаешь про|что ты знаешь о|что ты знаешь об|что известно о|что можно сказать о|что можно сказать про|что можно рассказать о|что можешь сказать о|что можешь сказать про|что известно об|что известно про|опиши мне|describe|tell me everything about|tell me all about|tell me everything you know about|everything about|tell me about|расскажи всё про|расскажи всё о|расскажи всё об|расскажи мне про|расскажи мне о|расскажи мне об|что есть про|tell me more about|what do you know about|information about|give me information about|what is known about|что такое|кто такой|кто такая",
     ),
     (
         Mark::List,
@@ -194,7 +199,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Avoiding,
-        "не заходя в|не заходя во|не заезжая в|не заезжая во|не проходя через|не проезжая через|не заходя на|минуя|в обход|не через|без захода в|avoiding|that avoids|bypassing|without going through|without passing through|without passing|without crossing|without entering|without going into|without driving through|without walking through|not going through|not passing through",
+        "не заходя в|не заходя во|не заезжая в|не заезжая во|не проходя через|не проезжая через|не заходя на|минуя|в обход|не через|без захода в|avoiding|that avoids|bypassing|without going through|without passing through|without passing|without crossing|without entering|without using|without taking|without riding|not using|not taking|не пользуясь|не используя|без использования|without going into|without driving through|without walking through|not going through|not passing through",
     ),
     (
         Mark::Unopened,
@@ -243,7 +248,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Than, "чем|нежели|than|than is|compared to|compared with"),
     (
         Mark::All,
-        "everything|всей|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|каждом|каждой|каждого|каждому|каждым|любой|любая|любое|оба|обе|all|all the|all of the|every|each|both|both the|entire|whole",
+        "everything|всей|все|всё|всех|всем|вся|всю|весь|каждый|каждая|каждое|каждую|каждом|каждой|каждого|каждому|каждым|любой|любая|любое|оба|обе|all|all of|every one of|each of|both of|все из|all the|all of the|every|each|both|both the|entire|whole",
     ),
     (
         Mark::Except,
@@ -269,7 +274,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::Near),
-        "близко к|близко от|вблизи|вблизи от|недалеко от|неподалёку от|поблизости от|вблизи с|вокруг|near|close to|near to|around|close by|in the vicinity of|not far from|surrounding",
+        "близко к|близко от|вблизи|вблизи от|недалеко от|неподалёку от|поблизости от|вблизи с|вокруг|near|close to|near to|around|close by|surround|surrounds|in the vicinity of|not far from|surrounding",
     ),
     (
         Mark::Link(Rel::LeftOf),
@@ -293,7 +298,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::Facing),
-        "лицом к|передом к|повёрнут к|повёрнута к|повёрнуто к|повёрнуты к|обращён к|обращена к|обращено к|обращены к|развёрнут к|развёрнута к|развёрнуто к|facing|faces|turned towards|turned to",
+        "смотрит на|смотрят на|смотрит в сторону|смотрят в сторону|лицом к|передом к|повёрнут|повёрнута|повёрнуто|повёрнуты|повёрнут к|повёрнута к|повёрнуто к|повёрнуты к|обращён к|обращена к|обращено к|обращены к|развёрнут к|развёрнута к|развёрнуто к|facing|faces|turned towards|turned to",
     ),
     (
         Mark::Link(Rel::Middle),
@@ -345,11 +350,19 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Tallest),
-        "самый высокий|самому высокому|самым высоким|самом высоком|самая высокая|самое высокое|самые высокие|самую высокую|самого высокого|самой высокой|выше всех|выше всего|по высоте|by height|in height|tallest|highest",
+        "самый высокий|самому высокому|самым высоким|самом высоком|самая высокая|самое высокое|самые высокие|самую высокую|самого высокого|самой высокой|выше всех|выше всего|по высоте|by height|in height|tallest",
     ),
     (
         Mark::Best(Extreme::Lowest),
-        "самый низкий|самая низкая|самое низкое|самые низкие|самую низкую|ниже всех|shortest|lowest",
+        "самый низкий|самая низкая|самое низкое|самые низкие|самую низкую|ниже всех|ниже всего|shortest",
+    ),
+    (
+        Mark::Best(Extreme::Topmost),
+        "самый верхний|самая верхняя|самое верхнее|самые верхние|самую верхнюю|самого верхнего|самой верхней|highest|topmost|uppermost|highest up",
+    ),
+    (
+        Mark::Best(Extreme::Bottommost),
+        "самый нижний|самая нижняя|самое нижнее|самые нижние|самую нижнюю|самого нижнего|самой нижней|lowest|bottommost|lowest down",
     ),
     (
         Mark::Best(Extreme::Widest),
@@ -362,6 +375,10 @@ const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Best(Extreme::Longest),
         "самый длинный|самая длинная|самое длинное|самую длинную|длиннее всех|по длине|by length|longest",
+    ),
+    (
+        Mark::Best(Extreme::Shortest),
+        "самый короткий|самая короткая|самое короткое|самую короткую|самые короткие|короче всех",
     ),
     (
         Mark::Best(Extreme::LeftMost),
@@ -439,8 +456,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (Mark::More(Extreme::Biggest), "больше|крупнее|просторнее|bigger|larger|greater|more spacious"),
     (Mark::More(Extreme::Smallest), "меньше|мельче|smaller|littler|less big"),
-    (Mark::More(Extreme::Tallest), "выше|taller|higher"),
-    (Mark::More(Extreme::Lowest), "ниже|shorter|lower"),
+    (Mark::More(Extreme::Tallest), "выше|taller"),
+    (Mark::More(Extreme::Lowest), "ниже|shorter"),
+    (Mark::More(Extreme::Topmost), "higher|higher up"),
+    (Mark::More(Extreme::Bottommost), "lower|lower down"),
+    (Mark::More(Extreme::Shortest), "короче"),
     (Mark::More(Extreme::Widest), "шире|wider|broader"),
     (Mark::More(Extreme::Narrowest), "уже чем|narrower|thinner"),
     (Mark::More(Extreme::Longest), "длиннее|longer"),
@@ -466,7 +486,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "roughly|approximately|about how|примерно|приблизительно|но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "roughly|approximately|about how|примерно|приблизительно|но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|дай знать|дайте знать|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\

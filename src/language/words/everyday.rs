@@ -66,6 +66,8 @@ const SAME: &[&str] = &[
     "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet",
     "нож|столовый нож|knife|butter knife|table knife",
     "офисное кресло|офисный стул|рабочее кресло|office chair|desk chair|swivel chair",
+    "кредитная карта|кредитная карточка|кредитка|банковская карта|credit card|bank card",
+    "ключи|связка ключей|брелок|keys|keychain|key chain|key ring|bunch of keys",
     "часы|будильник|clock|alarm clock",
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker",
 ];

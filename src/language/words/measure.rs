@@ -1,4 +1,4 @@
-//! Lengths and areas as people say them: two digits after the point at most, none below a metre.
+//! Lengths, areas and times as people say them: two digits after the point at most, none below a metre.
 //!
 //! Invariant: what is said is the value rounded, in the decimal mark of the language.
 
@@ -27,11 +27,39 @@ pub(crate) fn area(cm2: f64, language: Language) -> String {
     }
 }
 
+/// «40 с», «2 мин 5 с», "2 min 5 s": whole seconds.
+pub(crate) fn duration(seconds: f64, language: Language) -> String {
+    let (second, minute) = match language {
+        Language::Russian => ("с", "мин"),
+        Language::English => ("s", "min"),
+    };
+    let whole = seconds.max(1.0).round();
+    let (minutes, rest) = ((whole / 60.0).floor(), whole % 60.0);
+    match (minutes > 0.0, rest > 0.0) {
+        (false, _) => format!("{whole:.0} {second}"),
+        (true, false) => format!("{minutes:.0} {minute}"),
+        (true, true) => format!("{minutes:.0} {minute} {rest:.0} {second}"),
+    }
+}
+
 fn trimmed(value: f64, digits: usize) -> String {
     let text = format!("{value:.digits$}");
     if text.contains('.') {
         text.trim_end_matches('0').trim_end_matches('.').to_owned()
     } else {
         text
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_told_in_minutes_and_seconds() {
+        assert_eq!(duration(0.2, Language::English), "1 s");
+        assert_eq!(duration(59.4, Language::Russian), "59 с");
+        assert_eq!(duration(59.6, Language::English), "1 min");
+        assert_eq!(duration(125.0, Language::Russian), "2 мин 5 с");
     }
 }

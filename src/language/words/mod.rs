@@ -37,6 +37,6 @@ pub use index::{FormIndex, Hit, Readings, Spelling};
 pub use letters::word_ranges;
 pub(crate) use letters::{is_hyphen, phrase_at, word_keys};
 pub use list::{Language, alternatives, enumerate};
-pub(crate) use measure::{area, length};
+pub(crate) use measure::{area, duration, length};
 pub(crate) use parse::may_be_noun;
 pub use phrase::NounPhrase;

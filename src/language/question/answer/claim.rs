@@ -6,7 +6,7 @@ use super::Draft;
 use super::property::status_word;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
-use crate::language::question::query::{Claim, Noun, Rel, Restriction, Thing};
+use crate::language::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Number, enumerate};
@@ -390,6 +390,22 @@ impl Knowledge<'_> {
                     false => format!("is {own}"),
                 }
             }
+            // "Is the kitchen the biggest room?": which is.
+            Claim::Kind(noun) if noun.best.is_some() => {
+                let best = self.find(noun, true)?;
+                let first = best.first().copied().unwrap_or(thing);
+                let extreme = noun.best.as_ref().map_or(Extreme::Biggest, |b| b.extreme);
+                let measure = self.measure_words(extreme, if holds { thing } else { first });
+                let told = if measure.is_empty() { measure } else { format!(" ({measure})") };
+                match (holds, self.is_russian()) {
+                    (true, true) => told.trim_start().to_owned(),
+                    (true, false) => format!("{}{told}", self.is(&[thing])),
+                    (false, true) => format!("уступает: это {}{told}", self.list(&best)),
+                    (false, false) => {
+                        format!("{} not: it is {}{told}", self.is(&[thing]), self.list(&best))
+                    }
+                }
+            }
             Claim::Kind(noun) => {
                 let (phrase, english) = self.kind_phrase(noun);
                 let name =
@@ -484,7 +500,7 @@ impl Knowledge<'_> {
         let found = self.subject(subject)?;
         let mut facts = Vec::new();
         let mut parts = Vec::new();
-        let mut any = false;
+        let (mut any, mut unknown) = (false, false);
         for &thing in &found {
             let mut fits = Vec::new();
             for claim in claims {
@@ -503,6 +519,24 @@ impl Knowledge<'_> {
                 parts.push(format!("{} {}", self.name(thing), enumerate(&fits, self.language)));
                 continue;
             }
+            // Of one property that the map does not give of it, neither value is denied.
+            let told = |claim: &Claim| match claim {
+                Claim::Value(filter) => {
+                    let property = &self.lexicon().values.entry(filter.value).property;
+                    let own = self.values(thing);
+                    let known = own.iter().any(|(p, _, _)| p == property)
+                        || self.lexicon().values.entry(filter.value).is_emptiness();
+                    (!known).then(|| property.clone())
+                }
+                _ => None,
+            };
+            if let Some(property) = told(&claims[0])
+                && claims.iter().all(|claim| told(claim).as_ref() == Some(&property))
+            {
+                unknown = true;
+                parts.push(self.no_property(&property, thing));
+                continue;
+            }
             // Of two values what it is instead; of several sides none.
             let own = self.claim_words(thing, &claims[0])?;
             parts.push(match (self.is_russian(), claims.len() > 2) {
@@ -512,7 +546,11 @@ impl Knowledge<'_> {
                 (false, true) => format!("{} is on none of its sides", self.name(thing)),
             });
         }
-        let said = if any { Said::Found } else { Said::Nothing };
+        let said = match any {
+            true => Said::Found,
+            false if unknown => Said::Unknown,
+            false => Said::Nothing,
+        };
         let text = parts.join(self.pick("; ", "; "));
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }

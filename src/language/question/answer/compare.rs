@@ -55,7 +55,10 @@ impl Knowledge<'_> {
                 }
                 None => String::new(),
             },
-            extreme => self.measure_words(extreme, first),
+            extreme => {
+                let all = self.find(&unordered, true).unwrap_or_default();
+                self.measure_words(self.settled(extreme, &all), first)
+            }
         };
         let counts = matches!(best.extreme, Extreme::Most | Extreme::Fewest);
         let place = self.in_room(first).filter(|_| first.area().is_none());
@@ -102,6 +105,14 @@ impl Knowledge<'_> {
             Extreme::Tallest | Extreme::Lowest => match self.is_russian() {
                 true => format!("высота {}", length(measure, self.language)),
                 false => format!("{} high", length(measure, self.language)),
+            },
+            Extreme::Topmost | Extreme::Bottommost => match self.is_russian() {
+                true => format!("на высоте {}", length(measure, self.language)),
+                false => format!("{} above the floor", length(measure, self.language)),
+            },
+            Extreme::Longest | Extreme::Shortest => match self.is_russian() {
+                true => format!("длина {}", length(measure, self.language)),
+                false => format!("{} long", length(measure, self.language)),
             },
             Extreme::Heaviest | Extreme::Lightest => {
                 let own = self.values(thing).into_iter().find(|(p, _, _)| *p == Property::Weight);
@@ -170,14 +181,16 @@ impl Knowledge<'_> {
         Draft::new(Said::Unknown, text)
     }
 
-    /// Why two things have no order: the map tells no weight of one, or they have no common measure.
-    fn incomparable(&self, a: Thing, b: Thing, extreme: Extreme) -> Draft {
-        if !matches!(extreme, Extreme::Heaviest | Extreme::Lightest) {
-            return self.apart(&[a, b]);
+    /// Why things have no order: the map tells no weight of one, or they have no common measure.
+    fn incomparable(&self, things: &[Thing], extreme: Extreme) -> Draft {
+        let missing = things.iter().find(|t| self.measure(extreme, **t).is_none());
+        match (missing, extreme) {
+            (Some(missing), Extreme::Heaviest | Extreme::Lightest) => {
+                let text = self.no_property(&Property::Weight, *missing);
+                Draft::new(Said::Unknown, text).with(things.to_vec())
+            }
+            _ => self.apart(things),
         }
-        let missing = if self.measure(extreme, a).is_none() { a } else { b };
-        let text = self.no_property(&Property::Weight, missing);
-        Draft::new(Said::Unknown, text).with(vec![a, b])
     }
 
     fn compared(&self, thing: Thing, extreme: Extreme, to: Option<Thing>) -> Option<f64> {
@@ -205,7 +218,7 @@ impl Knowledge<'_> {
             return self.one(noun);
         }
         let found = self.find(noun, true)?;
-        let sign = if is_less(extreme) { 1.0 } else { -1.0 };
+        let sign = if extreme.is_less() { 1.0 } else { -1.0 };
         let measured = found
             .into_iter()
             .filter_map(|t| Some((sign * self.compared(t, extreme, to)?, t)))
@@ -215,35 +228,54 @@ impl Knowledge<'_> {
 
     pub(super) fn which_more(
         &self,
-        of: &[Noun; 2],
+        of: &[Noun],
         extreme: Extreme,
         to: Option<&Noun>,
     ) -> Result<Draft, Doubt> {
         let to = to.map(|noun| self.one(noun)).transpose()?;
-        let (a, b) = (self.champion(&of[0], extreme, to)?, self.champion(&of[1], extreme, to)?);
-        if matches!(extreme, Extreme::LeftMost | Extreme::RightMost) {
-            return Ok(self.further_aside([a, b], extreme, true));
+        let things =
+            of.iter().map(|n| self.champion(n, extreme, to)).collect::<Result<Vec<_>, _>>()?;
+        if let (Extreme::LeftMost | Extreme::RightMost, [a, b]) = (extreme, &things[..]) {
+            return Ok(self.further_aside([*a, *b], extreme, true));
         }
-        let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
-        else {
-            return Ok(self.incomparable(a, b, extreme));
-        };
-        let less = is_less(extreme);
-        let first = (x < y) == less;
-        let (winner, best, other, rest) = if first { (a, x, b, y) } else { (b, y, a, x) };
-        if (x - y).abs() < 1e-6 {
+        let extreme = self.settled(extreme, &things);
+        let mut measured: Vec<(f64, Thing)> = Vec::new();
+        for &thing in &things {
+            match self.compared(thing, extreme, to) {
+                Some(measure) => measured.push((measure, thing)),
+                None => return Ok(self.incomparable(&things, extreme)),
+            }
+        }
+        let sign = if extreme.is_less() { 1.0 } else { -1.0 };
+        measured.sort_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
+        let [(best, winner), rest @ ..] = &measured[..] else { return Ok(self.apart(&things)) };
+        let equal = rest.iter().filter(|(m, _)| (m - best).abs() < 1e-6).count();
+        if equal == rest.len() {
             let text = self.pick("они одинаковы", "they are equal").to_owned();
-            return Ok(Draft::new(Said::Nothing, text).with(vec![a, b]));
+            return Ok(Draft::new(Said::Nothing, text).with(things));
         }
-        let (best, rest) =
-            (self.compared_words(winner, extreme, best), self.compared_words(other, extreme, rest));
-        let (name, other_name) = (self.name(winner), self.name(other));
+        let words =
+            |(measure, thing): &(f64, Thing)| self.compared_words(*thing, extreme, *measure);
         let comparative = self.comparative(extreme);
+        let (won, lost) = rest.split_at(equal);
+        let winners: Vec<Thing> =
+            std::iter::once(*winner).chain(won.iter().map(|(_, t)| *t)).collect();
+        let others = lost.iter().map(|other| match self.is_russian() {
+            true => format!("; {} – {}", self.name(other.1), words(other)),
+            false => format!("; {}: {}", self.name(other.1), words(other)),
+        });
+        let (names, others) = (self.list(&winners), others.collect::<String>());
+        let best = words(&(*best, *winner));
         let text = match self.is_russian() {
-            true => format!("{comparative} {name} ({best}; {other_name} – {rest})"),
-            false => format!("{name} is {comparative} ({best}; {other_name}: {rest})"),
+            true if lost.len() > 1 => format!("{comparative} всех {names} ({best}{others})"),
+            true => format!("{comparative} {names} ({best}{others})"),
+            false => {
+                let than = if lost.len() > 1 { " than the others" } else { "" };
+                format!("{names} {} {comparative}{than} ({best}{others})", self.is(&winners))
+            }
         };
-        Ok(Draft::new(Said::Found, text).with(vec![winner]).about(&[other]))
+        let others: Vec<Thing> = lost.iter().map(|(_, t)| *t).collect();
+        Ok(Draft::new(Said::Found, text).with(winners).about(&others))
     }
 
     /// «Что левее, диван или стол?»: as the robot sees them from where it is. `asks` which; else whether the first is.
@@ -277,6 +309,9 @@ impl Knowledge<'_> {
             Extreme::Smallest => self.pick("меньше", "smaller"),
             Extreme::Tallest => self.pick("выше", "taller"),
             Extreme::Lowest => self.pick("ниже", "lower"),
+            Extreme::Topmost => self.pick("выше", "higher"),
+            Extreme::Bottommost => self.pick("ниже", "lower"),
+            Extreme::Shortest => self.pick("короче", "shorter"),
             Extreme::Widest => self.pick("шире", "wider"),
             Extreme::Narrowest => self.pick("уже", "narrower"),
             Extreme::Longest => self.pick("длиннее", "longer"),
@@ -299,11 +334,12 @@ impl Knowledge<'_> {
         if matches!(extreme, Extreme::LeftMost | Extreme::RightMost) {
             return Ok(self.further_aside([a, b], extreme, false));
         }
+        let extreme = self.settled(extreme, &[a, b]);
         let (Some(x), Some(y)) = (self.compared(a, extreme, to), self.compared(b, extreme, to))
         else {
-            return Ok(self.incomparable(a, b, extreme));
+            return Ok(self.incomparable(&[a, b], extreme));
         };
-        let less = is_less(extreme);
+        let less = extreme.is_less();
         let yes = (x - y).abs() > 1e-9 && (x < y) == less;
         let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let words = |t, v| self.compared_words(t, extreme, v);
@@ -342,6 +378,7 @@ impl Knowledge<'_> {
         of: &[Noun; 2],
         extreme: Extreme,
         asks: bool,
+        by: bool,
     ) -> Result<Draft, Doubt> {
         // A place that is not there has nothing to count.
         for noun in of {
@@ -367,6 +404,13 @@ impl Knowledge<'_> {
             true => self.pick("меньше", "fewer"),
             false => self.pick("больше", "more"),
         };
+        let apart = a.abs_diff(b);
+        // "3 more chairs"
+        let by_so_many = |n: usize| {
+            let counted = self.counted(&of[n], apart);
+            let be = if apart == 1 { "is" } else { "are" };
+            format!("there {be} {}", counted.replacen(' ', &format!(" {more} "), 1))
+        };
         let text = match (one_kind, equal, self.is_russian()) {
             (true, true, true) => {
                 format!("поровну: {}{} и{} – по {a}", kinds[0], place(0), place(1))
@@ -375,29 +419,28 @@ impl Knowledge<'_> {
                 format!("поровну: {} и {}{} – по {a}", kinds[0], kinds[1], place(0))
             }
             (true, true, false) => {
-                format!("equally many: {a} {}{} and {b}{}", kinds[0], place(0), place(1))
+                let counted = self.counted(&of[0], a);
+                format!("equally many: {counted}{} and {b}{}", place(0), place(1))
             }
             (false, true, false) => {
-                format!("equally many: {a} {} and {b} {}{}", kinds[0], kinds[1], place(0))
+                let [one, other] = of.each_ref().map(|noun| self.counted(noun, a));
+                format!("equally many: {one} and {other}{}", place(0))
             }
             (true, false, true) => {
-                format!("{}{} ({a}) {more}, чем{} ({b})", kinds[0], place(best), place(other))
+                let (own, than) = (place(best), place(other));
+                format!("{}{own} ({a}) на {apart} {more}, чем{than} ({b})", kinds[0])
             }
             (false, false, true) => {
-                format!("{}{} ({a}) {more}, чем {} ({b})", kinds[best], place(best), kinds[other])
+                let (own, than) = (&kinds[best], &kinds[other]);
+                format!("{own}{} ({a}) на {apart} {more}, чем {than} ({b})", place(best))
             }
-            (true, false, false) => format!(
-                "there are {more} {}{} ({a}) than{} ({b})",
-                kinds[0],
-                place(best),
-                place(other)
-            ),
-            (false, false, false) => format!(
-                "there are {more} {} ({a}) than {} ({b}){}",
-                kinds[best],
-                kinds[other],
-                place(best)
-            ),
+            (true, false, false) => {
+                format!("{}{} ({a}) than{} ({b})", by_so_many(0), place(best), place(other))
+            }
+            (false, false, false) => {
+                let than = &kinds[other];
+                format!("{} ({a}) than {than} ({b}){}", by_so_many(best), place(best))
+            }
         };
         let (said, head) = match (asks, first && !equal) {
             (true, _) if equal => (Said::Nothing, ""),
@@ -410,7 +453,8 @@ impl Knowledge<'_> {
             (false, true) => self.anchor_things(&of[best]),
             (false, false) => found[best].clone(),
         };
-        Ok(Draft::new(said, format!("{head}{text}")).with(things).number(a as f64))
+        let number = if by { apart } else { a };
+        Ok(Draft::new(said, format!("{head}{text}")).with(things).number(number as f64))
     }
 
     /// «Одного ли цвета стулья?»
@@ -478,16 +522,4 @@ impl Knowledge<'_> {
         let said = if yes { Said::Yes } else { Said::No };
         Ok(Draft::new(said, text).with(vec![a, b]))
     }
-}
-
-/// Whether less of the measure wins.
-fn is_less(extreme: Extreme) -> bool {
-    matches!(
-        extreme,
-        Extreme::Nearest
-            | Extreme::Smallest
-            | Extreme::Lowest
-            | Extreme::Narrowest
-            | Extreme::Lightest
-    )
 }

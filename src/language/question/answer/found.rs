@@ -5,7 +5,7 @@
 use super::Draft;
 use crate::language::question::knowledge::{Frame, Knowledge};
 use crate::language::question::lexicon::{Extension, KindId};
-use crate::language::question::query::{Extreme, Noun, Rel, Thing};
+use crate::language::question::query::{Extreme, Head, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
 use crate::language::words::length;
 use crate::language::words::{Language, enumerate, russian};
@@ -318,6 +318,8 @@ impl Knowledge<'_> {
             return format!("{place} {}", self.pick("таких нет", "there are none such"));
         }
         match (self.is_russian(), general) {
+            (true, true) if noun.other => format!("{place}{frame} больше ничего нет"),
+            (false, true) if noun.other => format!("there is nothing else {place}{frame}"),
             (true, true) => format!("{place}{frame} ничего нет"),
             (false, true) => format!("there is nothing {place}{frame}"),
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
@@ -331,7 +333,7 @@ impl Knowledge<'_> {
     }
 
     /// A lift has an Area on every floor where it stops; people count it once. Rooms in general are counted as such.
-    fn one_of_each_lift(&self, noun: &Noun, found: &mut Vec<Thing>) {
+    pub(super) fn one_of_each_lift(&self, noun: &Noun, found: &mut Vec<Thing>) {
         let rooms = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
         if noun.head.anything || noun.head.kinds.iter().any(rooms) {
             return;
@@ -442,12 +444,58 @@ impl Knowledge<'_> {
             .about(&anchors))
     }
 
+    /// A description with the place where the things are, for one of several that would do: "on the tables" is on one.
+    fn borne(&self, noun: &Noun, things: &[Thing]) -> Noun {
+        let mut told = noun.clone();
+        for restriction in told.restrictions.iter_mut().filter(|r| !r.negated) {
+            // "in the bathroom or in the kitchen": where they are.
+            if restriction.anchors.len() > 1 && restriction.rel != Rel::Between {
+                let holds = |anchor: &Noun| {
+                    self.find(anchor, true).is_ok_and(|found| {
+                        let mut all = found.iter().flat_map(|a| self.related(restriction.rel, *a));
+                        all.any(|t| things.contains(&t))
+                    })
+                };
+                let kept: Vec<Noun> =
+                    restriction.anchors.iter().filter(|a| holds(a)).cloned().collect();
+                if !kept.is_empty() {
+                    restriction.anchors = kept;
+                }
+                continue;
+            }
+            let [anchor] = &mut restriction.anchors[..] else { continue };
+            if self.is_walls(anchor) || self.is_floor(anchor) {
+                continue;
+            }
+            let Ok(found) = self.find(anchor, true) else { continue };
+            let bearing = |rel: Rel| -> Vec<Thing> {
+                let bears = |a: &Thing| {
+                    let related = self.related(rel, *a);
+                    things.iter().any(|t| related.contains(t))
+                };
+                found.iter().copied().filter(bears).collect()
+            };
+            let mut bearing = match bearing(restriction.rel) {
+                none if none.is_empty() && restriction.rel == Rel::NextTo => bearing(Rel::Near),
+                some => some,
+            };
+            bearing.truncate(2);
+            if let (true, [only]) = (found.len() > 1, &bearing[..]) {
+                let head = Head { things: Some(vec![*only]), ..Head::default() };
+                *anchor = Noun { head, ..Noun::default() };
+            }
+        }
+        told
+    }
+
     /// «в Комнате-В есть 2 стула: Стул-1 и Стул-2», «в Комнате-В нет стульев»
     fn existing(&self, noun: &Noun, things: &[Thing]) -> String {
-        let place = self.restrictions(noun);
+        let place = self.restrictions(&self.borne(noun, things));
         let blank = if place.is_empty() { String::new() } else { format!("{place} ") };
         if things.is_empty() {
-            let none = self.none_of(noun);
+            // «Есть ли ещё книги?»: those that were spoken of are there.
+            let other = if noun.other { self.pick("других ", "other ") } else { "" };
+            let none = format!("{other}{}", self.none_of(noun));
             return match (self.is_russian(), noun.head.anything && noun.filters.is_empty()) {
                 (true, true) => format!("{blank}ничего нет"),
                 (false, true) => format!("there is nothing {place}"),

@@ -86,6 +86,8 @@ impl Knowledge<'_> {
                 self.passing(from.as_ref(), to, (through, avoiding), *asks)?
             }
             Query::Distance { from, to } => self.say_distance(from.as_ref(), to)?,
+            Query::Duration { from, to } => self.duration(from.as_ref(), to)?,
+            Query::WhichWay { of, extreme } => self.which_way(of, *extreme)?,
             Query::Closer { what, near, than, closeness } => {
                 self.closer(what, near, than, *closeness)?
             }
@@ -93,7 +95,7 @@ impl Knowledge<'_> {
             Query::Larger { what, than, extreme, to, by } => {
                 self.larger(what, than, *extreme, to.as_ref(), *by)?
             }
-            Query::MoreOf { of, extreme, asks } => self.more_of(of, *extreme, *asks)?,
+            Query::MoreOf { of, extreme, asks, by } => self.more_of(of, *extreme, *asks, *by)?,
             Query::Same { property, of } => self.same(property, of)?,
             Query::SameAll { property, of } => self.same_all(property, of)?,
             Query::Together { of, rel, place } => self.together(of, *rel, place)?,
@@ -141,6 +143,7 @@ impl Knowledge<'_> {
             facts: draft.facts,
             number: draft.number,
             topic,
+            words: String::new(),
         })
     }
 
@@ -165,6 +168,16 @@ impl Knowledge<'_> {
 
     fn facts_of(&self, noun: &Noun, found: &[Thing]) -> Vec<Fact> {
         let mut facts = Vec::new();
+        for filter in noun.filters.iter().filter(|filter| !filter.negated) {
+            let wanted = &self.lexicon().values.entry(filter.value).property;
+            for &thing in found.iter().take(50) {
+                let own = self.values(thing).into_iter().find(|(p, _, _)| p == wanted);
+                let name = || self.property_name(thing, wanted);
+                facts.extend(own.filter(|_| thing.replica().is_some()).map(|(_, _, text)| {
+                    Fact::holding("HAS", vec![self.symbol(thing), name(), text])
+                }));
+            }
+        }
         for restriction in &noun.restrictions {
             let Some(anchor) = restriction.anchors.first() else { continue };
             let Ok(anchors) = self.find(anchor, true) else { continue };

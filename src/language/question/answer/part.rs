@@ -19,7 +19,15 @@ impl Knowledge<'_> {
         if !kinds.iter().any(part) && !kinds.iter().any(door) {
             return Ok(None);
         }
-        let [Restriction { rel, anchors, negated: false }] = &noun.restrictions[..] else {
+        // "the wardrobe in the bedroom": the room tells which wardrobe.
+        let (places, owners): (Vec<_>, Vec<_>) = noun.restrictions.iter().partition(|r| {
+            noun.restrictions.len() > 1
+                && !r.negated
+                && r.anchors
+                    .iter()
+                    .all(|a| self.find(a, true).is_ok_and(|f| f.iter().all(|t| t.area().is_some())))
+        });
+        let [Restriction { rel, anchors, negated: false }] = owners[..] else {
             return Ok(None);
         };
         let belongs = matches!(
@@ -27,6 +35,9 @@ impl Knowledge<'_> {
             Rel::In | Rel::On | Rel::Of | Rel::NextTo | Rel::Has | Rel::Bears | Rel::At
         );
         let [anchor] = &anchors[..] else { return Ok(None) };
+        let mut anchor = anchor.clone();
+        anchor.restrictions.extend(places.into_iter().cloned());
+        let anchor = &anchor;
         if !belongs {
             return Ok(None);
         }
@@ -66,6 +77,12 @@ impl Knowledge<'_> {
         // One body is no description of parts.
         let told = object.items.len() > 1 || parts + doors > 0;
         Ok(Some((found[0], told.then_some(parts + doors))))
+    }
+
+    /// The thing that has the parts a description asks for; none when it asks for no parts, or the thing has none.
+    pub(super) fn owner_of_parts(&self, noun: &Noun) -> Result<Option<Thing>, Doubt> {
+        let owned = self.owned_parts(noun)?;
+        Ok(owned.filter(|(_, number)| number.is_some_and(|n| n > 0)).map(|(owner, _)| owner))
     }
 
     pub(super) fn count_parts(&self, noun: &Noun) -> Result<Option<Draft>, Doubt> {

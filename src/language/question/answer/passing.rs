@@ -26,6 +26,14 @@ impl Knowledge<'_> {
             Ok(found?.concat())
         };
         let (through, mut avoided) = (each(through)?, each(avoiding)?);
+        // Who takes no lift takes it from no storey.
+        for (_, stops) in &self.world.domain.lifts {
+            let stops = stops.iter().map(|s| Thing::Entity(Entity::Area(s.area)));
+            let stops: Vec<Thing> = stops.collect();
+            if avoided.iter().any(|t| stops.contains(t)) {
+                avoided.extend(stops);
+            }
+        }
         let (ends, goals) = (self.rooms_of(start), self.rooms_of(goal));
         if ends.is_empty() || goals.is_empty() {
             let text =

@@ -10,10 +10,12 @@ use crate::language::report::{Detail, Named};
 use crate::language::words::length;
 use crate::language::words::{Case, enumerate, russian};
 use crate::map::Entity;
+use crate::units::AreaId;
 
 impl Knowledge<'_> {
     pub(super) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let found = self.definite(noun)?;
+        let mut found = self.definite(noun)?;
+        self.one_of_each_lift(noun, &mut found);
         let mut facts = Vec::new();
         if let [only] = found[..] {
             let text = self.where_one(only, &mut facts);
@@ -49,12 +51,19 @@ impl Knowledge<'_> {
         if let Some(holder) = thing.replica().and_then(|id| self.senses.holder(id)) {
             return self.in_hand(&holder);
         }
+        if let Thing::Entity(Entity::Area(id)) = thing {
+            return self.storeys_of(id);
+        }
         let mut parts: Vec<String> = Vec::new();
         if let Some(id) = thing.replica()
             && let Some(support) = self.relations.support_of(id)
         {
             let support = Thing::Entity(Entity::Replica(support));
-            let inside = self.tuple(Rel::In, thing, support).is_some();
+            let holds = |rel: Rel| self.tuple(rel, thing, support).map(|(relation, _, _)| relation);
+            // What sinks into a sofa lies on it all the same.
+            let upon = holds(Rel::On) == Some("ON_TOP_OF")
+                && support.replica().is_some_and(|id| !self.world.has_trait(id, "container"));
+            let inside = holds(Rel::In).is_some() && !upon;
             let rel = if inside { Rel::In } else { Rel::On };
             parts.push(self.place(rel, &[support]));
             facts.extend(self.fact(rel, thing, support));
@@ -68,6 +77,20 @@ impl Knowledge<'_> {
             return self.pick("неизвестно где", "at an unknown place").to_owned();
         }
         parts.join(" ")
+    }
+
+    /// «на L1 и L2»: the storey of a room, the storeys of a lift.
+    fn storeys_of(&self, area: AreaId) -> String {
+        let lifts = self.world.domain.lifts.iter().map(|(_, stops)| stops);
+        let lift = lifts.into_iter().find(|stops| stops.iter().any(|s| s.area == area));
+        let stops = lift.map(|stops| stops.iter().map(|s| s.area).collect());
+        let stops: Vec<AreaId> = stops.unwrap_or_else(|| vec![area]);
+        let maps = stops.into_iter().filter_map(|stop| self.world.placement(stop));
+        let maps: Vec<Thing> = maps.map(|(map, _)| Thing::Entity(Entity::Map(map))).collect();
+        match maps.is_empty() {
+            true => self.pick("неизвестно где", "at an unknown place").to_owned(),
+            false => self.place(Rel::In, &maps),
+        }
     }
 
     /// «у меня в руках», «у Оператора»
@@ -195,7 +218,7 @@ impl Knowledge<'_> {
         here.into_iter().filter(|t| *t != thing && self.tuple(rel, thing, *t).is_some()).collect()
     }
 
-    fn where_area(&self, id: crate::units::AreaId) -> String {
+    fn where_area(&self, id: AreaId) -> String {
         let thing = Thing::Entity(Entity::Area(id));
         let name = self.name(thing);
         let map = self.world.placement(id).map(|(map, _)| Thing::Entity(Entity::Map(map)));
@@ -345,6 +368,11 @@ impl Knowledge<'_> {
     /// What a thing stands on, lies in, is beside: the other end of a relation.
     pub(super) fn anchor(&self, rel: Rel, of: &Noun, what: Option<&Noun>) -> Result<Draft, Doubt> {
         let all = self.definite(of)?;
+        if let (Rel::NextTo | Rel::Near | Rel::At | Rel::Leaning, Some(walls)) = (rel, what)
+            && self.is_walls(walls)
+        {
+            return Ok(self.say_walls(&all));
+        }
         let mut drafts: Vec<Draft> = Vec::new();
         for &thing in &all {
             drafts.push(self.anchor_of(rel, thing, what)?);
@@ -448,6 +476,32 @@ impl Knowledge<'_> {
         let frame = self.frame_words(rel, found[0]);
         let text = format!("{name} {verb} {}{frame}", self.place(shown, &found));
         Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) }.about(&[thing]))
+    }
+
+    /// «Диван-1 находится у стены, в которой Окно-1»: walls have no names of their own.
+    fn say_walls(&self, things: &[Thing]) -> Draft {
+        let tell = |&thing: &Thing| {
+            let (name, verb) = (self.name(thing), self.is(&[thing]));
+            match (self.own_walls(thing), self.is_russian()) {
+                (None, true) => format!("{name} {verb} не у стены"),
+                (None, false) => format!("{name} {verb} not at a wall"),
+                (Some(openings), true) if openings.is_empty() => {
+                    format!("{name} {verb} у глухой стены: в ней нет ни окон, ни дверей")
+                }
+                (Some(openings), false) if openings.is_empty() => {
+                    format!("{name} {verb} at a wall without windows or doors")
+                }
+                (Some(openings), true) => {
+                    let has = self.names(&openings, Case::Nominative);
+                    format!("{name} {verb} у стены, в которой {has}")
+                }
+                (Some(openings), false) => {
+                    format!("{name} {verb} at the wall with {}", self.list(&openings))
+                }
+            }
+        };
+        let parts: Vec<String> = things.iter().map(tell).collect();
+        Draft::new(Said::Found, parts.join("; ")).with(things.to_vec())
     }
 
     /// «ни за чем»: of a thing that stands so to nothing.

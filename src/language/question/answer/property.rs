@@ -4,12 +4,14 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::lexicon::{Extension, KindId};
+use crate::language::question::query::{Head, Noun, Rel, Thing};
 use crate::language::question::speech::sentence;
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity};
+use crate::units::name_key;
 
 impl Knowledge<'_> {
     /// The map's own name of a property.
@@ -34,6 +36,9 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn property(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+        if let Some(draft) = self.property_of_part(property, of)? {
+            return Ok(draft);
+        }
         let found = self.definite(of)?;
         let mut parts: Vec<String> = Vec::new();
         let mut facts = Vec::new();
@@ -98,6 +103,43 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }
 
+    /// «Какого цвета сиденье у кресла?»: the map gives properties of whole things.
+    fn property_of_part(&self, property: &Property, of: &Noun) -> Result<Option<Draft>, Doubt> {
+        let is_part = |k: &KindId| {
+            let extension = self.lexicon().kind(*k).extension;
+            matches!(extension, Extension::Part(_) | Extension::Trait("seat"))
+        };
+        if !of.head.named.is_empty() || !of.head.kinds.iter().any(is_part) {
+            return Ok(None);
+        }
+        let owner = self.owner_of_parts(of)?.or_else(|| self.seat_of(of));
+        let Some(owner) = owner else { return Ok(None) };
+        let head = Head { things: Some(vec![owner]), ..Head::default() };
+        let whole = self.property(property, &Noun { head, ..Noun::default() })?;
+        let text = match self.is_russian() {
+            true => format!(
+                "отдельно о частях {} карта этого не говорит; {}",
+                self.form(owner, Case::Genitive),
+                whole.text
+            ),
+            false => format!(
+                "the map does not tell this of the parts of {} by themselves; {}",
+                self.name(owner),
+                whole.text
+            ),
+        };
+        Ok(Some(Draft { said: Some(Said::Unknown), text, ..whole }))
+    }
+
+    /// «сиденье у кресла»: the seat that is part of a seat.
+    fn seat_of(&self, of: &Noun) -> Option<Thing> {
+        let [place] = &of.restrictions[..] else { return None };
+        let belongs = matches!(place.rel, Rel::NextTo | Rel::Of) && !place.negated;
+        let owner = place.anchors.first().filter(|_| belongs)?;
+        let seat = |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "seat"));
+        self.one(owner).ok().filter(seat)
+    }
+
     pub(super) fn no_property(&self, property: &Property, thing: Thing) -> String {
         let noun = property.noun(self.language);
         match self.is_russian() {
@@ -125,21 +167,29 @@ impl Knowledge<'_> {
         let name = self.name(thing);
         let mut facts = Vec::new();
         let mut parts: Vec<String> = Vec::new();
-        let kind = self.kind_name(thing);
+        // «Кухня – кухня» tells nothing.
+        let same = |kind: &String| name_key(kind) != name_key(&name);
+        let kind = self.kind_name(thing).filter(same);
         parts.push(match (kind, self.is_russian()) {
             (Some(kind), true) => format!("{name} – {kind}"),
             (Some(kind), false) => format!("{name} is {}", crate::language::english::a(&kind)),
-            (None, _) => name,
+            (None, _) => String::new(),
         });
+        parts.retain(|part| !part.is_empty());
         parts.push(self.where_one(thing, &mut facts));
         let values: Vec<String> = self
             .values(thing)
             .iter()
             // The id that a foreign file gave is nothing to tell.
-            .filter(|(_, value, text)| value.is_some() && !text.contains('|'))
+            .filter(|(_, value, text)| {
+                let id = text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
+                value.is_some() && !id
+            })
             .map(|(property, value, text)| match value {
-                Some(value) => self.value_of(property, *value, thing),
-                None => format!("{} – {text}", property.noun(self.language)),
+                Some(value) if !matches!(property, Property::Other(_)) => {
+                    self.value_of(property, *value, thing)
+                }
+                _ => format!("{} – {text}", property.noun(self.language)),
             })
             .collect();
         if !values.is_empty() {

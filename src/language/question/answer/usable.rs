@@ -96,6 +96,7 @@ impl Knowledge<'_> {
             }
         };
         let found: Vec<Thing> = all.into_iter().filter(fits).collect();
+        let all = found.clone();
         // What something stands on is no seat now.
         let found: Vec<Thing> = match use_for {
             Use::Put => found,
@@ -112,6 +113,12 @@ impl Knowledge<'_> {
             }
             (Use::Put, true, false) if !on.is_empty() => {
                 format!("no, there is not enough room {}", self.general_on(&noun))
+            }
+            (_, true, true) if !all.is_empty() => {
+                format!("{place} всё занято: {}", self.list(&all))
+            }
+            (_, true, false) if !all.is_empty() => {
+                format!("all such places {place} are occupied: {}", self.list(&all))
             }
             (_, true, true) => format!("{place} такого места на карте нет"),
             (_, true, false) => format!("the map has no such place {place}"),

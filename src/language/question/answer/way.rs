@@ -4,11 +4,11 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::query::{Extreme, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::report::Detail;
-use crate::language::words::length;
 use crate::language::words::{Case, russian};
+use crate::language::words::{duration, length};
 use crate::map::Entity;
 
 impl Knowledge<'_> {
@@ -83,6 +83,77 @@ impl Knowledge<'_> {
                 Draft::new(Said::No, text).about(&topic)
             }
         })
+    }
+
+    /// How long the robot drives, at its speed and without stops.
+    pub(super) fn duration(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
+        let from = from.map(|noun| self.one(noun)).transpose()?;
+        let to = self.one(to)?;
+        let way = match self.senses.way(from, to, self.language, Detail::Region) {
+            Ok(way) => way,
+            Err(why) => {
+                let no = self.pick("проехать туда нельзя", "there is no way");
+                return Ok(Draft::new(Said::No, format!("{no}: {why}")).about(&[to]));
+            }
+        };
+        let speed = self.world.robot.speed;
+        let seconds = way.length / speed;
+        let (far, lang) = (length(way.length, self.language), self.language);
+        let takes = duration(seconds, lang);
+        let at = length(speed, lang);
+        let text = match self.is_russian() {
+            true => format!("ехать около {takes}: путь {far} по {at} в секунду, без остановок"),
+            false => format!("about {takes}: {far} of way at {at} a second, without stops"),
+        };
+        Ok(Draft::new(Said::Found, text).about(&[to]).number(seconds.round()))
+    }
+
+    /// Which of two ways is the shorter, or the longer.
+    pub(super) fn which_way(
+        &self,
+        of: &[(Option<Noun>, Noun)],
+        extreme: Extreme,
+    ) -> Result<Draft, Doubt> {
+        let mut ways = Vec::new();
+        for (from, to) in of {
+            let from = from.as_ref().map(|noun| self.one(noun)).transpose()?;
+            let to = self.one(to)?;
+            let (start, goal) = (from.unwrap_or(Thing::Robot), to);
+            let name = match self.is_russian() {
+                true => {
+                    format!("{} {}", self.place(Rel::From, &[start]), self.place(Rel::To, &[goal]))
+                }
+                false => format!("from {} to {}", self.name(start), self.name(goal)),
+            };
+            match self.senses.way(from, to, self.language, Detail::Region) {
+                Ok(way) => ways.push((way.length, name, to)),
+                Err(why) => {
+                    let no = self.pick("проехать нельзя", "there is no way");
+                    return Ok(
+                        Draft::new(Said::Unknown, format!("{name} {no}: {why}")).about(&[to])
+                    );
+                }
+            }
+        }
+        ways.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if extreme == Extreme::Farthest {
+            ways.reverse();
+        }
+        let [(first, name, goal), (second, other, _)] = &ways[..] else {
+            return Ok(Draft::default());
+        };
+        let (a, b) = (length(*first, self.language), length(*second, self.language));
+        let equal = (first - second).abs() < 1.0;
+        let text = match (equal, extreme == Extreme::Nearest, self.is_russian()) {
+            (true, _, true) => format!("пути одинаковы: по {a}"),
+            (true, _, false) => format!("both ways are {a} long"),
+            (false, true, true) => format!("короче {name} ({a}; {other} – {b})"),
+            (false, false, true) => format!("длиннее {name} ({a}; {other} – {b})"),
+            (false, true, false) => format!("the way {name} is shorter ({a}; {other}: {b})"),
+            (false, false, false) => format!("the way {name} is longer ({a}; {other}: {b})"),
+        };
+        let said = if equal { Said::Nothing } else { Said::Found };
+        Ok(Draft::new(said, text).about(&[*goal]).number(*first))
     }
 
     pub(super) fn say_distance(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {

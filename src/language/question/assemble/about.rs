@@ -153,7 +153,9 @@ impl Frame<'_, '_> {
         if self.has(Mark::Opens) && self.has(Mark::Can) && self.asks() {
             return self.openable();
         }
-        if let Some(query) = self.deed() {
+        // «Где можно посидеть и почитать?» asks for a seat.
+        let rests = self.has(Mark::Where) && (self.has(Mark::Sit) || self.has(Mark::LieDown));
+        if let Some(query) = self.deed().filter(|_| !rests) {
             return Some(query);
         }
         let asks = self.has(Mark::Where)
@@ -197,7 +199,17 @@ impl Frame<'_, '_> {
         let named = FITS.iter().any(|word| self.sentence.keys.iter().any(|k| k == word));
         let what = self.spot_noun(&[Rel::To]).or_else(|| self.first()).filter(|_| named);
         let on = self.spots.iter().filter(|s| s.rel == Rel::On && !self.is_area(&s.nouns[0]));
-        let within: Vec<Restriction> = on.flat_map(Spot::restrictions).collect();
+        // "on the bedside table with the lamp"
+        let with = |spot: &Spot| {
+            let next = self.spots.iter().find(|s| s.at == spot.at + 1 && s.rel == Rel::Has);
+            let mut spot = spot.clone();
+            for (noun, next) in spot.nouns.iter_mut().zip(next) {
+                let bears = Spot { rel: Rel::Bears, ..next.clone() };
+                noun.restrictions.extend(bears.restrictions());
+            }
+            spot.restrictions()
+        };
+        let within: Vec<Restriction> = on.flat_map(with).collect();
         if let (Some(what), false) = (what.filter(|noun| !self.is_area(noun)), within.is_empty()) {
             return Some(Query::Place { use_for: Use::Put, what: Some(what), within });
         }
@@ -326,8 +338,14 @@ impl Frame<'_, '_> {
         let noun = &only.noun;
         let kind = noun.head.named.is_empty() && !noun.head.kinds.is_empty();
         let which = self.has(Mark::Which) && self.follows_which(only.at);
-        let asked = which || noun.plural || noun.indefinite || self.has(Mark::HowMany);
-        let in_rooms = self.spots.iter().all(|s| self.is_area(&s.nouns[0]));
+        let asked = which
+            || noun.plural
+            || noun.indefinite
+            || self.has(Mark::HowMany)
+            || self.has(Mark::Exists);
+        // «Есть свободный стул у стола?» speaks of the chair; a place on the table is another question.
+        let beside = |s: &Spot| matches!(s.rel, Rel::NextTo | Rel::Near | Rel::At);
+        let in_rooms = self.spots.iter().all(|s| self.is_area(&s.nouns[0]) || beside(s));
         let more = self.marks.iter().any(|(m, _)| matches!(m, Mark::More(_) | Mark::Best(_)));
         if more || !kind || !asked || !in_rooms || self.is_area(noun) {
             return None;
@@ -414,7 +432,10 @@ impl Frame<'_, '_> {
         if !self.values.is_empty() && !self.has(Mark::Or) {
             return None;
         }
-        let noun = self.nouns.first().map(|s| (s.noun.clone(), Vec::new()));
+        // "the colour of the chair nearest to the window"
+        let of = self.spots.iter().find(|s| s.rel == Rel::Of && s.at == at + 1);
+        let of = of.map(|s| (s.nouns[0].clone(), vec![s.at]));
+        let noun = of.or_else(|| self.nouns.first().map(|s| (s.noun.clone(), Vec::new())));
         let owner = self.spot(&[Rel::NextTo, Rel::Of]).map(|s| (s.nouns[0].clone(), vec![s.at]));
         let spot = self.spots.iter().find(|s| s.at > at).map(|s| (s.nouns[0].clone(), vec![s.at]));
         let (noun, without) = noun.or(owner).or(spot)?;

@@ -210,8 +210,9 @@ impl Frame<'_, '_> {
                 let anchor = noun.restrictions.remove(at).anchors.into_iter().next();
                 // «ближайший ко мне»: to the robot, as when nothing is said.
                 best.anchor = anchor.map(Box::new);
-            } else if self.marks.iter().any(|(m, _)| matches!(m, Mark::BestTo(_)))
-                && let Some(second) = self.nouns.get(1)
+            } else if let Some(best_at) =
+                self.marks.iter().find_map(|(m, at)| matches!(m, Mark::BestTo(_)).then_some(*at))
+                && let Some(second) = self.nouns.iter().find(|s| s.at > best_at)
             {
                 // "nearest to the window of the lab"
                 let mut anchor = second.noun.clone();

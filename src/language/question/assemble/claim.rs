@@ -136,6 +136,15 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn holds(&self) -> Option<Query> {
+        // "Is the umbrella leaning against something?": against what.
+        let told = self.links.iter().rev().find(|(rel, _)| *rel != Rel::To);
+        if let ([only], Some((rel, _)), true) = (&self.nouns[..], told, self.has(Mark::Anything))
+            && self.spots.is_empty()
+            && self.values.is_empty()
+            && !self.says_nothing()
+        {
+            return Some(Query::Anchor { rel: *rel, of: only.noun.clone(), what: None });
+        }
         let told = !self.spots.is_empty() || !self.values.is_empty() || !self.sizes.is_empty();
         if self.has(Mark::Anything) && self.nouns.is_empty() && told {
             let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };
@@ -211,6 +220,10 @@ impl Frame<'_, '_> {
         }
         claims.extend(self.sizes.iter().copied().map(Claim::Size));
         for (_, other) in self.nouns.iter().enumerate().filter(|(n, _)| *n != at) {
+            // "Is it the left one?": of which ones is not said.
+            if other.noun.head.anything && other.noun.best.is_some() {
+                return None;
+            }
             // "Does Door VZ join Room V and Room Z?"
             if self.has(Mark::Lead) && self.is_area(&other.noun) {
                 let anchors = vec![other.noun.clone()];
@@ -234,7 +247,10 @@ impl Frame<'_, '_> {
             return Some(Query::Find(Noun { indefinite: true, ..self.with_rest(subject, &[]) }));
         }
         // "Is any door open?" asks whether there is an open one.
-        if subject.indefinite && subject.head.named.is_empty() && subject.head.things.is_none() {
+        // "Is any of them red?"
+        let of_those = subject.plural && subject.head.things.is_some() && self.has(Mark::A);
+        let general = subject.head.named.is_empty() && subject.head.things.is_none();
+        if (subject.indefinite && general) || of_those {
             // "Any chairs that are not white?" asks for others.
             let lacking = |(_, at, negated): &(ValueId, usize, bool)| {
                 *negated && at.checked_sub(1).is_some_and(|n| self.marks.contains(&(Mark::Not, n)))

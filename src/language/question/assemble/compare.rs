@@ -113,7 +113,7 @@ impl Frame<'_, '_> {
                 noun.filters.push(Filter::new(*value, false));
                 noun
             });
-            return Some(Query::MoreOf { of, extreme, asks });
+            return Some(Query::MoreOf { of, extreme, asks, by: self.has(Mark::HowMany) });
         }
         let of = match (&counted[..], &places[..], &rooms[..]) {
             ([what], [first, second], _) | ([what], [], [first, second]) => {
@@ -125,7 +125,7 @@ impl Frame<'_, '_> {
             }
             _ => return None,
         };
-        Some(Query::MoreOf { of, extreme, asks })
+        Some(Query::MoreOf { of, extreme, asks, by: self.has(Mark::HowMany) })
     }
 
     pub(super) fn compared(&self) -> Option<Query> {
@@ -193,7 +193,7 @@ impl Frame<'_, '_> {
                 && let [a, b] = &ends.nouns[..]
             {
                 return Some(Query::WhichMore {
-                    of: [placed(a.clone()), placed(b.clone())],
+                    of: vec![placed(a.clone()), placed(b.clone())],
                     extreme,
                     to: Some(placed(what.noun.clone())),
                 });
@@ -201,7 +201,7 @@ impl Frame<'_, '_> {
             let [.., first, second] = &self.nouns[..] else { return None };
             let to = anchors.first().map(|s| placed(s.nouns[0].clone()));
             return Some(Query::WhichMore {
-                of: [placed(first.noun.clone()), placed(second.noun.clone())],
+                of: vec![placed(first.noun.clone()), placed(second.noun.clone())],
                 extreme,
                 to,
             });
@@ -237,8 +237,15 @@ impl Frame<'_, '_> {
             let [first, second] = <[Noun; 2]>::try_from(of).ok()?;
             return Some(Query::Same { property: property.clone(), of: [first, second] });
         }
+        let best = self.marks.iter().find_map(|(mark, at)| match mark {
+            Mark::Best(extreme) => Some((*extreme, *at)),
+            _ => None,
+        });
+        if let Some(query) = self.best_of_those(more, best) {
+            return Some(query);
+        }
         let extreme = more?;
-        if let Some(query) = self.beyond(extreme) {
+        if let Some(query) = self.beyond(extreme).or_else(|| self.than_each(extreme)) {
             return Some(query);
         }
         let [.., first, second] = &self.nouns[..] else { return None };
@@ -251,10 +258,56 @@ impl Frame<'_, '_> {
             }
         }
         if self.asks() || (self.has(Mark::Or) && than.is_none()) {
-            return Some(Query::WhichMore { of: [what, other], extreme, to: None });
+            return Some(Query::WhichMore { of: vec![what, other], extreme, to: None });
         }
         let by = self.asks_by_how_much();
         Some(Query::Larger { what, than: other, extreme, to: None, by })
+    }
+
+    /// "Which is the tallest: the desk, the dresser or the bed?"
+    fn best_of_those(
+        &self,
+        more: Option<Extreme>,
+        best: Option<(Extreme, usize)>,
+    ) -> Option<Query> {
+        // "… the tallest: the desk, …": the superlative stands before the first of them.
+        let first = self.nouns.iter().find_map(|s| s.noun.best.as_ref().zip(Some(s.at)));
+        let best = best.or(first.map(|(best, at)| (best.extreme, at.saturating_sub(1))));
+        let extreme = more.or(best.map(|(extreme, _)| extreme))?;
+        let from = best.map_or(0, |(_, at)| at);
+        let (asked, those): (Vec<&Subject>, Vec<&Subject>) =
+            self.nouns.iter().partition(|s| match more {
+                Some(_) => self.follows_which(s.at),
+                None => s.at <= from,
+            });
+        let enough = those.len() > usize::from(more.is_some()) + 1;
+        let sided = matches!(extreme, Extreme::LeftMost | Extreme::RightMost);
+        let compares = !sided && !matches!(extreme, Extreme::Most | Extreme::Fewest);
+        let plain = self.spots.is_empty() && self.values.is_empty() && !self.has(Mark::Than);
+        let all = asked.iter().all(|s| self.follows_which(s.at));
+        let of = those.iter().map(|s| Noun { best: None, ..s.noun.clone() }).collect();
+        (enough && compares && plain && self.asks() && all && self.has(Mark::Or))
+            .then_some(Query::WhichMore { of, extreme, to: None })
+    }
+
+    /// "Is the dresser taller than the fridge and the wardrobe?": than each of them.
+    fn than_each(&self, extreme: Extreme) -> Option<Query> {
+        let more =
+            self.marks.iter().find_map(|(m, at)| matches!(m, Mark::More(_)).then_some(*at))?;
+        let (before, after): (Vec<&Subject>, Vec<&Subject>) =
+            self.nouns.iter().partition(|s| s.at < more);
+        let joined = after.len() > 1 && self.has(Mark::And) && !self.has(Mark::Or);
+        let ([what], true, true) = (&before[..], joined, self.spots.is_empty()) else {
+            return None;
+        };
+        let each = after.iter().map(|other| Query::Larger {
+            what: what.noun.clone(),
+            than: other.noun.clone(),
+            extreme,
+            to: None,
+            by: self.asks_by_how_much(),
+        });
+        Some(Query::Several(each.collect()))
     }
 
     /// "Which room is bigger than the kitchen?", «Что выше холодильника?»: all that are so.

@@ -13,6 +13,7 @@ use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::mark::{Mark, Pronoun};
 use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
 
 impl<'s, 't> Frame<'s, 't> {
@@ -289,6 +290,14 @@ impl<'s, 't> Frame<'s, 't> {
         let latin = |text: &str| text.starts_with(|c: char| c.is_ascii());
         let alike = self.lexicon.nouns.near(said, 3).into_iter();
         let mut near: Vec<String> = Vec::new();
+        // A word within a word is not like it: "table" in "comfortable".
+        let key = crate::units::name_key(said);
+        let like = |name: &str| {
+            let name = crate::units::name_key(name);
+            let words = name.split([' ', '-', '_']).chain([name.as_str()]);
+            words.into_iter().any(|word| strsim::normalized_damerau_levenshtein(word, &key) >= 0.65)
+        };
+        let alike = alike.filter(|name| like(name));
         for name in alike.filter(|name| latin(name) == latin(said)) {
             if !near.iter().any(|n| n == name) {
                 near.push(name.to_owned());
@@ -296,6 +305,15 @@ impl<'s, 't> Frame<'s, 't> {
         }
         if near.is_empty() {
             near.extend(self.lexicon.values.near(said));
+        }
+        // «туалетная бумага», "toilet paper": the name of one thing, though paper alone is a material.
+        let material =
+            |value: &ValueId| self.lexicon.values.entry(*value).property == Property::Material;
+        if let (Some(Item::Value(value)), true) = (next, near.is_empty())
+            && material(value)
+        {
+            let whole = words.start..words.end + 1;
+            return Doubt::Unknown { reference: self.sentence.said(&whole).to_owned(), near };
         }
         let before_noun = matches!(next, Some(Item::Noun(_)));
         if near.is_empty() && (before_noun || !crate::language::words::may_be_noun(said)) {
@@ -350,13 +368,16 @@ impl<'s, 't> Frame<'s, 't> {
         let in_rooms = self.spots.iter().all(|s| s.rel != Rel::On && self.is_area(&s.nouns[0]));
         let kind = self.lexicon.kind_of(&Extension::Walls)?;
         let head = Head { kinds: vec![kind], ..Head::default() };
-        (asked && in_rooms && self.has(Mark::Hang) && self.links.is_empty()).then(|| Spot {
-            rel: Rel::On,
-            nouns: vec![Noun { head, plural: true, indefinite: true, ..Noun::default() }],
-            either: false,
-            at: items + 1,
-            negated: false,
-        })
+        let compares = self.marks.iter().any(|(mark, _)| matches!(mark, Mark::More(_)));
+        (asked && in_rooms && !compares && self.has(Mark::Hang) && self.links.is_empty()).then(
+            || Spot {
+                rel: Rel::On,
+                nouns: vec![Noun { head, plural: true, indefinite: true, ..Noun::default() }],
+                either: false,
+                at: items + 1,
+                negated: false,
+            },
+        )
     }
 
     /// Whether a noun is a key, by its words.

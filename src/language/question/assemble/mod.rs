@@ -233,6 +233,15 @@ impl Frame<'_, '_> {
         if self.links.iter().any(|(rel, _)| *rel == Rel::Middle) {
             return None;
         }
+        // "between here and the bedroom": one end is missing.
+        if self.links.iter().any(|(rel, _)| *rel == Rel::Between) {
+            return None;
+        }
+        // "What is on the left when facing the TV?": from where one faces it is not known.
+        let side = |rel: Rel| matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::Behind);
+        if self.spot(&[Rel::Facing]).is_some() && self.links.iter().any(|(rel, _)| side(*rel)) {
+            return None;
+        }
         // «Влезет ли коробка под кровать?»: the room under things is not known.
         // "What can be opened in the bedroom?" does not ask what is open.
         let state = |value: ValueId| self.lexicon.values.entry(value).property == Property::State;
@@ -242,6 +251,13 @@ impl Frame<'_, '_> {
         }
         let fits = self.has(Mark::PutDown) || self.has(Mark::Free);
         if fits && self.spot(&[Rel::Under]).is_some() {
+            return None;
+        }
+        // "Could a bed fit in the corridor?": how things would stand on a floor is not known.
+        const FIT: [&str; 7] =
+            ["fit", "fits", "поместится", "поместятся", "уместится", "помещается", "влезет"];
+        let fit = self.sentence.keys.iter().any(|key| FIT.contains(&key.as_str()));
+        if fit && self.spot(&[Rel::In]).is_some_and(|s| self.is_area(&s.nouns[0])) {
             return None;
         }
         self.of_robot()

@@ -11,8 +11,22 @@ impl Frame<'_, '_> {
     /// «Можно ли попасть из кухни в спальню, минуя коридор?», "How many doors are there on the way to the bedroom?"
     pub(super) fn passing(&self) -> Option<Query> {
         let nouns = |negated: bool| -> Vec<Noun> {
-            let spots = self.spots.iter().filter(|s| s.rel == Rel::Through);
-            spots.filter(|s| s.negated == negated).flat_map(|s| s.nouns.iter().cloned()).collect()
+            // «без лифта», "without the lift"
+            let spots = self.spots.iter().filter(|s| {
+                s.rel == Rel::Through
+                    || (negated && s.rel == Rel::Has && s.nouns.iter().all(|n| self.is_lifts(n)))
+            });
+            let named = spots.filter(|s| s.negated == negated).flat_map(|s| s.nouns.iter());
+            // Which of the lifts is all the same to who uses none.
+            let each = |noun: &Noun| {
+                let mut noun = noun.clone();
+                if self.is_lifts(&noun) {
+                    noun.plural = true;
+                    noun.head.named.clear();
+                }
+                noun
+            };
+            named.map(each).collect()
         };
         let (through, avoiding) = (nouns(false), nouns(true));
         let goes = self.has(Mark::Move) || self.has(Mark::Lead);
@@ -57,6 +71,13 @@ impl Frame<'_, '_> {
             false => to,
         };
         Some(Query::Passing { from, to, through, avoiding, asks })
+    }
+
+    fn is_lifts(&self, noun: &Noun) -> bool {
+        noun.head.kinds.iter().any(|kind| {
+            let kind = self.lexicon.kind(*kind);
+            kind.extension == Extension::Lifts || kind.english == "lift"
+        })
     }
 
     /// The nearest way out.

@@ -7,12 +7,16 @@ use super::Spot;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{
-    Best, Claim, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
+    Best, Claim, Closeness, Extreme, Head, Noun, Query, Rel, Restriction, Thing,
 };
 
 impl Frame<'_, '_> {
     pub(super) fn way(&self) -> Option<Query> {
-        let far = self.has(Mark::HowFar);
+        if let Some(query) = self.which_way() {
+            return Some(query);
+        }
+        let long = self.has(Mark::HowLong);
+        let far = self.has(Mark::HowFar) || long;
         if self.asks() && self.has(Mark::Can) && !far && !self.has(Mark::HowGet) {
             return None;
         }
@@ -34,7 +38,7 @@ impl Frame<'_, '_> {
             let from = self.spot_noun(&[Rel::From]);
             return Some(Query::Way { from, to, detail: self.detail() });
         }
-        let how = self.has(Mark::HowGet) || (self.has(Mark::How) && goes);
+        let how = !long && (self.has(Mark::HowGet) || (self.has(Mark::How) && goes));
         if how && let Some(out) = self.way_out() {
             return Some(out);
         }
@@ -47,6 +51,7 @@ impl Frame<'_, '_> {
             let (from, to) = (Some(pair.nouns[0].clone()), pair.nouns[1].clone());
             let detail = self.detail();
             return Some(match far {
+                true if long => Query::Duration { from, to },
                 true => Query::Distance { from, to },
                 false => Query::Way { from, to, detail },
             });
@@ -85,6 +90,16 @@ impl Frame<'_, '_> {
                 )
             }
             (Some(from), Some(mut to), 1..) if far => {
+                // "How far is the sofa from the table in the kitchen?": the room is of both.
+                let place = self.spot(&TO).map_or(0, |s| s.at);
+                let mut from = from;
+                if self.is_area(&to)
+                    && !self.is_area(&from)
+                    && self.spot(&[Rel::From, Rel::Of]).is_some_and(|s| s.at + 1 == place)
+                {
+                    let anchors = vec![to.clone()];
+                    from.restrictions.push(Restriction { rel: Rel::In, anchors, negated: false });
+                }
                 // "How far is the chair in the kitchen from the table?"
                 if self.is_area(&to) && !self.is_area(&ends[0]) {
                     let place = Restriction { rel: Rel::In, anchors: vec![to], negated: false };
@@ -125,10 +140,42 @@ impl Frame<'_, '_> {
             to.best = Some(Best { extreme: Extreme::Nearest, anchor: None });
         }
         Some(match () {
+            () if long => Query::Duration { from, to },
             () if far => Query::Distance { from, to },
             () if can && !how => Query::CanReach { from, to },
             () => Query::Way { from, to, detail: self.detail() },
         })
+    }
+
+    /// «Какой путь короче: из спальни в коридор или на кухню?»
+    fn which_way(&self) -> Option<Query> {
+        let extreme = self.marks.iter().find_map(|(mark, _)| match mark {
+            Mark::More(Extreme::Lowest | Extreme::Smallest | Extreme::Shortest)
+            | Mark::Nearer(Closeness::Nearer) => Some(Extreme::Nearest),
+            Mark::More(Extreme::Longest | Extreme::Biggest) | Mark::Nearer(Closeness::Farther) => {
+                Some(Extreme::Farthest)
+            }
+            _ => None,
+        })?;
+        let either = self.has(Mark::Or) || self.spots.iter().any(|s| s.either);
+        let goes = self.has(Mark::HowGet) || self.has(Mark::Whither) || self.has(Mark::Move);
+        if !either || !goes || !self.nouns.is_empty() {
+            return None;
+        }
+        let mut from = None;
+        let mut ways: Vec<(Option<Noun>, Noun)> = Vec::new();
+        let mut spots: Vec<&Spot> = self.spots.iter().collect();
+        spots.sort_by_key(|spot| spot.at);
+        for spot in spots {
+            match spot.rel {
+                Rel::From => from = spot.nouns.first().cloned(),
+                Rel::To | Rel::In | Rel::On | Rel::At => {
+                    ways.extend(spot.nouns.iter().map(|to| (from.clone(), to.clone())));
+                }
+                _ => return None,
+            }
+        }
+        (ways.len() == 2).then_some(Query::WhichWay { of: ways, extreme })
     }
 
     pub(super) fn is_exits(&self, noun: &Noun) -> bool {

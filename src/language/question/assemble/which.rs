@@ -6,7 +6,9 @@ use super::Frame;
 use super::Subject;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Filter, Head, Noun, Query, Rel, Restriction, Thing};
+use crate::language::question::query::{
+    Best, Extreme, Filter, Head, Noun, Query, Rel, Restriction, Thing,
+};
 
 impl Frame<'_, '_> {
     pub(super) fn counted(&self) -> Option<Query> {
@@ -21,6 +23,10 @@ impl Frame<'_, '_> {
         }
         // The noun right after «сколько» is counted, wherever it stands; else the first.
         let counted = self.nouns.iter().find(|s| s.at > at).or_else(|| self.nouns.first());
+        // «Через сколько комнат?»: on which way is not said.
+        if self.links.iter().any(|(rel, _)| *rel == Rel::Through) {
+            return None;
+        }
         let Some(counted) = counted else {
             // «Сколько в комнате чёрных?», "how many are on the table"
             let mut noun = Noun { plural: true, ..Noun::default() };
@@ -166,6 +172,10 @@ impl Frame<'_, '_> {
         let before = self.links.iter().find(|(_, at)| at + 1 == question);
         let stranded = self.links.iter().rev().find(|(_, at)| *at > question);
         let link = before.or(stranded).map(|(rel, _)| *rel);
+        // «К чему прислонён зонт?»: the participle tells more than «к».
+        let turned = |rel: &Rel| matches!(rel, Rel::Leaning | Rel::Facing);
+        let told = self.links.iter().map(|(rel, _)| *rel).find(turned);
+        let link = told.filter(|_| link == Some(Rel::To)).or(link);
         let asked = self.nouns.iter().find(|s| {
             s.at > question
                 && self.follows_which(s.at)
@@ -225,6 +235,7 @@ impl Frame<'_, '_> {
             // "Which cup is the red one?"
             for other in others.iter().filter(|s| s.noun.head.anything) {
                 noun.filters.extend(other.noun.filters.iter().cloned());
+                noun.best = noun.best.take().or_else(|| other.noun.best.clone());
             }
             if self.has(Mark::Have) || (self.has(Mark::Exists) && others.len() == 1) {
                 for other in &others {
@@ -253,11 +264,15 @@ impl Frame<'_, '_> {
             let noun = self.with_rest(noun, &[]);
             return Some(Query::Find(Noun { indefinite: true, ..noun }));
         }
-        // «Что из мебели деревянное?»
+        let best = self.marks.iter().any(|(m, _)| {
+            matches!(m, Mark::Best(e) if !matches!(e, Extreme::Nearest | Extreme::Farthest))
+        });
+        // «Что из мебели деревянное?», "Which is the biggest of the rooms?"
         let of = self
             .spot(&[Rel::From, Rel::Of])
-            .filter(|s| !self.is_area(&s.nouns[0]) && !s.nouns[0].head.kinds.is_empty());
-        if let Some(of) = of.filter(|_| !self.values.is_empty() || self.spots.len() > 1) {
+            .filter(|s| (best && s.nouns[0].plural) || !self.is_area(&s.nouns[0]))
+            .filter(|s| !s.nouns[0].head.kinds.is_empty());
+        if let Some(of) = of.filter(|_| best || !self.values.is_empty() || self.spots.len() > 1) {
             let noun = Noun { plural: true, indefinite: true, ..of.nouns[0].clone() };
             return Some(Query::Find(self.with_rest(noun, &[of.at])));
         }

@@ -6,6 +6,7 @@
 use super::{Found, Parsed, Phrase, Sentence, Tok, Token, Tokens, fail};
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Filter, Head, Noun, Rel};
+use crate::language::question::values::ValueId;
 use crate::language::words::{Case, Language, Number};
 
 impl Sentence<'_> {
@@ -38,6 +39,48 @@ impl Sentence<'_> {
         Ok((Tokens(rest), phrase))
     }
 
+    /// A further noun behind a preposition, in a case of the first: «картина в ванной или телевизор» joins no places.
+    pub(super) fn governed_alike<'a>(
+        &self,
+        input: Tokens<'a>,
+        first: &Phrase,
+    ) -> Parsed<'a, Phrase> {
+        let (rest, next) = self.phrase(input)?;
+        let told = !first.cases.is_empty() && !next.cases.is_empty();
+        let case = |case: Case| {
+            let has = |phrase: &Phrase| phrase.cases.iter().any(|r| r.has_case(case));
+            has(first) && has(&next)
+        };
+        let alike = [
+            Case::Genitive,
+            Case::Dative,
+            Case::Accusative,
+            Case::Instrumental,
+            Case::Prepositional,
+        ];
+        match self.language == Language::Russian && told && !alike.into_iter().any(case) {
+            true => fail(input),
+            false => Ok((rest, next)),
+        }
+    }
+
+    /// «К чему прислонён зонт?»: what leans follows in the nominative; what it leans against would stand in the dative.
+    pub(super) fn is_leaning(&self, link: &Token, rel: Rel, next: &Phrase) -> bool {
+        let bare = self.keys[link.to as usize - 1] != "к";
+        let dative = next.cases.iter().any(|r| r.has_case(Case::Dative));
+        bare && matches!(rel, Rel::Leaning | Rel::Facing)
+            && self.language == Language::Russian
+            && !dative
+            && !next.cases.is_empty()
+    }
+
+    /// Whether two values are of one property, so that no thing has both.
+    pub(super) fn are_alike(&self, one: ValueId, other: ValueId) -> bool {
+        let property =
+            |id: ValueId| self.value_sorts.iter().find(|(v, _)| *v == id).map(|(_, p)| p);
+        property(one).is_some() && property(one) == property(other)
+    }
+
     /// «комната с телевизором»: with the instrumental «с» tells what something has.
     pub(super) fn having(&self, link: &Token, phrase: &Phrase) -> Option<Rel> {
         let with = ["с", "со"].contains(&self.keys[link.from as usize].as_str());
@@ -50,12 +93,45 @@ impl Sentence<'_> {
     /// Whether a genitive plural behind a place belongs to the «сколько» before it, which has no noun of its own.
     pub(super) fn is_counted(&self, place: u32, next: &Found) -> bool {
         let before: Vec<&Token> = self.tokens.iter().filter(|t| t.to <= place).collect();
-        let Some(asks) = before.iter().rposition(|t| t.kind == Tok::Mark(Mark::HowMany)) else {
-            return false;
-        };
+        // «На стеллаже книг больше, чем на столе?» counts them as well.
+        let compares = |t: &Token| matches!(t.kind, Tok::Mark(Mark::More(_)));
+        let counts = before.iter().rposition(|t| t.kind == Tok::Mark(Mark::HowMany));
+        let more = self.tokens.iter().any(compares).then_some(0);
+        let Some(asks) = counts.or(more) else { return false };
         matches!(before.last().map(|t| t.kind), Some(Tok::Mark(Mark::Link(_))))
             && before[asks..].iter().all(|t| !matches!(t.kind, Tok::Noun(_)))
             && next.readings.iter().any(|r| r.has(Number::Plural, Case::Genitive))
+    }
+
+    /// «Есть ли в холодильнике яйца?»: behind a place the only other noun of a yes-or-no question is what it asks of.
+    pub(super) fn is_subject(&self, place: u32, next: &Found) -> bool {
+        let before = self.tokens.iter().rev().find(|t| t.to <= place).map(|t| t.kind);
+        let asks = |t: &Token| {
+            matches!(
+                t.kind,
+                Tok::Property(_)
+                    | Tok::Mark(
+                        Mark::What
+                            | Mark::Which
+                            | Mark::Where
+                            | Mark::Whither
+                            | Mark::HowMany
+                            | Mark::HowFar
+                            | Mark::HowGet
+                            | Mark::HowBig(_)
+                            | Mark::Describe
+                            | Mark::List
+                            | Mark::Anything
+                    )
+            )
+        };
+        let nouns = self.tokens.iter().filter(|t| matches!(t.kind, Tok::Noun(_))).count();
+        let is_verb = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Exists | Mark::Be));
+        matches!(before, Some(Tok::Mark(Mark::Link(_))))
+            && nouns == 2
+            && self.tokens.iter().any(is_verb)
+            && !self.tokens.iter().any(asks)
+            && next.readings.iter().any(|r| r.has(Number::Plural, Case::Nominative))
     }
 
     /// «Что за комната Комната-Z?»: with a nominative «за» puts nothing behind anything.

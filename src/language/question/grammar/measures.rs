@@ -80,7 +80,7 @@ impl Sentence<'_> {
         let extreme = match extreme {
             Extreme::Most => Extreme::Biggest,
             Extreme::Fewest => Extreme::Smallest,
-            other => other,
+            other => other.of_size(),
         };
         let than = self
             .keys

@@ -211,13 +211,6 @@ impl<'t> Sentence<'t> {
         .parse(input)
     }
 
-    /// Whether two values are of one property, so that no thing has both.
-    fn are_alike(&self, one: ValueId, other: ValueId) -> bool {
-        let property =
-            |id: ValueId| self.value_sorts.iter().find(|(v, _)| *v == id).map(|(_, p)| p);
-        property(one).is_some() && property(one) == property(other)
-    }
-
     fn mark<'a>(&self, input: Tokens<'a>, wanted: impl Fn(Mark) -> bool) -> Parsed<'a, Mark> {
         match input.split_first() {
             Some((Token { kind: Tok::Mark(mark), .. }, rest)) if wanted(*mark) => Ok((rest, *mark)),
@@ -235,31 +228,18 @@ impl<'t> Sentence<'t> {
         if self.is_what_sort(&input.0[0], &first) {
             return Ok((rest, Item::Noun(first)));
         }
+        if self.is_leaning(&input.0[0], rel, &first) {
+            return Ok((Tokens(&input.0[1..]), Item::Link(rel)));
+        }
         let rel = self.having(&input.0[0], &first).unwrap_or(rel);
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
-        // «на комоде, и чашку»: of another case it is nothing that the preposition governs.
-        let like = |i| {
-            self.phrase(i).and_then(|(rest, other)| match self.agrees(&first, &other) {
-                true => Ok((rest, other)),
-                false => fail(rest),
-            })
-        };
-        let more = pair(pair(joint, again), like);
+        let more = pair(pair(joint, again), |i| self.governed_alike(i, &first));
         let (rest, more) = many0(more).parse(rest)?;
         let either = more.iter().any(|((joint, _), _)| *joint == Mark::Or);
         let nouns = std::iter::once(first).chain(more.into_iter().map(|(_, noun)| noun)).collect();
         Ok((rest, Item::Place { rel, nouns, either }))
-    }
-
-    /// Whether one preposition may govern both: in Russian they have a case in common.
-    fn agrees(&self, one: &Phrase, other: &Phrase) -> bool {
-        let has = |phrase: &Phrase, case: Case| phrase.cases.iter().any(|r| r.has_case(case));
-        self.language == Language::English
-            || one.cases.is_empty()
-            || other.cases.is_empty()
-            || Case::ALL.iter().any(|case| has(one, *case) && has(other, *case))
     }
 
     /// A noun that no preposition governs. Then «лампы» are several: as a genitive it would follow a noun or «нет».
@@ -552,6 +532,7 @@ impl<'t> Sentence<'t> {
             }
             Language::Russian
                 if (!found.is_area || next.is_area)
+                    && !self.is_subject(input.0[0].from, next)
                     && next.readings.iter().any(|r| r.has_case(Case::Genitive)) =>
             {
                 let owner = noun_of(next, *from as usize..*to as usize);

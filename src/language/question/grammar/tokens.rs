@@ -30,6 +30,7 @@ impl<'t> Sentence<'t> {
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
         sentence.drop_asking_particle();
+        sentence.tell_heights();
         for token in &sentence.tokens {
             if let Tok::Value(value) = token.kind {
                 let property = lexicon.values.entry(value).property.clone();
@@ -54,9 +55,16 @@ impl<'t> Sentence<'t> {
         }
         let keys = &self.keys[at..];
         let mark = vocabulary::longest(keys);
+        // "Which is the tallest?" asks; "the book which is on the table" tells.
+        let mark = match mark {
+            Some((_, Mark::Filler)) if at == 0 && keys[0] == "which" => Some((1, Mark::Which)),
+            mark => mark,
+        };
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
+        // «Где можно сесть?» asks for no property, though a map may call one so.
         let property = lexicon.values.property(keys).map(|(n, p)| (n, p.clone()));
+        let property = property.filter(|_| mark.is_none_or(|(_, mark)| mark != Mark::Can));
         let propertied = property.as_ref().map_or(0, |(n, _)| *n);
         let marked = mark.map_or(0, |(n, _)| n);
         let valued = value.map_or(0, |(n, _)| n);
@@ -141,6 +149,32 @@ impl<'t> Sentence<'t> {
                 push(self, n, Tok::Property(number))
             }
             _ => push(self, 1, Tok::Unknown),
+        }
+    }
+
+    /// «Что висит выше всех?» asks for a place, «Какой шкаф выше всех?» for a size.
+    fn tell_heights(&mut self) {
+        const PLACED: [&str; 5] = ["вис", "лежит", "лежат", "стоит", "стоят"];
+        const FOUND: [&str; 2] = ["находит", "находят"];
+        let placed = |key: &String| PLACED.iter().chain(&FOUND).any(|stem| key.starts_with(stem));
+        if !self.keys.iter().any(placed) {
+            return;
+        }
+        let keys = &self.keys;
+        for token in &mut self.tokens {
+            if !["выше", "ниже"].contains(&keys[token.from as usize].as_str()) {
+                continue;
+            }
+            let raised = |extreme: Extreme| match extreme {
+                Extreme::Tallest => Extreme::Topmost,
+                Extreme::Lowest => Extreme::Bottommost,
+                other => other,
+            };
+            token.kind = match token.kind {
+                Tok::Mark(Mark::Best(extreme)) => Tok::Mark(Mark::Best(raised(extreme))),
+                Tok::Mark(Mark::More(extreme)) => Tok::Mark(Mark::More(raised(extreme))),
+                other => other,
+            };
         }
     }
 

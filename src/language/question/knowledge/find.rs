@@ -13,7 +13,7 @@ use std::collections::{BTreeSet, HashMap, HashSet};
 
 impl Knowledge<'_> {
     /// Everything of a kind.
-    pub(super) fn members(&self, extension: &Extension) -> Vec<Thing> {
+    pub(in crate::language::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
         let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));
         let of_object = |object: ObjectId| {
             let all = self.world.replicas.values().filter(move |r| r.object == object);
@@ -135,7 +135,10 @@ impl Knowledge<'_> {
             found.extend(self.members(&Extension::Doors));
         }
         if noun.other {
-            found.retain(|t| !self.memory.spoken.contains(t));
+            // What was spoken of long ago is no part of "what else".
+            const RECENT: usize = 12;
+            let recent = &self.memory.spoken[..self.memory.spoken.len().min(RECENT)];
+            found.retain(|t| !recent.contains(t));
         }
         for sort in &noun.also {
             let own: HashSet<Thing> = self.base(sort).into_iter().collect();
@@ -143,14 +146,13 @@ impl Knowledge<'_> {
         }
         if let Some((extreme, other)) = &noun.beyond {
             let other = self.one(other)?;
-            let less = matches!(
-                extreme,
-                Extreme::Smallest | Extreme::Lowest | Extreme::Narrowest | Extreme::Lightest
-            );
             let limit = self.measure(*extreme, other);
             let beyond = |t: Thing| {
                 let pair = self.measure(*extreme, t).zip(limit);
-                pair.is_some_and(|(own, limit)| if less { own < limit } else { own > limit })
+                pair.is_some_and(|(own, limit)| match extreme.is_less() {
+                    true => own < limit,
+                    false => own > limit,
+                })
             };
             found.retain(|t| *t != other && beyond(*t));
         }
@@ -389,6 +391,13 @@ impl Knowledge<'_> {
     }
 
     pub(super) fn between(&self, restriction: &Restriction) -> Result<HashSet<Thing>, Doubt> {
+        // «между кроватью и стеной»
+        if let [one, other] = &restriction.anchors[..]
+            && self.is_walls(one) != self.is_walls(other)
+        {
+            let thing = self.one(if self.is_walls(one) { other } else { one })?;
+            return Ok(self.between_walls(thing));
+        }
         let ends = self.ends_between(restriction)?;
         let [a, b] = ends[..] else {
             return Err(match (&ends[..], &restriction.anchors[..]) {
@@ -479,15 +488,8 @@ impl Knowledge<'_> {
                 found.iter().map(|t| (sign * number(*t), *t)).collect()
             }
             extreme => {
-                let up = matches!(
-                    extreme,
-                    Extreme::Biggest
-                        | Extreme::Tallest
-                        | Extreme::Widest
-                        | Extreme::Longest
-                        | Extreme::Heaviest
-                );
-                let sign = if up { -1.0 } else { 1.0 };
+                let extreme = self.settled(extreme, &found);
+                let sign = if extreme.is_less() { 1.0 } else { -1.0 };
                 found.iter().filter_map(|t| Some((sign * self.measure(extreme, *t)?, *t))).collect()
             }
         };

@@ -87,6 +87,22 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «Выше всех» by their place; by their size, where all begin equally high or have no such measure.
+    pub(in crate::language::question) fn settled(
+        &self,
+        extreme: Extreme,
+        things: &[Thing],
+    ) -> Extreme {
+        const EQUAL: f64 = 1.0;
+        if extreme == extreme.of_size() {
+            return extreme;
+        }
+        let feet: Option<Vec<f64>> = things.iter().map(|t| self.measure(extreme, *t)).collect();
+        let feet = feet.unwrap_or_default();
+        let apart = feet.iter().any(|foot| (foot - feet[0]).abs() > EQUAL);
+        if apart { extreme } else { extreme.of_size() }
+    }
+
     /// What a superlative compares of a thing; more is more of it.
     pub(in crate::language::question) fn measure(
         &self,
@@ -119,7 +135,10 @@ impl Knowledge<'_> {
             Extreme::Biggest | Extreme::Smallest => extent.base * extent.height,
             Extreme::Tallest | Extreme::Lowest => extent.height,
             Extreme::Narrowest => extent.width.min(extent.depth),
-            Extreme::Widest | Extreme::Longest => extent.width.max(extent.depth),
+            Extreme::Widest | Extreme::Longest | Extreme::Shortest => {
+                extent.width.max(extent.depth)
+            }
+            Extreme::Topmost | Extreme::Bottommost if !is_area => extent.bottom,
             _ => return None,
         })
     }

@@ -4,7 +4,7 @@
 
 use super::Knowledge;
 use crate::language::question::query::Thing;
-use crate::map::DoorStatus;
+use crate::map::{DoorStatus, Entity};
 use crate::units::AreaId;
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -34,6 +34,10 @@ pub(in crate::language::question) struct Limits {
 impl Knowledge<'_> {
     /// Rooms in which a thing is, or which it joins.
     pub(in crate::language::question) fn rooms_of(&self, thing: Thing) -> Vec<AreaId> {
+        if let Thing::Entity(Entity::Map(id)) = thing {
+            let items = self.world.maps.get(&id).into_iter().flat_map(|map| &map.items);
+            return items.map(|item| item.area).collect();
+        }
         match self.gate(thing) {
             Some(gate) => gate.areas.clone(),
             None => self.area_of(thing).into_iter().collect(),

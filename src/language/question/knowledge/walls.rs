@@ -83,6 +83,52 @@ impl Knowledge<'_> {
     }
 }
 
+/// How far from a wall a thing may stand so that people speak of what is between them, cm.
+const BEFORE_WALL: f64 = 150.0;
+
+impl Knowledge<'_> {
+    fn walls_about(&self, thing: Thing) -> Vec<(Point, Point)> {
+        let area = self.area_of(thing);
+        area.map(|area| walls(self.world, self.relations.measurements(), area)).unwrap_or_default()
+    }
+
+    /// What stands between a thing and the walls near to it.
+    pub(super) fn between_walls(&self, thing: Thing) -> HashSet<Thing> {
+        let Some(id) = thing.replica() else { return HashSet::new() };
+        let all = self.walls_about(thing).into_iter();
+        let near = all.filter_map(|wall| self.relations.before_wall(id, wall));
+        let near = near.filter(|(away, _)| *away <= BEFORE_WALL);
+        near.flat_map(|(_, found)| found).map(|id| Thing::Entity(Entity::Replica(id))).collect()
+    }
+
+    /// The walls at which a thing stands, each by what opens in it: doors, passages and windows. None where it stands
+    /// at no wall.
+    pub(in crate::language::question) fn own_walls(&self, thing: Thing) -> Option<Vec<Thing>> {
+        let (id, area) = (thing.replica()?, self.area_of(thing)?);
+        let at = |wall: &(Point, Point)| {
+            self.relations.distance_to_segment(id, *wall).is_some_and(|d| d <= AT_WALL)
+        };
+        let near: Vec<(Point, Point)> = self.walls_about(thing).into_iter().filter(at).collect();
+        if near.is_empty() {
+            return None;
+        }
+        let gates = self.gates().iter().filter(|g| g.areas.contains(&area));
+        let windows = self.lexicon().windows.iter().enumerate().filter(|(_, w)| w.area == area);
+        let windows = windows.map(|(n, w)| (Thing::Window(n as u32), w.ends));
+        let openings = gates.map(|g| (g.thing, g.ends)).chain(windows);
+        let along = openings.filter(|(_, ends)| near.iter().any(|wall| in_line(*wall, *ends)));
+        Some(along.map(|(thing, _)| thing).collect())
+    }
+}
+
+/// Whether a segment lies in the line of a wall.
+fn in_line(wall: (Point, Point), ends: (Point, Point)) -> bool {
+    // As thick as walls are, cm.
+    const OFF: f64 = 30.0;
+    let Some(along) = (wall.1 - wall.0).try_normalize(1e-9) else { return false };
+    [ends.0, ends.1].iter().all(|p| along.perp(&(p - wall.0)).abs() <= OFF)
+}
+
 /// Whether two of these walls, which go counter-clockwise about the room, meet in an inner corner.
 fn meet(sides: &[(Point, Point)]) -> bool {
     // Turned by more than 30°; ends of neighbouring sides may lie a grid step apart.

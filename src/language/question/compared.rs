@@ -1,0 +1,117 @@
+//! What questions compare by: superlatives and comparatives, sizes against a number, numbers of things.
+//!
+//! Invariant: whatever is compared, more of the measure wins, unless [`Extreme::is_less`] says otherwise.
+
+/// What a superlative compares.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Extreme {
+    Nearest,
+    Farthest,
+    Biggest,
+    Smallest,
+    Tallest,
+    Lowest,
+    Widest,
+    Narrowest,
+    Longest,
+    Shortest,
+    /// By how high above the floor it begins, as "higher" and «выше всех висит» mean; of things that begin equally
+    /// high, by their height.
+    Topmost,
+    Bottommost,
+    /// By the weight that the map gives.
+    Heaviest,
+    Lightest,
+    LeftMost,
+    RightMost,
+    /// Having the most of something; the anchor of the superlative tells of what.
+    Most,
+    Fewest,
+}
+
+impl Extreme {
+    /// Whether less of the measure wins.
+    #[must_use]
+    pub fn is_less(self) -> bool {
+        matches!(
+            self,
+            Self::Nearest
+                | Self::Smallest
+                | Self::Lowest
+                | Self::Narrowest
+                | Self::Shortest
+                | Self::Bottommost
+                | Self::Lightest
+        )
+    }
+
+    /// What is compared where two things begin equally high.
+    #[must_use]
+    pub fn of_size(self) -> Self {
+        match self {
+            Self::Topmost => Self::Tallest,
+            Self::Bottommost => Self::Lowest,
+            other => other,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Closeness {
+    Nearer,
+    Farther,
+}
+
+/// What a question for a size is after.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Dimension {
+    All,
+    Height,
+    Width,
+    Length,
+    Area,
+}
+
+/// How a number is meant: «не меньше трёх», "more than three".
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, PartialOrd, Ord, Hash)]
+pub enum Quantity {
+    #[default]
+    Exactly,
+    AtLeast,
+    AtMost,
+    MoreThan,
+    FewerThan,
+}
+
+impl Quantity {
+    /// Whether so many are as many as `asked` means.
+    #[must_use]
+    pub fn admits(self, number: u64, asked: u64) -> bool {
+        match self {
+            Self::Exactly => number == asked,
+            Self::AtLeast => number >= asked,
+            Self::AtMost => number <= asked,
+            Self::MoreThan => number > asked,
+            Self::FewerThan => number < asked,
+        }
+    }
+}
+
+/// «выше двух метров», "larger than 20 m²": what a superlative would compare, against a number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sized {
+    pub extreme: Extreme,
+    /// cm; of areas cm²
+    pub than: u64,
+    pub negated: bool,
+}
+
+impl Sized {
+    /// Whether a measure is beyond the number, or not where that is denied.
+    #[must_use]
+    pub fn admits(self, measure: f64) -> bool {
+        let less = self.extreme.is_less();
+        let than = self.than as f64;
+        (if less { measure < than } else { measure > than }) != self.negated
+    }
+}
