@@ -414,6 +414,9 @@ impl Asker<'_> {
         {
             return Ok(answer);
         }
+        let outcome = outcome.or_else(|unanswered| {
+            self.without_unknown(text, language, memory, &unanswered.0).ok_or(unanswered)
+        });
         match outcome {
             Ok(answer) => {
                 memory.learn(&answer);
@@ -433,6 +436,27 @@ impl Asker<'_> {
                 Err(self.knowledge(language, memory).unanswered(doubt))
             }
         }
+    }
+
+    /// "Is there a microwave or a toaster?" where the map has no word for the one: that is said, and the other looked for.
+    fn without_unknown(
+        &self,
+        text: &str,
+        language: Language,
+        memory: &Memory,
+        doubt: &Doubt,
+    ) -> Option<Answer> {
+        let Doubt::Unknown { reference, .. } = doubt else { return None };
+        let (rest, either) = several::without(text, reference)?;
+        let answer = self.answer(&rest, language, memory).ok()?;
+        // Of two that are joined by "and" both are asked after, and of a comparison both are needed.
+        if either != matches!(answer.said, Said::Yes | Said::No) {
+            return None;
+        }
+        let unknown = Doubt::Unknown { reference: reference.clone(), near: Vec::new() };
+        let unknown = self.knowledge(language, memory).unanswered(unknown).text;
+        let text = format!("{unknown} {}", answer.text);
+        Some(Answer { text, ..answer })
     }
 
     /// The query that a text asks, without answering it.

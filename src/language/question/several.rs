@@ -33,6 +33,36 @@ pub(super) fn parts(text: &str) -> Option<Vec<&str>> {
     parts.iter().all(|part| !part.is_empty()).then_some(parts)
 }
 
+/// A text without one of two things that it joins, and whether by "or": «микроволновка или тостер» without the first.
+pub(super) fn without(text: &str, one: &str) -> Option<(String, bool)> {
+    const ARTICLES: [&str; 5] = ["a", "an", "the", "any", "some"];
+    let (words, keys) = (word_ranges(text), word_keys(text));
+    let start = text.find(one)?;
+    let mut from = words.iter().position(|w| w.start == start)?;
+    let after = 1 + words.iter().position(|w| w.end == start + one.len())?;
+    while from > 0 && ARTICLES.contains(&keys[from - 1].as_str()) {
+        from -= 1;
+    }
+    let joint = |n: usize| match keys.get(n)?.as_str() {
+        "or" | "или" | "либо" => Some(true),
+        "and" | "и" => Some(false),
+        _ => None,
+    };
+    let (cut, either) = match (joint(after), from.checked_sub(1).and_then(joint)) {
+        (Some(either), _) => (words[from].start..words.get(after + 1)?.start, either),
+        (None, Some(either)) => (words[from - 1].start..words[after - 1].end, either),
+        (None, None) => return None,
+    };
+    Some((format!("{}{}", text[..cut.start].trim_end(), spaced(&text[cut.end..])), either))
+}
+
+/// What follows a cut, parted from what stands before it.
+fn spaced(rest: &str) -> String {
+    let rest = rest.trim_start();
+    let parts = !rest.is_empty() && rest.starts_with(char::is_alphanumeric);
+    if parts { format!(" {rest}") } else { rest.to_owned() }
+}
+
 /// Whether a word of these asks.
 pub(super) fn asks_in(text: &str) -> bool {
     let keys = word_keys(text);
@@ -62,7 +92,8 @@ fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }
 
-fn is_asking(mark: Mark) -> bool {
+/// Whether a mark asks for something.
+pub(super) fn is_asking(mark: Mark) -> bool {
     matches!(
         mark,
         Mark::Where

@@ -118,7 +118,11 @@ impl Knowledge<'_> {
                 format!("{place} всё занято: {}", self.list(&all))
             }
             (_, true, false) if !all.is_empty() => {
-                format!("all such places {place} are occupied: {}", self.list(&all))
+                let all = self.list(&all);
+                match place.is_empty() {
+                    true => format!("all such places are occupied: {all}"),
+                    false => format!("all such places {place} are occupied: {all}"),
+                }
             }
             (_, true, true) => format!("{place} такого места на карте нет"),
             (_, true, false) => format!("the map has no such place {place}"),

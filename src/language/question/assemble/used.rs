@@ -95,6 +95,12 @@ impl Frame<'_, '_> {
         if self.negated && matches!(query, Query::Property { .. } | Query::Size { .. }) {
             return Some(self.sentence.text.to_owned());
         }
+        // "Which room would you go to to cook?": no room is told by what is done there.
+        let deed = self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
+        if deed && matches!(query, Query::Find(noun) if self.is_area(noun) && self.asks_only(noun))
+        {
+            return Some(self.sentence.text.to_owned());
+        }
         let used = Used::of(query);
         // Where a door leads is told with all its rooms.
         let leads = matches!(query, Query::Leads(_));

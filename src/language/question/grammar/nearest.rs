@@ -9,6 +9,7 @@ use nom::multi::many0;
 use super::{Phrase, Sentence, Tok, Token, Tokens};
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Best, Closeness, Extreme, Head, Noun, Rel};
+use crate::language::question::several;
 use crate::language::words::Language;
 
 impl Sentence<'_> {
@@ -25,22 +26,35 @@ impl Sentence<'_> {
             return None;
         }
         let rest = if related { self.without_verbs(Tokens(&input.0[1..])) } else { input };
-        let (extreme, rest) = match rest.0 {
+        let (extreme, from) = match rest.0 {
             [Token { kind: Tok::Mark(Mark::BestTo(extreme)), .. }, after @ ..] => {
-                let (rest, anchor) = self.phrase(Tokens(after)).ok()?;
-                return Some((rest, best(*extreme, &anchor)?));
+                (*extreme, Tokens(after))
             }
-            [Token { kind: Tok::Mark(Mark::Best(extreme)), .. }, after @ ..] => (*extreme, after),
+            [Token { kind: Tok::Mark(Mark::Best(extreme)), .. }, after @ ..] => {
+                (*extreme, self.measured_from(*extreme, Tokens(after))?)
+            }
             // «которая ближе к тостеру»: than the others are.
             [Token { kind: Tok::Mark(Mark::Nearer(closeness)), .. }, after @ ..] if related => {
-                match closeness {
-                    Closeness::Nearer => (Extreme::Nearest, after),
-                    Closeness::Farther => (Extreme::Farthest, after),
-                }
+                let extreme = match closeness {
+                    Closeness::Nearer => Extreme::Nearest,
+                    Closeness::Farther => Extreme::Farthest,
+                };
+                (extreme, self.measured_from(extreme, Tokens(after))?)
             }
             _ => return None,
         };
-        let (rest, anchor) = self.phrase(self.measured_from(extreme, Tokens(rest))?).ok()?;
+        let (rest, anchor) = self.phrase(from).ok()?;
+        // "Which is the chair nearest to the window in the kitchen?": whose place that is, is left to what reads the
+        // whole question; in an order it is a destination.
+        let asks = self.tokens.iter().any(|t| match t.kind {
+            Tok::Mark(mark) => several::is_asking(mark),
+            kind => matches!(kind, Tok::Property(_)),
+        });
+        let placed = matches!(
+            rest.0.first().map(|t| t.kind),
+            Some(Tok::Mark(Mark::Link(Rel::In | Rel::On)))
+        );
+        (!(asks && placed)).then_some(())?;
         Some((rest, best(extreme, &anchor)?))
     }
 
