@@ -92,8 +92,7 @@ fn is_joint(key: &str) -> bool {
     matches!(key, "и" | "а" | "and" | "but")
 }
 
-/// Whether a mark asks for something.
-pub(super) fn is_asking(mark: Mark) -> bool {
+fn is_asking(mark: Mark) -> bool {
     matches!(
         mark,
         Mark::Where

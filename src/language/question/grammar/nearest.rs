@@ -6,11 +6,10 @@
 use nom::Parser;
 use nom::multi::many0;
 
-use super::{Phrase, Sentence, Tok, Token, Tokens};
+use super::{Item, Phrase, Sentence, Tok, Token, Tokens};
 use crate::language::question::mark::Mark;
-use crate::language::question::query::{Best, Closeness, Extreme, Head, Noun, Rel};
-use crate::language::question::several;
-use crate::language::words::Language;
+use crate::language::question::query::{Best, Closeness, Extreme, Head, Noun, Rel, Restriction};
+use crate::language::words::{Case, Language};
 
 impl Sentence<'_> {
     /// A noun with the superlative of distance behind it: behind a comma, a relative pronoun, or in English at once.
@@ -26,35 +25,24 @@ impl Sentence<'_> {
             return None;
         }
         let rest = if related { self.without_verbs(Tokens(&input.0[1..])) } else { input };
-        let (extreme, from) = match rest.0 {
+        let (extreme, rest) = match rest.0 {
             [Token { kind: Tok::Mark(Mark::BestTo(extreme)), .. }, after @ ..] => {
-                (*extreme, Tokens(after))
+                let (rest, anchor) = self.phrase(Tokens(after)).ok()?;
+                let (rest, anchor) = self.in_room(rest, anchor);
+                return Some((rest, best(*extreme, &anchor)?));
             }
-            [Token { kind: Tok::Mark(Mark::Best(extreme)), .. }, after @ ..] => {
-                (*extreme, self.measured_from(*extreme, Tokens(after))?)
-            }
+            [Token { kind: Tok::Mark(Mark::Best(extreme)), .. }, after @ ..] => (*extreme, after),
             // «которая ближе к тостеру»: than the others are.
             [Token { kind: Tok::Mark(Mark::Nearer(closeness)), .. }, after @ ..] if related => {
-                let extreme = match closeness {
-                    Closeness::Nearer => Extreme::Nearest,
-                    Closeness::Farther => Extreme::Farthest,
-                };
-                (extreme, self.measured_from(extreme, Tokens(after))?)
+                match closeness {
+                    Closeness::Nearer => (Extreme::Nearest, after),
+                    Closeness::Farther => (Extreme::Farthest, after),
+                }
             }
             _ => return None,
         };
-        let (rest, anchor) = self.phrase(from).ok()?;
-        // "Which is the chair nearest to the window in the kitchen?": whose place that is, is left to what reads the
-        // whole question; in an order it is a destination.
-        let asks = self.tokens.iter().any(|t| match t.kind {
-            Tok::Mark(mark) => several::is_asking(mark),
-            kind => matches!(kind, Tok::Property(_)),
-        });
-        let placed = matches!(
-            rest.0.first().map(|t| t.kind),
-            Some(Tok::Mark(Mark::Link(Rel::In | Rel::On)))
-        );
-        (!(asks && placed)).then_some(())?;
+        let (rest, anchor) = self.phrase(self.measured_from(extreme, Tokens(rest))?).ok()?;
+        let (rest, anchor) = self.in_room(rest, anchor);
         Some((rest, best(extreme, &anchor)?))
     }
 
@@ -81,6 +69,35 @@ impl Sentence<'_> {
             Head { named: found.named.clone(), kinds: found.kinds.clone(), ..Head::default() };
         let text = self.said(&(*from as usize..*to as usize)).to_owned();
         Some((Tokens(after), Noun { head, text, ..Noun::default() }))
+    }
+
+    /// "The window in the living room": the room right behind a thing tells which one is meant; a room that something is
+    /// to go to does not, by its case.
+    fn in_room<'a>(&self, input: Tokens<'a>, mut anchor: Phrase) -> (Tokens<'a>, Phrase) {
+        let Some(first) = input.0.first() else { return (input, anchor) };
+        let room = input.0.iter().find_map(|t| match t.kind {
+            Tok::Noun(n) => Some(&self.nouns[n as usize]),
+            _ => None,
+        });
+        let told = room.is_some_and(|found| {
+            let has = |case| found.readings.iter().any(|r| r.has_case(case));
+            let rests = has(Case::Locative) || has(Case::Prepositional);
+            found.is_area
+                && (self.language == Language::English || (rests && !has(Case::Accusative)))
+        });
+        if !told || self.comma_between(anchor.words.end, first.from as usize) {
+            return (input, anchor);
+        }
+        match self.place(input) {
+            Ok((rest, Item::Place { rel: rel @ (Rel::In | Rel::On), nouns, .. }))
+                if nouns.len() == 1 && nouns[0].person.is_none() && nouns[0].pronoun.is_none() =>
+            {
+                let anchors = nouns.into_iter().map(|phrase| phrase.noun).collect();
+                anchor.noun.restrictions.push(Restriction { rel, anchors, negated: false });
+                (rest, anchor)
+            }
+            _ => (input, anchor),
+        }
     }
 
     /// Behind the preposition of what a distance is measured from.
