@@ -344,7 +344,8 @@ fn is_within(set: &[FactId], others: &[FactId]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{fewest_steps, random_task};
+    use super::super::samples::random_task;
+    use super::super::tests::fewest_steps;
     use super::super::validate;
     use super::*;
 

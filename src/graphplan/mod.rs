@@ -472,4 +472,6 @@ impl<'a> Extractor<'a> {
 }
 
 #[cfg(test)]
+mod samples;
+#[cfg(test)]
 mod tests;

@@ -283,7 +283,8 @@ impl Applicable {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{fewest_steps, random_task};
+    use super::super::samples::random_task;
+    use super::super::tests::fewest_steps;
     use super::super::{Plan, validate};
     use super::*;
 

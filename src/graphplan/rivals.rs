@@ -109,7 +109,7 @@ impl Rivals {
 #[cfg(test)]
 mod tests {
     use super::super::Limits;
-    use super::super::tests::random_task;
+    use super::super::samples::random_task;
     use super::*;
 
     #[test]

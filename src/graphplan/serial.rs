@@ -93,7 +93,8 @@ fn kept(task: &Task, pairs: &ReachedPairs, id: OperatorId) -> Box<[u64]> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::tests::{fewest_steps, random_task};
+    use super::super::samples::random_task;
+    use super::super::tests::fewest_steps;
     use super::super::{Outcome, Turn, search, validate};
     use super::*;
     use crate::strips::Fact;

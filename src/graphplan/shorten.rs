@@ -95,7 +95,7 @@ fn needed_by(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
 mod tests {
     use std::cell::RefCell;
 
-    use super::super::tests::random_task;
+    use super::super::samples::random_task;
     use super::super::{Outcome, solve_any};
     use super::*;
 

@@ -2,71 +2,9 @@
 
 use std::collections::{HashMap, HashSet};
 
+use super::samples::{Named, Random, random_errand, random_task, random_task_with_objects, wishes};
 use super::*;
-use crate::strips::{Fact, Operator};
-
-/// A small generator with a seed for an argument (xorshift64*).
-struct Random(u64);
-
-impl Random {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
-    }
-
-    fn facts(&mut self, count: usize, of: usize) -> Vec<FactId> {
-        let mut facts: Vec<FactId> = (0..count).map(|_| FactId(self.below(of) as u32)).collect();
-        facts.sort_unstable();
-        facts.dedup();
-        facts
-    }
-}
-
-pub(super) fn random_task(seed: u64) -> Task {
-    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-    let fact_count = 4 + random.below(6);
-    let facts = (0..fact_count)
-        .map(|number| Fact {
-            predicate: format!("f{number}").into(),
-            args: Vec::new(),
-            negated: false,
-        })
-        .collect();
-    let operators = (0..3 + random.below(8))
-        .map(|number| {
-            let (needs, adds, dels) = (random.below(4), 1 + random.below(2), random.below(3));
-            let add_effects = random.facts(adds, fact_count);
-            let preconditions = random.facts(needs, fact_count);
-            // Operators that use up what they need make goals that exclude each other by threes.
-            let mut del_effects = if seed.is_multiple_of(2) {
-                preconditions.clone()
-            } else {
-                random.facts(dels, fact_count)
-            };
-            del_effects.retain(|fact| !add_effects.contains(fact));
-            Operator {
-                name: format!("o{number}").into(),
-                args: Vec::new(),
-                preconditions,
-                add_effects,
-                del_effects,
-                cost: 1,
-            }
-        })
-        .collect();
-    let (held, wanted) = (1 + random.below(3), 1 + random.below(4));
-    let task = Task {
-        facts,
-        operators,
-        init: random.facts(held, fact_count),
-        goal: random.facts(wanted, fact_count),
-        assumptions: Vec::new(),
-    };
-    task.check_invariants();
-    task
-}
+use crate::strips::Operator;
 
 /// Facts as bits.
 fn mask(facts: &[FactId]) -> u64 {
@@ -200,71 +138,6 @@ fn compare(turn: Turn) {
     assert!(solved > 500 && unsolvable > 500 && searched > 0, "{solved} {unsolvable} {searched}");
 }
 
-/// A task over three objects that the initial state hardly tells apart: actions come in threes.
-fn random_task_with_objects(seed: u64) -> Task {
-    const OBJECTS: usize = 3;
-    const PREDICATES: usize = 3;
-    const FLAGS: usize = 2;
-    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-    let mut facts = Vec::new();
-    for predicate in 0..PREDICATES {
-        for object in 0..OBJECTS {
-            let args = vec![format!("object{object}").into()];
-            facts.push(Fact { predicate: format!("p{predicate}").into(), args, negated: false });
-        }
-    }
-    for flag in 0..FLAGS {
-        facts.push(Fact {
-            predicate: format!("flag{flag}").into(),
-            args: Vec::new(),
-            negated: false,
-        });
-    }
-    // Numbers below PREDICATES are facts about the action's object, the others flags.
-    let pick = |random: &mut Random, count: usize| -> Vec<usize> {
-        (0..count).map(|_| random.below(PREDICATES + FLAGS)).collect()
-    };
-    let about = |numbers: &[usize], object: usize| -> Vec<FactId> {
-        let fact = |&n: &usize| {
-            if n < PREDICATES { n * OBJECTS + object } else { PREDICATES * (OBJECTS - 1) + n }
-        };
-        let mut facts: Vec<FactId> = numbers.iter().map(|n| FactId(fact(n) as u32)).collect();
-        facts.sort_unstable();
-        facts.dedup();
-        facts
-    };
-    let mut operators = Vec::new();
-    for schema in 0..3 {
-        let (needs, adds) = (1 + random.below(3), 1 + random.below(2));
-        let (needs, adds) = (pick(&mut random, needs), pick(&mut random, adds));
-        let dels = if random.below(3) > 0 { needs.clone() } else { pick(&mut random, 1) };
-        for object in 0..OBJECTS {
-            let add_effects = about(&adds, object);
-            let mut del_effects = about(&dels, object);
-            del_effects.retain(|fact| !add_effects.contains(fact));
-            operators.push(Operator {
-                name: format!("o{schema}").into(),
-                args: vec![format!("object{object}").into()],
-                preconditions: about(&needs, object),
-                add_effects,
-                del_effects,
-                cost: 1,
-            });
-        }
-    }
-    // One fact an object, mostly the same: some objects are interchangeable, some only look so.
-    let mut init: Vec<FactId> = (0..OBJECTS)
-        .map(|object| FactId((random.below(3) / 2 * OBJECTS + object) as u32))
-        .collect();
-    init.sort_unstable();
-    init.extend((0..FLAGS as u32).map(|flag| FactId((PREDICATES * OBJECTS) as u32 + flag)));
-    let wanted = 2 + random.below(3);
-    let goal = random.facts(wanted, facts.len());
-    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
-    task.check_invariants();
-    task
-}
-
 #[test]
 fn no_goods_are_true_of_their_images() {
     let (mut solved, mut together) = (0, 0);
@@ -284,30 +157,6 @@ fn no_goods_are_true_of_their_images() {
         }
     }
     assert!(solved > 20 && together > 0, "{solved} {together}");
-}
-
-/// As many wishes as one likes, each granted by using up one of a few tokens.
-fn wishes(wishes: u32, tokens: u32) -> Task {
-    let fact = |name: String| Fact { predicate: name.into(), args: Vec::new(), negated: false };
-    let granted = (0..wishes).map(|w| fact(format!("wish{w}")));
-    let held = (0..tokens).map(|t| fact(format!("token{t}")));
-    let operators = (0..wishes).flat_map(|w| (0..tokens).map(move |t| (w, FactId(wishes + t))));
-    Task {
-        facts: granted.chain(held).collect(),
-        operators: operators
-            .map(|(w, token)| Operator {
-                name: format!("grant{w}").into(),
-                args: Vec::new(),
-                preconditions: vec![token],
-                add_effects: vec![FactId(w)],
-                del_effects: vec![token],
-                cost: 1,
-            })
-            .collect(),
-        init: (wishes..wishes + tokens).map(FactId).collect(),
-        goal: (0..wishes).map(FactId).collect(),
-        assumptions: Vec::new(),
-    }
 }
 
 #[test]
@@ -488,89 +337,6 @@ fn another_initial_fact_teaches_nothing() {
     assert!(learned.about(&other).is_none());
 }
 
-/// A task like those of a robot in a small building: rooms in a tree, things that one hand carries, doors that are
-/// closed, and sometimes a flag raised in one room.
-fn random_errand(seed: u64) -> Task {
-    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
-    let rooms = 3 + random.below(3);
-    let things = 1 + random.below(2);
-    let mut names: Vec<String> = Vec::new();
-    let mut operators: Vec<Operator> = Vec::new();
-    let mut fact = |name: String| {
-        let known = names.iter().position(|known| *known == name);
-        FactId(known.unwrap_or_else(|| {
-            names.push(name);
-            names.len() - 1
-        }) as u32)
-    };
-    let mut operator = |needs: Vec<FactId>, adds: Vec<FactId>, dels: Vec<FactId>| {
-        let sorted = |mut facts: Vec<FactId>| {
-            facts.sort_unstable();
-            facts.dedup();
-            facts
-        };
-        operators.push(Operator {
-            name: format!("o{}", operators.len()).into(),
-            args: Vec::new(),
-            preconditions: sorted(needs),
-            add_effects: sorted(adds),
-            del_effects: sorted(dels),
-            cost: 1,
-        });
-    };
-    let mut init = vec![fact("hand".into()), fact("in0".into())];
-    for room in 1..rooms {
-        let other = random.below(room);
-        let closed = random.below(3) == 0;
-        let (here, there) = (fact(format!("in{room}")), fact(format!("in{other}")));
-        for (a, b) in [(here, there), (there, here)] {
-            let mut needs = vec![a];
-            if closed {
-                needs.push(fact(format!("open{room}")));
-            }
-            operator(needs, vec![b], vec![a]);
-            if closed {
-                let (open, shut) = (fact(format!("open{room}")), fact(format!("shut{room}")));
-                operator(vec![a, shut], vec![open], vec![shut]);
-                operator(vec![a, open], vec![shut], vec![open]);
-            }
-        }
-        if closed {
-            let state = if random.below(2) == 0 { "open" } else { "shut" };
-            init.push(fact(format!("{state}{room}")));
-        }
-    }
-    for thing in 0..things {
-        let (hand, held) = (fact("hand".into()), fact(format!("held{thing}")));
-        for room in 0..rooms {
-            let (here, lies) = (fact(format!("in{room}")), fact(format!("lies{thing}x{room}")));
-            operator(vec![here, hand, lies], vec![held], vec![hand, lies]);
-            if random.below(4) > 0 {
-                operator(vec![here, held], vec![hand, lies], vec![held]);
-            }
-        }
-        init.push(fact(format!("lies{thing}x{}", random.below(rooms))));
-    }
-    if random.below(2) == 0 {
-        let (here, flag) = (fact(format!("in{}", random.below(rooms))), fact("flag".into()));
-        let held = fact("held0".into());
-        let needs = if random.below(2) == 0 { vec![here] } else { vec![here, held] };
-        operator(needs, vec![flag], if random.below(3) == 0 { vec![here] } else { Vec::new() });
-    }
-    let goal_count = 1 + random.below(2);
-    let count = names.len();
-    let goal = random.facts(goal_count, count);
-    init.sort_unstable();
-    init.dedup();
-    let facts = names
-        .into_iter()
-        .map(|name| Fact { predicate: name.into(), args: Vec::new(), negated: false })
-        .collect();
-    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
-    task.check_invariants();
-    task
-}
-
 #[test]
 fn what_no_shortest_plan_needs_is_left_out() {
     let (mut smaller, mut solved) = (0, 0);
@@ -606,51 +372,21 @@ fn what_no_shortest_plan_needs_is_left_out() {
 /// A robot at one of many chairs that carries a cup past them: nobody has anything to do at a chair.
 #[test]
 fn what_is_only_passed_through_is_left_out() {
-    let places: Vec<String> = (0..6).map(|n| format!("place{n}")).collect();
-    let mut names: Vec<String> = places.clone();
-    names.extend(["cup at place0", "cup held", "cup at place5", "hand"].map(str::to_owned));
-    let fact = |name: &str| {
-        FactId(names.iter().position(|own| own == name).expect("a name of the list") as u32)
-    };
-    let mut operators = Vec::new();
-    let mut operator = |needs: Vec<FactId>, adds: Vec<FactId>, deletes: Vec<FactId>| {
-        let sorted = |mut facts: Vec<FactId>| {
-            facts.sort_unstable();
-            facts
-        };
-        operators.push(Operator {
-            name: format!("o{}", operators.len()).into(),
-            args: Vec::new(),
-            preconditions: sorted(needs),
-            add_effects: sorted(adds),
-            del_effects: sorted(deletes),
-            cost: 1,
-        });
-    };
-    for from in &places {
-        for to in places.iter().filter(|to| *to != from) {
-            operator(vec![fact(from)], vec![fact(to)], vec![fact(from)]);
+    let mut named = Named::default();
+    let places: Vec<FactId> = (0..6).map(|n| named.fact(&format!("place{n}"))).collect();
+    for &from in &places {
+        for &to in places.iter().filter(|to| **to != from) {
+            named.operator(&[from], &[to], &[from]);
         }
     }
-    let (hand, held) = (fact("hand"), fact("cup held"));
-    for place in ["place0", "place5"] {
-        let (here, lies) = (fact(place), fact(&format!("cup at {place}")));
-        operator(vec![here, hand, lies], vec![held], vec![hand, lies]);
-        operator(vec![here, held], vec![hand, lies], vec![held]);
-    }
-    let init = vec![fact("place3"), fact("cup at place0"), hand];
-    let init = {
-        let mut init = init;
-        init.sort_unstable();
-        init
-    };
-    let goal = vec![fact("cup at place5")];
-    let facts = names
-        .iter()
-        .map(|name| Fact { predicate: name.as_str().into(), args: Vec::new(), negated: false })
-        .collect();
-    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
-    task.check_invariants();
+    let [hand, held] = ["hand", "cup held"].map(|name| named.fact(name));
+    let [first, last] = [0, 5].map(|n| {
+        let (here, lies) = (places[n], named.fact(&format!("cup at place{n}")));
+        named.operator(&[here, hand, lies], &[held], &[hand, lies]);
+        named.operator(&[here, held], &[hand, lies], &[held]);
+        lies
+    });
+    let task = named.task(&[places[3], first, hand], &[last]);
     let reduced = needed::Reduced::of(&task, &Limits::default()).unwrap();
     assert_eq!(fewest_steps(&reduced.task), Some(4));
     // From the start to the cup and on: between places 0, 3 and 5 alone, and none of the ways back to the start.

@@ -1,0 +1,253 @@
+//! Small tasks for tests: random ones by a seed, and some by the names of their facts.
+
+use crate::strips::{Fact, FactId, Operator, Task};
+
+/// A small generator with a seed for an argument (xorshift64*).
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    pub(super) fn below(&mut self, bound: usize) -> usize {
+        self.0 ^= self.0 >> 12;
+        self.0 ^= self.0 << 25;
+        self.0 ^= self.0 >> 27;
+        ((self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 33) as usize) % bound
+    }
+
+    pub(super) fn facts(&mut self, count: usize, of: usize) -> Vec<FactId> {
+        let mut facts: Vec<FactId> = (0..count).map(|_| FactId(self.below(of) as u32)).collect();
+        facts.sort_unstable();
+        facts.dedup();
+        facts
+    }
+}
+
+/// A task whose facts are told by their names.
+#[derive(Default)]
+pub(super) struct Named {
+    facts: Vec<Fact>,
+    operators: Vec<Operator>,
+}
+
+impl Named {
+    /// The fact of this name, a new one if there was none.
+    pub(super) fn fact(&mut self, name: &str) -> FactId {
+        let known = self.facts.iter().position(|fact| &*fact.predicate == name);
+        FactId(known.unwrap_or_else(|| {
+            self.facts.push(Fact { predicate: name.into(), args: Vec::new(), negated: false });
+            self.facts.len() - 1
+        }) as u32)
+    }
+
+    pub(super) fn operator(&mut self, needs: &[FactId], adds: &[FactId], deletes: &[FactId]) {
+        self.operators.push(Operator {
+            name: format!("o{}", self.operators.len()).into(),
+            args: Vec::new(),
+            preconditions: sorted(needs),
+            add_effects: sorted(adds),
+            del_effects: sorted(deletes),
+            cost: 1,
+        });
+    }
+
+    pub(super) fn task(self, init: &[FactId], goal: &[FactId]) -> Task {
+        let Self { facts, operators } = self;
+        let (init, goal) = (sorted(init), sorted(goal));
+        let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+        task.check_invariants();
+        task
+    }
+}
+
+fn sorted(facts: &[FactId]) -> Vec<FactId> {
+    let mut facts = facts.to_vec();
+    facts.sort_unstable();
+    facts.dedup();
+    facts
+}
+
+pub(super) fn random_task(seed: u64) -> Task {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let fact_count = 4 + random.below(6);
+    let facts = (0..fact_count)
+        .map(|number| Fact {
+            predicate: format!("f{number}").into(),
+            args: Vec::new(),
+            negated: false,
+        })
+        .collect();
+    let operators = (0..3 + random.below(8))
+        .map(|number| {
+            let (needs, adds, dels) = (random.below(4), 1 + random.below(2), random.below(3));
+            let add_effects = random.facts(adds, fact_count);
+            let preconditions = random.facts(needs, fact_count);
+            // Operators that use up what they need make goals that exclude each other by threes.
+            let mut del_effects = if seed.is_multiple_of(2) {
+                preconditions.clone()
+            } else {
+                random.facts(dels, fact_count)
+            };
+            del_effects.retain(|fact| !add_effects.contains(fact));
+            Operator {
+                name: format!("o{number}").into(),
+                args: Vec::new(),
+                preconditions,
+                add_effects,
+                del_effects,
+                cost: 1,
+            }
+        })
+        .collect();
+    let (held, wanted) = (1 + random.below(3), 1 + random.below(4));
+    let task = Task {
+        facts,
+        operators,
+        init: random.facts(held, fact_count),
+        goal: random.facts(wanted, fact_count),
+        assumptions: Vec::new(),
+    };
+    task.check_invariants();
+    task
+}
+
+/// A task over three objects that the initial state hardly tells apart: actions come in threes.
+pub(super) fn random_task_with_objects(seed: u64) -> Task {
+    const OBJECTS: usize = 3;
+    const PREDICATES: usize = 3;
+    const FLAGS: usize = 2;
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let mut facts = Vec::new();
+    for predicate in 0..PREDICATES {
+        for object in 0..OBJECTS {
+            let args = vec![format!("object{object}").into()];
+            facts.push(Fact { predicate: format!("p{predicate}").into(), args, negated: false });
+        }
+    }
+    for flag in 0..FLAGS {
+        facts.push(Fact {
+            predicate: format!("flag{flag}").into(),
+            args: Vec::new(),
+            negated: false,
+        });
+    }
+    // Numbers below PREDICATES are facts about the action's object, the others flags.
+    let pick = |random: &mut Random, count: usize| -> Vec<usize> {
+        (0..count).map(|_| random.below(PREDICATES + FLAGS)).collect()
+    };
+    let about = |numbers: &[usize], object: usize| -> Vec<FactId> {
+        let fact = |&n: &usize| {
+            if n < PREDICATES { n * OBJECTS + object } else { PREDICATES * (OBJECTS - 1) + n }
+        };
+        let mut facts: Vec<FactId> = numbers.iter().map(|n| FactId(fact(n) as u32)).collect();
+        facts.sort_unstable();
+        facts.dedup();
+        facts
+    };
+    let mut operators = Vec::new();
+    for schema in 0..3 {
+        let (needs, adds) = (1 + random.below(3), 1 + random.below(2));
+        let (needs, adds) = (pick(&mut random, needs), pick(&mut random, adds));
+        let dels = if random.below(3) > 0 { needs.clone() } else { pick(&mut random, 1) };
+        for object in 0..OBJECTS {
+            let add_effects = about(&adds, object);
+            let mut del_effects = about(&dels, object);
+            del_effects.retain(|fact| !add_effects.contains(fact));
+            operators.push(Operator {
+                name: format!("o{schema}").into(),
+                args: vec![format!("object{object}").into()],
+                preconditions: about(&needs, object),
+                add_effects,
+                del_effects,
+                cost: 1,
+            });
+        }
+    }
+    // One fact an object, mostly the same: some objects are interchangeable, some only look so.
+    let mut init: Vec<FactId> = (0..OBJECTS)
+        .map(|object| FactId((random.below(3) / 2 * OBJECTS + object) as u32))
+        .collect();
+    init.sort_unstable();
+    init.extend((0..FLAGS as u32).map(|flag| FactId((PREDICATES * OBJECTS) as u32 + flag)));
+    let wanted = 2 + random.below(3);
+    let goal = random.facts(wanted, facts.len());
+    let task = Task { facts, operators, init, goal, assumptions: Vec::new() };
+    task.check_invariants();
+    task
+}
+
+/// As many wishes as one likes, each granted by using up one of a few tokens.
+pub(super) fn wishes(wishes: u32, tokens: u32) -> Task {
+    let fact = |name: String| Fact { predicate: name.into(), args: Vec::new(), negated: false };
+    let granted = (0..wishes).map(|w| fact(format!("wish{w}")));
+    let held = (0..tokens).map(|t| fact(format!("token{t}")));
+    let operators = (0..wishes).flat_map(|w| (0..tokens).map(move |t| (w, FactId(wishes + t))));
+    Task {
+        facts: granted.chain(held).collect(),
+        operators: operators
+            .map(|(w, token)| Operator {
+                name: format!("grant{w}").into(),
+                args: Vec::new(),
+                preconditions: vec![token],
+                add_effects: vec![FactId(w)],
+                del_effects: vec![token],
+                cost: 1,
+            })
+            .collect(),
+        init: (wishes..wishes + tokens).map(FactId).collect(),
+        goal: (0..wishes).map(FactId).collect(),
+        assumptions: Vec::new(),
+    }
+}
+
+/// A task like those of a robot in a small building: rooms in a tree, things that one hand carries, doors that are
+/// closed, and sometimes a flag raised in one room.
+pub(super) fn random_errand(seed: u64) -> Task {
+    let mut random = Random(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1);
+    let rooms = 3 + random.below(3);
+    let things = 1 + random.below(2);
+    let mut named = Named::default();
+    let mut init = vec![named.fact("hand"), named.fact("in0")];
+    for room in 1..rooms {
+        let other = random.below(room);
+        let closed = random.below(3) == 0;
+        let (here, there) = (named.fact(&format!("in{room}")), named.fact(&format!("in{other}")));
+        for (a, b) in [(here, there), (there, here)] {
+            let mut needs = vec![a];
+            if closed {
+                needs.push(named.fact(&format!("open{room}")));
+            }
+            named.operator(&needs, &[b], &[a]);
+            if closed {
+                let (open, shut) =
+                    (named.fact(&format!("open{room}")), named.fact(&format!("shut{room}")));
+                named.operator(&[a, shut], &[open], &[shut]);
+                named.operator(&[a, open], &[shut], &[open]);
+            }
+        }
+        if closed {
+            let state = if random.below(2) == 0 { "open" } else { "shut" };
+            init.push(named.fact(&format!("{state}{room}")));
+        }
+    }
+    for thing in 0..things {
+        let (hand, held) = (named.fact("hand"), named.fact(&format!("held{thing}")));
+        for room in 0..rooms {
+            let (here, lies) =
+                (named.fact(&format!("in{room}")), named.fact(&format!("lies{thing}x{room}")));
+            named.operator(&[here, hand, lies], &[held], &[hand, lies]);
+            if random.below(4) > 0 {
+                named.operator(&[here, held], &[hand, lies], &[held]);
+            }
+        }
+        init.push(named.fact(&format!("lies{thing}x{}", random.below(rooms))));
+    }
+    if random.below(2) == 0 {
+        let (here, flag) = (named.fact(&format!("in{}", random.below(rooms))), named.fact("flag"));
+        let held = named.fact("held0");
+        let needs = if random.below(2) == 0 { vec![here] } else { vec![here, held] };
+        let left = if random.below(3) == 0 { vec![here] } else { Vec::new() };
+        named.operator(&needs, &[flag], &left);
+    }
+    let goal_count = 1 + random.below(2);
+    let goal = random.facts(goal_count, named.facts.len());
+    named.task(&init, &goal)
+}
