@@ -16,6 +16,7 @@ use crate::units::{Cm, Deg, Point, Source};
 
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};
+use super::shape::STANDS;
 use super::stock::{Facing, Piece, shelve, state};
 
 const FORMAT: &str = "ProcTHOR";
@@ -111,7 +112,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     }
     let mut pieces = Vec::new();
     for record in list(&house, "objects") {
-        reader.thing(record, &mut pieces);
+        reader.thing(record, None, &mut pieces);
     }
     if assets.is_empty() && !list(&house, "objects").is_empty() {
         reader.remarks.clear();
@@ -295,13 +296,19 @@ impl Reader<'_> {
         })
     }
 
-    fn thing(&mut self, record: &Value, pieces: &mut Vec<Piece>) {
-        if let Some(piece) = self.piece(record) {
+    /// A thing and what lies on it; `under` is the top of what it lies on itself, in cm.
+    fn thing(&mut self, record: &Value, under: Option<f64>, pieces: &mut Vec<Piece>) {
+        let mut top = None;
+        if let Some(mut piece) = self.piece(record) {
+            // Some assets are dropped from 5 cm above their place when a house is run; the file has them in the air.
+            let falls = |top: &f64| (0.0..=STANDS).contains(&(piece.bottom - top));
+            piece.bottom = under.filter(falls).unwrap_or(piece.bottom);
+            top = Some(piece.bottom + piece.height);
             pieces.push(piece);
         }
         // Nesting is limited by the parser.
         for child in list(record, "children") {
-            self.thing(child, pieces);
+            self.thing(child, top, pieces);
         }
     }
 
@@ -426,6 +433,30 @@ mod tests {
         assert!((half[1] - 4.0).abs() < 1e-9 && (half[2] - 15.0).abs() < 1e-9);
         let upright = tilted([4.0, 15.0, 4.0], [0.1, 30.0, 359.9]);
         assert!((upright[1] - 15.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn what_hangs_a_little_above_what_it_lies_on_has_fallen() {
+        let boxed = |x: f64, y: f64| format!(r#"{{"x": {x}, "y": {y}, "z": {x}}}"#);
+        let asset = |id: &str, size: String| {
+            format!(r#""{id}": [{{"assetId": "{id}", "boundingBox": {size}}}]"#)
+        };
+        let assets = [asset("Desk", boxed(1.0, 0.8)), asset("Vase", boxed(0.2, 0.3))].join(",");
+        let assets = Assets::read(&Source::new("assets", format!("{{{assets}}}"))).unwrap();
+        // Feet 5.5 cm above the top, 9 cm above it, and in a drawer.
+        for (middle, bottom) in [(1.005, 80.0), (1.04, 89.0), (0.45, 30.0)] {
+            let at = |y: f64| format!(r#""position": {{"x": 2, "y": {y}, "z": 2}}"#);
+            let vase = format!(r#"{{"id": "v", "assetId": "Vase", {}}}"#, at(middle));
+            let desk = at(0.4);
+            let house = format!(
+                r#"{{"rooms": [{{"id": "r", "floorPolygon":
+                    [{{"x": 0, "y": 0, "z": 0}}, {{"x": 0, "y": 0, "z": 4}}, {{"x": 4, "y": 0, "z": 4}}]}}],
+                   "objects": [{{"id": "d", "assetId": "Desk", {desk}, "children": [{vase}]}}]}}"#
+            );
+            let survey = read_procthor(&Source::new("house", house), &assets).unwrap();
+            let things = &survey.levels[0].things;
+            assert!((things[1].z.get() - bottom).abs() < 0.02, "{:?}", things[1]);
+        }
     }
 
     #[test]
