@@ -7,6 +7,7 @@
 //! `wall0`, along its lower edge.
 
 use std::collections::{BTreeMap, HashMap};
+use std::ops::RangeInclusive;
 
 use serde_json::Value;
 
@@ -16,12 +17,14 @@ use crate::units::{Cm, Deg, Point, Source};
 
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};
-use super::shape::STANDS;
 use super::stock::{Facing, Piece, shelve, state};
 
 const FORMAT: &str = "ProcTHOR";
 /// Rotations about x and z smaller than this leave a thing upright, in degrees.
 const UPRIGHT: f64 = 0.5;
+/// How far some assets hang above what they lie on, in cm: they are dropped from 5 cm when a house is run, and a box is
+/// not quite as exact as its asset.
+const DROP: RangeInclusive<f64> = 2.5..=6.5;
 /// Thickness of a leaf, cm; the file does not tell it.
 const LEAF: f64 = 4.0;
 
@@ -112,7 +115,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     }
     let mut pieces = Vec::new();
     for record in list(&house, "objects") {
-        reader.thing(record, None, &mut pieces);
+        reader.thing(record, &[], &mut pieces);
     }
     if assets.is_empty() && !list(&house, "objects").is_empty() {
         reader.remarks.clear();
@@ -296,20 +299,32 @@ impl Reader<'_> {
         })
     }
 
-    /// A thing and what lies on it; `under` is the top of what it lies on itself, in cm.
-    fn thing(&mut self, record: &Value, under: Option<f64>, pieces: &mut Vec<Piece>) {
-        let mut top = None;
-        if let Some(mut piece) = self.piece(record) {
-            // Some assets are dropped from 5 cm above their place when a house is run; the file has them in the air.
-            let falls = |top: &f64| (0.0..=STANDS).contains(&(piece.bottom - top));
-            piece.bottom = under.filter(falls).unwrap_or(piece.bottom);
-            top = Some(piece.bottom + piece.height);
+    /// A thing and what lies on it; `surfaces` are heights on which it may stand itself, in cm.
+    fn thing(&mut self, record: &Value, surfaces: &[f64], pieces: &mut Vec<Piece>) {
+        let piece = self.piece(record).map(|mut piece| {
+            let under = surfaces.iter().filter(|&at| DROP.contains(&(piece.bottom - at)));
+            piece.bottom = under.copied().reduce(f64::min).unwrap_or(piece.bottom);
+            piece
+        });
+        let children = list(record, "children");
+        // On top of it, or where something else in it stands: on the seat of a sofa, in a drawer.
+        let mut inside: Vec<f64> = Vec::new();
+        if let Some(piece) = piece {
+            let feet = children.iter().filter_map(|child| self.foot(child));
+            inside.extend(feet.chain([piece.bottom + piece.height]));
             pieces.push(piece);
         }
         // Nesting is limited by the parser.
-        for child in list(record, "children") {
-            self.thing(child, top, pieces);
+        for child in children {
+            self.thing(child, &inside, pieces);
         }
+    }
+
+    /// The height of a thing's foot as the file has it, in cm.
+    fn foot(&self, record: &Value) -> Option<f64> {
+        let asset = self.assets.known.get(text(record, "assetId")?)?;
+        let half = tilted(asset.half, angles(record.get("rotation")));
+        Some(triple(record.get("position"))?[1] - half[1])
     }
 
     fn piece(&mut self, record: &Value) -> Option<Piece> {
@@ -443,15 +458,17 @@ mod tests {
         };
         let assets = [asset("Desk", boxed(1.0, 0.8)), asset("Vase", boxed(0.2, 0.3))].join(",");
         let assets = Assets::read(&Source::new("assets", format!("{{{assets}}}"))).unwrap();
-        // Feet 5.5 cm above the top, 9 cm above it, and in a drawer.
-        for (middle, bottom) in [(1.005, 80.0), (1.04, 89.0), (0.45, 30.0)] {
+        // Feet 5.5 cm above the top, 9 cm above it, in a drawer, and 5 cm above what else lies there.
+        for (middle, bottom) in [(1.005, 80.0), (1.04, 89.0), (0.45, 30.0), (0.50, 30.0)] {
             let at = |y: f64| format!(r#""position": {{"x": 2, "y": {y}, "z": 2}}"#);
-            let vase = format!(r#"{{"id": "v", "assetId": "Vase", {}}}"#, at(middle));
+            let vases =
+                [middle, 0.45].map(|y| format!(r#"{{"id": "v", "assetId": "Vase", {}}}"#, at(y)));
+            let vases = vases.join(",");
             let desk = at(0.4);
             let house = format!(
                 r#"{{"rooms": [{{"id": "r", "floorPolygon":
                     [{{"x": 0, "y": 0, "z": 0}}, {{"x": 0, "y": 0, "z": 4}}, {{"x": 4, "y": 0, "z": 4}}]}}],
-                   "objects": [{{"id": "d", "assetId": "Desk", {desk}, "children": [{vase}]}}]}}"#
+                   "objects": [{{"id": "d", "assetId": "Desk", {desk}, "children": [{vases}]}}]}}"#
             );
             let survey = read_procthor(&Source::new("house", house), &assets).unwrap();
             let things = &survey.levels[0].things;

@@ -29,7 +29,7 @@ const LEG: f64 = 6.0;
 /// Heights nearer to one another than this are one surface, cm: more than a box's own error, less than two shelves.
 const SAME_LEVEL: f64 = 5.0;
 /// A foot this near to a roof stands on it, cm: the widest of the gaps by which the rules know support.
-pub(super) const STANDS: f64 = 8.0;
+const STANDS: f64 = 8.0;
 /// A foot deeper than this below a roof stands on something else, cm: as exact as a surveyed box is.
 const SUNK: f64 = 2.0;
 /// Height of a seat for people where nothing tells it, cm, and its greatest share of the whole.
