@@ -48,6 +48,13 @@ fn orders_put_together_mean_what_they_say() {
     golden(&crate::worlds::rb2(), flat, &format!("{folder}/orders-rb2.txt"));
 }
 
+#[test]
+fn orders_in_an_imported_house_mean_what_they_say() {
+    let Some(house) = crate::talk::engine("../shared/data/procthor/house_6.json") else { return };
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/commands/orders-house6.txt");
+    golden(house.world().unwrap(), include_str!("golden/commands/orders-house6.txt"), path);
+}
+
 /// A room that the map says is dark is looked over by the light of its lamp.
 #[test]
 fn a_dark_room_is_lit_before_it_is_looked_over() {

@@ -23,7 +23,7 @@ fn root() -> PathBuf {
 
 /// An engine on a map of ours or of others; none, with a word, where the file is not there.
 #[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
-fn engine(map: &str) -> Option<Engine> {
+pub(crate) fn engine(map: &str) -> Option<Engine> {
     let path = root().join(map);
     if !path.exists() {
         println!("skipped: {} is not there", path.display());

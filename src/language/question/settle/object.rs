@@ -13,6 +13,7 @@ use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::ValueId;
+use crate::language::words::{Language, Number};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -75,8 +76,8 @@ impl Settler<'_, '_> {
         for spot in spots {
             let anchors = vec![with(&spot.phrase.noun, &spot.within)];
             let rel = match (sort, spot.rel) {
-                // «ключ от лаборатории»
-                (_, Rel::From | Rel::Of) if is_key(noun) => Rel::Opens,
+                // «ключ от лаборатории», not «ключи с письменного стола»
+                (_, Rel::From | Rel::Of) if is_key(noun) && !self.is_out_of(spot) => Rel::Opens,
                 // «дверь из кухни в коридор»
                 (Sort::Door, Rel::To | Rel::In | Rel::On | Rel::From | Rel::Through | Rel::Of) => {
                     Rel::Of
@@ -126,7 +127,8 @@ impl Settler<'_, '_> {
             return Ok((!chosen.is_empty()).then_some(chosen));
         }
         let one_of = noun.plural && self.is_one_of(&phrase.words);
-        let several = noun.plural && !one_of || noun.all || (sort == Sort::Switch && of_light);
+        let plural = noun.plural && !one_of && !self.has_no_singular(noun);
+        let several = plural || noun.all || (sort == Sort::Switch && of_light);
         if several && !found.is_empty() {
             return Ok(Some(found));
         }
@@ -211,6 +213,19 @@ impl Settler<'_, '_> {
         self.sentence.keys[words.start.saturating_sub(3)..words.end]
             .iter()
             .any(|key| ONE.contains(&key.as_str()))
+    }
+
+    /// «Возьми часы», «ключи»: that it is plural does not tell how many are meant.
+    fn has_no_singular(&self, noun: &Noun) -> bool {
+        let lexicon = self.knowledge.lexicon();
+        self.sentence.language == Language::Russian
+            && noun.head.kinds.iter().any(|k| lexicon.kind(*k).phrase.number() == Number::Plural)
+    }
+
+    /// «с письменного стола», "from the bedroom": where something is taken, where «от» would tell whose it is.
+    fn is_out_of(&self, spot: &Spot<'_>) -> bool {
+        let at = self.sentence.words.iter().position(|word| word.start == spot.at.start);
+        at.is_some_and(|n| ["из", "с", "со", "from"].contains(&&*self.sentence.keys[n]))
     }
 
     /// «любую книгу»: a question would ask about all of them.
