@@ -2,6 +2,8 @@
 //!
 //! Invariant: whatever is compared, more of the measure wins, unless [`Extreme::is_less`] says otherwise.
 
+use crate::units::name_key;
+
 /// What a superlative compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Extreme {
@@ -19,6 +21,11 @@ pub enum Extreme {
     /// high, by their height.
     Topmost,
     Bottommost,
+    /// By how high they begin, neither the highest nor the lowest: of an odd number the one in the middle.
+    Midmost,
+    /// By the least of width, depth and height.
+    Thickest,
+    Thinnest,
     /// By the weight that the map gives.
     Heaviest,
     Lightest,
@@ -41,8 +48,16 @@ impl Extreme {
                 | Self::Narrowest
                 | Self::Shortest
                 | Self::Bottommost
+                | Self::Midmost
+                | Self::Thinnest
                 | Self::Lightest
         )
+    }
+
+    /// Whether it tells one of several levels, one above the other.
+    #[must_use]
+    pub fn is_level(self) -> bool {
+        matches!(self, Self::Topmost | Self::Midmost | Self::Bottommost)
     }
 
     /// What is compared where two things begin equally high.
@@ -70,6 +85,8 @@ pub enum Dimension {
     Width,
     Length,
     Area,
+    /// How high it begins.
+    Elevation,
 }
 
 /// How a number is meant: «не меньше трёх», "more than three".
@@ -95,6 +112,33 @@ impl Quantity {
             Self::FewerThan => number < asked,
         }
     }
+}
+
+/// What says how a number is meant; only where a number follows.
+const QUANTITIES: &[(Quantity, &str)] = &[
+    (
+        Quantity::AtLeast,
+        "не меньше|не менее|не меньше чем|хотя бы|минимум|как минимум|по крайней мере|at least|no fewer than|not fewer than|no less than|not less than",
+    ),
+    (
+        Quantity::AtMost,
+        "не больше|не более|не больше чем|максимум|самое большее|at most|no more than|not more than|up to",
+    ),
+    (Quantity::MoreThan, "больше|больше чем|более|более чем|свыше|more than|over|above"),
+    (Quantity::FewerThan, "меньше|меньше чем|менее|менее чем|fewer than|less than|under|below"),
+    (
+        Quantity::Exactly,
+        "ровно|в точности|точно|только|лишь|всего|всего лишь|exactly|precisely|only|just",
+    ),
+];
+
+/// How the number after these words is meant, with the number of words that say so.
+pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
+    (1..=words.len().min(3)).rev().find_map(|n| {
+        let said = words[..n].join(" ");
+        let listed = |list: &str| list.split('|').any(|phrase| name_key(phrase) == said);
+        QUANTITIES.iter().find(|(_, list)| listed(list)).map(|(quantity, _)| (n, *quantity))
+    })
 }
 
 /// «выше двух метров», "larger than 20 m²": what a superlative would compare, against a number.

@@ -498,6 +498,10 @@ impl Rule<'_, '_> {
     fn related(&mut self, rel: Rel, term: &str, other: &str, of_room: bool) {
         let joins = self.relation("JOINS");
         match rel {
+            // "rooms that lead to the corridor"
+            Rel::To if of_room && !self.of_gates => {
+                return self.atoms.push(format!("{joins}(_, {term}, {other})"));
+            }
             // Doors are in the rooms that they join; one that leads out of the map stands in its room only.
             Rel::From | Rel::To | Rel::Through => {
                 let atom = format!("({joins}({term}, {other}, _) ; mounts({term}, {other}))");

@@ -29,15 +29,19 @@ impl Knowledge<'_> {
                 let latest = things.clone().next();
                 things.find(|t| t.area().is_none()).or(latest).into_iter().collect()
             }
+            // "What can I write with and where is it?": each of them.
+            Pronoun::Any if matches!(self.memory.query, Some(Query::Find(_))) && last.len() > 1 => {
+                last.clone()
+            }
             Pronoun::They | Pronoun::Any => {
                 self.memory.spoken.first().copied().into_iter().collect()
             }
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
-            Pronoun::He | Pronoun::HimOrIt | Pronoun::She | Pronoun::It => {
+            Pronoun::He | Pronoun::HimOrIt | Pronoun::She | Pronoun::Her | Pronoun::It => {
                 let fits = |gender: Gender| match pronoun {
                     Pronoun::He => gender == Gender::Masculine,
                     Pronoun::HimOrIt => gender != Gender::Feminine,
-                    Pronoun::She => gender == Gender::Feminine,
+                    Pronoun::She | Pronoun::Her => gender == Gender::Feminine,
                     _ => gender == Gender::Neuter,
                 };
                 let agrees = |t: &&Thing| {
@@ -45,7 +49,13 @@ impl Knowledge<'_> {
                     let said = || self.genders_said(**t).into_iter().any(fits);
                     (fits(gender) && number == Number::Singular) || said()
                 };
-                self.memory.spoken.iter().find(agrees).copied().into_iter().collect()
+                // «В какой комнате лампа и включена ли она?»: the lamp, not the room.
+                let subject = matches!(pronoun, Pronoun::He | Pronoun::She | Pronoun::It)
+                    && matches!(self.memory.query, Some(Query::RoomOf(_)));
+                let mut fitting = self.memory.spoken.iter().filter(agrees);
+                let latest = fitting.clone().next();
+                let thing = fitting.find(|t| t.area().is_none());
+                thing.filter(|_| subject).or(latest).copied().into_iter().collect()
             }
         }
     }

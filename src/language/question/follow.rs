@@ -31,6 +31,14 @@ impl Asker<'_> {
         let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
         let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
         let mut query = last.clone();
+        if let (true, false, Query::Count(old) | Query::Find(old)) =
+            (of_those, noun.restrictions.is_empty(), last)
+        {
+            let mut asked = old.clone();
+            asked.restrictions.extend(noun.restrictions);
+            asked.filters.extend(noun.filters);
+            return Some(Query::Find(asked));
+        }
         // "And the one in the living room?": another of what was asked of.
         let another = noun.head.anything && !noun.restrictions.is_empty() && noun.best.is_none();
         if another && let Some(query) = another_placed(last, &noun) {
@@ -159,8 +167,12 @@ impl Asker<'_> {
                 mark,
                 Mark::Which | Mark::What | Mark::Be | Mark::The | Mark::Best(_) | Mark::One
             ),
-            Item::Noun(phrase) => phrase.noun.head.anything && phrase.noun.best.is_some(),
+            Item::Noun(phrase) => {
+                phrase.noun.head.anything && (which || phrase.noun.best.is_some())
+            }
             Item::Value(_) => true,
+            // "which one is in the kitchen?"
+            Item::Place { .. } => which,
             _ => false,
         };
         let asks = matches!(items.first(), Some(Item::Mark(Mark::Which)));
@@ -307,10 +319,13 @@ impl Asker<'_> {
         let mut query = pending.query.clone();
         query.each_noun(&mut |noun| {
             if noun.text == pending.reference {
-                noun.head = Head { things: Some(vec![only]), ..Head::default() };
+                // «верхняя полка», asked back of which thing: a part of the one that is meant.
+                let level = noun.best.as_ref().is_some_and(|best| best.extreme.is_level());
+                let kinds = if level { std::mem::take(&mut noun.head.kinds) } else { Vec::new() };
+                noun.head = Head { things: Some(vec![only]), kinds, ..Head::default() };
                 noun.filters.clear();
                 noun.restrictions.clear();
-                noun.best = None;
+                noun.best = noun.best.take().filter(|_| level);
             }
         });
         Some(query)

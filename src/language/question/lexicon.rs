@@ -6,7 +6,9 @@
 use std::collections::{BTreeSet, HashMap};
 
 use crate::language::names::{english_name, hints, hints_of_type};
-use crate::language::words::{FormIndex, Language, NounPhrase, Number, WordHints, english};
+use crate::language::words::{
+    FormIndex, Language, NounPhrase, Number, WordHints, english, everyday,
+};
 use crate::map::{Entity, Permeability, TypeEntry, World};
 use crate::units::{AreaId, ObjectId, Point, TypeId, name_key};
 
@@ -101,6 +103,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Walls, "стена|стенка", "wall"),
     (Extension::Corners, "угол|уголок", "corner"),
     (Extension::Trait("seat"), "сиденье|место для сидения", "seat"),
+    (Extension::Trait("bed"), "место для сна|спальное место", "place to sleep|sleeping place"),
     (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
     (Extension::Trait("light"), "светильник", "light fixture|luminaire"),
     (Extension::Lighting, "свет|освещение", "light|lighting"),
@@ -253,6 +256,12 @@ impl Lexicon {
                 let russian = NounPhrase::parse(word, &WordHints::default());
                 let id = self.push(extension, russian.clone(), phrase.name());
                 self.nouns.insert(&russian, Meaning::Kind(id));
+                // «стол» for a desk, which the map calls by one word.
+                if let Some(head) = russian.head().filter(|head| own && *head != word) {
+                    let general = NounPhrase::parse(head, &WordHints::default());
+                    let id = self.push(extension, general.clone(), phrase.name());
+                    self.nouns.insert(&general, Meaning::Kind(id));
+                }
             }
         } else {
             self.nouns.insert(phrase, Meaning::Kind(id));
@@ -273,7 +282,11 @@ impl Lexicon {
             if let Some(head) = phrase.head()
                 && name_key(head) != name_key(phrase.name())
             {
-                self.narrower.entry((true, name_key(head))).or_default().push(id);
+                // «журнальный столик» is a table; a word of its own, as «тумбочка» is, is of another thing.
+                let whole = everyday::undiminished(&name_key(head));
+                for head in std::iter::once(name_key(head)).chain(whole) {
+                    self.narrower.entry((true, head)).or_default().push(id);
+                }
             }
             if is_english
                 && let Some(head) = english::kind(&english_name)

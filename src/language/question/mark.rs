@@ -127,6 +127,10 @@ pub(super) enum Mark {
     Detail(Detail),
     /// «больше», "bigger": of two
     More(Extreme),
+    /// «снизу», "from the bottom": from where an ordinal counts.
+    CountedFrom(Extreme),
+    /// «если стоять к нему лицом», "when facing it": the thing of whose side is asked.
+    FacingIt,
     /// «такого же цвета», "the same colour"
     Same,
     /// «виды», "kinds of"
@@ -152,6 +156,8 @@ pub(super) enum Pronoun {
     /// «его», «нему»: masculine or neuter.
     HimOrIt,
     She,
+    /// «неё», «ней»
+    Her,
     It,
     They,
     /// English "it": of any gender.

@@ -17,6 +17,7 @@ mod everyday;
 mod follow;
 mod grammar;
 mod knowledge;
+mod level_words;
 mod lexicon;
 mod mark;
 mod opening;
@@ -365,6 +366,9 @@ impl Doubt {
     }
 }
 
+/// An answer, or why there is none, with the query where the text was understood.
+type Outcome = Result<Answer, Box<(Doubt, Option<Query>)>>;
+
 /// Why the things of a command are not known.
 #[derive(Debug, Clone)]
 pub struct Misread(pub Box<Unanswered>);
@@ -398,13 +402,14 @@ impl Asker<'_> {
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
         let language = Language::of(text);
-        if let Some(answer) = self.each_part(text, language, memory) {
+        let parts = self.each_part(text, language, memory);
+        if let Some(Ok(answer)) = parts {
             return Ok(answer);
         }
-        if let Some(answered) = self.each_sentence(text, language, memory) {
+        if let (None, Some(answered)) = (&parts, self.each_sentence(text, language, memory)) {
             return answered;
         }
-        let outcome = self.answer(text, language, memory);
+        let outcome = parts.unwrap_or_else(|| self.answer(text, language, memory));
         if let Err(unanswered) = &outcome
             && matches!(
                 unanswered.0,
@@ -534,12 +539,7 @@ impl Asker<'_> {
         }
     }
 
-    fn answer(
-        &self,
-        text: &str,
-        language: Language,
-        memory: &Memory,
-    ) -> Result<Answer, Box<(Doubt, Option<Query>)>> {
+    fn answer(&self, text: &str, language: Language, memory: &Memory) -> Outcome {
         if let Some(query) = self.clarified(text, memory) {
             let language = memory.pending.as_ref().map_or(language, |p| p.language);
             let knowledge = self.knowledge(language, memory);

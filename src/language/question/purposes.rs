@@ -76,7 +76,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "вещь для письма",
         "thing to write with|writing utensil",
-        "писать|написать|записать|рисовать|write with|write|draw with",
+        "писать|пишут|рисуют|написать|записать|рисовать|write with|write|draw with",
         "pen|pencil|marker|ручка|карандаш|маркер|фломастер",
     ),
     sort(
@@ -106,7 +106,7 @@ pub(super) const SORTS: &[Sort] = &[
     sort(
         "вещь для резки",
         "thing to cut with",
-        "порезать|резать|нарезать|разрезать|отрезать|cut|slice|chop|cut with|slice with",
+        "порезать|режут|резать|нарезать|разрезать|отрезать|cut|slice|chop|cut with|slice with",
         "knife|scissors|butter knife|нож|ножницы",
     ),
     sort(

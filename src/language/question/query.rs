@@ -28,6 +28,8 @@ pub enum Rel {
     Between,
     /// «лицом к телевизору», "facing the TV": it is in front of them.
     Facing,
+    /// «слева, если смотреть на окно»: for one who faces the last of the anchors, of the first or in the whole room.
+    ToTheEye(Side),
     /// «там»: in a room or a thing, or on it.
     There,
     /// About the middle of a room or of a top.
@@ -49,6 +51,29 @@ pub enum Rel {
     Opens,
     /// «в метре от стола», "within 50 cm of the door": not farther than so many cm, surface to surface.
     Within(u32),
+}
+
+/// A side of one who faces a thing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Side {
+    /// Of another thing or the same one.
+    Left,
+    Right,
+    /// Of all that is in the room.
+    AllLeft,
+    AllRight,
+}
+
+impl Side {
+    #[must_use]
+    pub fn is_left(self) -> bool {
+        matches!(self, Self::Left | Self::AllLeft)
+    }
+
+    #[must_use]
+    pub fn of_all(self) -> bool {
+        matches!(self, Self::AllLeft | Self::AllRight)
+    }
 }
 
 /// Anything that can be an answer.

@@ -34,6 +34,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         of_the_most,
         can_be_moved,
         lies_or_stands,
+        beside_it,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -179,6 +180,17 @@ fn on_it(words: &Words<'_>) -> Option<String> {
         && words.is(last, &["it", "them"])
         && words.is(last - 1, &["on", "in", "inside"]);
     tail.then(|| words.replaced(vec![(last - 1..last + 1, String::new())]))
+}
+
+/// «Что с ней рядом?»: beside it.
+fn beside_it(words: &Words<'_>) -> Option<String> {
+    let beside = (2..words.keys.len()).find(|n| {
+        words.is(*n, &["рядом"])
+            && words.is(*n - 1, &["ней", "ним", "нею", "ними"])
+            && words.is(*n - 2, &["с"])
+    })?;
+    let it = &words.keys[beside - 1];
+    Some(words.replaced(vec![(beside - 2..beside + 1, format!("рядом с {it}"))]))
 }
 
 /// «Какая дверь ведёт наружу?»: to the street.

@@ -2,7 +2,9 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::Mark;
-use super::{Answer, Asker, Memory, Thing, Unanswered, opening, several};
+use super::{
+    Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, several,
+};
 use crate::language::words::{Language, word_keys};
 
 impl Asker<'_> {
@@ -13,7 +15,7 @@ impl Asker<'_> {
         text: &str,
         language: Language,
         memory: &mut Memory,
-    ) -> Option<Answer> {
+    ) -> Option<Outcome> {
         if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
             return None;
         }
@@ -22,6 +24,12 @@ impl Asker<'_> {
         let mut answers = Vec::new();
         let last = parts.last().copied().unwrap_or_default();
         for (n, part) in parts.iter().enumerate() {
+            if let Some(query) = self.other_side(part, &after).filter(|_| n > 0) {
+                let answer = self.knowledge(language, &after).answer(&query).ok()?;
+                after.learn(&answer);
+                answers.push(answer);
+                continue;
+            }
             let answer = match n > 0 && self.lacks_subject(part) {
                 // «…, и в какой они комнате?»
                 true => {
@@ -32,9 +40,18 @@ impl Asker<'_> {
                 false => match self.answer(part, language, &after) {
                     Ok(answer) => answer,
                     // «Сколько чёрных и сколько белых стульев?»: the noun stands once, at the end.
-                    Err(_) => {
-                        let whole = format!("{part} {}", self.last_head(last)?);
-                        self.answer(&whole, language, &after).ok()?
+                    Err(unanswered) => {
+                        let whole = self.last_head(last).map(|head| format!("{part} {head}"));
+                        let whole =
+                            whole.and_then(|whole| self.answer(&whole, language, &after).ok());
+                        match whole {
+                            Some(answer) => answer,
+                            // «В какой комнате шкаф и закрыт ли он?»: which one is asked back first.
+                            None if n == 0 && matches!(unanswered.0, Doubt::Ambiguous { .. }) => {
+                                return Some(Err(unanswered));
+                            }
+                            None => return None,
+                        }
                     }
                 },
             };
@@ -42,7 +59,28 @@ impl Asker<'_> {
             answers.push(answer);
         }
         *memory = after;
-        Some(Answer::joined(answers, language))
+        Some(Ok(Answer::joined(answers, language)))
+    }
+
+    /// «Что справа от тебя и что слева?»: the other side of what the question before was about.
+    fn other_side(&self, part: &str, memory: &Memory) -> Option<Query> {
+        let text = self.plain(part);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let sided =
+            |rel: Rel| matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::InFrontOf | Rel::Behind);
+        let mut side = None;
+        for item in sentence.items() {
+            match item {
+                Item::Link(rel) if sided(rel) && side.is_none() => side = Some(rel),
+                Item::Mark(Mark::What | Mark::Be | Mark::Exists) => {}
+                _ => return None,
+            }
+        }
+        let Some(Query::Find(before)) = &memory.query else { return None };
+        let mut noun = before.clone();
+        let [place] = &mut noun.restrictions[..] else { return None };
+        place.rel = side.filter(|_| sided(place.rel))?;
+        Some(Query::Find(noun))
     }
 
     /// Whether a question names nothing that it is about: "in which room", «какого цвета».

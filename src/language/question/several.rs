@@ -139,6 +139,10 @@ fn asks_of_those(before: &[String], words: &[String]) -> bool {
 
 /// Whether a part begins with what asks, after a preposition or a small word: «и в какой она комнате».
 fn begins(words: &[String]) -> bool {
+    // «… и закрыт ли он?»
+    if words.len() > 2 && words[1] == "ли" {
+        return true;
+    }
     let Some((taken, mark)) = vocabulary::longest(words) else { return false };
     match mark {
         Mark::Link(_) => {
@@ -207,6 +211,7 @@ mod tests {
         );
         check("Где чашка, на каком этаже?", Some(&["Где чашка", "на каком этаже?"]));
         check("How many cups are there and where?", Some(&["How many cups are there", "where?"]));
+        check("Где шкаф и закрыт ли он?", Some(&["Где шкаф", "закрыт ли он?"]));
         check("Где стул, на котором лежит книга?", None);
         check("Где стол и стул?", None);
         check("Что между столом и шкафом?", None);

@@ -156,6 +156,7 @@ impl Knowledge<'_> {
                 Rel::InFrontOf => "in front of",
                 Rel::Between => "between",
                 Rel::Middle => "in the middle of",
+                Rel::ToTheEye(side) => return self.place_aside(side, anchors),
                 Rel::Facing => "facing",
                 Rel::There => "at",
                 Rel::Leaning => "leaning against",
@@ -194,6 +195,7 @@ impl Knowledge<'_> {
             Rel::InFrontOf => with(Preposition::Pered, Case::Instrumental),
             Rel::Between => format!("между {}", in_case(Case::Instrumental)),
             Rel::Middle => format!("посередине {}", in_case(Case::Genitive)),
+            Rel::ToTheEye(side) => self.place_aside(side, anchors),
             Rel::Facing => format!("лицом {}", with(Preposition::K, Case::Dative)),
             Rel::Leaning => format!("вплотную {}", with(Preposition::K, Case::Dative)),
             Rel::Outside => format!("вне {}", in_case(Case::Genitive)),
@@ -369,6 +371,9 @@ impl Knowledge<'_> {
                 && let Ok(ends) = self.ends_between(restriction)
             {
                 text = self.place(Rel::Between, &ends);
+            }
+            if let Ok(Some(level)) = self.level_of(restriction) {
+                text = self.place_on(&level, &restriction.anchors[0], restriction.rel);
             }
             for anchor in &restriction.anchors {
                 if !text.is_empty() {

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
 use super::purposes;
-use super::query::{Closeness, Dimension, Extreme, Quantity, Rel};
+use super::query::{Closeness, Dimension, Extreme, Rel};
 use crate::language::report::Detail;
 use crate::units::name_key;
 
@@ -100,6 +100,10 @@ const WORDS: &[(Mark, &str)] = &[
         how big|how large|what size|what is the size|what is the size of|the size of|what are the dimensions|what are the dimensions of|dimensions|dimensions of|the dimensions of|size|size of|how small",
     ),
     (
+        Mark::HowBig(Dimension::Elevation),
+        "на какой высоте|на какой высоте от пола|насколько высоко висит|как высоко висит|at what height|at which height|how high up|how high above the floor|how far above the floor",
+    ),
+    (
         Mark::HowBig(Dimension::Height),
         "насколько высок|насколько высока|насколько высоко|насколько высоки|как высок|как высока|как высоко|высота потолка|какая высота потолка|какова высота потолка|высота потолков|какой высоты потолок|какой высоты потолки|how high is the ceiling|how high are the ceilings|ceiling height|what is the ceiling height|the ceiling height|какой высоты|какова высота|какая высота|высота|насколько высокий|насколько высокая|насколько высокое|how tall|how high|what height|what is the height|what is the height of|the height of|height of|height",
     ),
@@ -134,7 +138,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Lead,
-        "share a door|shares a door|have a door between them|have a common door|share a wall with a door|имеют общую дверь|смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединена|соединено|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
+        "share a door|shares a door|have a door between them|have a common door|share a wall with a door|имеют общую дверь|смежные|смежная|смежна|смежны|смежен|соседние|соседняя|попадёшь|попаду|окажешься|окажусь|попадём|окажемся|do i end up|end up|will i end up|would i end up|i end up|граничит|граничат|соседствует|соседствуют|прилегает|прилегают|borders|border|bordering|adjoins|adjoin|adjoining|ведёт|ведут|вела|ведущая|ведущие|ведущей|ведущую|выходит|выходят|выводит|соединяет|соединяют|соединяется|соединяются|сообщается|сообщаются|соединена|соединено|соединён|соединены|связывает|связывают|связана|связан|связаны|lead|leads|leading|go|goes|going|connect|connects|connecting|connected|open onto|open into|opens into|opens onto|joins|join|link|links",
     ),
     (
         Mark::Parts,
@@ -152,7 +156,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::List,
-        "what are the names of|the names of|names of|покажи мне всю|покажи всю|покажи мне весь|покажи весь|покажи мне все|покажи мне всё|покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
+        "дай список|дай мне список|дайте список|составь список|список|give me a list of|a list of|list of|what are the names of|the names of|names of|покажи мне всю|покажи всю|покажи мне весь|покажи весь|покажи мне все|покажи мне всё|покажи все|покажи всё|show me all|show all|show me all the|show all the|перечисли|перечислите|назови|назовите|перечень|список|выведи|выпиши|list|list all|name|enumerate|give me a list of|give me the list of|a list of|name all",
     ),
     (
         Mark::See,
@@ -169,7 +173,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Free,
-        "how much room is left|how much room is there|how much room|how much space is left|how much space is there|how much space|how much free space is there|how much free space|how much empty space|сколько места осталось|сколько осталось места|сколько ещё места|сколько места|сколько свободного места|свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there room on|is there space|is there any space|is there any room|is there enough room|is there enough space|is there space for|is there room for|is there enough room for|is there enough space for|space for|место для|поместится|поместятся|уместится|влезет|помещается|fit|fits|is there free space|is there any free space",
+        "how much room is left|how much room is there|how much room|how much space is left|how much space is there|how much space|how much free space is there|how much free space|how much empty space|хватит места|хватит ли места|хватит|хватит ли|хватает места|хватает ли места|достаточно места|достаточно ли места|сколько места осталось|сколько осталось места|сколько ещё места|сколько места|сколько свободного места|свободно|свободное место|свободного места|свободен|свободна|место|места|free space|free|space|room left|enough room|enough space|empty space|space left|room for|any room|uncluttered|free room|there room|is there room|is there space|is there any space|is there any room|is there enough room|is there enough space|is there space for|is there room for|is there enough room for|is there enough space for|space for|место для|поместится|поместятся|уместится|влезет|помещается|fit|fits|is there free space|is there any free space",
     ),
     (
         Mark::Sit,
@@ -261,7 +265,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::Link(Rel::In), "left in|в|во|внутри|внутрь|in|inside|inside of|within|into|in side"),
     (
         Mark::Link(Rel::On),
-        "left on|на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|over the top of",
+        "left on|на|поверх|сверху на|сверху|on|on top of|atop|upon|onto|on the surface of|on the top of|at the top of|over the top of",
     ),
     (
         Mark::Link(Rel::Under),
@@ -298,11 +302,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Link(Rel::Facing),
-        "смотрит на|смотрят на|смотрит в сторону|смотрят в сторону|лицом к|передом к|повёрнут|повёрнута|повёрнуто|повёрнуты|повёрнут к|повёрнута к|повёрнуто к|повёрнуты к|обращён к|обращена к|обращено к|обращены к|развёрнут к|развёрнута к|развёрнуто к|facing|faces|turned towards|turned to",
-    ),
-    (
-        Mark::Link(Rel::Middle),
-        "посередине|посреди|в центре|в середине|по центру|в самом центре|в самой середине|in the middle of|in the middle|in the centre of|in the center of|at the centre of|at the center of",
+        "смотрит на|смотрят на|смотрит в сторону|смотрят в сторону|лицом к|передом к|повёрнут|повёрнута|повёрнуто|повёрнуты|повёрнут к|повёрнута к|повёрнуто к|повёрнуты к|обращён к|обращена к|обращено к|обращены к|если смотреть на|если посмотреть на|если смотреть в сторону|если глядеть на|если стоять лицом к|если встать лицом к|если повернуться лицом к|если повернуться к|если сидеть лицом к|глядя на|смотря на|стоя лицом к|when you face|if you face|if i face|when i face|when facing|if facing|if you are facing|when you are facing|when one faces|if one faces|when you look at|if you look at|when looking at|if i look at|looking at|when one looks at|while facing|развёрнут к|развёрнута к|развёрнуто к|facing|faces|turned towards|turned to",
     ),
     (
         Mark::Link(Rel::Middle),
@@ -312,13 +312,20 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::Link(Rel::Leaning),
         "прислонён к|прислонена к|прислонено к|прислонены к|прислонён|прислонена|прислонено|прислонены|опирается о|leaning against|leans against|leaning on|leans on|leaned against|lean against|propped against|leaning",
     ),
+    (
+        Mark::FacingIt,
+        "если стоять к нему лицом|если стоять к ней лицом|если стоять лицом к нему|если стоять лицом к ней|если смотреть на него|если смотреть на неё|если к нему стоять лицом|если к ней стоять лицом|стоя к нему лицом|стоя к ней лицом|when you face it|if you face it|when facing it|if facing it|if you are facing it|when you are facing it|facing it|when you look at it|when looking at it|if you look at it|looking at it",
+    ),
     (Mark::Link(Rel::Has), "with|having"),
     (Mark::Link(Rel::Outside), "вне|снаружи|за пределами|outside|outside of|out side"),
     (
         Mark::Link(Rel::From),
         "if i m in|if i am in|if you are in|when i am in|when i m in|если я в|если я нахожусь в|если я во|находясь в|будучи в|из|изо|от|ото|с|со|из под|out of|from|off|starting from|leaving|begin at",
     ),
-    (Mark::Link(Rel::To), "к|ко|до|to|towards|toward|into the|up to|for the|till|as far as"),
+    (
+        Mark::Link(Rel::To),
+        "к|ко|до|для|to|towards|toward|into the|up to|for the|for|till|as far as",
+    ),
     (Mark::Link(Rel::Through), "через|сквозь|through|via|by way of"),
     (Mark::Link(Rel::At), "at|при"),
     (Mark::Link(Rel::Of), "of|belonging to"),
@@ -358,19 +365,43 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Topmost),
-        "самый верхний|самая верхняя|самое верхнее|самые верхние|самую верхнюю|самого верхнего|самой верхней|highest|topmost|uppermost|highest up",
+        "верхний|верхняя|верхнее|верхние|верхнюю|верхнего|верхней|верхнем|верхнему|верхним|верхних|top|upper|самый верхний|самая верхняя|самое верхнее|самые верхние|самую верхнюю|самого верхнего|самой верхней|highest|topmost|uppermost|highest up",
     ),
     (
         Mark::Best(Extreme::Bottommost),
-        "самый нижний|самая нижняя|самое нижнее|самые нижние|самую нижнюю|самого нижнего|самой нижней|lowest|bottommost|lowest down",
+        "нижний|нижняя|нижнее|нижние|нижнюю|нижнего|нижней|нижнем|нижнему|нижним|нижних|bottom|самый нижний|самая нижняя|самое нижнее|самые нижние|самую нижнюю|самого нижнего|самой нижней|lowest|bottommost|lowest down",
     ),
+    (
+        Mark::Best(Extreme::Midmost),
+        "средний|средняя|среднее|средние|среднюю|среднего|средней|среднем|среднему|средним|средних|middle",
+    ),
+    (
+        Mark::CountedFrom(Extreme::Topmost),
+        "from the top|from above|counting from the top|counted from the top",
+    ),
+    (
+        Mark::CountedFrom(Extreme::Bottommost),
+        "from the bottom|from below|counting from the bottom|counted from the bottom",
+    ),
+    (Mark::CountedFrom(Extreme::LeftMost), "counting from the left"),
+    (Mark::CountedFrom(Extreme::RightMost), "counting from the right"),
+    (
+        Mark::Best(Extreme::Thickest),
+        "самый толстый|самая толстая|самое толстое|самые толстые|самую толстую|толще всех|толще всего|по толщине|thickest|by thickness",
+    ),
+    (
+        Mark::Best(Extreme::Thinnest),
+        "самый тонкий|самая тонкая|самое тонкое|самые тонкие|самую тонкую|тоньше всех|тоньше всего|thinnest|slimmest",
+    ),
+    (Mark::More(Extreme::Thickest), "толще|потолще|thicker"),
+    (Mark::More(Extreme::Thinnest), "тоньше|потоньше|thinner|slimmer"),
     (
         Mark::Best(Extreme::Widest),
         "самый широкий|самая широкая|самое широкое|самую широкую|самые широкие|шире всех|по ширине|by width|widest|broadest",
     ),
     (
         Mark::Best(Extreme::Narrowest),
-        "самый узкий|самая узкая|самое узкое|самую узкую|самые узкие|уже всех|narrowest|thinnest|самый тонкий|самая тонкая|самое тонкое",
+        "самый узкий|самая узкая|самое узкое|самую узкую|самые узкие|уже всех|narrowest",
     ),
     (
         Mark::Best(Extreme::Longest),
@@ -462,7 +493,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::More(Extreme::Bottommost), "lower|lower down"),
     (Mark::More(Extreme::Shortest), "короче"),
     (Mark::More(Extreme::Widest), "шире|wider|broader"),
-    (Mark::More(Extreme::Narrowest), "уже чем|narrower|thinner"),
+    (Mark::More(Extreme::Narrowest), "уже чем|narrower"),
     (Mark::More(Extreme::Longest), "длиннее|longer"),
     (
         Mark::Same,
@@ -470,7 +501,8 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (Mark::Pronoun(Pronoun::He), "он|him"),
     (Mark::Pronoun(Pronoun::HimOrIt), "его|ему|него|нему|ним|нём"),
-    (Mark::Pronoun(Pronoun::She), "она|её|ей|неё|ней|нею|her|she|he"),
+    (Mark::Pronoun(Pronoun::She), "она|she|he"),
+    (Mark::Pronoun(Pronoun::Her), "её|ей|неё|ней|нею|her"),
     (Mark::Pronoun(Pronoun::It), "оно"),
     (Mark::Pronoun(Pronoun::They), "они|их|им|них|ними|they|them|those"),
     (Mark::Pronoun(Pronoun::Any), "it|its"),
@@ -495,33 +527,6 @@ const WORDS: &[(Mark, &str)] = &[
         currently|ever|it is|most|кажется|кстати|уже|тогда|give me|want|find out|check|check if|check whether|проверь|узнай|i m looking for|i am looking for|looking for|im looking for|scene|in this scene|in the scene|in this picture|relative to|with respect to|related to|present|available|right|immediately|object that is|things that are",
     ),
 ];
-
-/// What says how a number is meant; only where a number follows.
-const QUANTITIES: &[(Quantity, &str)] = &[
-    (
-        Quantity::AtLeast,
-        "не меньше|не менее|не меньше чем|хотя бы|минимум|как минимум|по крайней мере|at least|no fewer than|not fewer than|no less than|not less than",
-    ),
-    (
-        Quantity::AtMost,
-        "не больше|не более|не больше чем|максимум|самое большее|at most|no more than|not more than|up to",
-    ),
-    (Quantity::MoreThan, "больше|больше чем|более|более чем|свыше|more than|over|above"),
-    (Quantity::FewerThan, "меньше|меньше чем|менее|менее чем|fewer than|less than|under|below"),
-    (
-        Quantity::Exactly,
-        "ровно|в точности|точно|только|лишь|всего|всего лишь|exactly|precisely|only|just",
-    ),
-];
-
-/// How the number after these words is meant, with the number of words that say so.
-pub(super) fn quantity(words: &[String]) -> Option<(usize, Quantity)> {
-    (1..=words.len().min(3)).rev().find_map(|n| {
-        let said = words[..n].join(" ");
-        let listed = |list: &str| list.split('|').any(|phrase| name_key(phrase) == said);
-        QUANTITIES.iter().find(|(_, list)| listed(list)).map(|(quantity, _)| (n, *quantity))
-    })
-}
 
 type Phrases = Vec<(Vec<String>, Mark)>;
 

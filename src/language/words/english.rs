@@ -225,7 +225,11 @@ pub(crate) fn russian_of(english_name: &str) -> Vec<&'static str> {
     let means = |entry: &&(&'static str, lexicon::Entry)| {
         entry.1.english.iter().take(1).any(|word| *word == lower)
     };
-    lexicon::all().filter(|entry| means(&entry)).map(|(word, _)| word).take(2).collect()
+    let named = PHRASES.iter().filter(|(_, english)| *english == lower).map(|(word, _)| *word);
+    named
+        .chain(lexicon::all().filter(|entry| means(&entry)).map(|(word, _)| word))
+        .take(2)
+        .collect()
 }
 
 fn word_of(word: &str) -> Option<String> {

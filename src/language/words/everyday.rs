@@ -57,6 +57,7 @@ const SAME: &[&str] = &[
     "комод|dresser|chest of drawers",
     "стеллаж|книжный шкаф|bookshelf|bookcase|shelving unit",
     "штора|занавеска|шторы|curtain|curtains|drapes",
+    "тумба под телевизор|тумба под тв|тв тумба|телевизионная тумба|тумба для телевизора|tv stand|tv unit|tv cabinet|media console",
     "столешница|counter|countertop|worktop",
     "верстак|workbench",
     "ящик с инструментами|ящик для инструментов|инструментальный ящик|toolbox|tool box|tool kit",

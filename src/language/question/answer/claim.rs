@@ -53,6 +53,12 @@ impl Knowledge<'_> {
         thing: Thing,
         restriction: &Restriction,
     ) -> Result<(bool, Vec<Fact>, Vec<Thing>), Doubt> {
+        if let Some(level) = self.level_of(restriction)? {
+            let mut noun = Noun::default();
+            noun.head.things = Some(vec![thing]);
+            noun.restrictions.push(restriction.clone());
+            return Ok((!self.find(&noun, false)?.is_empty(), Vec::new(), vec![level.owner]));
+        }
         if restriction.rel == Rel::Between
             || restriction.anchors.iter().any(|a| self.is_floor(a) || self.is_walls(a))
         {
@@ -337,6 +343,9 @@ impl Knowledge<'_> {
                     Some(anchor) if self.is_floor(anchor) => {
                         self.pick("на полу", "on the floor").to_owned()
                     }
+                    Some(anchor) if let Ok(Some(level)) = self.level_of(restriction) => {
+                        self.place_on(&level, anchor, restriction.rel)
+                    }
                     // Walls and corners have no names: «в углах», "next to the walls".
                     Some(anchor) if self.is_walls(anchor) => {
                         let mut noun = Noun::default();
@@ -354,6 +363,18 @@ impl Knowledge<'_> {
                     .first()
                     .map(|a| self.frame_words(restriction.rel, *a))
                     .unwrap_or_default();
+                // «не на верхней полке, а на нижней»
+                let level = restriction.anchors.first().filter(|_| {
+                    !holds && self.level_of(restriction).is_ok_and(|level| level.is_some())
+                });
+                let level = level.and_then(|part| Some((self.level_under(thing, part)?, part)));
+                if let Some((level, part)) = level {
+                    let own = self.place_on(&level, part, restriction.rel);
+                    return Ok(match self.is_russian() {
+                        true => format!("{verb} не {place}, а {own}"),
+                        false => format!("{verb} not {place} but {own}"),
+                    });
+                }
                 match (holds, self.is_russian()) {
                     (true, _) => format!("{verb} {place}{frame}"),
                     (false, true) => match self.instead(thing, restriction.rel) {

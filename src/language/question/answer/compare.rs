@@ -106,7 +106,11 @@ impl Knowledge<'_> {
                 true => format!("высота {}", length(measure, self.language)),
                 false => format!("{} high", length(measure, self.language)),
             },
-            Extreme::Topmost | Extreme::Bottommost => match self.is_russian() {
+            Extreme::Thickest | Extreme::Thinnest => match self.is_russian() {
+                true => format!("толщина {}", length(measure, self.language)),
+                false => format!("{} thick", length(measure, self.language)),
+            },
+            Extreme::Topmost | Extreme::Bottommost | Extreme::Midmost => match self.is_russian() {
                 true => format!("на высоте {}", length(measure, self.language)),
                 false => format!("{} above the floor", length(measure, self.language)),
             },
@@ -249,7 +253,12 @@ impl Knowledge<'_> {
         let sign = if extreme.is_less() { 1.0 } else { -1.0 };
         measured.sort_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)));
         let [(best, winner), rest @ ..] = &measured[..] else { return Ok(self.apart(&things)) };
-        let equal = rest.iter().filter(|(m, _)| (m - best).abs() < 1e-6).count();
+        // What is told to be as much is not more.
+        let told = |measure: f64, thing: Thing| self.compared_words(thing, extreme, measure);
+        let same = |m: f64, thing: Thing| {
+            (m - best).abs() < 1e-6 || told(m, thing) == told(*best, *winner)
+        };
+        let equal = rest.iter().filter(|(m, thing)| same(*m, *thing)).count();
         if equal == rest.len() {
             let text = self.pick("они одинаковы", "they are equal").to_owned();
             return Ok(Draft::new(Said::Nothing, text).with(things));
@@ -315,6 +324,8 @@ impl Knowledge<'_> {
             Extreme::Widest => self.pick("шире", "wider"),
             Extreme::Narrowest => self.pick("уже", "narrower"),
             Extreme::Longest => self.pick("длиннее", "longer"),
+            Extreme::Thickest => self.pick("толще", "thicker"),
+            Extreme::Thinnest => self.pick("тоньше", "thinner"),
             Extreme::Heaviest => self.pick("тяжелее", "heavier"),
             Extreme::Lightest => self.pick("легче", "lighter"),
             _ => self.pick("больше", "bigger"),
@@ -340,9 +351,9 @@ impl Knowledge<'_> {
             return Ok(self.incomparable(&[a, b], extreme));
         };
         let less = extreme.is_less();
-        let yes = (x - y).abs() > 1e-9 && (x < y) == less;
-        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let words = |t, v| self.compared_words(t, extreme, v);
+        let yes = (x - y).abs() > 1e-9 && (x < y) == less && words(a, x) != words(b, y);
+        let head = if yes { self.pick("да, ", "yes, ") } else { self.pick("нет, ", "no, ") };
         let both =
             format!("{} – {}, {} – {}", self.name(a), words(a, x), self.name(b), words(b, y));
         // «На сколько выше?»: the difference, and what it is the difference of.

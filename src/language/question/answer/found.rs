@@ -158,6 +158,9 @@ impl Knowledge<'_> {
 
     /// «Из Коридора можно попасть в Комнату-В и в Комнату-Y.»
     fn neighbours(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        if let Some(text) = self.led_from(noun, found) {
+            return Some(text);
+        }
         let near = noun.restrictions.iter().find(|r| r.rel == Rel::Near)?;
         let from = self.find(near.anchors.first()?, true).ok()?;
         if near.negated && from.iter().all(|t| t.area().is_some()) {
@@ -185,6 +188,21 @@ impl Knowledge<'_> {
         rooms.then(|| match self.is_russian() {
             true => format!("{} можно попасть {list}", self.place(Rel::From, &from)),
             false => format!("from {} one can get {list}", self.list(&from)),
+        })
+    }
+
+    /// «В Коридор можно попасть из Комнаты-В и из Комнаты-Y.»
+    fn led_from(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let to = noun.restrictions.iter().find(|r| r.rel == Rel::To && !r.negated)?;
+        let rooms = !found.is_empty() && found.iter().all(|t| t.area().is_some());
+        let to = self.find(to.anchors.first()?, true).ok().filter(|_| rooms)?;
+        let from: Vec<String> = found.iter().map(|t| self.place(Rel::From, &[*t])).collect();
+        Some(match self.is_russian() {
+            true => {
+                let from = enumerate(&from, self.language);
+                format!("{} можно попасть {from}", self.place(Rel::To, &to))
+            }
+            false => format!("one can get {} from {}", self.place(Rel::To, &to), self.list(found)),
         })
     }
 

@@ -18,6 +18,7 @@ mod way;
 use super::knowledge::Knowledge;
 use super::query::{Best, Extreme, Noun, Query, Rel, Thing};
 use super::speech::sentence;
+use super::values::Property;
 use super::{Answer, Doubt, Fact, Said};
 
 /// An answer on its way: what is known of it beside its words.
@@ -58,6 +59,16 @@ impl Draft {
     fn number(mut self, number: f64) -> Self {
         self.number = Some(number);
         self
+    }
+}
+
+/// What the map does not say of some things, in Russian.
+fn unsaid(property: &Property) -> &'static str {
+    match property {
+        Property::Material => "из чего сделаны",
+        Property::Colour => "какого они цвета",
+        Property::State => "в каком они состоянии",
+        _ => "каковы они",
     }
 }
 
@@ -131,6 +142,13 @@ impl Knowledge<'_> {
             let seen = self.pick(" (если смотреть с моего места)", " (as seen from where I stand)");
             draft.text = format!("{}{seen}", draft.text.trim_end_matches('.'));
         }
+        if let Some(untold) = self.all_untold(query).filter(|_| draft.things.is_empty()) {
+            draft.text = untold;
+            draft.said = Some(Said::Unknown);
+        }
+        if let Some(untold) = self.untold(query) {
+            draft.text = format!("{}; {untold}", draft.text.trim_end_matches('.'));
+        }
         let mut topic = draft.things.clone();
         topic.extend(draft.topic);
         Ok(Answer {
@@ -145,6 +163,57 @@ impl Knowledge<'_> {
             topic,
             words: String::new(),
         })
+    }
+
+    /// «Есть ли грязные тарелки?» where the map says of no plate whether it is dirty.
+    fn all_untold(&self, query: &Query) -> Option<String> {
+        let noun = match query {
+            Query::Find(noun) | Query::Count(noun) => noun,
+            Query::Exists { what, .. } => match &what[..] {
+                [noun] => noun,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let [filter] = &noun.filters[..] else { return None };
+        if filter.negated || noun.head.anything || noun.best.is_some() {
+            return None;
+        }
+        let all = self.find(&Noun { filters: Vec::new(), ..noun.clone() }, true).ok()?;
+        if all.iter().any(|t| self.tells(*t, filter)) {
+            return None;
+        }
+        self.unsaid(&self.lexicon().values.entry(filter.value).property, &all)
+    }
+
+    /// What the map does not say of some things.
+    fn unsaid(&self, property: &Property, all: &[Thing]) -> Option<String> {
+        match *all {
+            [] => None,
+            [only] => Some(self.no_property(property, only)),
+            _ => Some(match self.is_russian() {
+                true => format!("не указано, {}: {}", unsaid(property), self.list(all)),
+                false => {
+                    let property = property.noun(self.language);
+                    format!("the map does not give the {property} of {}", self.list(all))
+                }
+            }),
+        }
+    }
+
+    /// «Какие столы не деревянные?»: those of whose material the map says nothing.
+    fn untold(&self, query: &Query) -> Option<String> {
+        let noun = match query {
+            Query::Find(noun) | Query::Count(noun) => noun,
+            Query::Exists { what, .. } => what.first()?,
+            _ => return None,
+        };
+        let denied = noun.filters.iter().find(|filter| filter.negated)?;
+        let told = noun.filters.iter().filter(|filter| !filter.negated).cloned().collect();
+        let mut all = self.find(&Noun { filters: told, ..noun.clone() }, true).ok()?;
+        all.retain(|t| !self.tells(*t, denied));
+        let property = &self.lexicon().values.entry(denied.value).property;
+        self.unsaid(property, &all)
     }
 
     /// The answers of several questions, one after the other.

@@ -398,6 +398,15 @@ impl Knowledge<'_> {
     }
 
     fn anchor_of(&self, rel: Rel, thing: Thing, what: Option<&Noun>) -> Result<Draft, Doubt> {
+        if let (Rel::On | Rel::In, Some(part)) = (rel, what.filter(|w| self.has_part_kinds(w)))
+            && let Some(level) = self.level_under(thing, part)
+        {
+            let place = self.place_on(&level, part, rel);
+            let text = format!("{} {} {place}", self.name(thing), self.is(&[thing]));
+            let facts = self.fact(rel, thing, level.owner).into_iter().collect();
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(vec![level.owner]) }
+                .about(&[thing]));
+        }
         let mut found = match rel {
             Rel::On => {
                 let id = thing.replica();

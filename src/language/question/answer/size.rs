@@ -75,6 +75,14 @@ impl Knowledge<'_> {
                 Dimension::Width => self.say_measure(thing, dimension, e.width),
                 Dimension::Length => self.say_measure(thing, dimension, e.width.max(e.depth)),
                 Dimension::Area => self.say_measure(thing, dimension, e.base),
+                Dimension::Elevation => {
+                    let (at, is) = (length(e.bottom, lang), self.is(&[thing]));
+                    let text = match self.is_russian() {
+                        true => format!("{name} {is} на высоте {at}"),
+                        false => format!("{name} {is} {at} above the floor"),
+                    };
+                    (text, e.bottom)
+                }
             },
             (None, Some(door)) => {
                 let (width, height) = (door.width.get(), door.height.get());
@@ -162,7 +170,7 @@ impl Knowledge<'_> {
                 Dimension::Height => "высота",
                 Dimension::Width => "ширина",
                 Dimension::Area => "площадь",
-                Dimension::Length | Dimension::All => "длина",
+                _ => "длина",
             };
             format!("{what} {} – {said}", self.form(thing, Case::Genitive))
         } else {
@@ -171,7 +179,7 @@ impl Knowledge<'_> {
                 Dimension::Height => format!("{name} is {said} high"),
                 Dimension::Width => format!("{name} is {said} wide"),
                 Dimension::Area => format!("{name} has an area of {said}"),
-                Dimension::Length | Dimension::All => format!("{name} is {said} long"),
+                _ => format!("{name} is {said} long"),
             }
         };
         (text, value)

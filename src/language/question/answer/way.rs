@@ -13,7 +13,18 @@ use crate::map::Entity;
 
 impl Knowledge<'_> {
     pub(super) fn leads(&self, noun: &Noun) -> Result<Draft, Doubt> {
-        let thing = self.one(noun)?;
+        let mut drafts = self.definite(noun)?.into_iter().map(|door| self.leads_one(door));
+        let Some(mut whole) = drafts.next() else { return Err(self.none_such(noun)) };
+        for draft in drafts {
+            whole.text = format!("{}; {}", whole.text, draft.text);
+            whole.things.extend(draft.things);
+            whole.facts.extend(draft.facts);
+            whole.topic.extend(draft.topic);
+        }
+        Ok(whole)
+    }
+
+    fn leads_one(&self, thing: Thing) -> Draft {
         let name = self.name(thing);
         let areas: Vec<Thing> = self
             .gate(thing)
@@ -41,7 +52,7 @@ impl Knowledge<'_> {
             _ => Vec::new(),
         };
         let said = if areas.is_empty() { Said::Unknown } else { Said::Found };
-        Ok(Draft { facts, ..Draft::new(said, text).with(areas) }.about(&[thing]))
+        Draft { facts, ..Draft::new(said, text).with(areas) }.about(&[thing])
     }
 
     /// A way with as much as is asked for; without that, only whether there is one.

@@ -148,6 +148,11 @@ impl Frame<'_, '_> {
                 .iter()
                 .filter(|s| !self.is_building(&s.nouns[0]))
                 .flat_map(Spot::restrictions)
+                .chain(self.except.iter().filter(|noun| self.is_area(noun)).map(|noun| {
+                    // «кроме кухни»
+                    let anchors = vec![noun.clone()];
+                    Restriction { rel: Rel::In, anchors, negated: true }
+                }))
                 .collect()
         };
         if self.has(Mark::Opens) && self.has(Mark::Can) && self.asks() {
@@ -184,6 +189,17 @@ impl Frame<'_, '_> {
             let seat = Noun { head, best, indefinite: true, ..Noun::default() };
             return Some(Query::Find(self.with_rest(seat, &[])));
         }
+        // «В каких комнатах можно сесть?»: the rooms that have seats.
+        let wanted = match use_for {
+            Some(Use::Sit) => Some("seat"),
+            Some(Use::Lie) => Some("bed"),
+            _ => None,
+        };
+        let kind = wanted.and_then(|wanted| self.lexicon.kind_of(&Extension::Trait(wanted)));
+        if let Some(rooms) = self.rooms_asked().filter(|_| kind.is_some()) {
+            let head = Head { kinds: kind.into_iter().collect(), ..Head::default() };
+            return Some(self.rooms_having(&rooms, head));
+        }
         if let (Some(use_for), true) = (use_for, asks && !nearest) {
             return Some(Query::Place { use_for, what: self.first(), within: within() });
         }
@@ -202,7 +218,11 @@ impl Frame<'_, '_> {
         // "on the bedside table with the lamp"
         let with = |spot: &Spot| {
             let next = self.spots.iter().find(|s| s.at == spot.at + 1 && s.rel == Rel::Has);
+            let room = self.spots.iter().find(|s| s.rel == Rel::In && self.is_area(&s.nouns[0]));
             let mut spot = spot.clone();
+            for (noun, room) in spot.nouns.iter_mut().zip(room) {
+                noun.restrictions.extend(room.restrictions());
+            }
             for (noun, next) in spot.nouns.iter_mut().zip(next) {
                 let bears = Spot { rel: Rel::Bears, ..next.clone() };
                 noun.restrictions.extend(bears.restrictions());
@@ -210,8 +230,15 @@ impl Frame<'_, '_> {
             spot.restrictions()
         };
         let within: Vec<Restriction> = on.flat_map(with).collect();
-        if let (Some(what), false) = (what.filter(|noun| !self.is_area(noun)), within.is_empty()) {
-            return Some(Query::Place { use_for: Use::Put, what: Some(what), within });
+        let what = what.filter(|noun| !self.is_area(noun));
+        if let (Some(what), false) = (&what, within.is_empty()) {
+            return Some(Query::Place { use_for: Use::Put, what: Some(what.clone()), within });
+        }
+        // «Где есть место для вазы?»
+        let places = self.spots.iter().filter(|s| self.is_area(&s.nouns[0]));
+        if self.spot(&[Rel::To]).is_some() && self.has(Mark::Where) && what.is_some() {
+            let within = places.flat_map(Spot::restrictions).collect();
+            return Some(Query::Place { use_for: Use::Put, what, within });
         }
         let place = self.spots.first().map(|s| s.nouns[0].clone()).or_else(|| self.first())?;
         if self.is_area(&place) && self.spots.len() < 2 {
@@ -227,6 +254,28 @@ impl Frame<'_, '_> {
             self.attach(&mut place, spot);
         }
         Some(Query::Free(place))
+    }
+
+    /// «в каких комнатах», "how many rooms": rooms that are asked for.
+    fn rooms_asked(&self) -> Option<Noun> {
+        let asked = self.nouns.iter().find(|s| {
+            let counted = self.place_of(Mark::HowMany).is_some_and(|at| at < s.at);
+            self.is_rooms(&s.noun)
+                && !self.is_storeys(&s.noun)
+                && (self.follows_which(s.at) || counted)
+        })?;
+        let others = self.nouns.iter().all(|s| s.at == asked.at);
+        others.then(|| asked.noun.clone())
+    }
+
+    /// The rooms that have something of a sort, or how many these are.
+    fn rooms_having(&self, rooms: &Noun, head: Head) -> Query {
+        let mut rooms = Noun { plural: true, indefinite: true, ..rooms.clone() };
+        rooms.head.named.clear();
+        let anchors = vec![Noun { head, indefinite: true, plural: true, ..Noun::default() }];
+        rooms.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: self.negated });
+        let rooms = self.with_rest(rooms, &[]);
+        if self.has(Mark::HowMany) { Query::Count(rooms) } else { Query::Find(rooms) }
     }
 
     /// «Что можно почитать?», "Where can I wash my hands?": the things of a sort, or where they are.
@@ -254,6 +303,9 @@ impl Frame<'_, '_> {
             || self.has(Mark::Exists);
         // «Какие книги можно почитать?» asks for books that are such things.
         let own = self.lexicon.kinds_of_sort(sort);
+        if let Some(rooms) = self.rooms_asked() {
+            return Some(self.rooms_having(&rooms, Head { kinds: own, ..Head::default() }));
+        }
         // «Что из мебели можно передвинуть?», "Which chairs can be moved?": what belongs to both.
         let of = |s: &&Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
         let of = self.spots.iter().find(of).map(|s| (s.nouns[0].clone(), s.at));

@@ -12,7 +12,7 @@ use crate::language::question::grammar::{Item, Phrase, Sentence};
 use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::mark::{Mark, Pronoun};
 use crate::language::question::purposes;
-use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Side, Thing};
 use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
 
@@ -245,6 +245,7 @@ impl<'s, 't> Frame<'s, 't> {
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
             first.noun.all = true;
         }
+        frame.look_aside();
         let walls = frame.on_walls(items.len());
         frame.spots.extend(walls);
         Ok(frame)
@@ -360,6 +361,47 @@ impl<'s, 't> Frame<'s, 't> {
         // What hangs is somewhere, too.
         let fits = |mark: Mark| mark == wanted || (wanted == Mark::Be && mark == Mark::Hang);
         self.marks.iter().any(|(mark, _)| fits(*mark))
+    }
+
+    /// «Что слева от стола, если смотреть на окно?»: the side is that of one who faces the thing.
+    fn look_aside(&mut self) {
+        let side = |rel: Rel, all: bool| match (rel, all) {
+            (Rel::LeftOf, true) => Some(Side::AllLeft),
+            (Rel::RightOf, true) => Some(Side::AllRight),
+            (Rel::LeftOf, false) => Some(Side::Left),
+            (Rel::RightOf, false) => Some(Side::Right),
+            _ => None,
+        };
+        if !self.asks() {
+            return;
+        }
+        let told = |rel: Rel| matches!(rel, Rel::LeftOf | Rel::RightOf);
+        let of = self.spots.iter().position(|s| told(s.rel) && s.nouns.len() == 1);
+        let faced = self.spots.iter().position(|s| s.rel == Rel::Facing && s.nouns.len() == 1);
+        let it = self.has(Mark::FacingIt);
+        if let (Some(of), None, true) = (of, faced, it) {
+            let spot = &mut self.spots[of];
+            spot.nouns.push(spot.nouns[0].clone());
+            spot.rel = side(spot.rel, false).map_or(spot.rel, Rel::ToTheEye);
+            self.marks.retain(|(mark, _)| *mark != Mark::FacingIt);
+            return;
+        }
+        let Some(faced) = faced else { return };
+        let seen = self.spots[faced].nouns[0].clone();
+        let link = self.links.iter().position(|(rel, _)| told(*rel));
+        match (of, link) {
+            (Some(of), _) => {
+                let spot = &mut self.spots[of];
+                spot.nouns.push(seen);
+                spot.rel = side(spot.rel, false).map_or(spot.rel, Rel::ToTheEye);
+                self.spots.remove(faced);
+            }
+            (None, Some(link)) => {
+                let (rel, _) = self.links.remove(link);
+                self.spots[faced].rel = side(rel, true).map_or(rel, Rel::ToTheEye);
+            }
+            (None, None) => {}
+        }
     }
 
     /// "What hangs in the hall?": on its walls, where nothing else is named to hang on.

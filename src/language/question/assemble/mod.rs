@@ -140,7 +140,12 @@ pub(super) fn fragment(
     let items = sentence.items();
     let frame = Frame::of(sentence, lexicon, &items, referent).ok()?;
     let of_those = frame.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)))
-        || items.iter().any(|item| matches!(item, Item::Value(_)));
+        || items.iter().any(|item| match item {
+            Item::Value(_) => true,
+            // "which one is in the kitchen"
+            Item::Noun(phrase) => phrase.noun.head.anything,
+            _ => false,
+        });
     let small = |mark: &Mark| {
         matches!(
             mark,
@@ -176,7 +181,7 @@ struct Spot {
 
 impl Spot {
     fn restrictions(&self) -> Vec<Restriction> {
-        if self.rel == Rel::Between {
+        if matches!(self.rel, Rel::Between | Rel::ToTheEye(_)) {
             return vec![Restriction {
                 rel: self.rel,
                 anchors: self.nouns.clone(),
@@ -237,9 +242,14 @@ impl Frame<'_, '_> {
         if self.links.iter().any(|(rel, _)| *rel == Rel::Between) {
             return None;
         }
-        // "What is on the left when facing the TV?": from where one faces it is not known.
-        let side = |rel: Rel| matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::Behind);
-        if self.spot(&[Rel::Facing]).is_some() && self.links.iter().any(|(rel, _)| side(*rel)) {
+        // "What is behind when facing the TV?": left and right alone are told so.
+        let facing = self.spot(&[Rel::Facing]).is_some() || self.has(Mark::FacingIt);
+        if facing
+            && self
+                .links
+                .iter()
+                .any(|(rel, _)| matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::Behind))
+        {
             return None;
         }
         // «Влезет ли коробка под кровать?»: the room under things is not known.
@@ -257,6 +267,11 @@ impl Frame<'_, '_> {
         const FIT: [&str; 7] =
             ["fit", "fits", "поместится", "поместятся", "уместится", "помещается", "влезет"];
         let fit = self.sentence.keys.iter().any(|key| FIT.contains(&key.as_str()));
+        // Nor how much room a shelf within a thing has.
+        let level = |s: &Spot| s.nouns[0].best.as_ref().is_some_and(|b| b.extreme.is_level());
+        if (fit || fits) && self.spots.iter().any(level) {
+            return None;
+        }
         if fit && self.spot(&[Rel::In]).is_some_and(|s| self.is_area(&s.nouns[0])) {
             return None;
         }

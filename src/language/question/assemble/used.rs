@@ -69,8 +69,15 @@ impl Frame<'_, '_> {
                     | Extension::Building
             )
         };
+        // «проход» is a map's own sort of door as well.
+        let any_door = |e: &Extension| matches!(e, Extension::Doors | Extension::Passages);
+        let door = |kind: &KindId| {
+            matches!(self.lexicon.kind(*kind).extension, Extension::DoorType(_))
+                && self.is_kind(noun, any_door)
+        };
         let narrowed = !noun.filters.is_empty() || !noun.restrictions.is_empty();
-        noun.head.named.is_empty() && !narrowed && noun.head.kinds.iter().all(general)
+        let kinds = &noun.head.kinds;
+        noun.head.named.is_empty() && !narrowed && kinds.iter().all(|k| general(k) || door(k))
     }
 
     /// The words of the first description or value that a query does without.

@@ -4,6 +4,7 @@
 
 use super::Frame;
 use super::Spot;
+use super::Subject;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{
@@ -215,7 +216,10 @@ impl Frame<'_, '_> {
     }
 
     pub(super) fn leads(&self) -> Option<Query> {
-        let door = self.nouns.iter().find(|s| self.is_doors(&s.noun) && !s.noun.plural);
+        let door = self
+            .nouns
+            .iter()
+            .find(|s| self.is_doors(&s.noun) && (!s.noun.plural || s.noun.head.things.is_some()));
         let asks_where = self.has(Mark::Where) || self.has(Mark::Whither);
         // «Из какой комнаты можно выйти на улицу?»
         let exit = self.spots.iter().find(|s| self.is_exits(&s.nouns[0]));
@@ -227,6 +231,9 @@ impl Frame<'_, '_> {
             let mut rooms = Noun { plural: true, indefinite: true, ..asked.noun.clone() };
             rooms.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: false });
             return Some(Query::Find(rooms));
+        }
+        if let Some(query) = self.passage_rooms().or_else(|| self.passage_between()) {
+            return Some(query);
         }
         // «Куда попадёшь из кухни через Дверь-ВZ?»
         let through = self.spots.iter().find(|s| s.rel == Rel::Through);
@@ -303,6 +310,29 @@ impl Frame<'_, '_> {
                 self.spots.iter().find(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone())
             })?;
             let mut rooms = self.rooms_near(anchor);
+            // «Из каких комнат можно попасть в коридор?», "Which rooms lead to the corridor?"
+            let whither = self.spots.iter().any(|s| {
+                self.is_area(&s.nouns[0]) && matches!(s.rel, Rel::To | Rel::In | Rel::On | Rel::At)
+            });
+            let from = self.links.iter().any(|(rel, _)| *rel == Rel::From);
+            let joined = self.sentence.keys.iter().any(|key| {
+                [
+                    "соедин",
+                    "связан",
+                    "сообща",
+                    "connect",
+                    "join",
+                    "link",
+                    "гранич",
+                    "adjoin",
+                    "adjac",
+                ]
+                .iter()
+                .any(|stem| key.starts_with(stem))
+            });
+            if whither && (from || !joined) && !asks_where && !self.negated {
+                rooms.restrictions.iter_mut().for_each(|r| r.rel = Rel::To);
+            }
             if self.negated {
                 // «Какие комнаты не соединены с коридором?»: a room is not joined to itself.
                 let [place] = &mut rooms.restrictions[..] else { return None };
@@ -312,6 +342,47 @@ impl Frame<'_, '_> {
             return Some(Query::Find(rooms));
         }
         None
+    }
+
+    /// «Из какой комнаты есть проход в гостиную?», «В какие комнаты есть проход из кухни?»
+    fn passage_rooms(&self) -> Option<Query> {
+        let [one, other] = &self.nouns[..] else { return None };
+        let asked = |s: &&Subject| self.is_rooms(&s.noun) && self.follows_which(s.at);
+        let rooms = [one, other].into_iter().find(asked)?;
+        let doors = [one, other].into_iter().find(|s| s.at != rooms.at)?;
+        // A door is not any way; of a passage people speak where there is a door.
+        let general = self.is_kind(&doors.noun, |e| *e == Extension::Passages)
+            && doors.noun.head.named.is_empty();
+        let place = self.spots.iter().find(|s| self.is_area(&s.nouns[0]))?;
+        if !general || !self.has(Mark::Exists) || self.negated {
+            return None;
+        }
+        let from = self.links.iter().any(|(rel, _)| *rel == Rel::From);
+        let rel = match (from, place.rel) {
+            (true, Rel::In | Rel::On | Rel::To) => Rel::To,
+            (false, Rel::From) => Rel::Near,
+            _ => return None,
+        };
+        let mut rooms = self.rooms_near(place.nouns[0].clone());
+        rooms.restrictions.iter_mut().for_each(|r| r.rel = rel);
+        Some(Query::Find(rooms))
+    }
+
+    /// «Есть ли проход из кухни в гостиную?»: whether they are joined, by a door too.
+    fn passage_between(&self) -> Option<Query> {
+        let [way] = &self.nouns[..] else { return None };
+        let passage = |e: &Extension| *e == Extension::Passages;
+        let ends = |rels: &[Rel]| {
+            self.spot(rels).filter(|s| self.is_area(&s.nouns[0])).map(|s| s.nouns[0].clone())
+        };
+        let (from, to) = (ends(&[Rel::From])?, ends(&[Rel::To, Rel::In, Rel::On])?);
+        let asked = self.has(Mark::Exists) && !self.asks() && !self.has(Mark::HowMany);
+        if !asked || !self.is_kind(&way.noun, passage) || !way.noun.head.named.is_empty() {
+            return None;
+        }
+        let place = Restriction { rel: Rel::NextTo, anchors: vec![to], negated: false };
+        let claims = vec![Claim::Related(place)];
+        Some(Query::Holds { subject: from, claims, negated: self.negated })
     }
 
     pub(super) fn rooms_near(&self, anchor: Noun) -> Noun {

@@ -271,7 +271,9 @@ impl Frame<'_, '_> {
         let of = self
             .spot(&[Rel::From, Rel::Of])
             .filter(|s| (best && s.nouns[0].plural) || !self.is_area(&s.nouns[0]))
-            .filter(|s| !s.nouns[0].head.kinds.is_empty());
+            .filter(|s| !s.nouns[0].head.kinds.is_empty())
+            // "What is on the shelf of the bookcase?" asks of what is on the shelf.
+            .filter(|s| !self.spots.iter().any(|before| before.at + 1 == s.at));
         if let Some(of) = of.filter(|_| best || !self.values.is_empty() || self.spots.len() > 1) {
             let noun = Noun { plural: true, indefinite: true, ..of.nouns[0].clone() };
             return Some(Query::Find(self.with_rest(noun, &[of.at])));
@@ -378,7 +380,24 @@ impl Frame<'_, '_> {
     /// "Everything in Room V except the chairs": a list, where no verb makes it a claim.
     pub(super) fn everything(&self) -> Option<Query> {
         let whole = self.has(Mark::All) && self.nouns.is_empty() && !self.spots.is_empty();
-        if !whole || self.has(Mark::Be) || !self.values.is_empty() {
+        // "Tell me everything that is made of glass"
+        let told = [
+            "tell",
+            "show",
+            "list",
+            "name",
+            "give",
+            "find",
+            "скажи",
+            "назови",
+            "покажи",
+            "перечисли",
+        ];
+        let listed = self.sentence.keys.iter().any(|key| told.contains(&key.as_str()))
+            && self.has(Mark::All)
+            && self.nouns.is_empty()
+            && !self.values.is_empty();
+        if !listed && (!whole || self.has(Mark::Be) || !self.values.is_empty()) {
             return None;
         }
         let mut noun = Noun { plural: true, indefinite: true, ..Noun::default() };

@@ -11,6 +11,7 @@
 
 mod governed;
 mod measures;
+mod modifier;
 mod nearest;
 mod relative;
 mod tokens;
@@ -26,9 +27,11 @@ use nom::multi::{many0, many1};
 use nom::sequence::pair;
 use nom::{IResult, Input, Needed, Parser};
 
+use modifier::Modifier;
+
 use super::lexicon::KindId;
 use super::mark::{Mark, Pronoun};
-use super::query::{Best, Filter, Head, Noun, Quantity, Rel, Restriction, Sized};
+use super::query::{Best, Filter, Head, Noun, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
 use crate::language::words::{Case, Language, Number, Readings};
 use crate::map::Entity;
@@ -382,6 +385,13 @@ impl<'t> Sentence<'t> {
             }
         }
         noun.rank = storey.or(noun.rank);
+        // «вторая полка снизу»
+        if let (Some(_), None, Some((extreme, after))) =
+            (noun.rank.filter(|_| storey.is_none()), &noun.best, self.counted_from(rest))
+        {
+            noun.best = Some(Best { extreme, anchor: None });
+            rest = after;
+        }
         if let Some((rel, owner)) = owner {
             noun.restrictions.push(Restriction { rel, anchors: vec![owner], negated: false });
         }
@@ -390,70 +400,6 @@ impl<'t> Sentence<'t> {
         let phrase =
             Phrase { noun, words, pronoun, person, nominative, cases, only_plural_nominative };
         Ok((rest, phrase))
-    }
-
-    fn modifier<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Modifier> {
-        let Some((first, rest)) = input.split_first() else { return fail(input) };
-        let modifier = match first.kind {
-            Tok::Mark(Mark::The) => Modifier::The,
-            Tok::Mark(Mark::A) => Modifier::A,
-            // "one cup"; "the red one" ends so.
-            Tok::Mark(Mark::One)
-                if matches!(rest.split_first(), Some((Token { kind: Tok::Noun(_), .. }, _))) =>
-            {
-                Modifier::A
-            }
-            Tok::Mark(Mark::All) => Modifier::All,
-            Tok::Mark(Mark::Other) => Modifier::Other,
-            Tok::Mark(Mark::Same) => Modifier::Same,
-            Tok::Mark(Mark::Best(extreme)) => match self.nearest_to(extreme, rest) {
-                Some((rest, anchor)) => {
-                    let anchor = Some(Box::new(anchor));
-                    return Ok((rest, Modifier::Best(Best { extreme, anchor })));
-                }
-                None => Modifier::Best(Best { extreme, anchor: None }),
-            },
-            Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
-            Tok::Mark(Mark::Number(quantity)) => Modifier::Quantity(quantity),
-            // "the smaller wardrobe": of two the one that is so.
-            Tok::Mark(Mark::More(extreme)) if self.is_the_more(first, rest) => {
-                Modifier::Best(Best { extreme, anchor: None })
-            }
-            Tok::Number(count) => Modifier::Number(count),
-            // «Закрыта дверь?» says it of the door; it does not tell which.
-            Tok::Value(_) if self.is_predicate(first) => return fail(input),
-            Tok::Value(value) => Modifier::Value(value, false),
-            // «красные или белые чашки», "black and white chairs": either will do.
-            Tok::Mark(Mark::Or | Mark::And) => {
-                let before = self.tokens.iter().rev().find(|t| t.to <= first.from);
-                let (Some(Tok::Value(one)), [Token { kind: Tok::Value(other), .. }, after @ ..]) =
-                    (before.map(|t| t.kind), rest.0)
-                else {
-                    return fail(input);
-                };
-                let either = first.kind == Tok::Mark(Mark::Or) || self.are_alike(one, *other);
-                return match either {
-                    true => Ok((Tokens(after), Modifier::OrValue(*other))),
-                    false => Ok((Tokens(after), Modifier::Value(*other, false))),
-                };
-            }
-            Tok::Mark(Mark::Not) => {
-                // «не чёрные стулья»
-                return match rest.0 {
-                    [Token { kind: Tok::Value(value), .. }, after @ ..]
-                        if matches!(
-                            after.first().map(|t| t.kind),
-                            Some(Tok::Noun(_) | Tok::Mark(Mark::One))
-                        ) =>
-                    {
-                        Ok((Tokens(after), Modifier::Value(*value, true)))
-                    }
-                    _ => fail(input),
-                };
-            }
-            _ => return fail(input),
-        };
-        Ok((rest, modifier))
     }
 
     /// The head, and its owner with the relation to it.
@@ -585,22 +531,6 @@ impl<'t> Sentence<'t> {
         let (first, last) = (words[0], words[words.len() - 1]);
         Ok((rest, Item::Unknown(first.from as usize..last.to as usize)))
     }
-}
-
-#[derive(Debug, Clone)]
-enum Modifier {
-    The,
-    A,
-    All,
-    Other,
-    Same,
-    Number(u64),
-    Value(ValueId, bool),
-    /// «… или белые»: another value that will do.
-    OrValue(ValueId),
-    Best(Best),
-    Rank(u64),
-    Quantity(Quantity),
 }
 
 fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {

@@ -1,6 +1,7 @@
 //! A sentence cut into tokens: which words are a name, a value, a property, a number, or a word of the vocabulary.
 
 use super::{Found, Sentence, Tok, Token};
+use crate::language::question::compared::quantity;
 use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Extreme, Quantity, Rel};
@@ -98,6 +99,10 @@ impl<'t> Sentence<'t> {
                     if n == longest =>
                 {
                     article
+                }
+                // "the top of the desk" is its part, "the top shelf" one of several.
+                Some((n, Mark::Best(extreme))) if n == longest && extreme.is_level() => {
+                    !self.begins_noun(at + n, lexicon)
                 }
                 Some((n, Mark::Filler)) if n == longest => true,
                 Some((n, _)) => n < longest,
@@ -203,7 +208,7 @@ impl<'t> Sentence<'t> {
 
     /// "at least four": how a number is meant, and the number. Gives the words that they take.
     fn quantity(&mut self, at: usize) -> Option<usize> {
-        let (taken, quantity) = vocabulary::quantity(&self.keys[at..])?;
+        let (taken, quantity) = quantity(&self.keys[at..])?;
         let number = match self.keys.get(at + taken)?.as_str() {
             "один" | "одна" | "одно" | "одного" | "одной" | "одну" | "one" => {
                 1
@@ -234,7 +239,14 @@ impl<'t> Sentence<'t> {
             _ => return None,
         };
         let next = self.keys.get(at + 1).map(String::as_str);
-        let ends = matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
+        // "something to sit on"
+        let before = self.tokens.last().map(|t| t.kind);
+        let used = matches!(
+            before,
+            Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown | Mark::Deed(_)))
+        );
+        let ends =
+            !used && matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
         let is_noun = |t: &&Token| matches!(t.kind, Tok::Noun(_) | Tok::Mark(Mark::Pronoun(_)));
         let nouns = self.tokens.iter().filter(is_noun).count();

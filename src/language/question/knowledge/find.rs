@@ -348,6 +348,12 @@ impl Knowledge<'_> {
         if let Some(found) = self.at_walls(restriction.rel, noun)? {
             return Ok(found);
         }
+        if let Some(level) = self.level_of(restriction)? {
+            return Ok(self.on_level(&level));
+        }
+        if let (Rel::ToTheEye(side), [.., faced]) = (restriction.rel, &restriction.anchors[..]) {
+            return self.seen_aside(side, noun, faced);
+        }
         let mut found = HashSet::new();
         if let (Rel::Has | Rel::Bears, [noun]) = (restriction.rel, &restriction.anchors[..])
             && let Some(asked) = noun.count
@@ -494,6 +500,11 @@ impl Knowledge<'_> {
             }
         };
         ranked.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if best.extreme == Extreme::Midmost {
+            let middle = ranked.len() / 2;
+            let one = (ranked.len() % 2 == 1).then(|| ranked[middle].1);
+            return Ok(one.into_iter().collect());
+        }
         let places = |n: u64| usize::try_from(n).unwrap_or(usize::MAX).max(1);
         // The second biggest comes after all that are equally the biggest.
         for _ in 1..places(rank) {

@@ -113,6 +113,10 @@ impl Knowledge<'_> {
             let told = self.values(thing).into_iter().find(|(p, _, _)| *p == Property::Weight)?;
             return kilograms(&told.2);
         }
+        if let Thing::Entity(Entity::Map(map)) = thing {
+            let placed = self.world.domain.maps.iter().find(|m| m.map == map)?;
+            return extreme.is_level().then_some(placed.frame.z.get());
+        }
         let extent = match thing {
             Thing::Entity(Entity::Replica(id)) => self.relations.extent(id)?,
             Thing::Entity(Entity::Area(id)) => self.relations.area_extent(id)?,
@@ -138,7 +142,10 @@ impl Knowledge<'_> {
             Extreme::Widest | Extreme::Longest | Extreme::Shortest => {
                 extent.width.max(extent.depth)
             }
-            Extreme::Topmost | Extreme::Bottommost if !is_area => extent.bottom,
+            Extreme::Topmost | Extreme::Bottommost | Extreme::Midmost if !is_area => extent.bottom,
+            Extreme::Thickest | Extreme::Thinnest if !is_area => {
+                extent.width.min(extent.depth).min(extent.height)
+            }
             _ => return None,
         })
     }

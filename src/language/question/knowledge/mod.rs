@@ -1,12 +1,15 @@
 //! What a description finds on the map: kinds, values and relations looked up, and things measured when that is asked.
 
+mod facing;
 mod find;
+mod levels;
 mod measure;
 mod passages;
 mod relate;
 mod values;
 mod walls;
 
+pub(super) use levels::Level;
 pub(super) use passages::{Limits, Passage};
 
 use super::lexicon::Lexicon;
@@ -85,6 +88,7 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
         | Rel::To
         | Rel::Through
         | Rel::Opens
+        | Rel::ToTheEye(_)
         | Rel::Within(_) => &[],
     }
 }

@@ -29,6 +29,10 @@ impl Knowledge<'_> {
                 if rel != Rel::Of {
                     found.retain(|t| self.gate(*t).is_some());
                 }
+                // "Which rooms lead to the corridor?"
+                if rel == Rel::To {
+                    found.extend(self.related(Rel::Near, anchor));
+                }
                 found
             }
             (Rel::Outside, Thing::Entity(Entity::Area(area))) => {

@@ -110,8 +110,25 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Whether a thing has one of a filter's values, or none where that is asked.
+    /// Whether the map tells of a thing what a filter asks.
+    pub(in crate::language::question) fn tells(&self, thing: Thing, filter: &Filter) -> bool {
+        let values = &self.lexicon().values;
+        let entry = values.entry(filter.value);
+        if entry.is_emptiness() || thing.replica().is_none() {
+            return true;
+        }
+        let same = |own: ValueId| values.answer_one_question(own, filter.value);
+        let told = |(property, own, _): &(Property, Option<ValueId>, String)| {
+            *property == entry.property && own.is_none_or(same)
+        };
+        self.values(thing).iter().any(told)
+    }
+
+    /// Whether a thing has one of a filter's values, or by what the map tells none where that is asked.
     pub(in crate::language::question) fn fits(&self, thing: Thing, filter: &Filter) -> bool {
+        if filter.negated && !self.tells(thing, filter) {
+            return false;
+        }
         filter.values().any(|value| self.has_value(thing, value)) != filter.negated
     }
 

@@ -1,0 +1,61 @@
+//! Left and right as they are for someone who faces a thing: «слева, если смотреть на окно».
+//!
+//! Invariant: where that person stands is said in the answer, and is the robot's place or the middle of the room.
+
+use super::Knowledge;
+use crate::language::question::Doubt;
+use crate::language::question::query::{Noun, Rel, Side, Thing};
+use crate::map::Entity;
+use crate::units::Point;
+use std::collections::HashSet;
+
+/// Straight ahead are things so far from the line of sight, degrees; beyond the other angle they are behind.
+const AHEAD: f64 = 15.0;
+const BEHIND: f64 = 120.0;
+/// What is to the side of a thing is no farther from it, cm.
+const BESIDE: f64 = 200.0;
+
+impl Knowledge<'_> {
+    /// Where one stands who faces a thing, and whether that is the robot's own place.
+    pub(in crate::language::question) fn standpoint(&self, faced: Thing) -> Option<(Point, bool)> {
+        let area = self.area_of(faced)?;
+        let (map, _) = self.point(faced)?;
+        let robot = self.senses.robot().filter(|(own, _)| *own == map);
+        let here = self.area_of(Thing::Robot) == Some(area);
+        match robot.filter(|_| here) {
+            Some((_, pose)) => Some((pose.at, true)),
+            None => Some((self.point(Thing::Entity(Entity::Area(area)))?.1, false)),
+        }
+    }
+
+    /// What is to the left or right of a thing, or in the whole room, for one who faces another, or the same thing.
+    pub(super) fn seen_aside(
+        &self,
+        side: Side,
+        of: &Noun,
+        faced: &Noun,
+    ) -> Result<HashSet<Thing>, Doubt> {
+        let (of, faced) = (self.one(of)?, self.one(faced)?);
+        let seen = self.standpoint(faced).zip(self.point(faced)).zip(self.area_of(faced));
+        let Some((((from, _), (_, at)), area)) = seen else { return Ok(HashSet::new()) };
+        let Some(ahead) = (at - from).try_normalize(1.0) else { return Ok(HashSet::new()) };
+        let around = if side.of_all() { from } else { self.point(of).map_or(from, |(_, p)| p) };
+        let in_room = self.related(Rel::In, Thing::Entity(Entity::Area(area)));
+        let aside = |thing: &Thing| {
+            let Some((_, p)) = self.point(*thing).filter(|_| thing.replica().is_some()) else {
+                return false;
+            };
+            let away = p - around;
+            let angle = ahead.perp(&away).atan2(ahead.dot(&away)).to_degrees();
+            let angle = if side.is_left() { angle } else { -angle };
+            match side.of_all() {
+                true => (AHEAD..BEHIND).contains(&angle),
+                false => {
+                    (45.0..=135.0).contains(&angle)
+                        && self.distance(*thing, of).is_some_and(|d| d <= BESIDE)
+                }
+            }
+        };
+        Ok(in_room.into_iter().filter(|t| *t != of && *t != faced && aside(t)).collect())
+    }
+}
