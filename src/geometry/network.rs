@@ -285,14 +285,31 @@ impl<'a> Walkable<'a> {
     }
 }
 
+/// A passage of a Fragment's cell as an edge.
+fn over(fragment: u32, passage: &Passage) -> Edge {
+    let &Passage { right, left, right_bends, left_bends, to } = passage;
+    Edge { right, left, right_bends, left_bends, to: (fragment, to) }
+}
+
 impl Cells for Walkable<'_> {
+    #[inline(always)]
+    fn only_edge(&self, cell: CellKey, from: CellKey) -> Option<Edge> {
+        let network = &self.plan.network;
+        let [one, other] = self.plan.floor(cell.0).cells.passages(cell.1).0 else { return None };
+        let is_back = |passage: &Passage| (cell.0, passage.to) == from;
+        let on = match (is_back(one), is_back(other)) {
+            (true, false) => other,
+            (false, true) => one,
+            _ => return None,
+        };
+        let forks = self.marks.of(network.number(cell)) & FORKS != 0;
+        (!forks).then(|| over(cell.0, on))
+    }
+
     #[inline(always)]
     fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
         let back = from.filter(|f| f.0 == cell.0).map_or(NONE, |f| f.1);
-        let over = |passage: &Passage| {
-            let &Passage { right, left, right_bends, left_bends, to } = passage;
-            Edge { right, left, right_bends, left_bends, to: (cell.0, to) }
-        };
+        let over = |passage: &Passage| over(cell.0, passage);
         let (through, branches) = self.plan.floor(cell.0).cells.passages(cell.1);
         for passage in through {
             if passage.to != back {

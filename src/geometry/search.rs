@@ -23,6 +23,9 @@ pub(super) type CellKey = (u32, u32);
 pub(super) trait Cells {
     /// Adds the edges of a cell that do not lead back to `from`, counter-clockwise, each with the cell behind it.
     fn edges(&self, cell: CellKey, from: Option<CellKey>, found: &mut Vec<Edge>);
+
+    /// The only edge of a cell that does not lead back to `from`, where that is told at once.
+    fn only_edge(&self, cell: CellKey, from: CellKey) -> Option<Edge>;
 }
 
 /// A stretch of a cell's border that leads into another cell.
@@ -135,6 +138,13 @@ fn meet(a: Point, b: Point, p: Point, q: Point) -> Point {
     let at = p + (q - p) * t;
     // A ray along a wall meets the wall's end: rounding must not lose the bend there.
     [p, q].into_iter().find(|&end| (end - at).norm_squared() < SNAP * SNAP).unwrap_or(at)
+}
+
+/// Whether a root is in line with a stretch: it sees nothing past it, save through its nearer end.
+fn is_flat(at: Point, right: Point, left: Point) -> bool {
+    let area = side(at, right, left);
+    let width = (left - right).norm_squared().max(EPSILON * EPSILON);
+    area <= 0.0 || area * area <= EPSILON * EPSILON * width
 }
 
 impl Search {
@@ -262,7 +272,18 @@ impl Search {
     /// another.
     fn follow(&mut self, cells: &impl Cells, mut node: SearchNode, to: CellKey) {
         for _ in 0..EAGER {
-            self.expand(cells, &node);
+            let only = cells.only_edge(node.cell, node.from);
+            if let Some(seen) = only.and_then(|edge| self.straight_on(&node, edge)) {
+                node = seen;
+                if node.cell == to {
+                    break;
+                }
+                continue;
+            }
+            match only {
+                Some(edge) => self.expand_over(&node, &[edge]),
+                None => self.expand(cells, &node),
+            }
             match self.fresh[..] {
                 [only] if only.cell != to => {
                     node = only;
@@ -298,23 +319,47 @@ impl Search {
         self.wait(bound, last);
     }
 
-    #[inline(always)]
     fn expand(&mut self, cells: &impl Cells, node: &SearchNode) {
-        let at = self.root(node);
-        let (right, left) = (node.right, node.left);
-        // A root in line with the stretch sees nothing past it, save through its nearer end.
-        let area = side(at, right, left);
-        let width = (left - right).norm_squared().max(EPSILON * EPSILON);
-        let is_flat = area <= 0.0 || area * area <= EPSILON * EPSILON * width;
         let mut edges = std::mem::take(&mut self.edges);
         edges.clear();
         cells.edges(node.cell, Some(node.from), &mut edges);
-        if is_flat {
-            self.expand_flat(node, at, &edges);
-        } else {
-            self.expand_cone(node, at, &edges);
-        }
+        self.expand_over(node, &edges);
         self.edges = edges;
+    }
+
+    fn expand_over(&mut self, node: &SearchNode, edges: &[Edge]) {
+        let at = self.root(node);
+        if is_flat(at, node.right, node.left) {
+            self.expand_flat(node, at, edges);
+        } else {
+            self.expand_cone(node, at, edges);
+        }
+    }
+
+    /// The part of the only edge onward that a root sees, if nothing else is to be looked at: what
+    /// [`Self::expand_cone`] finds where it bends nowhere.
+    #[inline(always)]
+    fn straight_on(&self, node: &SearchNode, edge: Edge) -> Option<SearchNode> {
+        let at = self.root(node);
+        let (right, left, r, l) = (node.right, node.left, edge.right, edge.left);
+        let (r_right, l_left) = (side(at, right, r) < 0.0, side(at, left, l) > 0.0);
+        let (r_left, l_right) = (side(at, left, r) > 0.0, side(at, right, l) < 0.0);
+        let bends = (r_right && node.right_bends) || (l_left && node.left_bends);
+        if bends || r_left || l_right || is_flat(at, right, left) {
+            return None;
+        }
+        let seen_right = if r_right { meet(at, right, r, l) } else { r };
+        let seen_left = if l_left { meet(at, left, r, l) } else { l };
+        let is_seen = (seen_left - seen_right).norm_squared() > EPSILON * EPSILON;
+        is_seen.then(|| SearchNode {
+            right: seen_right,
+            left: seen_left,
+            right_bends: edge.right_bends && seen_right == r,
+            left_bends: edge.left_bends && seen_left == l,
+            cell: edge.to,
+            from: node.cell,
+            ..*node
+        })
     }
 
     #[inline(always)]
