@@ -28,6 +28,7 @@ mod doors;
 mod edging;
 mod faces;
 mod floor;
+mod goals;
 mod grid;
 mod half_edge;
 mod kept;

@@ -1,0 +1,246 @@
+//! Where a robot may stand that is sent to a place, a thing, a door or a room, and which way it faces there.
+//!
+//! **Invariant**: every goal lies in the centre space.
+
+use crate::map::{DoorKind, World};
+use crate::units::{AreaId, Deg, DoorId, Point, Pose, ReplicaId, Vector};
+
+use super::blocked::NoRoute;
+use super::doors::Doorway;
+use super::plan::FloorPlan;
+use super::route::{Anchor, Target};
+
+/// A goal with the way to face there.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Goal {
+    pub(super) anchor: Anchor,
+    pub(super) heading: Option<Deg>,
+}
+
+impl FloorPlan {
+    /// Where to stand before a door inside an Area: out of the way of its leaves, facing it.
+    #[must_use]
+    pub fn stand_before(&self, world: &World, door: DoorId, area: AreaId) -> Option<Pose> {
+        let stands = self.door_goals(world, None, door, area);
+        stands.first().map(|g| Pose { at: g.anchor.at, heading: g.heading.unwrap_or_default() })
+    }
+
+    /// The goals that serve a target, all as good as each other.
+    pub(super) fn goals(
+        &self,
+        world: &World,
+        start: &Anchor,
+        target: Target,
+    ) -> Result<Vec<Goal>, NoRoute> {
+        let region = Some(self.region(start.cell));
+        let found = match target {
+            Target::Point(p) => self.point_goals(region, p, None),
+            Target::Place(id) => {
+                let place = world.places.get(&id).ok_or(NoRoute::NoFloor)?;
+                let frame = self
+                    .scene()
+                    .areas
+                    .get(&place.area)
+                    .ok_or(NoRoute::OtherMap { area: place.area })?
+                    .frame;
+                self.point_goals(
+                    region,
+                    frame.apply(place.at),
+                    place.heading.map(|h| h + frame.angle),
+                )
+            }
+            Target::Replica(id) => self.replica_goals(world, start, id)?,
+            Target::Door { door, area } => self.door_goals(world, region, door, area),
+            Target::Area(area) => self.area_goals(world, start, area)?,
+        };
+        if found.is_empty() { Err(NoRoute::NoFloor) } else { Ok(found) }
+    }
+
+    fn point_goals(&self, region: Option<u32>, p: Point, heading: Option<Deg>) -> Vec<Goal> {
+        // Near a place that does not admit the robot, take one that it can reach.
+        let exact = self.anchor(p, None, None);
+        let anchor = match exact {
+            Some(a) if a.moved.is_none() => Some(a),
+            other => self.anchor(p, region, None).or(other),
+        };
+        anchor.map(|anchor| Goal { anchor, heading }).into_iter().collect()
+    }
+
+    fn door_goals(
+        &self,
+        world: &World,
+        region: Option<u32>,
+        door: DoorId,
+        area: AreaId,
+    ) -> Vec<Goal> {
+        let goals: Vec<Goal> = self
+            .doorways_of(door)
+            .filter_map(|d| Some((d, d.index_of(area)?)))
+            .filter_map(|(doorway, side)| self.stand(world, region, doorway, side))
+            .collect();
+        if !goals.is_empty() {
+            return goals;
+        }
+        // A door that leads outside joins no two Areas.
+        let placed = self.scene().areas.get(&area);
+        let outer = placed.and_then(|placed| Doorway::outer(world, placed, door));
+        outer.and_then(|d| self.stand(world, region, &d, 0)).into_iter().collect()
+    }
+
+    /// A place before a doorway: straight before its middle, clear of the leaves' way.
+    fn stand(
+        &self,
+        world: &World,
+        region: Option<u32>,
+        doorway: &Doorway,
+        side: usize,
+    ) -> Option<Goal> {
+        let number = self.number(doorway.areas[side])? as u32;
+        let cells = &self.floor(number).cells;
+        let reach = self.reach();
+        let door = doorway.door.and_then(|d| world.doors.get(&d));
+        let swings_here =
+            door.is_some_and(|d| d.kind == DoorKind::Hinged) && doorway.opens_to == side;
+        let swept = door
+            .filter(|_| swings_here)
+            .map_or_else(Vec::new, |d| doorway.leaves(d).swept((0.0, 100.0)));
+        let is_clear = |p: Point| {
+            swept.iter().all(|s| !s.contains(p, 0.0) && s.border_distance(p) >= reach - 1e-6)
+        };
+        let admits = |cell: u32| region.is_none_or(|r| self.region((number, cell)) == r);
+        let try_at = |p: Point| {
+            let cell = cells.locate(p, 1e-6).filter(|&c| admits(c))?;
+            is_clear(p).then_some((p, cell))
+        };
+        let along = (doorway.line().1 - doorway.line().0) / doorway.width().max(1e-9);
+        let steps = (0..=40).map(|k| reach + 5.0 + 5.0 * f64::from(k));
+        let shifts: [f64; 9] = [0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 75.0, -75.0];
+        let spot = steps
+            .flat_map(|d| shifts.map(|s| (d, s)))
+            .filter(|(d, s)| s.abs() <= 2.0 * d)
+            .collect::<Vec<_>>();
+        let mut spots = spot;
+        // The nearer the better; a step aside costs a little more than one back.
+        spots.sort_by(|a, b| (a.0 + 1.2 * a.1.abs()).total_cmp(&(b.0 + 1.2 * b.1.abs())));
+        let (at, cell) = spots
+            .into_iter()
+            .find_map(|(d, s)| try_at(doorway.before(side, d) + along * s))
+            .or_else(|| cells.nearest(doorway.before(side, reach + 5.0), admits))?;
+        let heading = facing(at, doorway.middle());
+        Some(Goal { anchor: Anchor { at, cell: (number, cell), moved: None }, heading })
+    }
+
+    fn area_goals(
+        &self,
+        world: &World,
+        start: &Anchor,
+        area: AreaId,
+    ) -> Result<Vec<Goal>, NoRoute> {
+        let number = self.number(area).ok_or(NoRoute::OtherMap { area })? as u32;
+        if start.cell.0 == number {
+            return Ok(vec![Goal {
+                anchor: Anchor { moved: None, ..start.clone() },
+                heading: None,
+            }]);
+        }
+        let region = self.region(start.cell);
+        let mut goals: Vec<Goal> = self
+            .doorways()
+            .iter()
+            .filter_map(|d| Some((d, d.index_of(area)?)))
+            .filter_map(|(d, side)| {
+                let mut goal = self.stand(world, Some(region), d, side)?;
+                // One enters looking ahead.
+                goal.heading = goal.heading.map(|h| h + Deg::of(180.0));
+                Some(goal)
+            })
+            .collect();
+        if goals.is_empty() {
+            let middle = self.scene().areas[&area].prisms.first().map(|p| p.polygon.centroid());
+            goals = middle.map_or_else(Vec::new, |p| self.point_goals(None, p, None));
+        }
+        Ok(goals)
+    }
+
+    /// Before the front of a thing; else before any of its sides; else as near as can be.
+    fn replica_goals(
+        &self,
+        world: &World,
+        start: &Anchor,
+        id: ReplicaId,
+    ) -> Result<Vec<Goal>, NoRoute> {
+        let Some(placed) = self.scene().replicas.get(&id) else {
+            let area = world.replicas.get(&id).map(|r| r.area).ok_or(NoRoute::NoFloor)?;
+            return Err(NoRoute::OtherMap { area });
+        };
+        let region = self.region(start.cell);
+        let object = &world.objects[&world.replicas[&id].object];
+        let front = object.front.as_ref().and_then(|f| {
+            let item = object.items.iter().position(|i| i.id == f.item)?;
+            let (side, _) = world.orthoframe_of(&object.items[item]).side(&f.side)?;
+            placed.prisms.get(item)?.polygon.edges().nth(side)
+        });
+        let before = |(a, b): (Point, Point)| self.before_face(region, a, b);
+        if let Some(goals) = front.map(before).filter(|g| !g.is_empty()) {
+            return Ok(goals);
+        }
+        let sides: Vec<Goal> = placed
+            .prisms
+            .iter()
+            .flat_map(|p| p.polygon.edges().collect::<Vec<_>>())
+            .flat_map(before)
+            .collect();
+        if !sides.is_empty() {
+            return Ok(sides);
+        }
+        let middle = nalgebra::center(&placed.bounds.min, &placed.bounds.max);
+        let anchor = self.anchor(middle, Some(region), None).filter(|a| {
+            self.floor(a.cell.0).area == placed.area
+                && (a.at - middle).norm() < 150.0 + self.reach()
+        });
+        let anchor = anchor.or_else(|| self.anchor(middle, None, None));
+        Ok(anchor
+            .map(|a| Goal { heading: facing(a.at, middle), anchor: Anchor { moved: None, ..a } })
+            .into_iter()
+            .collect())
+    }
+
+    /// The best place to stand before a face, facing it: at its middle, close.
+    fn before_face(&self, region: u32, a: Point, b: Point) -> Vec<Goal> {
+        let Some(along) = (b - a).try_normalize(1e-6) else { return Vec::new() };
+        let out = Vector::new(along.y, -along.x);
+        let length = (b - a).norm();
+        for back in [3.0, 8.0, 15.0, 25.0, 40.0] {
+            for share in [0.5, 0.35, 0.65, 0.2, 0.8, 0.05, 0.95] {
+                let face = a + along * (length * share);
+                let at = face + out * (self.reach() + back);
+                for &number in self.fragments_at(at) {
+                    let Some(cell) = self.floor(number).cells.locate(at, 1e-6) else { continue };
+                    if self.region((number, cell)) == region && self.is_open_between(at, face) {
+                        let anchor = Anchor { at, cell: (number, cell), moved: None };
+                        return vec![Goal {
+                            anchor,
+                            heading: Some(Deg::from_radians((-out.y).atan2(-out.x))),
+                        }];
+                    }
+                }
+            }
+        }
+        Vec::new()
+    }
+
+    /// No wall stands between two points.
+    fn is_open_between(&self, a: Point, b: Point) -> bool {
+        let reach = super::Bounds::of([a, b]);
+        let stop = b + (a - b) * 0.02;
+        self.fragments_near(&reach)
+            .flat_map(|f| f.walls.iter().copied())
+            .filter(|&(u, v)| super::Bounds::of([u, v]).meets(&reach))
+            .all(|(u, v)| super::doors::segment_distance(a, stop, u, v) > 0.0)
+    }
+}
+
+fn facing(from: Point, to: Point) -> Option<Deg> {
+    let v = to - from;
+    (v.norm() > 1e-9).then(|| Deg::from_radians(v.y.atan2(v.x)))
+}
