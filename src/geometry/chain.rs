@@ -42,7 +42,7 @@ impl FloorPlan {
         /// Shorter stretches, in cm, only touch a Passframe.
         const TOUCHED: f64 = 1e-3;
         let (mut chain, mut doorways) = (Vec::new(), Vec::new());
-        let (mut number, mut floor) = (first, self.floor(first));
+        let (mut number, mut floor) = (first, self.covered(first));
         let mut cell = floor.frames.locate(points[0], 1e-3)?;
         for leg in points.windows(2) {
             let (a, b) = (leg[0], leg[1]);
@@ -75,7 +75,7 @@ impl FloorPlan {
                     let &(doorway, side) = self.doorways_at(number).iter().find(|d| passes(d))?;
                     doorways.push(doorway);
                     number = self.number(self.doorways()[doorway].areas[1 - side])? as u32;
-                    floor = self.floor(number);
+                    floor = self.covered(number);
                     cell = floor.frames.locate(a + (b - a) * (from + near).min(1.0), 1e-3)?;
                 }
                 if steps > floor.frames.len() + 8 {
@@ -89,7 +89,7 @@ impl FloorPlan {
     /// The same, found by cutting the way at all Passframes near it.
     fn clipped(&self, points: &[Point], among: &[u32]) -> Passed {
         let (mut chain, mut doorways) = (Vec::new(), Vec::new());
-        let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.floor(n)).collect();
+        let fragments: Vec<&FragmentFloor> = among.iter().map(|&n| self.covered(n)).collect();
         let is_among = |&a: &AreaId| fragments.binary_search_by_key(&a, |f| f.area).is_ok();
         let mut near: Vec<usize> = fragments
             .iter()

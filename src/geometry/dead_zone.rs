@@ -46,7 +46,7 @@ pub(super) fn dead_zones(grid: &Grid, dead: Shapes) -> Shapes {
 }
 
 /// What rounding leaves along the walls is less wide than this, in cm, and no zone.
-const RIM: f64 = 0.01;
+pub(super) const RIM: f64 = 0.01;
 
 /// A disc of this radius, in cm, makes a zone of what holds it, however much hangs on it.
 const LEAST: f64 = 0.03;

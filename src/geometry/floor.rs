@@ -2,7 +2,7 @@
 //!
 //! After paper 1, section 7: the Area's base, less the bases of all Orthoframes between what the robot drives
 //! over and its height, less the dead zones. Unlike the paper's, a dead zone is found by the robot's size: it is
-//! floor that the disc covers from no place where it fits.
+//! floor that the disc covers from no place where it fits, nor the footprint in a strait ([`super::strait`]).
 //!
 //! A Fragment's floor ends on the lines of its doorways. Near an open doorway the neighbour's floor and
 //! furniture are taken into account as far as the robot's radius reaches, so that both Fragments agree on where
@@ -36,6 +36,7 @@ use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::{Prism, Scene};
 use super::storey::{Storey, THIN};
+use super::strait::Strait;
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
@@ -75,6 +76,8 @@ pub struct FragmentFloor {
     /// The ids of the Passframes, in the order of the cells.
     pub(super) ids: Vec<PassframeId>,
     pub(super) passframes: OnDemand<Vec<Passframe>>,
+    /// Where the robot's centre passes between places where it may turn.
+    pub(super) lanes: Vec<(Point, Point)>,
     /// A convex partition of `centre`.
     pub(super) cells: Mesh,
     pub(super) exits: Vec<Exit>,
@@ -157,9 +160,7 @@ impl FragmentFloor {
         let mut beyond: Vec<Contour> = Vec::new();
         for &(_, doorway, side) in &open {
             floor.extend(stub(site, &grid, doorway, side, reach));
-            // Deeper than the stub.
-            let depth = doorway.gap / 2.0 + 2.0 * reach + 10.0;
-            beyond.push(grid.contour(&doorway.beyond(side, depth)));
+            beyond.push(self::beyond(&grid, doorway, side, reach));
         }
         let mut blocked: Vec<Contour> =
             obstacles.iter().map(|o| grid.contour(&o.polygon)).collect();
@@ -205,11 +206,41 @@ impl FragmentFloor {
             ids: ids(&frames),
             passframes: OnDemand::default(),
             frames,
+            lanes: Vec::new(),
             cells,
             exits,
         };
         built.edging = Edging::of(site, &built, &obstacles, storey.sides);
         built
+    }
+
+    /// The same floor with what a robot with a footprint covers in straits: free where it was dead.
+    pub(super) fn with_straits(&self, site: &Site<'_>, straits: &[&Strait]) -> Self {
+        let grid = self.grid;
+        let contours = |regions: &[Region]| -> Vec<Contour> {
+            regions.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect()
+        };
+        let open = site.doorways_of(self.area).filter(|(_, d, _)| site.is_open(d));
+        let beyond: Vec<Contour> =
+            open.map(|(_, d, side)| beyond(&grid, d, side, site.reach())).collect();
+        let inside = difference(&contours(&self.raw()), &beyond);
+        let inside: Vec<Contour> = inside.into_iter().flatten().collect();
+        let mut covered = contours(&self.free());
+        covered.extend(straits.iter().flat_map(|s| &s.swept).map(|p| grid.contour(p)));
+        let rules = [OverlayRule::Intersect, OverlayRule::Difference];
+        let [free, dead] = overlays(&inside, &covered, rules, FillRule::NonZero);
+        let free = smooth(free);
+        let frames = Mesh::of(&grid, &free, PATIENCE);
+        debug_assert!(frames.fills(&grid, &free), "{:?}", self.area);
+        Self {
+            dead: Outlines::of(&dead_zones(&grid, dead)),
+            dead_zones: OnDemand::default(),
+            ids: ids(&frames),
+            passframes: OnDemand::default(),
+            frames,
+            lanes: straits.iter().flat_map(|s| s.lanes).map(|l| (l.ends[0], l.ends[1])).collect(),
+            ..self.clone()
+        }
     }
 
     /// The doorways that it names, by their index in [`super::FloorPlan::doorways`].
@@ -233,7 +264,7 @@ impl FragmentFloor {
         self.bare.regions(&self.grid)
     }
 
-    /// Floor that the robot cannot cover from any place where it fits; what stands around, see
+    /// Floor that the robot covers neither from a place where it may turn nor in a strait; what stands around, see
     /// [`super::FloorPlan::around`].
     #[must_use]
     pub fn dead_zones(&self) -> &[Region] {
@@ -338,6 +369,12 @@ impl Doorway {
         let depth = self.gap / 2.0 + reach + 2.0;
         self.rectangle(self.past(1, depth), self.past(0, depth), 0.0).bounds()
     }
+}
+
+/// What lies beyond a doorway's line, deeper than the [`stub`].
+fn beyond(grid: &Grid, doorway: &Doorway, side: usize, reach: f64) -> Contour {
+    let depth = doorway.gap / 2.0 + 2.0 * reach + 10.0;
+    grid.contour(&doorway.beyond(side, depth))
 }
 
 /// The floor through an open doorway as far as a disc on its line reaches.

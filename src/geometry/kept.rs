@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 7");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 8");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {
@@ -255,7 +255,7 @@ kept_structs! {
     Exit { doorway, cell, edge }
     FragmentFloor {
         area, bounds, level, bare, grid, obstacles, walls, dead, dead_zones, edging, frames, ids,
-        passframes, cells, exits
+        passframes, lanes, cells, exits
     }
 }
 

@@ -181,10 +181,6 @@ impl Mesh {
         self.trunk.get(cell as usize)
     }
 
-    pub(super) fn vertices(&self) -> impl Iterator<Item = Point> + '_ {
-        self.nodes.iter().map(|&node| self.grid.point(node))
-    }
-
     fn vertex(&self, vertex: u32) -> Point {
         self.grid.point(self.nodes[vertex as usize])
     }

@@ -264,7 +264,8 @@ fn cut(faces: &Faces, scratch: &mut Scratch, start: Point, end: Point) {
 /// Faces within this distance of a border stand along it, in cm.
 const TOUCH: f64 = 0.05;
 
-/// The widest stretch of a border on which the robot's centre may be.
+/// The widest stretch of a border on which the robot's centre may be as it turns, or else a place where a lane of a
+/// strait crosses it.
 fn crossing(
     floor: &FragmentFloor,
     scratch: &mut Scratch,
@@ -273,10 +274,22 @@ fn crossing(
 ) -> Option<(Point, Point)> {
     let Scratch { cells, stretches, .. } = scratch;
     floor.cells.stretches_into(a, b, cells, stretches);
-    stretches
-        .iter()
-        .max_by(|x, y| (x.1 - x.0).total_cmp(&(y.1 - y.0)))
-        .map(|&(from, to)| (a + (b - a) * from, a + (b - a) * to))
+    let widest = stretches.iter().max_by(|x, y| (x.1 - x.0).total_cmp(&(y.1 - y.0)));
+    match widest {
+        Some(&(from, to)) => Some((a + (b - a) * from, a + (b - a) * to)),
+        None => {
+            let mut lanes = floor.lanes.iter();
+            lanes.find_map(|&lane| meeting(lane, (a, b))).map(|p| (p, p))
+        }
+    }
+}
+
+/// Where two lines cross each other.
+fn meeting((from, to): (Point, Point), (a, b): (Point, Point)) -> Option<Point> {
+    let (along, border) = (to - from, b - a);
+    let sine = along.perp(&border);
+    let (t, u) = ((a - from).perp(&border) / sine, (a - from).perp(&along) / sine);
+    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)).then(|| a + border * u)
 }
 
 /// What is beyond a piece of border, and the face that it is, if it is one.

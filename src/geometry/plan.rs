@@ -42,6 +42,8 @@ pub struct FloorPlan {
     by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
+    /// The same, with what is covered in straits.
+    covered: Vec<Arc<FragmentFloor>>,
     pub(super) network: Network,
     /// By Fragment, then by doorway.
     straits: Vec<Vec<Strait>>,
@@ -89,6 +91,7 @@ impl FloorPlan {
             by_area: Arc::new(by_area),
             scene: Arc::new(scene),
             fragments: Vec::new(),
+            covered: Vec::new(),
             network: Network::default(),
             straits: Vec::new(),
             by_place: Arc::default(),
@@ -113,6 +116,7 @@ impl FloorPlan {
             floors.sort_by_key(|f| f.area);
             (floors, stale.len())
         });
+        plan.covered.clone_from(&fragments);
         plan.fragments = fragments;
         let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
         plan.by_place = Arc::new(Buckets::of(&boxes));
@@ -125,7 +129,8 @@ impl FloorPlan {
     pub fn save(&self, world: &World) -> Vec<u8> {
         let areas: Vec<AreaId> = self.fragments.iter().map(|f| f.area).collect();
         let digests = self.with_site(world, |site| digests(site, &areas));
-        kept::write(digests.into_iter().zip(self.fragments()))
+        let fragments = self.fragments.iter().map(Arc::as_ref);
+        kept::write(digests.into_iter().zip(fragments))
     }
 
     /// A box around all that a Fragment's floor can ever reach, whatever its doors do.
@@ -319,12 +324,12 @@ impl FloorPlan {
 
     /// All Fragments, in the order of their Areas' ids.
     pub fn fragments(&self) -> impl ExactSizeIterator<Item = &FragmentFloor> + '_ {
-        self.fragments.iter().map(Arc::as_ref)
+        self.covered.iter().map(Arc::as_ref)
     }
 
     #[must_use]
     pub fn fragment(&self, area: AreaId) -> Option<&FragmentFloor> {
-        self.number(area).map(|n| self.fragments[n].as_ref())
+        self.number(area).map(|n| self.covered[n].as_ref())
     }
 
     /// The Passframes of an Area.
@@ -350,6 +355,11 @@ impl FloorPlan {
 
     pub(super) fn floor(&self, number: u32) -> &FragmentFloor {
         &self.fragments[number as usize]
+    }
+
+    /// The Fragment with the Passframes of straits.
+    pub(super) fn covered(&self, number: u32) -> &FragmentFloor {
+        &self.covered[number as usize]
     }
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
@@ -436,15 +446,41 @@ impl FloorPlan {
                     open.extend(own.filter(|&d| crossed.insert(d)));
                 }
             }
-            for number in stale {
-                self.straits[number] = strait::within(self, number as u32);
+            let mut changed: BTreeSet<usize> = stale.iter().copied().collect();
+            let within = stale.iter().map(|&n| (n, strait::within(self, n as u32)));
+            let through = crossed.iter().map(|&d| (count + d, strait::through(self, world, d)));
+            for (place, fresh) in within.chain(through).collect::<Vec<_>>() {
+                let gone = std::mem::replace(&mut self.straits[place], fresh);
+                let both = gone.iter().chain(&self.straits[place]);
+                let mut near = Vec::new();
+                for strait in both {
+                    self.by_place.meeting(&strait.extent(), &mut near);
+                    changed.extend(near.iter().map(|&n| n as usize));
+                }
             }
-            for doorway in crossed {
-                self.straits[count + doorway] = strait::through(self, world, doorway);
+            for number in changed {
+                self.cover(world, number);
+            }
+        } else {
+            for number in stale {
+                self.covered[number] = Arc::clone(&self.fragments[number]);
             }
         }
         let straits = self.straits.iter().flatten().cloned().collect();
         self.network.join(&self.fragments, self.doorways.len(), straits);
+    }
+
+    /// Counts to a Fragment's free floor what is covered in straits.
+    fn cover(&mut self, world: &World, number: usize) {
+        let own = &self.fragments[number];
+        let extent = self.extent_of(own);
+        let lies_here = |s: &&Strait| s.extent().meets(&extent);
+        let straits: Vec<&Strait> = self.straits.iter().flatten().filter(lies_here).collect();
+        let covered = match straits.is_empty() {
+            true => Arc::clone(own),
+            false => Arc::new(self.with_site(world, |site| own.with_straits(site, &straits))),
+        };
+        self.covered[number] = covered;
     }
 
     /// The places where a Fragment's centre space touches another's.

@@ -52,7 +52,7 @@ pub enum Method {
 pub struct Moved {
     pub from: Point,
     pub to: Point,
-    /// What takes the place, if anything does; else it is a dead zone or too near to a wall.
+    /// What takes the place, if anything does; else it is a dead zone, a strait or too near to a wall.
     pub blocker: Option<Blocker>,
 }
 
@@ -207,7 +207,7 @@ impl FloorPlan {
     /// The Area and the Passframe at a point of the floor.
     #[must_use]
     pub fn locate(&self, p: Point) -> Option<(AreaId, Option<PassframeId>)> {
-        let holds = |n: &&u32| self.floor(**n).passframe_id_at(p).is_some();
+        let holds = |n: &&u32| self.covered(**n).passframe_id_at(p).is_some();
         let on_line = || self.fragments_at(p).iter().find(holds).map(|&n| self.floor(n).area);
         let area = self.area_at(p).or_else(on_line)?;
         let frame = self.fragment(area).and_then(|f| f.passframe_id_at(p));

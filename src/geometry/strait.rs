@@ -19,6 +19,9 @@
 //! A footprint may lie aside of the centre on which it turns; then the way back leads along a line of its own, since
 //! the robot drives ahead both times. A strait has both ways, so that where the robot came in it comes out.
 //!
+//! What the body passes over on a lane, and on all lines beside it that join the same two pieces, is free floor. What only
+//! another heading through the same gap would cover is not.
+//!
 //! Deliberately absent: turning, shifting the heading or backing within a strait. A bend too narrow for the covering
 //! disc is no way.
 //!
@@ -32,9 +35,10 @@ use std::f64::consts::{PI, SQRT_2};
 use crate::map::{RobotProfile, World};
 use crate::units::{Point, Vector};
 
+use super::dead_zone::RIM;
 use super::doors::{distance, segment_distance};
 use super::floor::{FragmentFloor, SLACK};
-use super::grid::{Contour, Grid, difference};
+use super::grid::{Contour, Grid, Shapes, difference};
 use super::mesh::Mesh;
 use super::narrows::Narrows;
 use super::network::Piece;
@@ -49,12 +53,19 @@ pub(super) struct Strait {
     pub(super) lanes: [Lane; 2],
     /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
     pub(super) doorways: Vec<(usize, [u32; 2])>,
+    /// What the body passes over on all the lines beside the lanes that lead from the one piece to the other.
+    pub(super) swept: Vec<Polygon>,
 }
 
 impl Strait {
     /// The cells at its ends.
     pub(super) fn cells(&self) -> [CellKey; 2] {
         self.lanes[0].cells
+    }
+
+    /// A box around all that the body passes over.
+    pub(super) fn extent(&self) -> Bounds {
+        self.swept.iter().fold(Bounds::EMPTY, |b, s| b.union(&s.bounds()))
     }
 }
 
@@ -161,8 +172,10 @@ fn length(points: &[Point]) -> f64 {
 
 /// Where straits are looked for: some floor, the Fragments whose centre space lies on it, and the place.
 struct Site<'a> {
-    floor: &'a [Contour],
     grid: Grid,
+    /// The floor's edges, all about.
+    edges: &'a [(Point, Point)],
+    floor: &'a [Contour],
     fragments: &'a [(u32, &'a FragmentFloor)],
     place: Bounds,
     /// Headings worth trying besides the usual ones, as angles.
@@ -227,6 +240,11 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
         numbers.iter().map(|&n| (n, plan.floor(n))).collect();
     let narrows = Narrows::of(plan, numbers);
     let around = 2.0 * plan.reach() + 60.0;
+    let edges: Vec<(Point, Point)> = narrows
+        .floor
+        .iter()
+        .flat_map(|c| narrows.grid.polygon(c).edges().collect::<Vec<_>>())
+        .collect();
     let mut sites: Vec<Site<'_>> = Vec::new();
     let gaps = narrows.parting(plan.robot().passing_width() - 4.0 * SLACK);
     let spots: Vec<Point> = fragments.iter().flat_map(|(_, f)| small_pieces(&f.cells)).collect();
@@ -237,8 +255,9 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
         match sites.iter_mut().find(holds) {
             Some(site) => site.headings.push(heading),
             None => sites.push(Site {
-                floor: &narrows.floor,
                 grid: narrows.grid,
+                edges: &edges,
+                floor: &narrows.floor,
                 fragments: &fragments,
                 place: gap.reach.grown(around),
                 headings: vec![heading],
@@ -253,18 +272,53 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
         let ways = near.iter().flat_map(|&from| goals.iter().map(move |&to| to - from));
         site.headings.extend(ways.filter(|way| way.norm() > LINE).map(|way| way.y.atan2(way.x)));
     }
-    let mut best: BTreeMap<(Piece, Piece), Lane> = BTreeMap::new();
-    for (pieces, lane) in sites.iter().flat_map(|site| self::best(plan, site)) {
-        let is_shorter = best.get(&pieces).is_none_or(|b| lane.length() < b.length());
-        if is_shorter {
-            best.insert(pieces, lane);
+    let mut best: BTreeMap<(Piece, Piece), (Lane, &Site<'_>)> = BTreeMap::new();
+    for site in &sites {
+        for (pieces, lane) in self::best(plan, site) {
+            let is_shorter = best.get(&pieces).is_none_or(|b| lane.length() < b.0.length());
+            if is_shorter {
+                best.insert(pieces, (lane, site));
+            }
         }
     }
-    let both =
-        best.iter().filter(|((from, to), _)| from < to).filter_map(|(&(from, to), &lane)| {
-            Some(Strait { lanes: [lane, *best.get(&(to, from))?], doorways: Vec::new() })
-        });
-    both.collect()
+    let both = best.iter().filter(|((from, to), _)| from < to);
+    let straits = both.filter_map(|(&(from, to), &(lane, site))| {
+        let (back, back_site) = *best.get(&(to, from))?;
+        let mut swept = beside(plan, site, (from, to), &lane);
+        // A footprint that is the same turned about sweeps the same on its way back.
+        if lane.reversed() != back {
+            swept.extend(beside(plan, back_site, (to, from), &back));
+        }
+        Some(Strait { lanes: [lane, back], doorways: Vec::new(), swept })
+    });
+    straits.collect()
+}
+
+/// What the body passes over on a lane and on all lines beside it that lead from the same piece to the same other.
+fn beside(plan: &FloorPlan, site: &Site<'_>, pieces: (Piece, Piece), lane: &Lane) -> Vec<Polygon> {
+    /// So far within a stretch, in cm, its outermost lines are driven.
+    const WITHIN: f64 = 1e-3;
+    let way = (lane.ends[1] - lane.ends[0]).normalize();
+    let scan = Scan::of(plan.robot(), site, way);
+    let between = scan.marks.windows(2).filter(|m| m[1] - m[0] > 4.0 * WITHIN);
+    let outermost = between.flat_map(|m| [m[0] + WITHIN, m[1] - WITHIN]);
+    let mut found: Vec<((Piece, Piece), Lane)> = Vec::new();
+    outermost.chain(scan.regular()).for_each(|offset| scan.lanes_at(offset, &mut found));
+    let beside = found.into_iter().filter(|f| f.0 == pieces).map(|f| f.1);
+    // What rounding and slack leave along the walls belongs to what is passed.
+    let body: Vec<Vector> = body(plan.robot(), way)
+        .iter()
+        .flat_map(|v| {
+            [(1., 1.), (-1., 1.), (-1., -1.), (1., -1.)].map(|(x, y)| v + Vector::new(x, y) * RIM)
+        })
+        .collect();
+    let clear = beside.filter(|lane| is_clear(plan.robot(), site, lane)).chain([*lane]);
+    clear.map(|lane| over(&body, lane.ends)).collect()
+}
+
+/// What a body passes over from one place to another.
+fn over(body: &[Vector], [a, b]: [Point; 2]) -> Polygon {
+    Polygon::new(convex_hull(body.iter().flat_map(|&v| [a + v, b + v]).collect()))
 }
 
 /// A place in each piece of centre space of so little area that lines may miss it.
@@ -327,8 +381,7 @@ fn is_symmetric(footprint: &[Point]) -> bool {
 fn is_clear(robot: &RobotProfile, site: &Site<'_>, lane: &Lane) -> bool {
     let [a, b] = lane.ends;
     let Some(way) = (b - a).try_normalize(0.0) else { return false };
-    let swept = body(robot, way).into_iter().flat_map(|v| [a + v, b + v]).collect();
-    let swept = Polygon::new(convex_hull(swept));
+    let swept = over(&body(robot, way), lane.ends);
     let bounds = swept.bounds();
     let is_off = |solid: &Polygon| !solid.bounds().meets(&bounds) || distance(solid, &swept) > 0.0;
     site.fragments.iter().all(|(_, fragment)| {
@@ -339,83 +392,133 @@ fn is_clear(robot: &RobotProfile, site: &Site<'_>, lane: &Lane) -> bool {
 
 /// The lanes of one heading, each with the pieces from and to which it leads.
 fn along(plan: &FloorPlan, site: &Site<'_>, heading: f64) -> Vec<((Piece, Piece), Lane)> {
-    let way = Vector::new(heading.cos(), heading.sin());
-    let across = Vector::new(-way.y, way.x);
-    let room = shrunk(plan.robot(), site, way);
-    let corners = site.place;
-    let corners = [
-        corners.min,
-        Point::new(corners.max.x, corners.min.y),
-        corners.max,
-        Point::new(corners.min.x, corners.max.y),
-    ];
-    let extent = |v: Vector| {
-        corners
-            .iter()
-            .map(|c| c.coords.dot(&v))
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |e, x| (e.0.min(x), e.1.max(x)))
-    };
-    let ((left, right), (low, high)) = (extent(way), extent(across));
-    let mut found = Vec::new();
-    let count = ((high - low) / LINE) as usize;
-    let regular = (0..=count).map(|k| low + (high - low) * (k as f64 + 0.5) / (count as f64 + 1.0));
+    let scan = Scan::of(plan.robot(), site, Vector::new(heading.cos(), heading.sin()));
     // Between the corners' own lines nothing changes: one line in each stretch misses no gap, however tight.
-    let mut marks: Vec<f64> = room.vertices().map(|p| p.coords.dot(&across)).collect();
-    marks.retain(|m| (low..=high).contains(m));
-    marks.sort_by(f64::total_cmp);
-    let between = marks.windows(2).filter(|m| m[1] - m[0] > 1e-4).map(|m| (m[0] + m[1]) / 2.0);
-    let through = site.spots.iter().map(|p| p.coords.dot(&across));
-    let through = through.filter(|offset| (low..=high).contains(offset));
-    for offset in regular.chain(between).chain(through) {
-        let at = |t: f64| Point::from(way * t + across * offset);
-        let (a, b) = (at(left), at(right));
-        let length = right - left;
-        for (from, to) in room.stretches(a, b) {
-            let (from, to) = (from * length, to * length);
-            let mut stands: Vec<(f64, f64, CellKey, Piece)> = Vec::new();
-            let mut near = Vec::new();
-            for &(number, fragment) in site.fragments {
-                fragment.cells.near_segment(a, b, &mut near);
-                for &cell in &near {
-                    let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
-                    let (s, e) = ((s * length).max(from), (e * length).min(to));
-                    if e - s > 1e-6 {
-                        let piece = (number, fragment.cells.component(cell));
-                        stands.push((s, e, (number, cell), piece));
-                    }
-                }
+    let stretches = scan.marks.windows(2).filter(|m| m[1] - m[0] > 1e-4);
+    let between = stretches.map(|m| (m[0] + m[1]) / 2.0);
+    let through = site.spots.iter().map(|p| p.coords.dot(&scan.across));
+    let through = through.filter(|offset| (scan.low..=scan.high).contains(offset));
+    let mut found = Vec::new();
+    scan.regular()
+        .chain(between)
+        .chain(through)
+        .for_each(|offset| scan.lanes_at(offset, &mut found));
+    found
+}
+
+/// The lines of one heading over a site.
+struct Scan<'a> {
+    site: &'a Site<'a>,
+    way: Vector,
+    across: Vector,
+    /// How far the site reaches along and across.
+    left: f64,
+    right: f64,
+    low: f64,
+    high: f64,
+    /// The outlines of where the centre of a robot with this heading may be: how far along and across their edges begin
+    /// and end.
+    edges: Vec<[(f64, f64); 2]>,
+    /// The offsets of the outlines' corners, which rise.
+    marks: Vec<f64>,
+}
+
+impl<'a> Scan<'a> {
+    fn of(robot: &RobotProfile, site: &'a Site<'a>, way: Vector) -> Self {
+        let across = Vector::new(-way.y, way.x);
+        let Bounds { min, max } = site.place;
+        let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
+        let extent = |v: Vector| {
+            corners
+                .iter()
+                .map(|c| c.coords.dot(&v))
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |e, x| (e.0.min(x), e.1.max(x)))
+        };
+        let ((left, right), (low, high)) = (extent(way), extent(across));
+        let mut edges = Vec::new();
+        for contour in shrunk(robot, site, way).iter().flatten() {
+            let at = |p: Point| (p.coords.dot(&way), p.coords.dot(&across));
+            edges.extend(site.grid.polygon(contour).edges().map(|(a, b)| [at(a), at(b)]));
+        }
+        let mut marks: Vec<f64> = edges.iter().map(|edge| edge[0].1).collect();
+        marks.retain(|m| (low..=high).contains(m));
+        marks.sort_by(f64::total_cmp);
+        marks.dedup();
+        Self { site, way, across, left, right, low, high, edges, marks }
+    }
+
+    /// Offsets at the usual distance.
+    fn regular(&self) -> impl Iterator<Item = f64> + use<> {
+        let (low, width) = (self.low, self.high - self.low);
+        let count = (width / LINE) as usize;
+        (0..=count).map(move |k| low + width * (k as f64 + 0.5) / (count as f64 + 1.0))
+    }
+
+    /// From where to where the centre may be on a line.
+    fn stretches(&self, offset: f64) -> Vec<(f64, f64)> {
+        let crossed = self.edges.iter().filter(|[a, b]| (a.1 <= offset) != (b.1 <= offset));
+        let mut met: Vec<f64> =
+            crossed.map(|[a, b]| a.0 + (b.0 - a.0) * ((offset - a.1) / (b.1 - a.1))).collect();
+        met.sort_by(f64::total_cmp);
+        let mut stretches: Vec<(f64, f64)> = met.chunks_exact(2).map(|c| (c[0], c[1])).collect();
+        stretches.dedup_by(|next, last| {
+            let joins = next.0 <= last.1 + 1e-4;
+            if joins {
+                last.1 = next.1;
             }
-            stands.sort_by(|x, y| x.0.total_cmp(&y.0));
+            joins
+        });
+        stretches
+    }
+
+    /// Adds the lanes on one line, each with the pieces from and to which it leads.
+    fn lanes_at(&self, offset: f64, found: &mut Vec<((Piece, Piece), Lane)>) {
+        let stretches = self.stretches(offset);
+        if stretches.is_empty() {
+            return;
+        }
+        let at = |t: f64| Point::from(self.way * t + self.across * offset);
+        let (a, b) = (at(self.left), at(self.right));
+        let length = self.right - self.left;
+        let mut cells: Vec<(f64, f64, CellKey, Piece)> = Vec::new();
+        let mut near = Vec::new();
+        for &(number, fragment) in self.site.fragments {
+            fragment.cells.near_segment(a, b, &mut near);
+            for &cell in &near {
+                let Some((s, e)) = fragment.cells.clip(cell, a, b) else { continue };
+                let piece = (number, fragment.cells.component(cell));
+                let (s, e) = (self.left + s * length, self.left + e * length);
+                cells.push((s, e, (number, cell), piece));
+            }
+        }
+        cells.sort_by(|x, y| x.0.total_cmp(&y.0));
+        for (from, to) in stretches {
+            let within =
+                cells.iter().map(|&(s, e, cell, piece)| (s.max(from), e.min(to), cell, piece));
+            let stands: Vec<_> = within.filter(|(s, e, ..)| e - s > 1e-6).collect();
             for pair in stands.windows(2) {
                 let (near, far) = (pair[0], pair[1]);
                 if near.3 == far.3 || far.0 <= near.1 {
                     continue;
                 }
                 let foothold = |(s, e, ..): (f64, f64, CellKey, Piece)| FOOTHOLD.min((e - s) / 2.0);
-                let ends = [at(left + near.1 - foothold(near)), at(left + far.0 + foothold(far))];
+                let ends = [at(near.1 - foothold(near)), at(far.0 + foothold(far))];
                 found.push(((near.3, far.3), Lane { ends, cells: [near.2, far.2] }));
             }
         }
     }
-    found
 }
 
 /// Where the centre of a robot that heads along `way` may be at the site.
-fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Mesh {
+fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Shapes {
     let body = body(robot, way);
     let extent = body.iter().map(|v| v.norm()).fold(0.0, f64::max);
     let reach = site.place.grown(extent + 1.0);
-    let mut blocked: Vec<Contour> = Vec::new();
-    for contour in site.floor {
-        let polygon = site.grid.polygon(contour);
-        for (a, b) in polygon.edges() {
-            if Bounds::of([a, b]).meets(&reach) {
-                let swept = body.iter().flat_map(|&v| [a - v, b - v]).collect();
-                blocked.push(site.grid.contour(&Polygon::new(convex_hull(swept))));
-            }
-        }
-    }
-    Mesh::of(&site.grid, &difference(site.floor, &blocked), 0)
+    let back: Vec<Vector> = body.iter().map(|v| -v).collect();
+    let near = site.edges.iter().filter(|&&(a, b)| Bounds::of([a, b]).meets(&reach));
+    let blocked: Vec<Contour> =
+        near.map(|&(a, b)| site.grid.contour(&over(&back, [a, b]))).collect();
+    difference(site.floor, &blocked)
 }
 
 /// The footprint turned to a heading, with its clearance, as one convex polygon about the centre.
