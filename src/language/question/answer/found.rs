@@ -338,8 +338,10 @@ impl Knowledge<'_> {
         match (self.is_russian(), general) {
             (true, true) if noun.other => format!("{place}{frame} больше ничего нет"),
             (false, true) if noun.other => format!("there is nothing else {place}{frame}"),
-            (true, true) => format!("{place}{frame} ничего нет"),
-            (false, true) => format!("there is nothing {place}{frame}"),
+            (true, true) => format!("{place}{frame} ничего нет{}", self.nearest_instead(noun)),
+            (false, true) => {
+                format!("there is nothing {place}{frame}{}", self.nearest_instead(noun))
+            }
             (true, false) if place.is_empty() => format!("на карте нет {}", self.none_of(noun)),
             (true, false) if self.is_having(noun) => format!("{} {place} нет", self.none_of(noun)),
             (true, false) => format!("{place}{frame} нет {}", self.none_of(noun)),
@@ -347,6 +349,30 @@ impl Knowledge<'_> {
                 format!("there are no {} on the map", self.none_of(noun))
             }
             (false, false) => format!("there are no {} {place}{frame}", self.none_of(noun)),
+        }
+    }
+
+    /// Where nothing is right beside a thing, what stands nearest to it in its room.
+    fn nearest_instead(&self, noun: &Noun) -> String {
+        /// What is nearer touches the thing: it lies on it or carries it.
+        const APART: f64 = 1.0;
+        let [place] = &noun.restrictions[..] else { return String::new() };
+        let [anchor] = self.anchor_things(noun)[..] else { return String::new() };
+        if place.rel != Rel::NextTo || place.negated {
+            return String::new();
+        }
+        let near = self.related(Rel::Near, anchor).into_iter();
+        let near = near.filter(|t| self.area_of(*t) == self.area_of(anchor));
+        let near = near.filter_map(|t| Some((self.distance(t, anchor)?, t)));
+        let nearest = near.filter(|(away, _)| *away >= APART);
+        let Some((away, thing)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+        else {
+            return String::new();
+        };
+        let (name, away) = (self.name(thing), length(away, self.language));
+        match self.is_russian() {
+            true => format!(", ближе всего {name} ({away})"),
+            false => format!("; the nearest is {name} ({away})"),
         }
     }
 
