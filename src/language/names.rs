@@ -1,7 +1,7 @@
 //! The names of a world, as the languages need them: ready to be declined, and in English.
 
 use super::report::Named;
-use super::words::{Animacy, Case, Gender, Number, WordHints};
+use super::words::{Animacy, Case, Gender, Language, NounPhrase, Number, WordHints};
 use crate::map::{self, Entity, Forms, TypeEntry, World};
 
 /// The name of an entity, ready to be declined.
@@ -21,7 +21,30 @@ pub(crate) fn hints(world: &World, entity: Entity) -> WordHints {
         Entity::Place(id) => &world.places[&id].forms,
         Entity::Map(_) => &none,
     };
-    WordHints { forms: spelled(forms), ..WordHints::default() }
+    WordHints {
+        forms: spelled(forms),
+        gender: gender_of_foreign(world, entity),
+        ..WordHints::default()
+    }
+}
+
+/// A name in foreign letters is of the gender of what bears it: «Office door закрыта», a door.
+fn gender_of_foreign(world: &World, entity: Entity) -> Option<Gender> {
+    if Language::of(world.name(entity)) == Language::Russian {
+        return None;
+    }
+    let kind = match entity {
+        Entity::Door(_) => return Some(Gender::Feminine),
+        Entity::Area(id) => world.types.area.get(world.areas[&id].area_type),
+        Entity::Replica(id) => {
+            let object = world.objects.get(&world.replicas[&id].object)?;
+            world.types.object.get(object.object_type)
+        }
+        Entity::Place(_) | Entity::Map(_) => None,
+    }?;
+    let hints = hints_of_type(kind);
+    let is_russian = Language::of(&kind.name) == Language::Russian;
+    hints.gender.or(is_russian.then(|| NounPhrase::parse(&kind.name, &hints).gender()))
 }
 
 pub(crate) fn hints_of_type(kind: &TypeEntry) -> WordHints {
@@ -62,5 +85,17 @@ pub(crate) fn english_name(world: &World, entity: Entity) -> &str {
         Entity::Door(id) => &world.doors[&id].name_en,
         Entity::Replica(id) => &world.replicas[&id].name_en,
         Entity::Place(id) => &world.places[&id].name_en,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_foreign_name_is_of_the_gender_of_its_kind() {
+        let world = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/lab.toml")).unwrap();
+        let gender = |name| named(&world, world.find(name)[0]).phrase().gender();
+        assert_eq!(gender("Office door"), Gender::Feminine);
     }
 }
