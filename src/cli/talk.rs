@@ -181,6 +181,8 @@ impl Dialogue {
         let order = if holds { &conditional.then } else { &conditional.otherwise };
         match order {
             Some(order) => self.hear(order).map(|_| ()),
+            // What was waited for is so.
+            None if holds && conditional.waits => Ok(()),
             None => self.put("waiting", conditional.undone()),
         }
     }

@@ -1,5 +1,6 @@
 //! A directive in words: what it asks for, and what it has done: what was switched, found, put away, who was called.
 
+use crate::language::command::Relation;
 use crate::language::words::russian::{self, Preposition};
 use crate::language::{Case, Language};
 use crate::map::{DoorStatus, Entity, World};
@@ -130,7 +131,7 @@ struct TaskPoint {
     case: Case,
 }
 
-const TASK_POINTS: [TaskPoint; 7] = [
+const TASK_POINTS: [TaskPoint; 11] = [
     TaskPoint {
         prefix: BY_WINDOW,
         dative: "окну",
@@ -187,6 +188,38 @@ const TASK_POINTS: [TaskPoint; 7] = [
         preposition: None,
         case: Case::Instrumental,
     },
+    TaskPoint {
+        prefix: LEFT_OF,
+        dative: "месту слева",
+        other: "место слева",
+        english: "the place to the left of",
+        preposition: Some(Preposition::Ot),
+        case: Case::Genitive,
+    },
+    TaskPoint {
+        prefix: RIGHT_OF,
+        dative: "месту справа",
+        other: "место справа",
+        english: "the place to the right of",
+        preposition: Some(Preposition::Ot),
+        case: Case::Genitive,
+    },
+    TaskPoint {
+        prefix: BEHIND,
+        dative: "месту",
+        other: "место",
+        english: "the place behind",
+        preposition: Some(Preposition::Za),
+        case: Case::Instrumental,
+    },
+    TaskPoint {
+        prefix: IN_FRONT_OF,
+        dative: "месту",
+        other: "место",
+        english: "the place in front of",
+        preposition: Some(Preposition::Pered),
+        case: Case::Instrumental,
+    },
 ];
 
 const BY_WINDOW: &str = "Место-у-окна-в-";
@@ -196,6 +229,10 @@ const FACING_WINDOW: &str = "Место-лицом-к-окну-в-";
 const FACING_WALL: &str = "Место-лицом-к-стене-в-";
 const FACING: &str = "Место-лицом-к-";
 const BETWEEN: &str = "Место-между-";
+const LEFT_OF: &str = "Место-слева-от-";
+const RIGHT_OF: &str = "Место-справа-от-";
+const BEHIND: &str = "Место-за-";
+const IN_FRONT_OF: &str = "Место-перед-";
 /// Between the names of two things.
 const AND: &str = "-и-";
 
@@ -241,6 +278,22 @@ pub(super) fn facing_wall(room: &str) -> String {
 /// The name of the point between two things, for the time of a task.
 pub(super) fn between_places(one: &str, other: &str) -> String {
     format!("{BETWEEN}{one}{AND}{other}")
+}
+
+/// What the name of a point on one side of a thing begins with; none where the relation tells no side.
+pub(super) fn side_of(relation: Relation) -> Option<&'static str> {
+    match relation {
+        Relation::LeftOf => Some(LEFT_OF),
+        Relation::RightOf => Some(RIGHT_OF),
+        Relation::Behind => Some(BEHIND),
+        Relation::InFrontOf => Some(IN_FRONT_OF),
+        _ => None,
+    }
+}
+
+/// The name of a point on one side of a thing, for the time of a task.
+pub(super) fn side_place(side: &str, thing: &str) -> String {
+    format!("{side}{thing}")
 }
 
 struct Words<'w> {

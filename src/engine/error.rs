@@ -190,9 +190,17 @@ pub enum RequestError {
     #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
     NoGoal { command: String },
 
+    /// A side of a thing on which the robot has no place to stand.
+    #[error("«{name}»: с той стороны роботу негде встать")]
+    #[diagnostic(
+        code(engine::no_floor_there),
+        help("назовите другую сторону: перед, за, слева или справа")
+    )]
+    NoFloorThere { name: String },
+
     /// Something that is to be put where nothing is put: under a bed.
     #[error(
-        "«{name}»: кладу я на вещь, в вещь, рядом с ней или в помещение, но не под, не за и не перед"
+        "«{name}»: кладу я на вещь, в вещь, рядом с ней или в помещение, но не под, не за, не перед и не сбоку"
     )]
     #[diagnostic(
         code(engine::not_put_there),
@@ -403,7 +411,7 @@ impl RequestError {
                 format!("The robot's rules have no goal for this: {}.", called(command))
             }
             Self::NotPutThere { name } => format!(
-                "I put things onto, into or beside what is named, or in rooms, and not under, behind or in front of {}.",
+                "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
                 called(name)
             ),
             Self::NoCharger => "The map has no place to charge.".to_owned(),
@@ -427,6 +435,9 @@ impl RequestError {
             ),
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off.", capitalized(&called(name)))
+            }
+            Self::NoFloorThere { name } => {
+                format!("There is no floor for the robot on that side of {}.", called(name))
             }
             Self::NotAPlace { name } => format!("The robot cannot stand at {}.", called(name)),
             Self::Homeless { thing } => format!("It is not known where {} belongs.", called(thing)),

@@ -6,10 +6,11 @@ use crate::language::command::{Facing, Placement, Relation};
 use crate::map::{Entity, Permeability};
 use crate::robot::{Belief, GoalFact};
 use crate::semantics::{Relations, predicate};
-use crate::units::{AreaId, Deg, MapId, Point};
+use crate::units::{AreaId, Deg, MapId, Point, Vector};
 
 use super::deeds::{
-    between_places, facing_place, facing_wall, facing_window, middle_place, window_place,
+    between_places, facing_place, facing_wall, facing_window, middle_place, side_of, side_place,
+    window_place,
 };
 use super::memory::Now;
 use super::{Engine, Error, Method, RequestError};
@@ -37,6 +38,9 @@ impl Engine {
         let stance = match (to.relation, to.and, facing) {
             (Relation::AtWindow(window), ..) => self.at_window(window)?,
             (Relation::Between, Some(other), _) => self.between(to.anchor, other)?,
+            (side, ..) if side_of(side).is_some() && matches!(to.anchor, Entity::Replica(_)) => {
+                self.on_side(side, to.anchor, now, relations)?
+            }
             (Relation::Middle, ..) => self.in_the_middle(to.anchor)?,
             (.., None) => return self.being_at(to.anchor, now, relations),
             (.., Some(_)) => self.at_named(to.anchor, now)?,
@@ -141,6 +145,51 @@ impl Engine {
         let area = area.ok_or_else(|| self.not_a_place(other))?;
         let at = floor.standing_in(area, middle).ok_or_else(|| self.not_a_place(other))?;
         Ok(Stance { area, at, name: between_places(world.name(one), world.name(other)) })
+    }
+
+    /// On one side of a thing, as near as the robot can stand: of its own front, else as the robot sees it now.
+    fn on_side(
+        &self,
+        side: Relation,
+        anchor: Entity,
+        now: &Now,
+        relations: &Relations,
+    ) -> Result<Stance, Error> {
+        /// From the thing's edge, cm.
+        const AWAY: f64 = 30.0;
+        let Entity::Replica(id) = anchor else { return Err(self.not_a_place(anchor)) };
+        let world = self.world()?;
+        let name = world.name(anchor);
+        let none_there = || Error::from(RequestError::NoFloorThere { name: name.to_owned() });
+        let (map, middle) = self.middle_of(anchor)?;
+        let floor = self.around()?.floor(map)?;
+        let seen = (map == now.map).then(|| now.pose.at - middle);
+        let front = relations.front(id).or(seen).and_then(|front| front.try_normalize(1e-6));
+        let front = front.ok_or_else(none_there)?;
+        // The left hand of who sits in it, or of who looks at it.
+        let left = match relations.has_front(id) {
+            true => Vector::new(-front.y, front.x),
+            false => Vector::new(front.y, -front.x),
+        };
+        let toward = match side {
+            Relation::InFrontOf => front,
+            Relation::Behind => -front,
+            Relation::LeftOf => left,
+            _ => -left,
+        };
+        let placed = floor.scene().replicas.get(&id).ok_or_else(none_there)?;
+        let bounds = placed.bounds;
+        let half = (bounds.max - bounds.min) / 2.0;
+        let reach = half.x * toward.x.abs() + half.y * toward.y.abs() + AWAY;
+        let area = world.replicas.get(&id).map(|replica| replica.area).ok_or_else(none_there)?;
+        let at = floor.standing_in(area, middle + toward * reach).ok_or_else(none_there)?;
+        // A wall may leave it only another side.
+        let (ahead, aside) = ((at - middle).dot(&toward), (at - middle).perp(&toward).abs());
+        if ahead <= aside.min(half.norm()) {
+            return Err(none_there());
+        }
+        let side = side_of(side).unwrap_or_default();
+        Ok(Stance { area, at, name: side_place(side, name) })
     }
 
     /// Of a room; the middle of a thing is not to be stood in.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use crate::graphplan::Limits;
 use crate::language::Language;
 use crate::language::command::{
-    Command, Facing, Listener, Misheard, Placement, Relation, preamble,
+    Command, Facing, Listener, Misheard, Placement, Relation, preamble, without_clock,
 };
 use crate::language::question::{
     Answer, Conditional, Memory, Said, Thing, Unanswered, conditional,
@@ -361,6 +361,7 @@ impl Engine {
         sentence: &str,
         memory: &mut Memory,
     ) -> Result<Vec<Command<Entity>>, Error> {
+        without_clock(sentence)?;
         let settled = self.settle(sentence, memory)?;
         let entity = |thing| match thing {
             Thing::Entity(entity) => Some(entity),

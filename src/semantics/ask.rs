@@ -76,7 +76,13 @@ impl Relations {
     /// Whether a thing has a side that is its front.
     #[must_use]
     pub fn has_front(&self, id: ReplicaId) -> bool {
-        self.measurements().bodies.get(&id).is_some_and(|b| b.front.is_some())
+        self.front(id).is_some()
+    }
+
+    /// Outward normal of a thing's front, in the frame of its Map.
+    #[must_use]
+    pub fn front(&self, id: ReplicaId) -> Option<Vector> {
+        self.measurements().bodies.get(&id)?.front
     }
 
     /// Floor area of an Area, cm², its extents along the Map's axes and its height, cm.

@@ -1,16 +1,14 @@
 //! From clauses to commands: which argument is the thing, which the place, and whether each means one thing only.
 
 use std::cell::RefCell;
-use std::collections::HashSet;
 use std::hash::Hash;
 use std::ops::Range;
 
 use super::grammar::{Argument, Item, Reference, Sentence, items};
 use super::roles::{cases_after, choose, direction, question, within};
-use super::vocabulary::{Haunt, Role, Verb, verbs};
+use super::vocabulary::{Haunt, Role, Verb};
 use super::{Command, Facing, Listener, Misheard, Placement, Relation, Thing, gathered};
 use crate::language::words::{Case, Hit};
-use crate::units::{Source, nearest_name};
 
 /// Reads a sentence into commands. See [`Listener::hear`].
 pub(super) fn commands<T: Clone + Eq + Hash>(
@@ -58,9 +56,9 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
 }
 
 /// One verb and what belongs to it.
-struct Clause<'i, 's, T> {
+pub(super) struct Clause<'i, 's, T> {
     verb: Option<(Verb, &'i Range<usize>)>,
-    before: Vec<&'i Argument<'s, T>>,
+    pub(super) before: Vec<&'i Argument<'s, T>>,
     after: Vec<&'i Argument<'s, T>>,
     dangling: Option<&'i Range<usize>>,
     with_key: bool,
@@ -106,7 +104,9 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
         listed: true,
     };
     for (at, item) in items.iter().enumerate() {
-        let joined = || at.checked_sub(1).is_some_and(|at| matches!(items[at], Item::And));
+        // "the sofa and the bed"
+        let mut before = items[..at].iter().rev().skip_while(|item| matches!(item, Item::Filler));
+        let mut joined = || matches!(before.next(), Some(Item::And));
         if let Item::Argument(Argument { link: None, .. }) = item {
             clause.listed &= joined();
         }
@@ -128,9 +128,9 @@ fn clause<'i, 's, T>(items: &'i [Item<'s, T>]) -> Clause<'i, 's, T> {
     clause
 }
 
-struct Reader<'r, 't, T> {
-    sentence: &'r Sentence<'t>,
-    listener: &'r Listener<'r, T>,
+pub(super) struct Reader<'r, 't, T> {
+    pub(super) sentence: &'r Sentence<'t>,
+    pub(super) listener: &'r Listener<'r, T>,
     /// What a pronoun or an omitted object means.
     last: Vec<T>,
     /// Whether the sentence itself has named what they mean.
@@ -539,65 +539,5 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             meant.iter().map(|hit| if alike { hit.title } else { hit.name }.to_owned()).collect();
         let (reference, at) = self.shown(&argument.words);
         Err(Misheard::Ambiguous { reference, candidates, text: self.source(), at })
-    }
-
-    fn unknown(&self, argument: &Argument<'_, T>) -> Misheard {
-        let (reference, at) = self.shown(&argument.words);
-        let index = self.listener.index;
-        let mut near: Vec<String> = index.near(&reference, 3).into_iter().map(Into::into).collect();
-        if let (true, Some((_, last))) = (near.is_empty(), reference.rsplit_once(' ')) {
-            near = index.near(last, 3).into_iter().map(Into::into).collect();
-        }
-        let mut told = HashSet::new();
-        near.retain(|name| told.insert(name.clone()));
-        Misheard::UnknownName { reference, near, text: self.source(), at }
-    }
-
-    /// A sentence without a verb: the first strange word is to blame, and else the thing named with nothing to do.
-    fn no_verb(&self, clause: &Clause<'_, '_, T>) -> Misheard {
-        let strange = clause.before.iter().find(|a| matches!(a.reference, Reference::Unknown));
-        match strange.or(clause.before.first()) {
-            Some(argument) if matches!(argument.reference, Reference::Unknown) => {
-                let first = argument.words.start..argument.words.start + 1;
-                let (word, _) = self.shown(&first);
-                let hint = nearest_name(&word, verbs()).map_or_else(
-                    || "начните с того, что сделать: «Принеси …», «Поезжай в …», «Открой …»".into(),
-                    |verb| format!("может быть, «{verb}»?"),
-                );
-                self.not_understood(&first, hint)
-            }
-            Some(argument) => {
-                self.incomplete(&argument.words, ("что с этим сделать", "what to do with it"))
-            }
-            None => self.incomplete(&(0..self.sentence.words.len()), ("что сделать", "what to do")),
-        }
-    }
-
-    fn unable(&self, words: &Range<usize>) -> Misheard {
-        let (word, at) = self.shown(words);
-        Misheard::Unable { word, text: self.source(), at }
-    }
-
-    fn not_understood(&self, words: &Range<usize>, hint: String) -> Misheard {
-        let (word, at) = self.shown(words);
-        Misheard::NotUnderstood { word, hint, text: self.source(), at }
-    }
-
-    fn incomplete(
-        &self,
-        words: &Range<usize>,
-        (question, english): (&'static str, &'static str),
-    ) -> Misheard {
-        let (_, at) = self.shown(words);
-        Misheard::Incomplete { question, english, text: self.source(), at }
-    }
-
-    fn shown(&self, words: &Range<usize>) -> (String, miette::SourceSpan) {
-        let span = self.sentence.span(words);
-        (self.sentence.text[span.clone()].to_owned(), (span.start, span.len()).into())
-    }
-
-    fn source(&self) -> Source {
-        Source::new("задание", self.sentence.text)
     }
 }

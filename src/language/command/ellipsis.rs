@@ -195,6 +195,24 @@ pub(super) fn object_again(said: &Said) -> Option<String> {
     })
 }
 
+/// "Shut and lock the office door": what the second verb is done to is said of the first as well.
+pub(super) fn object_shared(said: &Said) -> Option<String> {
+    segments(said).windows(2).find_map(|pair| {
+        let [before, next] = pair else { return None };
+        let ((verb, taken, kind), (again, length, other)) =
+            (before.begins_with(said)?, next.begins_with(said)?);
+        let alike = matches!(Sort::of(kind), Sort::Switch | Sort::Door)
+            && Sort::of(kind) == Sort::of(other);
+        let alone = verb + taken == before.words.end && !said.parted(before.words.end);
+        let what = again + length..next.words.end;
+        let (named, _) = object(said, &what);
+        (alike && alone && !named.is_empty()).then(|| {
+            let verb = verb..verb + taken;
+            said.with(&verb, &format!("{} {}", said.of(&verb), said.of(&what)))
+        })
+    })
+}
+
 /// «Одну чашку поставь на стол, а другую на полку», «… синюю на диван»: the noun once more.
 pub(super) fn noun_again(said: &Said) -> Option<String> {
     const ONE: [&str; 13] = [

@@ -222,7 +222,15 @@ pub(super) fn there_and_back(said: &Said) -> Option<String> {
 
 /// "Put it where you found it", «отвези туда, откуда взял»: where it is kept.
 pub(super) fn where_it_was(said: &Said) -> Option<String> {
-    const WAS: [&str; 17] = [
+    const WAS: [&str; 25] = [
+        "where it belongs",
+        "back where it belongs",
+        "to where it belongs",
+        "to its place",
+        "туда где его место",
+        "туда где ее место",
+        "на его место",
+        "на ее место",
         "to where it was",
         "where you found it",
         "where it was",
@@ -253,6 +261,115 @@ pub(super) fn where_it_was(said: &Said) -> Option<String> {
     let back = Language::of(&said.keys[verb]).pick("верни на место", "put back");
     let what = if verb + taken < at { said.of(&(verb + taken..at)) } else { "" };
     Some(said.with(&(verb..at + length), format!("{back} {what}").trim_end()))
+}
+
+/// «Дверь, соединяющая кухню и спальню», "the door that connects the kitchen to the bedroom": between the two.
+pub(super) fn connecting(said: &Said) -> Option<String> {
+    const JOINS: [&str; 22] = [
+        "connecting",
+        "joining",
+        "linking",
+        "that connects",
+        "which connects",
+        "that joins",
+        "which joins",
+        "that links",
+        "соединяющую",
+        "соединяющая",
+        "соединяющей",
+        "соединяющие",
+        "которая соединяет",
+        "которую соединяет",
+        "которые соединяют",
+        "что соединяет",
+        "связывающую",
+        "связывающая",
+        "которая связывает",
+        "разделяющую",
+        "которая разделяет",
+        "that separates",
+    ];
+    let (at, taken) = (1..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &JOINS)?)))?;
+    let language = Language::of(&said.keys[at]);
+    let from = at + taken;
+    let second = (from + 1..said.keys.len())
+        .find(|&n| said.is(n, &["and", "to", "with", "from", "и", "с", "со", "от"]))?;
+    if said.verb_from(from).is_some_and(|(verb, ..)| verb < second) {
+        return None;
+    }
+    let (between, and) = (language.pick("между", "between"), language.pick("и", "and"));
+    let mut text = said.text.clone();
+    text.replace_range(said.words[second].clone(), and);
+    text.replace_range(said.words[at - 1].end..said.words[from - 1].end, &format!(" {between}"));
+    Some(text)
+}
+
+/// «Съезди на лифте на второй этаж», "take the lift to the second floor": how it gets there it knows.
+pub(super) fn by_lift(said: &Said) -> Option<String> {
+    const LIFT: [&str; 8] = [
+        "на лифте",
+        "на лифту",
+        "by lift",
+        "by elevator",
+        "with the lift",
+        "with the elevator",
+        "using the lift",
+        "using the elevator",
+    ];
+    let (verb, taken, Verb::GoTo) = said.verb_from(0)? else { return None };
+    let (at, length) =
+        (verb + taken..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &LIFT)?)))?;
+    let other = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(_))));
+    let own = verb + taken..said.clause_end(verb);
+    let goes = own.into_iter().filter(|n| !(at..at + length).contains(n)).any(other);
+    goes.then(|| {
+        let mut text = said.text.clone();
+        text.replace_range(said.words[at - 1].end..said.words[at + length - 1].end, "");
+        text
+    })
+}
+
+/// "Fetch the battery; no, the toolbox", «принеси чашку, нет, тарелку»: the second of two.
+pub(super) fn corrected(said: &Said) -> Option<String> {
+    const NO: [&str; 12] = [
+        "no",
+        "or rather",
+        "i mean",
+        "sorry",
+        "no sorry",
+        "no wait",
+        "нет",
+        "вернее",
+        "точнее",
+        "ой нет",
+        "нет лучше",
+        "или нет лучше",
+    ];
+    let (verb, taken, _) = said.verb_from(0)?;
+    let at = (verb + taken + 1..said.keys.len())
+        .find(|&n| said.parted(n) && said.phrase(n, &NO).is_some())?;
+    let rest = at + said.phrase(at, &NO)?..said.keys.len();
+    if rest.is_empty() || said.verb_from(verb + taken).is_some() {
+        return None;
+    }
+    let is_link = |n: &usize| matches!(said.meaning(*n), Some((_, Meaning::Link(_))));
+    let link = (verb + taken..at).find(is_link);
+    let wrong = match (is_link(&rest.start), link) {
+        (true, Some(link)) => link..at,
+        (true, None) => at..at,
+        (false, Some(link)) => verb + taken..link,
+        (false, None) => verb + taken..at,
+    };
+    let mut text = said.text[..said.words[at - 1].end].to_owned();
+    let right = said.of(&rest);
+    match wrong.is_empty() {
+        true => text.push_str(&format!(" {right}")),
+        false => {
+            let bytes = said.words[wrong.start].start..said.words[wrong.end - 1].end;
+            text.replace_range(bytes, right);
+        }
+    }
+    Some(text)
 }
 
 /// "To the spot between the toilet and the sink": the preposition behind says it.

@@ -64,6 +64,16 @@ pub enum Misheard {
         #[label("здесь")]
         at: SourceSpan,
     },
+    /// What is to be done at a time, or for some time.
+    #[error("за часами я не слежу: «{word}»")]
+    #[diagnostic(code(language::timed), help("скажите, когда придёт время"))]
+    Timed {
+        word: String,
+        #[source_code]
+        text: Source,
+        #[label("здесь")]
+        at: SourceSpan,
+    },
     /// A description that several things fit, told apart as an answer tells them.
     #[error("{}", .0.text)]
     #[diagnostic(code(language::ambiguous), help("скажите, что из этого имелось в виду"))]
@@ -129,6 +139,9 @@ impl Misheard {
             }
             Self::Unable { word, .. } => {
                 sentences(&format!("I cannot do that: \"{word}\""), ABLE[1])
+            }
+            Self::Timed { word, .. } => {
+                format!("I keep no time: \"{word}\". Tell me when it has come.")
             }
             Self::WhichOf(unanswered) | Self::NoneSuch(unanswered) => unanswered.text.clone(),
             Self::Incomplete { english, .. } => format!("You did not say {english}."),

@@ -18,9 +18,11 @@
 //! ```
 
 mod assemble;
+mod blame;
 mod ellipsis;
 mod going;
 mod grammar;
+mod hints;
 mod misheard;
 mod quantity;
 mod roles;
@@ -29,6 +31,10 @@ mod time;
 mod verbs;
 mod vocabulary;
 
+pub(in crate::language) use hints::{
+    awaited, has_haunt, is_adjective, is_of_another, says_whither,
+};
+pub use hints::{in_time, is_command, is_order, preamble, without_clock};
 pub use misheard::Misheard;
 pub(in crate::language) use verbs::{
     Sort, clauses, gathered, is_known, link_at, link_before, small_words, without_verbs,
@@ -50,6 +56,9 @@ pub enum Relation {
     Behind,
     InFrontOf,
     NextTo,
+    /// As seen by it, if it has a front, else by the robot.
+    LeftOf,
+    RightOf,
     /// Between the anchor and another.
     Between,
     /// In the middle of it: «посреди кухни».
@@ -206,83 +215,6 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
         }
         assemble::commands(text, self)
     }
-}
-
-/// A text that tells by a conjunction in which order it is to be done, in that order.
-#[must_use]
-pub fn in_time(text: &str) -> Option<String> {
-    spoken::in_time(text)
-}
-
-/// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.
-pub(in crate::language) fn says_whither(word: &str) -> bool {
-    let found = vocabulary::longest(&std::iter::once(word));
-    found.is_some_and(|(_, meaning)| spoken::says_whither(meaning))
-}
-
-/// Whether a text names a place of the robot's own: «на базу».
-pub(in crate::language) fn has_haunt(text: &str) -> bool {
-    let keys = crate::language::words::word_keys(text);
-    (0..keys.len()).any(|n| {
-        let found = vocabulary::longest(&keys[n..].iter().map(String::as_str));
-        matches!(found, Some((_, vocabulary::Meaning::Haunt(_))))
-    })
-}
-
-/// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
-#[must_use]
-pub fn is_command(text: &str) -> bool {
-    let text = verbs::gathered(text);
-    verbs::first(&text).is_some() || verbs::forbids(&text)
-}
-
-/// Whether a text begins with a verb that orders, though words of a question begin so too: "Find the cup",
-/// "Hang the umbrella on the rack". What ends in a question mark asks.
-#[must_use]
-pub fn is_order(text: &str) -> bool {
-    use vocabulary::Verb;
-    let gathered = verbs::gathered(text);
-    let verb = verbs::first(&gathered).map(|(_, verb)| verb);
-    match verb {
-        None | Some(Verb::Need | Verb::Report | Verb::Unable) => false,
-        Some(Verb::Find) => true,
-        Some(_) => !text.trim_end().ends_with('?'),
-    }
-}
-
-/// What only tells, and the order behind its mark.
-#[must_use]
-pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
-    /// What begins so says when, and is part of the order.
-    const WHEN: [&str; 17] = [
-        "after",
-        "before",
-        "when",
-        "once",
-        "until",
-        "while",
-        "if",
-        "unless",
-        "as",
-        "после",
-        "перед",
-        "когда",
-        "пока",
-        "если",
-        "прежде",
-        "как",
-        "сразу",
-    ];
-    let first = crate::language::words::word_keys(sentence).into_iter().next();
-    if is_order(sentence) || first.is_some_and(|word| WHEN.contains(&word.as_str())) {
-        return None;
-    }
-    let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
-    let dashes = sentence.match_indices(" - ");
-    marks
-        .chain(dashes)
-        .map(|(at, mark)| (&sentence[..at], sentence[at + mark.len()..].trim_start()))
-        .find(|(told, order)| !told.trim().is_empty() && is_order(order))
 }
 
 #[cfg(test)]

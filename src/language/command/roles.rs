@@ -28,7 +28,7 @@ pub(super) fn cases_after(link: Link) -> &'static [Case] {
     match (link.role, link.relation) {
         (Role::Whence, _) => &[Case::Genitive],
         (Role::Via, _) => &[Case::Accusative],
-        (_, Relation::Middle) => &[Case::Genitive],
+        (_, Relation::Middle | Relation::LeftOf | Relation::RightOf) => &[Case::Genitive],
         (_, Relation::Facing) => &[Case::Dative, Case::Accusative],
         (_, Relation::Between) => &[Case::Instrumental],
         (Role::Whither, Relation::At) => &[Case::Dative, Case::Genitive],

@@ -21,7 +21,7 @@ pub(super) struct Said {
 }
 
 impl Said {
-    fn new(text: String) -> Self {
+    pub(super) fn new(text: String) -> Self {
         let (words, keys) = (word_ranges(&text), word_keys(&text));
         Self { text, words, keys }
     }
@@ -56,7 +56,7 @@ impl Said {
         (at + 1..self.words.len()).find(|&n| self.parted(n)).unwrap_or(self.words.len())
     }
 
-    fn bytes(&self, words: &Range<usize>) -> Range<usize> {
+    pub(super) fn bytes(&self, words: &Range<usize>) -> Range<usize> {
         self.words[words.start].start..self.words[words.end - 1].end
     }
 
@@ -88,17 +88,22 @@ impl Said {
 pub(super) fn plain(text: &str) -> String {
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 29] = [
+    let rewritings: [fn(&Said) -> Option<String>; 34] = [
+        time::until_called,
         time::at_the_end,
         time::told_when,
         time::in_time,
         going::faced,
+        going::connecting,
+        going::by_lift,
+        going::corrected,
         without_forbidden,
         contrasted,
         excluded,
         ellipsis::verb_first,
         ellipsis::verb_again,
         ellipsis::object_again,
+        ellipsis::object_shared,
         ellipsis::noun_again,
         ensured,
         quantity::everything,
@@ -197,8 +202,9 @@ fn excluded(said: &Said) -> Option<String> {
     let taken = said.phrase(at, &BUT_NOT)?;
     let end = said.clause_end(at + taken);
     let told = at + taken..end;
-    // "to me, not to the kitchen": the other place is merely not meant.
-    if matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
+    // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant.
+    let goes = said.verb_from(0).is_some_and(|(.., verb)| verb == Verb::GoTo);
+    if goes || matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
         let mut text = said.text.clone();
         text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
         return Some(text);
@@ -386,7 +392,13 @@ fn gapped(said: &Said) -> Option<String> {
 
 /// "Leave the bowl where it is and …", «другая пусть остаётся»: beside what is to be done.
 fn left_alone(said: &Said) -> Option<String> {
-    const ALONE: [&str; 18] = [
+    const ALONE: [&str; 24] = [
+        "the rest",
+        "the others",
+        "остальное",
+        "остальные",
+        "оставь остальное",
+        "оставь остальные",
         "where it is",
         "where they are",
         "as it is",
@@ -504,6 +516,17 @@ mod tests {
             ),
             ("Убери всё со стола", "Убери все вещи со стола"),
             ("Go home", "Go to base"),
+            ("Shut and lock the door", "Shut the door and lock the door"),
+            ("Go to the desk, not the bench", "Go to the desk"),
+            ("Fetch the battery; no, the toolbox", "Fetch the toolbox"),
+            ("Поезжай в спальню, точнее на кухню", "Поезжай на кухню"),
+            (
+                "Open the door that connects the hall to the lab",
+                "Open the door between the hall and the lab",
+            ),
+            ("Открой дверь, соединяющую холл с кухней", "Открой дверь между холл и кухней"),
+            ("Съезди на лифте на второй этаж", "Съезди на второй этаж"),
+            ("Go to the hall and wait there until I call you", "Go to the hall and wait there"),
             ("Остановись у шкафа", "встань у шкафа"),
             ("Bring the medicine to me, not to the kitchen", "Bring the medicine to me"),
             ("Проследи, чтобы в спальне горел свет", "включи в спальне свет"),

@@ -2,6 +2,8 @@
 //! «когда приедешь на кухню, включи свет», "tell me when you have found the keys". By words alone, as
 //! [`spoken`](super::spoken).
 
+use std::ops::Range;
+
 use super::ellipsis::first_word;
 use super::spoken::Said;
 use super::vocabulary::{Meaning, Verb, longest};
@@ -40,6 +42,22 @@ const AFTER: [&str; 18] = [
     "лишь только",
     "едва",
 ];
+
+/// What an order that waits is followed by.
+pub(super) const UNTIL: [&str; 7] = [
+    "until",
+    "till",
+    "unless and until",
+    "пока",
+    "пока не",
+    "до тех пор пока",
+    "до тех пор пока не",
+];
+
+/// «придёт», «откроется»: what another does; what the robot is told is «приедешь».
+pub(super) fn is_of_another(key: &str) -> bool {
+    key.ends_with('т') || key.ends_with("тся")
+}
 
 /// «Когда закончишь», "before leaving", with nothing behind it: when the sentence is spoken it is so.
 pub(super) fn at_the_end(said: &Said) -> Option<String> {
@@ -95,6 +113,83 @@ pub(super) fn at_the_end(said: &Said) -> Option<String> {
     let rest = rest.iter().filter(|words| !words.is_empty()).map(|words| said.of(words));
     let rest = rest.collect::<Vec<_>>().join(", ");
     (!rest.is_empty()).then_some(rest)
+}
+
+/// "Wait here until I call you", «подожди, пока я не вернусь»: until it is spoken to again, as it does.
+pub(super) fn until_called(said: &Said) -> Option<String> {
+    let mut verb = said.verb_from(0)?;
+    while verb.2 != Verb::Wait {
+        verb = said.verb_from(verb.0 + verb.1)?;
+    }
+    let (at, length) =
+        (verb.0 + verb.1..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &UNTIL)?)))?;
+    let person = at + length;
+    if !said.is(person, &["i", "we", "я", "мы"]) {
+        return None;
+    }
+    let mut text = said.text.clone();
+    text.replace_range(said.words[at - 1].end..said.words[said.clause_end(person) - 1].end, "");
+    Some(text)
+}
+
+/// A time of the clock or a span of it, at which or for which something is to be done: «через пять минут», "for two
+/// hours", "tomorrow". «Подожди минуту» is but a way to say that it should wait.
+pub(super) fn of_the_clock(said: &Said) -> Option<Range<usize>> {
+    const UNITS: [&str; 10] =
+        ["second", "minute", "hour", "day", "week", "секунд", "минут", "час", "день", "дня"];
+    const SPANS: [&str; 10] =
+        ["in", "for", "after", "every", "через", "на", "в течение", "каждые", "каждую", "каждый"];
+    const TIMES: [&str; 20] = [
+        "tomorrow",
+        "tonight",
+        "later today",
+        "at noon",
+        "at midnight",
+        "in the evening",
+        "in the morning",
+        "every day",
+        "every morning",
+        "every evening",
+        "завтра",
+        "послезавтра",
+        "вечером",
+        "утром",
+        "ночью",
+        "в полдень",
+        "в полночь",
+        "через полчаса",
+        "каждое утро",
+        "каждый вечер",
+    ];
+    let unit = |n: usize| {
+        said.keys.get(n).is_some_and(|key| UNITS.iter().any(|unit| key.starts_with(unit)))
+    };
+    let least = said.verb_from(0).map_or(0, |(verb, ..)| verb);
+    // The verb before: "go there and wait for two minutes".
+    let waiting = |at: usize| {
+        let verb = |n: usize| match said.meaning(n) {
+            Some((_, Meaning::Verb(verb))) => Some(verb),
+            _ => None,
+        };
+        (0..at).rev().find_map(verb) == Some(Verb::Wait)
+    };
+    (0..said.keys.len()).find_map(|n| {
+        // «Подожди две минуты»
+        let several = |n: usize| unit(n) && said.keys[n].ends_with(['s', 'ы', 'т', 'а', 'в']);
+        let waits = waiting(n);
+        if waits && n > least && several(n) {
+            return Some(n - 1..n + 1);
+        }
+        if let Some(taken) = said.phrase(n, &TIMES) {
+            return Some(n..n + taken);
+        }
+        let span = n + said.phrase(n, &SPANS)?;
+        let number = (span..span + 3).find(|&n| unit(n))?;
+        // "in a second", «на минутку»
+        let soon = number == span || said.is(span, &["a", "one", "the", "just", "минутку"]);
+        let told = !said.keys[number].ends_with("ку") && (!soon || said.is(n, &["через"]));
+        (told && !waits || waits && n > least && !soon).then_some(n..number + 1)
+    })
 }
 
 /// "Tell me when you have found the keys": each order ends with a report.
@@ -176,7 +271,7 @@ pub(super) fn in_time(said: &Said) -> Option<String> {
         return Some(told.trim_end().to_owned());
     }
     let (verb, length, _) = said.verb_from(one)?;
-    if first_word(said, &(one..end)) != Some(verb) {
+    if first_word(said, &(one..end)) != Some(verb) || is_of_another(&said.keys[verb]) {
         return None;
     }
     let joined = |n: usize| {

@@ -114,7 +114,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         поднимись|поднимитесь|подняться|спускайся|спускайтесь|поднимайся|поднимайтесь|спустись|спуститесь|спуститься|поднимись на лифте|поднимитесь на лифте|спустись на лифте|\
         take the elevator|take the lift|use the elevator|use the lift|ride the elevator|ride the lift|go up|go down|направляйся|направляйтесь|\
         встань|встаньте|стань|подкати|подкатись|прокатись|двигай|дуй|доедь|доезжай|дойди|доберись|сгоняй|сбегай|слетай|смотайся|загляни|заскочи|look in|look into|look inside|peek into|приезжай|приедь|приди|проедь|проезжай|проследуй|\
-        go|go over|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|stand|go stand|approach|going",
+        go|go over|nip over|nip|pop over|hop over|swing by|stop by|drop by|drive|drive over|navigate|come|come over|head|head over|walk|walk over|proceed|enter|move yourself|get yourself|run|roll|travel|visit|stand|go stand|approach|going",
     ),
     (
         Meaning::Verb(Verb::Return),
@@ -131,7 +131,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Wait),
-        "подожди|подождите|подождать|жди|ждите|обожди|побудь|постой|wait|hold on|stay",
+        "подожди|подождите|подождать|дождись|дождитесь|жди|ждите|обожди|побудь|постой|wait|hold on|stay",
     ),
     (
         Meaning::Verb(Verb::Face),
@@ -142,7 +142,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         "объедь|объедьте|объезжай|патрулируй|посторожи|give me a hand|give us a hand|patrol|следуй|накрой|накройте|накрой на стол|накрыть на стол|сервируй|поменяй местами|поменяйте местами|lay the table|set the table|set a table|lay a table|swap|exchange|следуйте|следуй за|иди за|езжай за|поезжай за|проводи|проводите|сопроводи|сопроводите|отведи|отведите|встреть|встретьте|познакомь|скажи|расскажи анекдот|\
         спой|станцуй|потанцуй|приготовь|приготовьте|свари|сварите|налей|налейте|помой|помойте|вымой|вымойте|постирай|погладь|пропылесось|протри|протрите|накорми|полей|\
         почини|подмети|сделай|сделайте|поменяй|поменяйте|отъедь|отъезжай|вынеси мусор|вынесите мусор|выброси|выбросите|выкинь|позвони|сфотографируй|нарисуй|купи|закажи|разбуди|погуляй|\
-        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
+        follow|guide|escort|lead|accompany|introduce|meet|greet|sing|dance|cook|bake|wash|mop|vacuum|sweep|wipe|feed|pour|throw away|throw out|throw|take out the trash|take out the garbage|take out the rubbish|get rid of|dispose of|избавься|go around|drive around|go round|покажи|покажите|tell me a joke|tell a joke|turn around|turn round|rotate|spin|развернись|вытри|\
         repair|fix|buy|order|wake up|play|photograph|say|speak|slice|eat|boil|make",
     ),
     (
@@ -161,7 +161,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Take),
-        "сними|снимите|снять|возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
+        "сними|снимите|снять|возьми|возьмите|взял|взять|бери|собери|соберите|собрать|забери|заберите|забрать|подними|поднимите|поднять|схвати|схватите|захвати|захватите|прихвати|ухвати|take|take out|take hold of|pick up|pick|grab|grasp|lift|lift up|collect|get hold of|taking|picking up",
     ),
     (
         Meaning::Verb(Verb::Put),
@@ -205,7 +205,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
     ),
     (
         Meaning::Verb(Verb::Tidy),
-        "приберись|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|убраться|приберите|разбери завалы|разложи всё по местам|разложи все вещи по местам|разложи вещи по местам|расставь всё по местам|tidy|tidy up|clean|clean up|clean out|straighten up|neaten",
+        "приберись|приведи в порядок|приведите в порядок|привести в порядок|приберитесь|прибраться|прибери|наведи порядок|наведите порядок|навести порядок|уберись|уберитесь|убраться|приберите|разбери завалы|разложи всё по местам|разложи все вещи по местам|разложи вещи по местам|расставь всё по местам|tidy|tidy up|clean|clean up|clean out|straighten up|neaten",
     ),
     (
         Meaning::Verb(Verb::CallOperator),
@@ -242,6 +242,14 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         link(Relation::NextTo, Role::WhereOrWhither),
         "у|около|возле|рядом с|рядом со|близ|next to|near|beside|by",
     ),
+    (
+        link(Relation::LeftOf, Role::WhereOrWhither),
+        "слева от|левее|по левую сторону от|с левой стороны от|to the left of|to the left side of|on the left of|on the left side of|left of",
+    ),
+    (
+        link(Relation::RightOf, Role::WhereOrWhither),
+        "справа от|правее|по правую сторону от|с правой стороны от|to the right of|to the right side of|on the right of|on the right side of|right of",
+    ),
     (link(Relation::At, Role::Whither), "к|ко|до|to|towards|toward|up to"),
     (link(Relation::At, Role::Where), "at"),
     (link(Relation::In, Role::Whence), "из|изо|out of"),
@@ -261,7 +269,7 @@ const VOCABULARY: &[(Meaning, &str)] = &[
         могли бы вы|не мог бы ты|не могли бы вы|не можешь|не можете|ты не мог бы|ты|вы|бы|ли|надо|необходимо|чтобы|чтобы ты|я|мы|нам|быстро|быстрее|скорее|срочно|осторожно|сейчас|теперь|\
         тут|там|туда|вот|ка|же|ну|ладно|хорошо|привет|здравствуй|здравствуйте|робот|рб|рб 2|этот|эту|это|эти|тот|ту|те|мой|мою|моё|мои|свой|свою|своё|для меня|\
         какой нибудь|кое что|свободный|одну|один|какую то|please|could you|could you please|can you|would you|will you|would you please|robot|hey|hello|hi|\
-        a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
+        вон|везде|повсюду|everywhere|in a minute|in a moment|in a second|a|an|the|this|that|these|those|my|your|some|now|quickly|quick|fast|carefully|there|for me|kindly|i|d like you to|like|you",
     ),
     (
         link(Relation::Between, Role::WhereOrWhither),

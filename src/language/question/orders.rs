@@ -129,6 +129,20 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         "скажи",
         "посмотри",
     ];
+    const TELLS: [&str; 12] = [
+        "tell me",
+        "let me know",
+        "report",
+        "inform me",
+        "notify me",
+        "call me",
+        "доложи",
+        "сообщи",
+        "скажи",
+        "скажи мне",
+        "дай знать",
+        "позови меня",
+    ];
     const SMALL: [&str; 14] = [
         "и",
         "а",
@@ -200,7 +214,9 @@ pub fn conditional(text: &str) -> Option<Conditional> {
     let event = |n: usize| {
         let claim = n + phrase(n, &WHEN)?;
         let person = keys.get(claim).is_some_and(|key| PERSONS.contains(&key.as_str()));
-        let told = claim < keys.len() && !person && !is_order(&text[words[claim].start..]);
+        let another = keys.get(claim).is_some_and(|key| command::is_of_another(key));
+        let told =
+            claim < keys.len() && !person && (another || !is_order(&text[words[claim].start..]));
         (told && begins(n) && !polite(n)).then_some(claim)
     };
     let condition = (0..keys.len()).find(|&n| {
@@ -235,17 +251,36 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         let waits = false;
         return Some(Conditional { first, about: None, question, then, otherwise, waits });
     }
+    // "Wait until the door is open, then go in"
+    if let Some((at, from)) = command::awaited(&keys) {
+        let next = (from + 1..keys.len())
+            .find(|&n| (parted(n) || keys[n - 1] == "then") && is_order(&text[words[n].start..]));
+        let first = said(0..at).filter(|first| word_ranges(first).len() > 1);
+        let claim: Vec<&str> = (from..next.unwrap_or(keys.len()))
+            .filter(|&n| !matches!(keys[n].as_str(), "не" | "then" | "and"))
+            .map(|n| &text[words[n].clone()])
+            .collect();
+        let claim = claim.join(" ");
+        let question = asked(&claim).unwrap_or_else(|| format!("{claim}?"));
+        let then = next.and_then(|next| order(next..keys.len()));
+        let waits = true;
+        return Some(Conditional { first, about: None, question, then, otherwise: None, waits });
+    }
     let gathered = command::in_time(text);
     let awaited = || (0..keys.len()).filter(|_| gathered.is_none()).find(|&n| event(n).is_some());
     let waits = condition.is_none();
     let at = condition.or_else(awaited)?;
     let from = if waits { event(at)? } else { at + phrase(at, &IF)? };
-    let orders = |n: usize| is_order(&text[words[n].start..]);
+    // What is told when it happens is an order as well.
+    let orders =
+        |n: usize| is_order(&text[words[n].start..]) || waits && phrase(n, &TELLS).is_some();
     let leads = said(0..at).is_none_or(|before| !is_order(&before));
     let (claim, then, end, length) = if leads {
-        // Up to what orders, behind a mark or «то», "then"; else up to the verb that follows.
+        // Up to what orders, behind a mark or «то», "then"; else up to the verb that follows. What is waited for may be
+        // one word: «когда стемнеет».
+        let least = from + if waits { 1 } else { 2 };
         let marked = |n: &usize| parted(*n) || matches!(keys[n - 1].as_str(), "то" | "then");
-        let next = (from + 2..keys.len())
+        let next = (least..keys.len())
             .filter(marked)
             .find(|&n| orders(n) || phrase(n, &NOTHING).is_some());
         let next = next.or_else(|| (from + 2..keys.len()).find(|&n| orders(n)))?;

@@ -215,6 +215,16 @@ pub(super) fn done_at(sort: u16) -> u16 {
     tables.filter(|_| is_food).and_then(|n| u16::try_from(n).ok()).unwrap_or(sort)
 }
 
+/// The sorts of what holds drink and food.
+pub(super) fn vessels() -> impl Iterator<Item = u16> {
+    let holds = |sort: &Sort| sort.members.split('|').any(|kind| matches!(kind, "cup" | "bowl"));
+    SORTS
+        .iter()
+        .enumerate()
+        .filter(move |(_, sort)| holds(sort))
+        .filter_map(|(n, _)| u16::try_from(n).ok())
+}
+
 /// Whether its verbs say what is done with such things to others: "thing to cut with".
 pub(super) fn is_tool(sort: u16) -> bool {
     SORTS.get(usize::from(sort)).is_some_and(|s| s.english.contains(" with"))

@@ -86,7 +86,7 @@ impl Asker<'_> {
             return Err(misread(Doubt::NoStorey { above }));
         }
         let text = self.with_kind(self.plain(&gathered), memory);
-        let text = self.with_noun(text, memory);
+        let text = self.with_noun(self.without_contents(text), memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_deed(text, language).map_err(misread)?;
         // "Open the lab door" orders; it does not speak of the open one.
@@ -351,6 +351,7 @@ impl Settler<'_, '_> {
             own.into_iter().partition(|spot| sort == Sort::Go && self.is_faced(spot.phrase));
         own = others;
         let goal = self.destination(sort, &own, !objects.is_empty());
+        let goal = goal.filter(|goal| !self.tells_of_fixed(sort, own[*goal], objects));
         let whither = match goal {
             Some(goal) => self.whither(own.remove(goal), &mut own, sort, edits)?,
             None => None,
@@ -467,6 +468,23 @@ impl Settler<'_, '_> {
         Ok(())
     }
 
+    /// "Clear the table in the living room": a place tells which, of what cannot be carried to it.
+    fn tells_of_fixed(&self, sort: Sort, spot: &Spot<'_>, objects: &[(usize, &Phrase)]) -> bool {
+        let [(item, phrase)] = objects else { return false };
+        let told =
+            Restriction { rel: spot.rel, anchors: vec![spot.phrase.noun.clone()], negated: false };
+        let whither = self.is_whither(spot.rel, spot.phrase) == Some(true);
+        let fixed = |found: Vec<Thing>| {
+            !found.is_empty() && !found.iter().any(|t| self.knowledge.can(sort, *t))
+        };
+        let names = phrase.pronoun.is_none() && phrase.person.is_none();
+        sort == Sort::Put
+            && !whither
+            && names
+            && spot.item > *item
+            && self.candidates(&phrase.noun, &[told]).is_ok_and(fixed)
+    }
+
     /// What a door's or a device's verb is done to, of what the sentence has named; none where that was named last.
     fn meant_by_pronoun(&self, sort: Sort, told: &Told) -> Option<Thing> {
         let fits = |t: &Thing| match sort {
@@ -475,7 +493,9 @@ impl Settler<'_, '_> {
             _ => false,
         };
         let last = told.things.last()?;
-        told.things.iter().rev().find(|t| fits(t)).filter(|_| !fits(last)).copied()
+        let earlier = told.things.iter().rev().find(|t| fits(t)).copied();
+        // "Put the plate in the microwave and switch it on"
+        earlier.or(told.place.filter(|place| fits(place))).filter(|_| !fits(last))
     }
 
     /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.

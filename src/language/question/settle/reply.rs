@@ -194,10 +194,31 @@ impl Asker<'_> {
         Some(whole)
     }
 
+    /// A reply whose misspelt words, of which there is one likely reading, are put right: «в кухнюу».
+    fn spelled(&self, text: &str) -> String {
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let mut spelled = text.to_owned();
+        for item in sentence.items().iter().rev() {
+            let Item::Unknown(words) = item else { continue };
+            let said = sentence.words[words.start].start..sentence.words[words.end - 1].end;
+            let key = name_key(&text[said.clone()]);
+            let name = self.mind.lexicon.nouns.near(&text[said.clone()], 1).first().copied();
+            let same = |name: &&str| {
+                let letters = name_key(name);
+                let same = letters.chars().zip(key.chars()).take_while(|(a, b)| a == b).count();
+                2 * same > key.chars().count()
+            };
+            if let Some(name) = name.filter(same) {
+                spelled.replace_range(said, name);
+            }
+        }
+        spelled
+    }
+
     /// «Какую дверь?» – «В спальню»: the room to which it leads, said of what was asked about.
     fn narrowed(&self, text: &str, waiting: &Waiting) -> Option<String> {
         let doors = |t: &Thing| matches!(t, Thing::Entity(Entity::Door(_)));
-        let plain = self.plain(text);
+        let plain = self.spelled(&self.plain(without_pointing(text)));
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let one_place =
             matches!(&sentence.items()[..], [Item::Place { nouns, .. }] if nouns.len() == 1);
@@ -205,7 +226,7 @@ impl Asker<'_> {
             return None;
         }
         let mut narrowed = waiting.text.clone();
-        narrowed.insert_str(waiting.at.end, &format!(" {}", text.trim_end_matches(['.', '!'])));
+        narrowed.insert_str(waiting.at.end, &format!(" {}", plain.trim_end_matches(['.', '!'])));
         Some(narrowed)
     }
 

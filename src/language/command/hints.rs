@@ -1,0 +1,126 @@
+//! What the words of a text tell of it before it is heard as a command: whether it is one, and when it is to be done.
+
+use super::vocabulary::{Meaning, Verb, longest};
+use super::{Listener, Misheard, spoken, time, verbs};
+use crate::language::words::{phrase_at, word_keys};
+use crate::units::Source;
+
+/// A text that tells by a conjunction in which order it is to be done, in that order.
+#[must_use]
+pub fn in_time(text: &str) -> Option<String> {
+    spoken::in_time(text)
+}
+
+/// Whether a word tells what another than the robot does: «придёт».
+pub(in crate::language) fn is_of_another(word: &str) -> bool {
+    time::is_of_another(word)
+}
+
+/// Whether a word without its noun is an adjective, by its ending.
+pub(in crate::language) fn is_adjective(word: &str) -> bool {
+    spoken::is_adjective(word)
+}
+
+/// What a text waits for, behind "wait until": the words before it, and those that begin the claim.
+pub(in crate::language) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
+    let phrase = |n: usize| {
+        let all = time::UNTIL.iter();
+        all.filter_map(|until| phrase_at(keys, n, until)).max()
+    };
+    let (at, taken) = (1..keys.len()).find_map(|n| Some((n, phrase(n)?)))?;
+    let waits = (0..at).any(|n| {
+        let found = longest(&keys[n..].iter().map(String::as_str));
+        matches!(found, Some((_, Meaning::Verb(Verb::Wait))))
+    });
+    let called = keys.get(at + taken).is_none_or(|key| ["i", "we", "я", "мы"].contains(&&**key));
+    (waits && !called).then_some((at, at + taken))
+}
+
+/// Refuses what is to be done at a time of the clock, or for some time.
+///
+/// # Errors
+/// [`Misheard::Timed`]
+pub fn without_clock(text: &str) -> Result<(), Misheard> {
+    // What is too long is refused for that.
+    if text.chars().nth(Listener::<()>::LONGEST).is_some() {
+        return Ok(());
+    }
+    let said = spoken::Said::new(text.to_owned());
+    let Some(words) = time::of_the_clock(&said) else { return Ok(()) };
+    let bytes = said.bytes(&words);
+    Err(Misheard::Timed {
+        word: text[bytes.clone()].to_owned(),
+        text: Source::new("задание", text),
+        at: (bytes.start, bytes.len()).into(),
+    })
+}
+
+/// Whether a word, in [`name_key`](crate::units::name_key) form, is a preposition that says whither or may.
+pub(in crate::language) fn says_whither(word: &str) -> bool {
+    let found = longest(&std::iter::once(word));
+    found.is_some_and(|(_, meaning)| spoken::says_whither(meaning))
+}
+
+/// Whether a text names a place of the robot's own: «на базу».
+pub(in crate::language) fn has_haunt(text: &str) -> bool {
+    let keys = word_keys(text);
+    (0..keys.len()).any(|n| {
+        let found = longest(&keys[n..].iter().map(String::as_str));
+        matches!(found, Some((_, Meaning::Haunt(_))))
+    })
+}
+
+/// Whether a text begins with what is to be done: small words aside, its first word is a verb of command.
+#[must_use]
+pub fn is_command(text: &str) -> bool {
+    let text = verbs::gathered(text);
+    verbs::first(&text).is_some() || verbs::forbids(&text)
+}
+
+/// Whether a text begins with a verb that orders, though words of a question begin so too: "Find the cup",
+/// "Hang the umbrella on the rack". What ends in a question mark asks.
+#[must_use]
+pub fn is_order(text: &str) -> bool {
+    let gathered = verbs::gathered(text);
+    let verb = verbs::first(&gathered).map(|(_, verb)| verb);
+    match verb {
+        None | Some(Verb::Need | Verb::Report | Verb::Unable) => false,
+        Some(Verb::Find) => true,
+        Some(_) => !text.trim_end().ends_with('?'),
+    }
+}
+
+/// What only tells, and the order behind its mark.
+#[must_use]
+pub fn preamble(sentence: &str) -> Option<(&str, &str)> {
+    /// What begins so says when, and is part of the order.
+    const WHEN: [&str; 17] = [
+        "after",
+        "before",
+        "when",
+        "once",
+        "until",
+        "while",
+        "if",
+        "unless",
+        "as",
+        "после",
+        "перед",
+        "когда",
+        "пока",
+        "если",
+        "прежде",
+        "как",
+        "сразу",
+    ];
+    let first = word_keys(sentence).into_iter().next();
+    if is_order(sentence) || first.is_some_and(|word| WHEN.contains(&word.as_str())) {
+        return None;
+    }
+    let marks = sentence.match_indices([',', '.', ';', '!', '–', '—', ':']);
+    let dashes = sentence.match_indices(" - ");
+    marks
+        .chain(dashes)
+        .map(|(at, mark)| (&sentence[..at], sentence[at + mark.len()..].trim_start()))
+        .find(|(told, order)| !told.trim().is_empty() && is_order(order))
+}
