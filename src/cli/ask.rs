@@ -11,16 +11,24 @@ use super::fault::Failure;
 use super::{Answer as Outcome, say};
 
 pub(super) fn run(common: &Common, args: &AskArgs) -> Result<Outcome, Failure> {
-    let engine = open(common)?;
+    answer(common, &open(common)?, &args.question, args.explain)
+}
+
+pub(super) fn answer(
+    common: &Common,
+    engine: &Engine,
+    question: &str,
+    explain: bool,
+) -> Result<Outcome, Failure> {
     let mut memory = Memory::default();
-    match engine.ask(&args.question, &mut memory)? {
+    match engine.ask(question, &mut memory)? {
         Ok(answer) => {
             if common.json {
-                say(&view(&engine, &answer)?.to_string())?;
+                say(&view(engine, &answer)?.to_string())?;
             } else {
                 say(&answer.text)?;
-                if args.explain {
-                    say(&explained(&engine, &answer)?)?;
+                if explain {
+                    say(&explained(engine, &answer)?)?;
                 }
             }
             let is_no = matches!(answer.said, Said::No | Said::Nothing | Said::Unknown);

@@ -220,6 +220,9 @@ pub(super) fn perform(
         engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
+    if let Some(question) = only_asked(&engine, task)? {
+        return super::ask::answer(common, &engine, &question, false);
+    }
     let answer = super::demo::perform(common, &mut engine, task)?;
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;
@@ -228,6 +231,15 @@ pub(super) fn perform(
         TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
         TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::No,
         TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
+    })
+}
+
+/// The question in a task that orders nothing but an answer: «Проверь, открыт ли холодильник».
+fn only_asked(engine: &Engine, task: &str) -> Result<Option<String>, Failure> {
+    Ok(match engine.orders_and_questions(task)?.as_deref() {
+        Some([question]) => Some(question.clone()),
+        None if !engine.is_command(task)? && engine.asks_something(task)? => Some(task.to_owned()),
+        _ => None,
     })
 }
 

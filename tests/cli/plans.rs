@@ -51,6 +51,16 @@ fn a_task_tells_its_assumptions_in_english() {
     assert!(why.contains("Door KY is locked"), "{why}");
 }
 
+/// «Проверь, …» orders nothing but an answer.
+#[test]
+fn a_task_that_only_asks_is_answered() {
+    let place = Place::with_rb2();
+    let shut = place.run(&["do", "Проверь, закрыта ли Дверь-ZY"]).is(1).out;
+    assert_eq!(shut.trim(), "Нет, Дверь-ZY открыта.");
+    let fridge = place.run(&["do", "Please go and check whether the fridge is closed"]).is(0).out;
+    assert_eq!(fridge.trim(), "Yes, Refrigerator 1 is closed.");
+}
+
 #[test]
 fn an_assumption_is_withdrawn_and_the_plan_made_anew() {
     let place = Place::empty();

@@ -263,47 +263,6 @@ pub(super) fn where_it_was(said: &Said) -> Option<String> {
     Some(said.with(&(verb..at + length), format!("{back} {what}").trim_end()))
 }
 
-/// «Дверь, соединяющая кухню и спальню», "the door that connects the kitchen to the bedroom": between the two.
-pub(super) fn connecting(said: &Said) -> Option<String> {
-    const JOINS: [&str; 22] = [
-        "connecting",
-        "joining",
-        "linking",
-        "that connects",
-        "which connects",
-        "that joins",
-        "which joins",
-        "that links",
-        "соединяющую",
-        "соединяющая",
-        "соединяющей",
-        "соединяющие",
-        "которая соединяет",
-        "которую соединяет",
-        "которые соединяют",
-        "что соединяет",
-        "связывающую",
-        "связывающая",
-        "которая связывает",
-        "разделяющую",
-        "которая разделяет",
-        "that separates",
-    ];
-    let (at, taken) = (1..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &JOINS)?)))?;
-    let language = Language::of(&said.keys[at]);
-    let from = at + taken;
-    let second = (from + 1..said.keys.len())
-        .find(|&n| said.is(n, &["and", "to", "with", "from", "и", "с", "со", "от"]))?;
-    if said.verb_from(from).is_some_and(|(verb, ..)| verb < second) {
-        return None;
-    }
-    let (between, and) = (language.pick("между", "between"), language.pick("и", "and"));
-    let mut text = said.text.clone();
-    text.replace_range(said.words[second].clone(), and);
-    text.replace_range(said.words[at - 1].end..said.words[from - 1].end, &format!(" {between}"));
-    Some(text)
-}
-
 /// «Съезди на лифте на второй этаж», "take the lift to the second floor": how it gets there it knows.
 pub(super) fn by_lift(said: &Said) -> Option<String> {
     const LIFT: [&str; 8] = [

@@ -17,8 +17,9 @@ impl Asker<'_> {
             if !self.begins_as_question(&question) && !question.ends_with('?') {
                 return None;
             }
-            // "Go and see …": whither is not said, and need not be.
-            let bare = word_ranges(order).len() < 2;
+            // "Please go and see …": whither is not said, and need not be.
+            let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
+            let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
             let order = Some(order).filter(|_| !bare).map(str::to_owned);
             return Some(order.into_iter().chain([question]).collect());
         }

@@ -80,6 +80,12 @@ pub(super) const SORTS: &[Sort] = &[
         "pen|pencil|marker|ручка|карандаш|маркер|фломастер",
     ),
     sort(
+        "лампа",
+        "lamp",
+        "",
+        "торшер|настольная лампа|люстра|бра|ночник|floor lamp|table lamp|desk lamp|ceiling lamp|wall lamp",
+    ),
+    sort(
         "место для мытья рук",
         "place to wash hands",
         "помыть руки|мыть руки|вымыть руки|ополоснуть руки|wash hands|wash my hands|wash our hands|wash your hands|wash one s hands|wash up|get some water|набрать воды|налить воды|brush my teeth|почистить зубы",

@@ -27,6 +27,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         borne_on_it,
         on_it,
         around,
+        connecting,
         numbers_joined,
         looks_at,
         borne_by_it,
@@ -284,6 +285,59 @@ fn around(words: &Words<'_>) -> Option<String> {
     })
 }
 
+/// «Дверь, соединяющая кухню и спальню», "the door that connects the kitchen to the bedroom": between the two.
+fn connecting(words: &Words<'_>) -> Option<String> {
+    const WHICH: [&str; 6] = ["that", "which", "которая", "которую", "которые", "что"];
+    const JOINS: [&str; 10] = [
+        "connects",
+        "joins",
+        "links",
+        "separates",
+        "соединяет",
+        "соединяют",
+        "связывает",
+        "связывают",
+        "разделяет",
+        "разделяют",
+    ];
+    const JOINING: [&str; 16] = [
+        "connecting",
+        "joining",
+        "linking",
+        "separating",
+        "соединяющую",
+        "соединяющая",
+        "соединяющей",
+        "соединяющие",
+        "связывающую",
+        "связывающая",
+        "связывающей",
+        "связывающие",
+        "разделяющую",
+        "разделяющая",
+        "разделяющей",
+        "разделяющие",
+    ];
+    let (at, from) = (1..words.keys.len()).find_map(|n| {
+        let which = words.is(n, &WHICH) && words.is(n + 1, &JOINS);
+        (which || words.is(n, &JOINING)).then_some((n, n + 1 + usize::from(which)))
+    })?;
+    // "Which doors are connecting …?" asks for them.
+    let asks =
+        words.is(at - 1, &["is", "are", "doors", "двери"]) && words.is(0, &["which", "какие"]);
+    let joints = ["and", "to", "with", "from", "и", "с", "со", "от"];
+    let second = (from + 1..words.keys.len()).find(|&n| words.is(n, &joints))?;
+    if asks || second + 1 == words.keys.len() {
+        return None;
+    }
+    let language = Language::of(&words.keys[at]);
+    let mut text = words.text.to_owned();
+    text.replace_range(words.at[second].clone(), language.pick("и", "and"));
+    let between = format!(" {}", language.pick("между", "between"));
+    text.replace_range(words.at[at - 1].end..words.at[from - 1].end, &between);
+    Some(text)
+}
+
 /// «Стулья 3 и 4», "chairs 3 and 4": the noun said again before the second number.
 fn numbers_joined(words: &Words<'_>) -> Option<String> {
     let number = |n: usize| words.keys.get(n).is_some_and(|key| key.parse::<u32>().is_ok());
@@ -407,6 +461,15 @@ mod tests {
         check("Which chair has nothing on it?", "Which chair is empty?");
         check("Теперь спускайся!", "Теперь спускайся вниз!");
         check("Отнеси одну из тарелок в зал", "Отнеси одну тарелок в зал");
+        check(
+            "Open the door that connects the hall to the lab",
+            "Open the door between the hall and the lab",
+        );
+        check(
+            "Какого цвета дверь, соединяющая холл с кухней?",
+            "Какого цвета дверь между холл и кухней?",
+        );
+        check("Какая дверь соединяет холл с кухней?", "Какая дверь соединяет холл с кухней?");
         check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");
         check("4 стула и 2 стола", "4 стула и 2 стола");
         check("Смотрит ли кресло на диван?", "стоит ли кресло лицом к диван?");

@@ -40,9 +40,11 @@ impl Sentence<'_> {
     }
 
     /// A further noun behind a preposition, in a case of the first: «картина в ванной или телевизор» joins no places.
+    /// Something is always between two.
     pub(super) fn governed_alike<'a>(
         &self,
         input: Tokens<'a>,
+        rel: Rel,
         first: &Phrase,
     ) -> Parsed<'a, Phrase> {
         let (rest, next) = self.phrase(input)?;
@@ -58,7 +60,8 @@ impl Sentence<'_> {
             Case::Instrumental,
             Case::Prepositional,
         ];
-        match self.language == Language::Russian && told && !alike.into_iter().any(case) {
+        let asked = self.language == Language::Russian && told && rel != Rel::Between;
+        match asked && !alike.into_iter().any(case) {
             true => fail(input),
             false => Ok((rest, next)),
         }

@@ -238,7 +238,7 @@ impl<'t> Sentence<'t> {
         let joint = |i| self.mark(i, |m| matches!(m, Mark::And | Mark::Or));
         // «на столе и в шкафу» names the preposition anew; «между столом и шкафом» does not.
         let again = |i| opt(|i| self.mark(i, |m| m == Mark::Link(rel))).parse(i);
-        let more = pair(pair(joint, again), |i| self.governed_alike(i, &first));
+        let more = pair(pair(joint, again), |i| self.governed_alike(i, rel, &first));
         let (rest, more) = many0(more).parse(rest)?;
         let either = more.iter().any(|((joint, _), _)| *joint == Mark::Or);
         let nouns = std::iter::once(first).chain(more.into_iter().map(|(_, noun)| noun)).collect();
