@@ -129,6 +129,10 @@ impl Knowledge<'_> {
                 true => format!("не понимаю, о чём речь: «{}»", tidy(word)),
                 false => format!("I do not know what \"{}\" means here", tidy(word)),
             },
+            Doubt::TooFew { found } => match russian {
+                true => format!("столько нет, есть только {}", self.list(found)),
+                false => format!("there are not so many, only {}", self.list(found)),
+            },
             Doubt::Windows => self
                 .pick("окон я не открываю и не закрываю", "I neither open nor shut windows")
                 .to_owned(),

@@ -334,6 +334,10 @@ pub enum Doubt {
     NoneSuch {
         noun: Box<Noun>,
     },
+    /// Fewer things fit than are wanted.
+    TooFew {
+        found: Vec<Thing>,
+    },
     /// A pronoun that means nothing yet.
     NoReferent {
         word: String,
@@ -361,7 +365,10 @@ impl Doubt {
             }
             Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
             Self::Ambiguous { .. } => "ambiguous",
-            Self::Unknown { .. } | Self::NoneSuch { .. } | Self::NoStorey { .. } => "unknown",
+            Self::Unknown { .. }
+            | Self::NoneSuch { .. }
+            | Self::TooFew { .. }
+            | Self::NoStorey { .. } => "unknown",
         }
     }
 }

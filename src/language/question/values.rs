@@ -42,7 +42,10 @@ impl Property {
         let names = NAMES.iter().find(|(p, _)| p == self).map(|(_, names)| *names);
         let Some(names) = names else {
             let Self::Other(name) = self else { return String::new() };
-            return name.clone();
+            let known =
+                OTHERS.iter().find(|(russian, english)| [*russian, *english].contains(&&**name));
+            let known = known.map(|(russian, english)| language.pick(*russian, *english));
+            return known.unwrap_or(name).to_owned();
         };
         let wanted = |name: &&str| Language::of(name) == language;
         names.split('|').find(wanted).unwrap_or_default().to_owned()
@@ -72,6 +75,26 @@ const NAMES: &[(Property, &str)] = &[
     (Property::Owner, "владелец|owner|хозяин|владельца"),
     (Property::Kind, "тип|type|типа|тип у|разновидность"),
     (Property::Brand, "марка|brand|фирма|марки|бренд"),
+];
+
+/// Names of properties that nobody asks for by a word of their own, as imports and maps give them.
+const OTHERS: &[(&str, &str)] = &[
+    ("можно взять", "can be taken"),
+    ("можно подвинуть", "can be moved"),
+    ("открывается", "can be opened"),
+    ("вмещает", "holds things"),
+    ("можно сесть", "can be sat on"),
+    ("можно лечь", "can be lain on"),
+    ("есть выключатель", "has a switch"),
+    ("есть вилка", "has a plug"),
+    ("можно читать", "can be read"),
+    ("съедобно", "can be eaten"),
+    ("можно пить", "can be drunk"),
+    ("чистота", "cleanliness"),
+    ("питание", "power"),
+    ("хранится на", "kept on"),
+    ("ключ от", "key of"),
+    ("ключ у", "key with"),
 ];
 
 /// Values with the property they belong to: the Russian adjective (masculine), other Russian forms, English words.

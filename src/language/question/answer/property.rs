@@ -7,7 +7,7 @@ use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::{Extension, KindId};
 use crate::language::question::query::{Head, Noun, Rel, Thing};
 use crate::language::question::speech::sentence;
-use crate::language::question::values::Property;
+use crate::language::question::values::{Property, ValueId};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Language, enumerate};
 use crate::map::{DoorStatus, Entity};
@@ -185,11 +185,18 @@ impl Knowledge<'_> {
                 let id = text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
                 value.is_some() && !id
             })
-            .map(|(property, value, text)| match value {
-                Some(value) if !matches!(property, Property::Other(_)) => {
-                    self.value_of(property, *value, thing)
+            .map(|(property, value, text)| {
+                let of_language = |value: &ValueId| {
+                    let sort = &self.lexicon().values.entry(*value).property;
+                    (!matches!(sort, Property::Other(_))).then(|| (sort.clone(), *value))
+                };
+                let name = property.noun(self.language);
+                match value.as_ref().and_then(of_language) {
+                    // «ЧИСТОТА = Чистое»: what the language calls a state is told as one.
+                    Some((sort, value)) => self.value_of(&sort, value, thing),
+                    None if ["да", "yes", "true"].contains(&&*name_key(text)) => name,
+                    None => format!("{name} – {}", self.value_told(text)),
                 }
-                _ => format!("{} – {text}", property.noun(self.language)),
             })
             .collect();
         if !values.is_empty() {
@@ -225,6 +232,15 @@ impl Knowledge<'_> {
             )
             .with(vec![thing])
         })
+    }
+
+    /// The text of a property: a name of the map, «нет», or what the map writes.
+    fn value_told(&self, text: &str) -> String {
+        match (&*name_key(text), &self.world.find(text)[..]) {
+            ("нет" | "no" | "false", _) => self.pick("нет", "no").to_owned(),
+            (_, [named]) => self.name(Thing::Entity(*named)),
+            _ => text.to_owned(),
+        }
     }
 
     /// The type of a thing; of a door the sort of door that it is.

@@ -120,11 +120,11 @@ impl Settler<'_, '_> {
         let of_light = noun.head.named.is_empty() && noun.head.kinds.iter().any(|k| lights(*k));
         if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()) {
             let wanted = usize::try_from(wanted).unwrap_or(usize::MAX);
-            let chosen = match found.len() <= wanted {
-                true => found,
-                false => self.nearest_of(&found, wanted),
+            return match found.len() {
+                0 => Ok(None),
+                few if few < wanted => Err((Doubt::TooFew { found }, at)),
+                _ => Ok(Some(self.nearest_of(&found, wanted))),
             };
-            return Ok((!chosen.is_empty()).then_some(chosen));
         }
         let one_of = noun.plural && self.is_one_of(&phrase.words);
         let plural = noun.plural && !one_of && !self.has_no_singular(noun);
