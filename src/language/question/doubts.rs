@@ -1,102 +1,18 @@
-//! What is said where there is no answer, and what the words of a sentence mean by themselves.
+//! What is said where there is no answer.
 //!
 //! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
 
-use super::everyday;
 use super::knowledge::Knowledge;
-use super::lexicon::{Extension, Meaning};
-use super::mark::Pronoun;
-use super::query::{Noun, Query, Rel, Thing};
+use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
 use super::{Doubt, Unanswered};
 use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{
-    Case, Gender, NounPhrase, Number, WordHints, alternatives, enumerate, word_ranges,
-};
+use crate::language::words::{Case, alternatives, enumerate};
 use crate::map::Entity;
-use crate::units::{AreaId, ReplicaId};
+use crate::units::AreaId;
 
 impl Knowledge<'_> {
-    /// What a pronoun means: the last thing spoken of that agrees with it.
-    pub(super) fn referent(&self, pronoun: Pronoun) -> Vec<Thing> {
-        let last = &self.memory.last;
-        match pronoun {
-            Pronoun::They if !last.is_empty() => last.clone(),
-            // "Which room is the fridge in, and is it closed?"
-            Pronoun::Any if matches!(self.memory.query, Some(Query::RoomOf(_))) => {
-                let mut things = self.memory.spoken.iter().copied();
-                let latest = things.clone().next();
-                things.find(|t| t.area().is_none()).or(latest).into_iter().collect()
-            }
-            // "What can I write with and where is it?": each of them.
-            Pronoun::Any if matches!(self.memory.query, Some(Query::Find(_))) && last.len() > 1 => {
-                last.clone()
-            }
-            Pronoun::They | Pronoun::Any => {
-                self.memory.spoken.first().copied().into_iter().collect()
-            }
-            Pronoun::There => self.place_spoken_of().into_iter().collect(),
-            Pronoun::He | Pronoun::HimOrIt | Pronoun::She | Pronoun::Her | Pronoun::It => {
-                let fits = |gender: Gender| match pronoun {
-                    Pronoun::He => gender == Gender::Masculine,
-                    Pronoun::HimOrIt => gender != Gender::Feminine,
-                    Pronoun::She | Pronoun::Her => gender == Gender::Feminine,
-                    _ => gender == Gender::Neuter,
-                };
-                let agrees = |t: &&Thing| {
-                    let (gender, number) = self.gender(**t);
-                    let said = || self.genders_said(**t).into_iter().any(fits);
-                    (fits(gender) && number == Number::Singular) || said()
-                };
-                // «В какой комнате лампа и включена ли она?»: the lamp, not the room.
-                let subject = matches!(pronoun, Pronoun::He | Pronoun::She | Pronoun::It)
-                    && matches!(self.memory.query, Some(Query::RoomOf(_)));
-                let mut fitting = self.memory.spoken.iter().filter(agrees);
-                let latest = fitting.clone().next();
-                let thing = fitting.find(|t| t.area().is_none());
-                thing.filter(|_| subject).or(latest).copied().into_iter().collect()
-            }
-        }
-    }
-
-    /// Genders of the words of the last question that mean the one thing of its answer.
-    fn genders_said(&self, thing: Thing) -> Vec<Gender> {
-        if self.memory.last != [thing] {
-            return Vec::new();
-        }
-        let lexicon = self.lexicon();
-        let means = |word: &&str| {
-            let plain = everyday::plain(word, lexicon);
-            let hits = lexicon.nouns.find(&plain);
-            let kinds = hits.iter().filter_map(|hit| match hit.id {
-                Meaning::Kind(kind) => Some(lexicon.kind(*kind).extension),
-                Meaning::Entity(_) => None,
-            });
-            let general = |e: &Extension| matches!(e, Extension::ObjectType(_));
-            kinds.filter(general).any(|kind| self.members(&kind).contains(&thing))
-        };
-        let words = &self.memory.words;
-        let said = word_ranges(words).into_iter().map(|range| &words[range]);
-        let phrases = said.filter(means).map(|w| NounPhrase::parse(w, &WordHints::default()));
-        phrases.filter(|p| p.number() == Number::Singular).map(|p| p.gender()).collect()
-    }
-
-    /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
-    fn place_spoken_of(&self) -> Option<Thing> {
-        let latest = *self.memory.spoken.first()?;
-        let bears = |id: ReplicaId| {
-            ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
-        };
-        // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
-        let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
-        let told = |id: &ReplicaId| placed && self.memory.last.contains(&latest) || !bears(*id);
-        let Some(id) = latest.replica().filter(told) else { return Some(latest) };
-        let support = self.relations.support_of(id).map(|id| Thing::Entity(Entity::Replica(id)));
-        let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
-        support.or_else(area).or(Some(latest))
-    }
-
     pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {
         let (text, names) = self.doubt_words(&doubt);
         Unanswered { doubt, language: self.language, text: speech::sentence(&text), names }

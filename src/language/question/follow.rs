@@ -2,10 +2,12 @@
 
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
+use super::query::Best;
 use super::{
-    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Thing, assemble, several,
+    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble, several,
+    vocabulary,
 };
-use crate::language::words::word_keys;
+use crate::language::words::{Gender, word_keys};
 use crate::map::Entity;
 
 impl Asker<'_> {
@@ -18,18 +20,29 @@ impl Asker<'_> {
         if let Some(query) = self.turned_round(&key, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
         }
-        let of_those = self.asks_of_those(text);
-        if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
-            return None;
+        if let Some(query) = self.more_of_those(text, memory) {
+            return Some(query);
         }
         if let Some(query) = self.another_asked(&key, last, memory) {
             return Some(query);
         }
+        let query = self.altogether(&key, last).or_else(|| self.counted_of_listed(text, memory));
+        if let Some(query) = query {
+            return Some(query);
+        }
+        let of_those = self.asks_of_those(text);
+        if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
+            return None;
+        }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
-        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
+        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
+        let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
+        // "Which one is the smallest?"
+        if noun.head.anything && noun.best.is_some() && noun.restrictions.is_empty() {
+            noun.head = Head::default();
+        }
         let mut query = last.clone();
         if let (true, false, Query::Count(old) | Query::Find(old)) =
             (of_those, noun.restrictions.is_empty(), last)
@@ -67,6 +80,132 @@ impl Asker<'_> {
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// "Which one is bigger?", «Какой из них тяжелее?»: of the several things that the last answer told, or of those that
+    /// its question named, where only they agree («В каких комнатах есть телевизор? Какой из них больше?»).
+    fn more_of_those(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let items = sentence.items();
+        let (mut extreme, mut which) = (None, false);
+        for item in &items {
+            match item {
+                Item::Mark(Mark::More(by) | Mark::Best(by)) if extreme.is_none() => {
+                    extreme = Some(*by);
+                }
+                Item::Mark(Mark::Which) => which = true,
+                Item::Mark(Mark::What | Mark::Be | Mark::The | Mark::One | Mark::And) => {}
+                Item::Noun(phrase) if phrase.noun.head.anything => {
+                    extreme = extreme.or(phrase.noun.best.as_ref().map(|best| best.extreme));
+                }
+                Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
+                Item::Place { rel: Rel::From | Rel::Of, nouns, .. }
+                    if matches!(&nouns[..], [p] if p.pronoun == Some(Pronoun::They)) => {}
+                _ => return None,
+            }
+        }
+        let extreme = extreme.filter(|_| which)?;
+        let knowledge = self.knowledge(sentence.language, memory);
+        let gender = sentence.keys.iter().find_map(|key| match key.as_str() {
+            "какой" | "который" => Some(Gender::Masculine),
+            "какая" | "которая" => Some(Gender::Feminine),
+            "какое" | "которое" => Some(Gender::Neuter),
+            _ => None,
+        });
+        let agree = |things: &[Thing]| {
+            let fits = |t: &Thing| gender.is_none_or(|gender| knowledge.gender(*t).0 == gender);
+            things.len() > 1 && things.iter().any(fits)
+        };
+        let mut named = vec![memory.last.clone()];
+        memory.query.clone()?.each_noun(&mut |noun| {
+            named.extend(knowledge.find(noun, true).ok());
+        });
+        let things = named.into_iter().find(|things| agree(things))?;
+        let head = Head { things: Some(things), ..Head::default() };
+        let best = Some(Best { extreme, anchor: None });
+        Some(Query::Find(Noun { head, best, indefinite: true, ..Noun::default() }))
+    }
+
+    /// «Где третья?», "And the third one?": of those that were listed, in their order.
+    fn counted_of_listed(&self, text: &str, memory: &Memory) -> Option<Query> {
+        let text = self.plain(text);
+        let sentence = Sentence::new(&text, &self.mind.lexicon);
+        let (mut rank, mut asks_where) = (None, false);
+        for n in 0..sentence.keys.len() {
+            match vocabulary::longest(&sentence.keys[n..]) {
+                Some((_, Mark::Rank(told))) if rank.is_none() => rank = Some(told),
+                Some((_, Mark::Where)) => asks_where = true,
+                Some((_, Mark::The | Mark::One | Mark::Be | Mark::And | Mark::What)) => {}
+                _ if ["about", "а", "is", "s", "и"].contains(&sentence.keys[n].as_str()) => {}
+                _ => return None,
+            }
+        }
+        let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
+        let meant = *memory.listed.get(at)?;
+        let noun = Noun {
+            head: Head { things: Some(vec![meant]), ..Head::default() },
+            ..Noun::default()
+        };
+        let mut query = memory.query.clone()?;
+        if asks_where || !matches!(query, Query::Property { .. } | Query::Size { .. } | Query::Where(_))
+        {
+            return Some(Query::Where(noun));
+        }
+        let mut first = true;
+        query.each_noun(&mut |old| {
+            if std::mem::take(&mut first) {
+                *old = noun.clone();
+            }
+        });
+        Some(query)
+    }
+
+    /// «А всего?», "And in the whole flat?": the last question without its place.
+    fn altogether(&self, key: &str, last: &Query) -> Option<Query> {
+        const ALL: [&str; 24] = [
+            "всего",
+            "сколько всего",
+            "во всем доме",
+            "во всей квартире",
+            "во всем здании",
+            "во всех комнатах",
+            "в целом",
+            "вообще",
+            "вместе",
+            "в общем",
+            "на всей карте",
+            "in total",
+            "in all",
+            "altogether",
+            "overall",
+            "how many in total",
+            "how many in all",
+            "in the whole house",
+            "in the whole flat",
+            "in the whole apartment",
+            "in the whole building",
+            "in the house",
+            "in the entire house",
+            "everywhere",
+        ];
+        let words = key.split(|c: char| !c.is_alphanumeric());
+        let words: Vec<&str> =
+            words.filter(|w| !["", "а", "и", "and", "what", "about"].contains(w)).collect();
+        if !ALL.contains(&words.join(" ").as_str()) {
+            return None;
+        }
+        let mut query = last.clone();
+        let asked = match &mut query {
+            Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
+            Query::Exists { what, .. } => what.first_mut()?,
+            _ => return None,
+        };
+        if asked.head.anything || asked.restrictions.is_empty() {
+            return None;
+        }
+        asked.restrictions.clear();
+        Some(query)
     }
 
     /// «А обратно?», «Через какую дверь?»: the way that was asked for, the other way or by its doors.
@@ -139,6 +278,31 @@ impl Asker<'_> {
         if LONG.contains(&words.join(" ").as_str()) {
             return Some(Query::Duration { from: from.clone(), to: to.clone() });
         }
+        const FAR: [&str; 18] = [
+            "how far is it",
+            "how far is that",
+            "how far",
+            "how long is it",
+            "how long is that",
+            "how long is the way",
+            "how many metres is it",
+            "how many metres is that",
+            "how many meters is it",
+            "how many meters is that",
+            "сколько это метров",
+            "сколько метров",
+            "сколько это в метрах",
+            "как это далеко",
+            "как далеко",
+            "далеко это",
+            "это далеко",
+            "далеко",
+        ];
+        let small = ["а", "и", "and", "примерно", "about", "roughly", "approximately", "s"];
+        let told: Vec<&str> = words.iter().filter(|word| !small.contains(word)).copied().collect();
+        if FAR.contains(&told.join(" ").as_str()) {
+            return Some(Query::Distance { from: from.clone(), to: to.clone() });
+        }
         if !BACK.contains(&words.join(" ").as_str()) {
             return None;
         }
@@ -182,8 +346,8 @@ impl Asker<'_> {
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        const SMALL: [&str; 11] =
-            ["а", "и", "and", "what", "about", "how", "the", "one", "is", "ones", "же"];
+        const SMALL: [&str; 12] =
+            ["а", "и", "and", "what", "about", "how", "the", "one", "is", "s", "ones", "же"];
         const OTHER: [&str; 14] = [
             "другая",
             "другой",
@@ -210,11 +374,7 @@ impl Asker<'_> {
         if !OTHER.contains(only) {
             return None;
         }
-        let spoken = memory.spoken.iter().find_map(|t| t.replica())?;
-        let object = self.world.objects.get(&self.world.replicas.get(&spoken)?.object)?;
-        let kind = self.mind.lexicon.kind_of(&Extension::ObjectType(object.object_type?))?;
-        let head = Head { kinds: vec![kind], ..Head::default() };
-        let noun = Noun { head, plural: true, other: true, ..Noun::default() };
+        let noun = self.others_of_last(memory)?;
         if asks_where {
             return Some(Query::Where(noun));
         }
@@ -226,6 +386,31 @@ impl Asker<'_> {
             }
         });
         Some(query)
+    }
+
+    /// The other things of the kind of the last one: of several that were just listed, those that were not spoken of
+    /// before.
+    fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
+        let spoken = memory.spoken.iter().find_map(|t| t.replica())?;
+        let object = self.world.objects.get(&self.world.replicas.get(&spoken)?.object)?;
+        let kind = self.mind.lexicon.kind_of(&Extension::ObjectType(object.object_type?))?;
+        let head = match memory.topic_among(&memory.last) {
+            Some(known) => {
+                let others = memory.last.iter().filter(|t| **t != known).copied();
+                return Some(Noun {
+                    head: Head { things: Some(others.collect()), ..Head::default() },
+                    plural: true,
+                    ..Noun::default()
+                });
+            }
+            // Of several that were told at once none is "the other".
+            None if memory.last.len() > 1 => {
+                let head = Head { things: Some(memory.last.clone()), ..Head::default() };
+                return Some(Noun { head, plural: true, ..Noun::default() });
+            }
+            None => Head { kinds: vec![kind], ..Head::default() },
+        };
+        Some(Noun { head, plural: true, other: true, ..Noun::default() })
     }
 
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
@@ -256,6 +441,17 @@ impl Asker<'_> {
             _ if !noun.restrictions.is_empty() => {
                 let head = Head { anything: true, ..Head::default() };
                 return Some(Query::Find(Noun { head, plural: true, ..noun }));
+            }
+            // "Which room has the biggest area? And the smallest?"
+            _ if noun.best.is_some() => {
+                let mut replaced = false;
+                query.each_noun(&mut |old| {
+                    if old.best.is_some() && !replaced {
+                        (old.best, old.rank) = (noun.best.clone(), noun.rank);
+                        replaced = true;
+                    }
+                });
+                return replaced.then_some(query);
             }
             _ => return None,
         };
@@ -304,7 +500,7 @@ impl Asker<'_> {
             return None;
         }
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_, _| Vec::new())?;
         let knowledge = self.knowledge(pending.language, memory);
         let mut noun = noun;
         let bare = noun.head.named.is_empty() && noun.head.kinds.is_empty();

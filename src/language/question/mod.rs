@@ -14,6 +14,7 @@ mod courtesy;
 mod datalog;
 mod doubts;
 mod everyday;
+mod focus;
 mod follow;
 mod grammar;
 mod knowledge;
@@ -50,7 +51,7 @@ use crate::map::World;
 use crate::semantics::Relations;
 use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
 
-use grammar::Sentence;
+use grammar::{Item, Sentence};
 use knowledge::Knowledge;
 use mark::Pronoun;
 
@@ -114,6 +115,12 @@ pub struct Past {
 pub struct Memory {
     /// What was spoken of, the latest first.
     pub(super) spoken: Vec<Thing>,
+    /// What the last exchanges were about, the latest first.
+    exchanges: Vec<focus::Exchange>,
+    /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
+    is_lost: bool,
+    /// Whether the last question had no answer that could be explained.
+    is_unanswered: bool,
     /// The things of the last answer.
     last: Vec<Thing>,
     /// The last several things that an answer told, in its order: «вторую» counts them.
@@ -174,6 +181,7 @@ impl Memory {
             self.query = Some(answer.query.clone());
             self.words.clone_from(&answer.words);
         }
+        self.hear(answer);
         if answer.topic.is_empty() {
             return;
         }
@@ -190,6 +198,7 @@ impl Memory {
 
     /// Notes the things that a command named.
     pub fn mention(&mut self, things: &[Thing]) {
+        self.hear_of_things(things);
         self.last = things.to_vec();
         for thing in things {
             self.spoken.retain(|t| t != thing);
@@ -436,6 +445,14 @@ impl Asker<'_> {
             }
             Err(unanswered) => {
                 let (doubt, query) = *unanswered;
+                // What else the question named is spoken of all the same.
+                let mut named = memory.clone();
+                self.hear_of(text, &mut named);
+                let names_nothing = named.exchanges == memory.exchanges && !self.has_pronoun(text);
+                if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {
+                    *memory = named;
+                }
+                memory.miss(&doubt, names_nothing);
                 memory.pending = match (&doubt, query) {
                     (Doubt::Ambiguous { reference, candidates }, Some(query)) => Some(Pending {
                         query,
@@ -448,6 +465,15 @@ impl Asker<'_> {
                 Err(self.knowledge(language, memory).unanswered(doubt))
             }
         }
+    }
+
+    fn has_pronoun(&self, text: &str) -> bool {
+        let text = self.plain(text);
+        Sentence::new(&text, &self.mind.lexicon).items().iter().any(|item| match item {
+            Item::Noun(phrase) => phrase.pronoun.is_some(),
+            Item::Place { nouns, .. } => nouns.iter().any(|phrase| phrase.pronoun.is_some()),
+            _ => false,
+        })
     }
 
     /// "Is there a microwave or a toaster?" where the map has no word for the one: that is said, and the other looked for.
@@ -490,7 +516,7 @@ impl Asker<'_> {
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let referent = |pronoun: Pronoun| knowledge.referent(pronoun);
+        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
         assemble::query(&sentence, &self.mind.lexicon, &referent)
     }
 
@@ -552,11 +578,12 @@ impl Asker<'_> {
             let knowledge = self.knowledge(language, memory);
             return knowledge.answer(&query).map_err(|doubt| Box::new((doubt, Some(query))));
         }
-        let query = match self.continued(text, memory) {
+        let mut query = match self.continued(text, memory) {
             Some(query) => query,
             None => self.read(text, memory).map_err(|doubt| Box::new((doubt, None)))?,
         };
         let knowledge = self.knowledge(language, memory);
+        knowledge.focus(&mut query);
         let answer = knowledge.answer(&query);
         let answer = answer.map(|answer| Answer { words: text.to_owned(), ..answer });
         answer.map_err(|doubt| Box::new((doubt, Some(query))))

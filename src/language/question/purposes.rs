@@ -85,6 +85,7 @@ pub(super) const SORTS: &[Sort] = &[
         "",
         "торшер|настольная лампа|люстра|бра|ночник|floor lamp|table lamp|desk lamp|ceiling lamp|wall lamp",
     ),
+    sort("часы", "clock", "", "будильник|настенные часы|alarm clock|wall clock"),
     sort(
         "место для мытья рук",
         "place to wash hands",

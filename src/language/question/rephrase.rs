@@ -36,6 +36,9 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         can_be_moved,
         lies_or_stands,
         beside_it,
+        its_side,
+        seen_from_there,
+        leads_outside,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -181,6 +184,83 @@ fn on_it(words: &Words<'_>) -> Option<String> {
         && words.is(last, &["it", "them"])
         && words.is(last - 1, &["on", "in", "inside"]);
     tail.then(|| words.replaced(vec![(last - 1..last + 1, String::new())]))
+}
+
+/// «Дверь на улицу», «дверь, которая ведёт наружу», "the door from the kitchen to the outside", "the outside door": an
+/// exit.
+fn leads_outside(words: &Words<'_>) -> Option<String> {
+    const LEADING: [&str; 14] = [
+        "that", "which", "leading", "leads", "going", "goes", "которая", "которую", "что", "ведет",
+        "ведущая", "ведущую", "ведущей", "выходит",
+    ];
+    let exit = |key: &str| {
+        Some(match key {
+            "door" => "exit",
+            "doors" => "exits",
+            "дверь" => "выход",
+            "двери" => "выхода",
+            "дверью" => "выходом",
+            _ => return None,
+        })
+    };
+    let (at, exit) = words.keys.iter().enumerate().find_map(|(n, key)| Some((n, exit(key)?)))?;
+    let before = at.checked_sub(1).filter(|&n| {
+        words.is(n, &["outside", "exterior", "outer", "external", "уличная", "уличную", "наружная"])
+            || words.is(n, &["наружную", "уличной", "наружной"])
+    });
+    if let Some(before) = before {
+        return Some(words.replaced(vec![(before..at + 1, exit.to_owned())]));
+    }
+    // The last of the words that say whither.
+    let out = (at + 1..words.keys.len()).find(|&n| {
+        words.is(n, &["наружу"])
+            || words.is(n, &["улицу"]) && words.is(n - 1, &["на"])
+            || words.is(n, &["outside", "outdoors", "street"]) && words.is(n - 1, &["to", "the"])
+            || words.is(n, &["outside", "outdoors"]) && words.is(n - 1, &LEADING)
+    })?;
+    let mut from = out;
+    while from > at + 1 && words.is(from - 1, &["на", "to", "the"]) {
+        from -= 1;
+    }
+    while from > at + 1 && words.is(from - 1, &LEADING) {
+        from -= 1;
+    }
+    // What stands between tells whence: "from the kitchen".
+    let between = at + 1..from;
+    if between.len() > 4 || (!between.is_empty() && !words.is(between.start, &["from", "из", "с"])) {
+        return None;
+    }
+    let start = words.at[at].start;
+    let kept = &words.text[words.at[at].end..words.at[from - 1].end];
+    let mut text = words.text.to_owned();
+    let rest = text[words.at[out].end..].trim_start_matches(',').to_owned();
+    text.truncate(start);
+    Some(format!("{text}{exit}{kept}{rest}"))
+}
+
+/// "What is to its left?", "on its right side": to the left of it.
+fn its_side(words: &Words<'_>) -> Option<String> {
+    let its = (1..words.keys.len()).find(|&n| {
+        words.is(n, &["its"])
+            && words.is(n - 1, &["to", "on", "at"])
+            && words.is(n + 1, &["left", "right"])
+    })?;
+    let end = its + 2 + usize::from(words.is(its + 2, &["side", "hand"]));
+    let side = &words.keys[its + 1];
+    Some(words.replaced(vec![(its - 1..end, format!("to the {side} of it"))]))
+}
+
+/// "What can you see from there?": from where the robot is.
+fn seen_from_there(words: &Words<'_>) -> Option<String> {
+    let see = words.keys.iter().position(|key| key == "see" || key == "видишь")?;
+    let (from, to) = match (words.is(see + 1, &["from"]), words.is(see + 1, &["оттуда"])) {
+        (true, _) if words.is(see + 2, &["there", "here"]) => (see + 1, see + 3),
+        (_, true) => (see + 1, see + 2),
+        _ => return None,
+    };
+    let mut text = words.text.to_owned();
+    text.replace_range(words.at[from - 1].end..words.at[to - 1].end, "");
+    Some(text)
 }
 
 /// «Что с ней рядом?»: beside it.
@@ -469,6 +549,9 @@ mod tests {
             "Какого цвета дверь, соединяющая холл с кухней?",
             "Какого цвета дверь между холл и кухней?",
         );
+        check("Закрыта ли дверь, ведущая на улицу?", "Закрыта ли выход?");
+        check("Is the door from the hall to the outside locked?", "Is the exit from the hall locked?");
+        check("What is to its left?", "What is to the left of it?");
         check("Какая дверь соединяет холл с кухней?", "Какая дверь соединяет холл с кухней?");
         check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");
         check("4 стула и 2 стола", "4 стула и 2 стола");

@@ -154,7 +154,7 @@ fn begins(words: &[String]) -> bool {
         // "… and is it on?"
         Mark::Be => {
             let next = vocabulary::longest(&words[taken..]);
-            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_)))
+            next.is_some_and(|(_, m)| matches!(m, Mark::Pronoun(_) | Mark::Anything))
         }
         // "there is a lamp and there is …" asks nothing new of one thing.
         Mark::Exists => words.len() > 2,

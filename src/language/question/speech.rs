@@ -40,8 +40,11 @@ impl Knowledge<'_> {
                     let english = window_of(&area.english());
                     return Named::new(&russian, &WordHints::default(), Some(&english));
                 }
-                let area = self.named(Thing::Entity(Entity::Area(window.area)));
-                let english = window_of(&area.english());
+                let tag = window.name.trim_start_matches(|c: char| !c.is_ascii_digit());
+                let english = match tag.is_empty() {
+                    true => window_of(&area.english()),
+                    false => format!("Window {tag}"),
+                };
                 let english =
                     Some(english).filter(|_| Language::of(&window.name) == Language::Russian);
                 Named::new(&window.name, &WordHints::default(), english.as_deref())

@@ -5,7 +5,8 @@ use crate::language::words::{Case, Language, enumerate};
 
 use super::answer::Draft;
 use super::knowledge::Knowledge;
-use super::query::Query;
+use super::lexicon::lower_first;
+use super::query::{Noun, Query};
 use super::{Doubt, Fact, Said};
 use crate::language::words::length;
 
@@ -14,15 +15,17 @@ const SAID: usize = 4;
 
 impl Knowledge<'_> {
     pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
-        let facts = match about {
-            Some(query) => {
+        let last = self.memory.query.as_ref().filter(|_| !self.memory.is_unanswered);
+        let facts = match (about, last) {
+            (None, Some(_)) if !self.memory.facts.is_empty() => self.memory.facts.clone(),
+            (Some(query), _) | (None, Some(query)) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
-                    return Ok(self.why_plain(&answer));
+                    return Ok(self.absent(query).unwrap_or_else(|| self.why_plain(&answer)));
                 }
                 answer.facts
             }
-            None => self.memory.facts.clone(),
+            (None, None) => Vec::new(),
         };
         let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
             let text = self
@@ -50,12 +53,35 @@ impl Knowledge<'_> {
         Ok(draft)
     }
 
+    /// «В гостиной нет стульев. Почему?»: where they are instead.
+    fn absent(&self, query: &Query) -> Option<Draft> {
+        let noun = match query {
+            Query::Find(noun) | Query::Count(noun) => noun,
+            Query::Exists { what, .. } => match &what[..] {
+                [noun] => noun,
+                _ => return None,
+            },
+            _ => return None,
+        };
+        let anywhere = Noun { restrictions: Vec::new(), plural: true, ..noun.clone() };
+        let known = !noun.restrictions.is_empty() && !noun.head.anything;
+        let found = self.find(&anywhere, true).ok().filter(|found| known && !found.is_empty())?;
+        let instead = self.say_where(&anywhere).ok()?;
+        let text = match self.is_russian() {
+            true => format!("по карте {}", instead.text()),
+            false => format!("by the map {}", instead.text()),
+        };
+        Some(Draft::plain(Said::Found, text).with(found))
+    }
+
     /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
     fn why_plain(&self, answer: &super::Answer) -> Draft {
         let text = answer.text.trim_end_matches('.');
         let rest =
             ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
         let text = rest.unwrap_or(text);
+        let is_name = answer.topic.iter().any(|t| text.starts_with(&self.name(*t)));
+        let text = if is_name { text.to_owned() } else { lower_first(text) };
         let text = match self.is_russian() {
             true => format!("по карте так: {text}"),
             false => format!("by the map it is so: {text}"),

@@ -100,7 +100,8 @@ pub fn plural(noun: &str) -> String {
         "shelving",
     ];
     let ends = |endings: &[&str]| endings.iter().any(|e| lower.ends_with(e));
-    let plural = if SAME.contains(&lower.as_str()) {
+    // "keys" are many already.
+    let plural = if SAME.contains(&lower.as_str()) || is_plural(word) {
         word.to_owned()
     } else if let Some((one, many)) = IRREGULAR.iter().find(|(one, _)| lower == *one) {
         let kept = one.chars().zip(many.chars()).take_while(|(a, b)| a == b).count();

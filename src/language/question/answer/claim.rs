@@ -137,6 +137,19 @@ impl Knowledge<'_> {
                 }));
                 return self.exists(&[any], false, false);
             }
+            // "Is the remote not on the TV stand?": none of them is, whichever is meant.
+            Err(Doubt::Ambiguous { candidates, reference }) => {
+                let mut verdicts = std::collections::HashSet::new();
+                for &thing in &candidates {
+                    for claim in claims {
+                        verdicts.insert(self.judge(thing, claim)?.0);
+                    }
+                }
+                match verdicts.len() {
+                    1 => candidates,
+                    _ => return Err(Doubt::Ambiguous { candidates, reference }),
+                }
+            }
             found => found?,
         };
         // «Заперта ли лаборатория?»: its door, where it has only one.
@@ -556,6 +569,17 @@ impl Knowledge<'_> {
             {
                 unknown = true;
                 parts.push(self.no_property(&property, thing));
+                continue;
+            }
+            // «Ваза слева или справа от телевизора?» of one that stands before it and to a side.
+            if let [Claim::Related(one), Claim::Related(other)] = claims
+                && let [anchor] = self.anchors(one, &one.anchors[0], true)?[..]
+                && let Some(rel) = self.rather([one.rel, other.rel], thing, anchor)
+            {
+                any = true;
+                let place = self.place(rel, &[anchor]);
+                let (is, frame) = (self.is(&[thing]), self.frame_words(rel, anchor));
+                parts.push(format!("{} {is} {place}{frame}", self.name(thing)));
                 continue;
             }
             // Of two values what it is instead; of several sides none.

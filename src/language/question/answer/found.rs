@@ -565,7 +565,7 @@ impl Knowledge<'_> {
             (true, true) => format!("{blank}есть {list}{room}"),
             (true, false) => format!("{blank}есть {}: {list}", self.counted(noun, things.len())),
             (false, true) => {
-                let verb = if things.len() == 1 { "is" } else { "are" };
+                let verb = self.is(things);
                 format!("there {verb} {list}{room} {place}")
             }
             (false, false) => {

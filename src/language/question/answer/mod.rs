@@ -42,6 +42,10 @@ impl Draft {
         Self::new(said, text)
     }
 
+    pub(super) fn text(&self) -> &str {
+        &self.text
+    }
+
     pub(super) fn rest_on(&mut self, fact: Fact) {
         self.facts.push(fact);
     }

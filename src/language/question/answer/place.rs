@@ -13,13 +13,17 @@ use crate::map::Entity;
 use crate::units::AreaId;
 
 impl Knowledge<'_> {
-    pub(super) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
+    pub(in crate::language::question) fn say_where(&self, noun: &Noun) -> Result<Draft, Doubt> {
         let mut found = self.definite(noun)?;
         self.one_of_each_lift(noun, &mut found);
         let mut facts = Vec::new();
         if let [only] = found[..] {
             let text = self.where_one(only, &mut facts);
-            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) });
+            let support = only.replica().and_then(|id| self.relations.support_of(id));
+            let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
+            let area = self.area_of(only).map(|id| Thing::Entity(Entity::Area(id)));
+            let places: Vec<Thing> = support.into_iter().chain(area).collect();
+            return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) }.about(&places));
         }
         // Several: by place, those in one place together.
         let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();

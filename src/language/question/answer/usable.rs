@@ -97,12 +97,23 @@ impl Knowledge<'_> {
         };
         let found: Vec<Thing> = all.into_iter().filter(fits).collect();
         let all = found.clone();
+        /// One sits beside what lies on a seat where so much of it is free, cm² and of 1.
+        const ROOM_TO_SIT: (f64, f64) = (1600.0, 0.6);
         // What something stands on is no seat now.
         let found: Vec<Thing> = match use_for {
             Use::Put => found,
             _ => {
-                let empty =
-                    |t: &Thing| t.replica().is_none_or(|id| !self.relations.bears_something(id));
+                let roomy = |(area, free): (f64, f64)| {
+                    use_for == Use::Sit
+                        && free >= ROOM_TO_SIT.0
+                        && free >= ROOM_TO_SIT.1 * area
+                };
+                let empty = |t: &Thing| {
+                    t.replica().is_none_or(|id| {
+                        !self.relations.bears_something(id)
+                            || self.relations.free_top(id).is_some_and(roomy)
+                    })
+                };
                 found.into_iter().filter(empty).collect()
             }
         };

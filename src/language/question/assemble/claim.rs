@@ -232,6 +232,11 @@ impl Frame<'_, '_> {
                 claims.push(Claim::Kind(other.noun.clone()));
             }
         }
+        // «Кружка там?»
+        if let (true, Some(there)) = (claims.is_empty(), &self.there) {
+            let anchors = vec![there.clone()];
+            claims.push(Claim::Related(Restriction { rel: Rel::There, anchors, negated: false }));
+        }
         // «Один ли телевизор в доме?»
         if claims.is_empty() && subject.count.is_some() && self.nouns.len() == 1 {
             let what = vec![Noun { plural: true, indefinite: true, ..subject }];

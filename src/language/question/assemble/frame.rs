@@ -16,6 +16,15 @@ use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Sid
 use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
 
+/// Whether a sentence names one place only, from which something is told.
+fn is_only_from(items: &[Item]) -> bool {
+    let mut places = items.iter().filter_map(|item| match item {
+        Item::Place { rel, .. } => Some(*rel),
+        _ => None,
+    });
+    places.next() == Some(Rel::From) && places.next().is_none()
+}
+
 impl<'s, 't> Frame<'s, 't> {
     pub(super) fn of(
         sentence: &'s Sentence<'t>,
@@ -71,9 +80,11 @@ impl<'s, 't> Frame<'s, 't> {
                         && items[..at].iter().all(|item| {
                             matches!(item, Item::Mark(Mark::HowFar | Mark::Be | Mark::And))
                         })
-                        && frame.has(Mark::HowFar) => {}
+                        && frame.has(Mark::HowFar)
+                        // "How far is it from the counter?" is asked of what was spoken of.
+                        && (!is_only_from(items) || referent(Pronoun::Any, None).is_empty()) => {}
                 Item::Noun(phrase) => {
-                    let Some(mut noun) = frame.noun(phrase, referent)? else { continue };
+                    let Some(mut noun) = frame.noun(phrase, None, referent)? else { continue };
                     // "the green book and the red one"
                     let joined = at > 0
                         && matches!(
@@ -125,7 +136,7 @@ impl<'s, 't> Frame<'s, 't> {
                             anchors.extend(before.nouns.first().cloned());
                             continue;
                         }
-                        let mut noun = frame.noun(phrase, referent)?;
+                        let mut noun = frame.noun(phrase, Some(*rel), referent)?;
                         // «рядом с красной», "next to the red one"
                         if let (Some(noun), Some(before)) = (&mut noun, frame.nouns.last())
                             && noun.head.anything
@@ -227,13 +238,13 @@ impl<'s, 't> Frame<'s, 't> {
         // "What else is there?"
         let bare = frame.nouns.is_empty() && frame.spots.is_empty() && frame.there.is_none();
         if bare && frame.asks() && frame.has(Mark::Other) && frame.has(Mark::Exists) {
-            let meant = referent(Pronoun::There);
+            let meant = referent(Pronoun::There, None);
             frame.there = (!meant.is_empty()).then(|| things(meant, "there"));
         }
         // "How far is it from here?"
         let it = sentence.keys.iter().any(|key| key == "it");
         if it && frame.has(Mark::HowFar) && frame.nouns.is_empty() && frame.spots.is_empty() {
-            let meant = referent(Pronoun::Any);
+            let meant = referent(Pronoun::Any, None);
             if meant.is_empty() {
                 return Err(Doubt::NoReferent { word: "it".to_owned() });
             }
@@ -329,11 +340,12 @@ impl<'s, 't> Frame<'s, 't> {
     pub(super) fn noun(
         &mut self,
         phrase: &Phrase,
+        rel: Option<Rel>,
         referent: &Referent<'_>,
     ) -> Result<Option<Noun>, Doubt> {
         match (phrase.pronoun, phrase.person) {
             (Some(pronoun), _) => {
-                let meant = referent(pronoun);
+                let meant = referent(pronoun, rel);
                 if meant.is_empty() {
                     return Err(Doubt::NoReferent { word: phrase.noun.text.clone() });
                 }
@@ -344,7 +356,7 @@ impl<'s, 't> Frame<'s, 't> {
                 Ok(None)
             }
             (_, Some(Mark::There)) => {
-                let meant = referent(Pronoun::There);
+                let meant = referent(Pronoun::There, None);
                 let noun = (!meant.is_empty()).then(|| things(meant, &phrase.noun.text));
                 self.there = noun;
                 Ok(None)

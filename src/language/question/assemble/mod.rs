@@ -21,8 +21,8 @@ use super::mark::{Mark, Pronoun};
 use super::query::{Head, Noun, Query, Rel, Restriction, Sized, Thing};
 use super::values::{Property, ValueId};
 
-/// What a pronoun of the sentence means.
-pub(super) type Referent<'a> = dyn Fn(Pronoun) -> Vec<Thing> + 'a;
+/// What a pronoun means, in the relation of which it is the anchor.
+pub(super) type Referent<'a> = dyn Fn(Pronoun, Option<Rel>) -> Vec<Thing> + 'a;
 
 /// Reads a query out of the items of a sentence.
 pub(super) fn query(
@@ -153,7 +153,9 @@ pub(super) fn fragment(
         ) || (*mark == Mark::Exists && of_those)
             || (*mark == Mark::Which && of_those)
     };
-    if items.is_empty() || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
+    // «А дверь открыта?» says it of the door.
+    let says = !frame.nouns.is_empty() && !frame.values.is_empty();
+    if items.is_empty() || says || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
         return None;
     }

@@ -2,7 +2,7 @@
 //!
 //! Invariant: where that person stands is said in the answer, and is the robot's place or the middle of the room.
 
-use super::Knowledge;
+use super::{Frame, Knowledge};
 use crate::language::question::Doubt;
 use crate::language::question::query::{Noun, Rel, Side, Thing};
 use crate::map::Entity;
@@ -26,6 +26,38 @@ impl Knowledge<'_> {
             Some((_, pose)) => Some((pose.at, true)),
             None => Some((self.point(Thing::Entity(Entity::Area(area)))?.1, false)),
         }
+    }
+
+    /// On which of two opposite sides of another a thing is rather than on the other, though it is mostly before or beside
+    /// it: of the other's own front, else as the robot sees it.
+    pub(in crate::language::question) fn rather(
+        &self,
+        sides: [Rel; 2],
+        thing: Thing,
+        of: Thing,
+    ) -> Option<Rel> {
+        /// Straight ahead tells no side, cm.
+        const ASIDE: f64 = 5.0;
+        if self.area_of(thing) != self.area_of(of) {
+            return None;
+        }
+        let ((_, at), (map, from)) = (self.point(thing)?, self.point(of)?);
+        let (ahead, seen) = match self.frame(of) {
+            Frame::Own => (self.relations.front(of.replica()?)?, 1.0),
+            Frame::Viewer => {
+                let (own, pose) = self.senses.robot()?;
+                ((own == map).then_some(from - pose.at)?.try_normalize(1.0)?, -1.0)
+            }
+        };
+        let (left, before) = (ahead.perp(&(at - from)), seen * ahead.dot(&(at - from)));
+        let of_side = |rel: Rel| match rel {
+            Rel::LeftOf => left > ASIDE,
+            Rel::RightOf => left < -ASIDE,
+            Rel::InFrontOf => before > ASIDE,
+            Rel::Behind => before < -ASIDE,
+            _ => false,
+        };
+        sides.into_iter().find(|rel| of_side(*rel))
     }
 
     /// What is to the left or right of a thing, or in the whole room, for one who faces another, or the same thing.

@@ -134,7 +134,10 @@ impl Knowledge<'_> {
         if noun.head.anything && !noun.filters.is_empty() {
             found.extend(self.members(&Extension::Doors));
         }
-        if noun.other {
+        let known = self.in_focus(&found).filter(|_| noun.other && !noun.head.anything);
+        if let Some(known) = known {
+            found.retain(|t| *t != known);
+        } else if noun.other {
             // What was spoken of long ago is no part of "what else".
             const RECENT: usize = 12;
             let recent = &self.memory.spoken[..self.memory.spoken.len().min(RECENT)];
@@ -234,10 +237,26 @@ impl Knowledge<'_> {
             (None, Some(rank)) if !found.is_empty() && found.iter().all(|t| is_map(*t)) => {
                 Ok(self.storey(found, rank))
             }
+            // «вторая чашка» of several that were just told.
+            (None, Some(rank)) if self.of_listed(&found).len() > 1 => {
+                let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
+                Ok(self.of_listed(&found).get(at).copied().into_iter().collect())
+            }
+            // «А вторая ваза?» of two, one of which was spoken of.
+            (None, Some(2)) if found.len() == 2 && self.in_focus(&found).is_some() => {
+                let known = self.in_focus(&found);
+                Ok(found.into_iter().filter(|t| Some(*t) != known).collect())
+            }
             // «второй стул»: nothing says in which order.
             (None, Some(_)) => Err(Doubt::NotUnderstood { words: noun.text.clone() }),
             (None, None) => Ok(found),
         }
+    }
+
+    /// Those of some things that an answer has told one after the other, in its order.
+    fn of_listed(&self, things: &[Thing]) -> Vec<Thing> {
+        let told = self.memory.listed.iter().copied();
+        told.filter(|t| things.contains(t)).collect()
     }
 
     /// «Стул у окна»: of several windows the one is meant that has a chair, where only one chair is at any. None
@@ -306,7 +325,7 @@ impl Knowledge<'_> {
         let equal = noun.best.is_some();
         let several = noun.plural || noun.all || noun.count.is_some() || noun.indefinite || equal;
         if found.len() > 1 && !several && noun.head.things.is_none() {
-            return Err(self.ambiguous(noun, &found));
+            return Ok(vec![self.meant(noun, &found)?]);
         }
         Ok(found)
     }
@@ -318,8 +337,15 @@ impl Knowledge<'_> {
         match found[..] {
             [only] => Ok(only),
             [] => Err(self.none_such(noun)),
-            _ => Err(self.ambiguous(noun, &found)),
+            _ => self.meant(noun, &found),
         }
+    }
+
+    /// The one of several things that was just spoken of, if one is meant.
+    fn meant(&self, noun: &Noun, found: &[Thing]) -> Result<Thing, Doubt> {
+        let one = !noun.plural && !noun.indefinite && !noun.other && noun.head.things.is_none();
+        let meant = self.in_focus(found).filter(|_| one);
+        meant.ok_or_else(|| self.ambiguous(noun, found))
     }
 
     pub(in crate::language::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
@@ -391,7 +417,7 @@ impl Knowledge<'_> {
         }
         let several = any || noun.plural || noun.all || noun.head.things.is_some();
         if anchors.len() > 1 && !several {
-            return Err(self.ambiguous(noun, &anchors));
+            return Ok(vec![self.meant(noun, &anchors)?]);
         }
         Ok(anchors)
     }

@@ -268,7 +268,7 @@ impl Asker<'_> {
         }
         let text = &self.plain(without_pointing(text));
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_| Vec::new())?;
+        let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &|_, _| Vec::new())?;
         if noun.head.named.is_empty() && noun.head.kinds.is_empty() {
             noun.head = Head { things: Some(candidates.clone()), ..Head::default() };
         }

@@ -1,0 +1,262 @@
+//! What a dialogue is about: what a pronoun takes up, and which of several things a description means that was just
+//! spoken of.
+//!
+//! Invariant: nothing is taken for meant that the last few exchanges did not name; where they name several of one rank
+//! that fit, it is asked back.
+
+use super::everyday;
+use super::knowledge::Knowledge;
+use super::lexicon::{Extension, KindId, Meaning};
+use super::mark::Pronoun;
+use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
+use super::{Answer, Doubt, Memory};
+use crate::language::words::{
+    Gender, NounPhrase, Number, WordHints, word_keys, word_ranges,
+};
+use crate::map::Entity;
+
+/// So many exchanges back a description is still understood by what was spoken of.
+const RECENT: usize = 4;
+
+/// What one question and its answer, or an order, were about.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Exchange {
+    /// What a singular pronoun takes up, in this order.
+    topics: Vec<Thing>,
+    /// The members of a list, none of which is more spoken of than the others.
+    listed: Vec<Thing>,
+}
+
+impl Exchange {
+    fn of(answer: &Answer) -> Self {
+        let others = || answer.topic.iter().filter(|t| !answer.things.contains(t)).copied();
+        let found = answer.things.iter().copied();
+        match &answer.query {
+            // "What is the lamp on?" goes on being about the lamp.
+            Query::Anchor { .. } | Query::RoomOf(_) | Query::Leads(_) => {
+                Self { topics: others().chain(found).collect(), listed: Vec::new() }
+            }
+            _ if answer.things.len() > 1 => {
+                Self { topics: others().collect(), listed: answer.things.clone() }
+            }
+            _ => Self { topics: found.chain(others()).collect(), listed: Vec::new() },
+        }
+    }
+
+    fn is_empty(&self) -> bool {
+        self.topics.is_empty() && self.listed.is_empty()
+    }
+}
+
+impl Memory {
+    /// Notes what an answer was about.
+    pub(super) fn hear(&mut self, answer: &Answer) {
+        self.follow(Exchange::of(answer));
+    }
+
+    /// Notes what an order names, the last of which is spoken of most.
+    pub(super) fn hear_of_things(&mut self, things: &[Thing]) {
+        let topics = things.iter().rev().copied().collect();
+        self.follow(Exchange { topics, listed: Vec::new() });
+    }
+
+    fn follow(&mut self, exchange: Exchange) {
+        self.is_lost = false;
+        self.is_unanswered = false;
+        if !exchange.is_empty() {
+            self.exchanges.insert(0, exchange);
+            self.exchanges.truncate(RECENT);
+        }
+    }
+
+    /// The one of several things that was spoken of by itself before they were listed.
+    pub(super) fn topic_among(&self, listed: &[Thing]) -> Option<Thing> {
+        let before = self.exchanges.iter().flat_map(|exchange| &exchange.topics);
+        let mut named = before.filter(|t| listed.len() > 1 && listed.contains(t));
+        let first = named.next()?;
+        named.all(|t| t == first).then_some(*first)
+    }
+
+    /// Notes that a question had no answer. Where all that it named is unknown to the map, pronouns mean that from now on.
+    pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
+        self.is_unanswered = true;
+        self.is_lost |= matches!(doubt, Doubt::Unknown { .. }) && names_nothing;
+    }
+}
+
+impl Knowledge<'_> {
+    /// The one of several things that was spoken of last.
+    pub(super) fn in_focus(&self, found: &[Thing]) -> Option<Thing> {
+        let ranks = self.memory.exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
+        for rank in ranks {
+            let mut named = found.iter().filter(|t| rank.contains(t));
+            match (named.next(), named.next()) {
+                (Some(only), None) => return Some(*only),
+                (None, _) => {}
+                (Some(_), Some(_)) => return None,
+            }
+        }
+        None
+    }
+
+    /// Puts for each place of a query that several things are, the one of them that was just spoken of.
+    pub(super) fn focus(&self, query: &mut Query) {
+        if self.memory.exchanges.is_empty() {
+            return;
+        }
+        if let Query::Holds { claims, .. } | Query::Choice { claims, .. } = query {
+            for claim in claims {
+                if let Claim::Related(restriction) = claim {
+                    self.focus_places(std::slice::from_mut(restriction));
+                }
+            }
+        }
+        query.each_noun(&mut |noun| {
+            self.focus_places(&mut noun.restrictions);
+            // "the bigger one" of several that were told
+            let one = word_keys(&noun.text).last().is_some_and(|word| word == "one");
+            if one && noun.head.anything && self.memory.listed.len() > 1 {
+                let things = Some(self.memory.listed.clone());
+                noun.head = Head { things, ..Head::default() };
+            }
+        });
+        // «Сколько их всего?» of one thing: how many of its kind there are.
+        if let Query::Count(noun) = query
+            && let Some([only]) = noun.head.things.as_deref()
+            && let Some(kind) = self.kind_of(*only)
+        {
+            noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+    }
+
+    fn kind_of(&self, thing: Thing) -> Option<KindId> {
+        let replica = self.world.replicas.get(&thing.replica()?)?;
+        let object = self.world.objects.get(&replica.object)?;
+        self.lexicon().kind_of(&Extension::ObjectType(object.object_type?))
+    }
+
+    fn focus_places(&self, restrictions: &mut [Restriction]) {
+        for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
+            let told = anchor.plural
+                || anchor.indefinite
+                || anchor.all
+                || anchor.other
+                || anchor.head.anything
+                || anchor.head.things.is_some()
+                || anchor.count.is_some()
+                || anchor.best.is_some();
+            let found = if told { None } else { self.find(anchor, false).ok() };
+            if let Some(meant) = found.filter(|f| f.len() > 1).and_then(|f| self.in_focus(&f)) {
+                let head = Head { things: Some(vec![meant]), ..Head::default() };
+                let text = std::mem::take(&mut anchor.text);
+                *anchor = Noun { head, text, ..Noun::default() };
+            }
+        }
+    }
+
+    /// What a pronoun means: what was last spoken of that agrees with it, and may stand in the relation that it is named
+    /// in («на нём»).
+    pub(super) fn referent(&self, pronoun: Pronoun, rel: Option<Rel>) -> Vec<Thing> {
+        let last = &self.memory.last;
+        match pronoun {
+            Pronoun::There => self.place_spoken_of().into_iter().collect(),
+            Pronoun::They if last.len() > 1 => last.clone(),
+            _ if self.memory.is_lost => Vec::new(),
+            // "What can I write with and where is it?": each of them.
+            Pronoun::Any
+                if matches!(self.memory.query, Some(Query::Find(_)))
+                    && last.len() > 1
+                    && self.memory.exchanges.first().is_some_and(|e| e.topics.is_empty()) =>
+            {
+                last.clone()
+            }
+            _ => self.taken_up(pronoun, rel).into_iter().collect(),
+        }
+    }
+
+    fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Option<Thing> {
+        /// A pronoun passes over no more exchanges for something that may stand in its relation.
+        const NEAR: usize = 2;
+        let ranked = |exchanges: &[Exchange]| -> Vec<Thing> {
+            let ranks = exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
+            ranks.flatten().copied().filter(|t| self.agrees(pronoun, *t)).collect()
+        };
+        let exchanges = &self.memory.exchanges[..];
+        let near = ranked(&exchanges[..exchanges.len().min(NEAR)]);
+        let may = |t: &&Thing| rel.is_none_or(|rel| self.may_be_anchor(rel, **t));
+        let spoken = || self.memory.spoken.iter().copied().find(|t| self.agrees(pronoun, *t));
+        near.iter().find(may).or(near.first()).copied().or_else(spoken)
+    }
+
+    fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
+        let fits = |gender: Gender| match pronoun {
+            Pronoun::He => gender == Gender::Masculine,
+            Pronoun::HimOrIt => gender != Gender::Feminine,
+            Pronoun::She | Pronoun::Her => gender == Gender::Feminine,
+            Pronoun::It => gender == Gender::Neuter,
+            Pronoun::They | Pronoun::Any | Pronoun::There => true,
+        };
+        let (gender, number) = self.gender(thing);
+        let singular = number == Number::Singular;
+        let any = matches!(pronoun, Pronoun::They | Pronoun::Any | Pronoun::There);
+        any || (fits(gender) && singular) || self.genders_said(thing).into_iter().any(fits)
+    }
+
+    /// Whether something may be on or in a thing.
+    fn may_be_anchor(&self, rel: Rel, thing: Thing) -> bool {
+        let wanted: &[&str] = match rel {
+            Rel::On => &["support", "seat", "bed"],
+            Rel::In => &["container"],
+            _ => return true,
+        };
+        let has = |id| wanted.iter().any(|wanted| self.world.has_trait(id, wanted));
+        match thing.replica() {
+            Some(id) => has(id) || !self.related(rel, thing).is_empty(),
+            None => rel == Rel::In && thing.area().is_some(),
+        }
+    }
+
+    /// Genders of the words of the last question that mean the one thing of its answer.
+    fn genders_said(&self, thing: Thing) -> Vec<Gender> {
+        if self.memory.last != [thing] {
+            return Vec::new();
+        }
+        let lexicon = self.lexicon();
+        let means = |word: &&str| {
+            let plain = everyday::plain(word, lexicon);
+            let hits = lexicon.nouns.find(&plain);
+            let kinds = hits.iter().filter_map(|hit| match hit.id {
+                Meaning::Kind(kind) => Some(lexicon.kind(*kind).extension),
+                Meaning::Entity(_) => None,
+            });
+            let general = |e: &Extension| matches!(e, Extension::ObjectType(_));
+            kinds.filter(general).any(|kind| self.members(&kind).contains(&thing))
+        };
+        let words = &self.memory.words;
+        let said = word_ranges(words).into_iter().map(|range| &words[range]);
+        let phrases = said.filter(means).map(|w| NounPhrase::parse(w, &WordHints::default()));
+        phrases.filter(|p| p.number() == Number::Singular).map(|p| p.gender()).collect()
+    }
+
+    /// The latest place that was spoken of: a room or what bears things; else where the latest thing is.
+    fn place_spoken_of(&self) -> Option<Thing> {
+        let bears = |thing: Thing| {
+            thing.replica().is_none_or(|id| {
+                ["support", "container"].iter().any(|wanted| self.world.has_trait(id, wanted))
+            })
+        };
+        // «Что на кухне?» lists things there; the kitchen is the place.
+        let latest = self.memory.exchanges.first().filter(|e| !e.listed.is_empty());
+        if let Some(place) = latest.and_then(|e| e.topics.iter().copied().find(|t| bears(*t))) {
+            return Some(place);
+        }
+        let latest = *self.memory.spoken.first()?;
+        // «Где кружка и что ещё там лежит?»: where the cup is, not in it.
+        let placed = matches!(self.memory.query, Some(Query::Where(_) | Query::RoomOf(_)));
+        let told = placed && self.memory.last.contains(&latest) || !bears(latest);
+        let Some(id) = latest.replica().filter(|_| told) else { return Some(latest) };
+        let support = self.relations.support_of(id).map(|id| Thing::Entity(Entity::Replica(id)));
+        let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
+        support.or_else(area).or(Some(latest))
+    }
+}
