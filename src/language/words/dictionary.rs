@@ -88,9 +88,12 @@ mod source {
         let Some(dictionary) = dictionary() else { return readings };
         for (_, tag) in known_analyses(dictionary, word) {
             readings.known = true;
-            readings.surname |= tag.has_label("Surn");
+            let is_name = |label: &str, kind: &str| {
+                tag.has_label(label) || tag.feat("NameType") == Some(kind)
+            };
+            readings.surname |= is_name("Surn", "Sur");
             if tag.feat("Case") == Some("Nom") {
-                readings.first_name |= tag.has_label("Name");
+                readings.first_name |= is_name("Name", "Giv");
                 readings.noun |= matches!(tag.pos(), "NOUN" | "PROPN");
                 readings.adjective |= matches!(tag.pos(), "ADJ" | "DET");
             }
@@ -192,18 +195,19 @@ mod source {
             && (known.gender.is_none() || gender.is_none() || gender == known.gender)
     }
 
-    /// A common noun in the singular, or that has no singular, comes first; then the likelier reading.
+    /// A common noun in the singular, or that has no singular, comes first; then a thing before a being («мешок»); then
+    /// the likelier reading.
     fn rank(
         analysis: &Analysis,
         tag: UdTag<'_>,
         known: Known,
         word: &str,
-    ) -> (bool, bool, bool, u64) {
+    ) -> (bool, bool, bool, bool, u64) {
         let common = tag.pos() == "NOUN" && tag.feat("Abbr").is_none();
         let own_number = analysis.lemma == word || tag.feat("Number") == Some("Sing");
         let animate = tag.feat("Animacy") == Some("Anim");
         let suits = known.animacy.is_none_or(|a| (a == Animacy::Animate) == animate);
-        (common, own_number, suits, (analysis.prob * 1e6) as u64)
+        (common, own_number, suits, !animate, (analysis.prob * 1e6) as u64)
     }
 
     fn paradigm(

@@ -43,7 +43,7 @@ const PREPOSITIONS: [&str; 24] = [
 ];
 
 /// First parts of compounds that never decline.
-const FIXED_FIRST: [&str; 35] = [
+const FIXED_FIRST: [&str; 34] = [
     "бар",
     "мастер",
     "штаб",
@@ -75,7 +75,6 @@ const FIXED_FIRST: [&str; 35] = [
     "офис",
     "чил",
     "смарт",
-    "робот",
     "нью",
     "медиа",
     "кофе",
@@ -91,8 +90,17 @@ pub(super) struct Parser<'a> {
     coordinated: bool,
     /// The head has several words: «кухня-гостиная», which is «в», though «кухня» is «на».
     compound: bool,
-    /// A word of it ends in a full stop.
+    /// A word of it ends in a full stop, or it is told by an abbreviation that does not decline.
     abbreviated: bool,
+}
+
+/// What stands before the word that may be the head.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Short {
+    /// «каб.»
+    Cut,
+    /// «ПК», «LED»
+    Acronym,
 }
 
 /// Words joined by hyphens: `runs[from..to]`, words and the hyphens between them.
@@ -123,6 +131,7 @@ impl<'a> Parser<'a> {
         let mut at_head = true;
         let mut tail = false;
         let mut next_run = 0;
+        let mut short = None;
         let counted = if self.counted(&groups) { 2 } else { 0 };
         if counted > 0 {
             (at_head, next_run) = (false, groups[1].to);
@@ -142,24 +151,31 @@ impl<'a> Parser<'a> {
                 self.coordinated = true;
             }
             let joint = matches!(word, "и" | "или");
-            // «Каб. 203»
-            let cut = word.chars().count() <= 5
-                && self.gap(group.to, self.runs.len()).starts_with('.')
-                && !dictionary::readings(&word.to_lowercase()).known;
+            let cut = self.is_cut(*group, &groups[index + 1..]);
             self.abbreviated |= cut;
+            // «Каб. директора», «ПК бухгалтера»: what the abbreviation stands for is the head.
+            if at_head && !cut && short.is_some_and(|before| !self.may_head(*group, before)) {
+                (at_head, tail, self.abbreviated) = (false, true, true);
+            }
             if cut
                 || tail
                 || joint
                 || PREPOSITIONS.contains(&word)
-                || gap.contains(['(', '"', '«', '“']) && !at_head
+                || gap.contains(['(', '"', '«', '“']) && (!at_head || short.is_some())
             {
                 tail |= !joint && !cut;
+                short = short.or(cut.then_some(Short::Cut));
                 self.fixed(*group);
             } else if at_head && self.is_modifier(*group, &groups[index + 1..]) {
                 self.agreeing(*group);
             } else if at_head {
                 at_head = !self.noun(*group);
-            } else if !self.coordinated && self.agrees_with_head(*group) {
+                let is_acronym = at_head && word.chars().any(char::is_alphabetic);
+                short = short.or(is_acronym.then_some(Short::Acronym));
+            } else if !self.coordinated
+                && self.agrees_with_head(*group)
+                && !self.begins_complement(*group, &groups[index + 1..])
+            {
                 self.agreeing(*group);
             } else if self.is_second_name(*group) {
                 self.noun(*group);
@@ -210,7 +226,7 @@ impl<'a> Parser<'a> {
             match groups.last_mut() {
                 Some(group)
                     if group.to + 1 == at
-                        && self.runs[group.to].is_hyphen()
+                        && (self.runs[group.to].is_hyphen() || self.is_slashed(at))
                         && !run.text.is_empty() =>
                 {
                     group.to = at + 1;
@@ -219,6 +235,12 @@ impl<'a> Parser<'a> {
             }
         }
         groups
+    }
+
+    /// Whether a slash joins this letter and the one before: «б/у», «х/б».
+    fn is_slashed(&self, at: usize) -> bool {
+        let is_letter = |run: &Run<'_>| run.text.chars().count() == 1;
+        self.runs[at - 1].text == "/" && is_letter(&self.runs[at - 2]) && is_letter(&self.runs[at])
     }
 
     fn gap(&self, from: usize, to: usize) -> &'a str {
@@ -303,12 +325,63 @@ impl<'a> Parser<'a> {
             && (noun.number == Number::Plural || noun.gender == adjective.gender())
     }
 
+    /// Whether a word is cut short: «Каб. 203», «Ком-та 5», «Б/у стол».
+    fn is_cut(&self, group: Group, after: &[Group]) -> bool {
+        let word = self.text(group);
+        let stopped = word.chars().count() <= 5
+            && self.gap(group.to, self.runs.len()).starts_with('.')
+            && (!after.is_empty() || !dictionary::readings(&word.to_lowercase()).known);
+        let ends_short = match self.words(group).collect::<Vec<_>>()[..] {
+            [first, last] => {
+                (1..=2).contains(&last.text.chars().count())
+                    && last.text.chars().all(is_cyrillic_lower)
+                    && !first.text.chars().any(char::is_numeric)
+            }
+            _ => false,
+        };
+        stopped || ends_short || word.contains('/')
+    }
+
+    /// Whether a word behind an abbreviation can be what the name is about: «Конф. зал», «LED лампы», not «Каб. врача».
+    fn may_head(&self, group: Group, before: Short) -> bool {
+        let Some(run) = self.words(group).next().filter(|run| is_declinable(run.text)) else {
+            return true;
+        };
+        let lower = to_cyrillic(run.text).to_lowercase();
+        let readings = dictionary::readings(&lower);
+        let known = |number| Known { number: Some(number), ..Known::default() };
+        let listed = lexicon::find(&lower).is_some() || self.adjective(group).is_some();
+        let singular = || dictionary::noun(&lower, known(Number::Singular)).is_some();
+        let things = || {
+            let plural = dictionary::noun(&lower, known(Number::Plural));
+            plural.is_some_and(|noun| noun.animacy == Animacy::Inanimate)
+        };
+        listed || !readings.known || singular() || (before == Short::Acronym && things())
+    }
+
+    /// Whether an adjective is of a complement in the genitive: «Тюбик зубной пасты», unlike «Шкаф угловой».
+    fn begins_complement(&self, group: Group, after: &[Group]) -> bool {
+        let feminine = |group: &&Group| self.text(**group).ends_with(['й']);
+        let noun = after.iter().find(|group| !feminine(group)).map(|group| self.text(*group));
+        self.text(group).ends_with("ой")
+            && noun.is_some_and(|noun| {
+                noun.chars().count() > 2
+                    && noun.starts_with(char::is_lowercase)
+                    && noun.ends_with(['ы', 'и'])
+            })
+    }
+
     fn agrees_with_head(&self, group: Group) -> bool {
+        let capital = self.text(group).starts_with(char::is_uppercase);
         match (self.adjective(group), &self.head) {
             // «Стол Петровой»
             (Some((lower, _)), Some(_))
-                if self.text(group).starts_with(char::is_uppercase)
-                    && dictionary::readings(&lower).surname =>
+                if capital && {
+                    let readings = dictionary::readings(&lower);
+                    let surname = ["овой", "евой", "ёвой", "иной", "ыной"];
+                    readings.surname
+                        || (!readings.adjective && surname.iter().any(|end| lower.ends_with(end)))
+                } =>
             {
                 false
             }
@@ -388,7 +461,7 @@ impl<'a> Parser<'a> {
             let fixed = !run.is_word
                 || stopped
                 || !is_declinable(text)
-                || (FIXED_FIRST.contains(&lower.as_str()) && self.declines_after(at, group))
+                || (FIXED_FIRST.contains(&lower.as_str()) && self.is_before_another(at, group))
                 // «точка-сбора»: the second is of the first.
                 || (found && is_oblique(&lower));
             if fixed {
@@ -397,7 +470,12 @@ impl<'a> Parser<'a> {
                 self.compound |= found;
                 let known = match &self.head {
                     // What follows a living head is its name: «Кот Барсик».
-                    Some((_, head)) => Known { animacy: Some(head.animacy), ..Known::default() },
+                    Some((_, head)) => Known {
+                        animacy: Some(head.animacy),
+                        number: (head.animacy == Animacy::Animate && !self.coordinated)
+                            .then_some(head.number),
+                        ..Known::default()
+                    },
                     None => known,
                 };
                 self.take(text, &lower, resolve(&lower, known));
@@ -407,10 +485,10 @@ impl<'a> Parser<'a> {
         found
     }
 
-    /// Whether a word of a group stands before another that may be its head.
-    fn declines_after(&self, at: usize, group: Group) -> bool {
-        let mut others = self.runs[at + 1..group.to].iter();
-        others.any(|run| run.is_word && is_declinable(run.text))
+    /// Whether a word of a group stands before another that may be its head: «мини-бар», «смарт-ТВ», not «офис-2».
+    fn is_before_another(&self, at: usize, group: Group) -> bool {
+        let letters = |run: &Run<'_>| run.text.chars().filter(|c| c.is_alphabetic()).count();
+        self.runs[at + 1..group.to].iter().any(|run| run.is_word && letters(run) > 1)
     }
 
     /// «Два стула»: the number and the noun that it governs, which stand in the nominative as they are written.
@@ -500,13 +578,17 @@ fn is_declinable(word: &str) -> bool {
     }
 }
 
-/// Whether «дедушкин» is made from a living being of the word list.
+/// Whether «дедушкин» is made from a living being of the word list, «Сашин» from a person's name.
 fn is_possessor(word: &str) -> bool {
     let stem = word.trim_end_matches(['а', 'о', 'ы']);
     let of = |ending: &str| {
-        stem.strip_suffix("ин").and_then(|root| lexicon::find(&format!("{root}{ending}")))
+        stem.strip_suffix("ин").is_some_and(|root| {
+            let being = format!("{root}{ending}");
+            lexicon::find(&being).is_some_and(|entry| entry.animate)
+                || dictionary::readings(&being).first_name
+        })
     };
-    of("а").or_else(|| of("я")).is_some_and(|entry| entry.animate)
+    of("а") || of("я")
 }
 
 /// The adjective whose ending follows the digits of an ordinal.

@@ -265,6 +265,7 @@ impl Word {
             Preposition::V => {
                 cluster(&['в', 'ф'])
                     || all
+                    || starts(&["льв"])
                     || [
                         "дворе",
                         "двор",
@@ -282,6 +283,7 @@ impl Word {
             }
             Preposition::S => {
                 cluster(&['с', 'з', 'ш', 'ж'])
+                    || starts(&["льв"])
                     || sound.starts_with('щ')
                     || all
                     || second
