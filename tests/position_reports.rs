@@ -1,10 +1,14 @@
 //! Position reports said and read back: what is said of a pose is read as a region that holds the pose.
 
-use orthoframe::engine::Engine;
+use std::cell::RefCell;
+use std::collections::{BTreeMap, BTreeSet};
+
+use orthoframe::engine::{Engine, Whereabout};
 use orthoframe::exchange::{Options, read};
 use orthoframe::language::Language;
 use orthoframe::language::report::Detail;
 use orthoframe::map::World;
+use orthoframe::semantics::Spot;
 use orthoframe::units::{Deg, MapId, Point, Pose};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use proptest::test_runner::{TestCaseError, TestRunner};
@@ -43,10 +47,13 @@ fn said_is_read(engine: &Engine, map: MapId, pose: Pose) -> Result<(), TestCaseE
 }
 
 fn check(world: World) {
+    check_some(world, 80);
+}
+
+fn check_some(world: World, poses: u32) {
     let engine = Engine::in_memory(world, None).unwrap();
-    let mut runner = TestRunner::new(ProptestConfig::with_cases(80));
-    let mut told = std::collections::BTreeSet::new();
-    let cell = std::cell::RefCell::new(&mut told);
+    let mut runner = TestRunner::new(ProptestConfig::with_cases(poses));
+    let told: RefCell<BTreeMap<String, BTreeSet<String>>> = RefCell::default();
     let maps: Vec<MapId> = engine.floors().unwrap().keys().copied().collect();
     runner
         .run(&(0..maps.len(), 0.0..1.0, 0.0..1.0, 0.0..360.0), |(n, x, y, heading)| {
@@ -54,12 +61,35 @@ fn check(world: World) {
                 return Err(TestCaseError::reject("not on the free floor"));
             };
             if let Ok(found) = engine.locate(maps[n], pose, true) {
-                cell.borrow_mut().insert(found.position.say(Language::Russian));
+                for (text, meant) in what_is_meant(&found) {
+                    told.borrow_mut().entry(text).or_default().insert(meant);
+                }
             }
             said_is_read(&engine, maps[n], pose)
         })
         .unwrap();
-    assert!(told.len() > 15, "the poses are told apart: {told:?}");
+    let told = told.into_inner();
+    assert!(told.len() > 8, "the poses are told apart: {told:?}");
+    let of_two = told.iter().find(|(_, meant)| meant.len() > 1);
+    assert!(of_two.is_none(), "one report of two places: {of_two:?}");
+}
+
+/// Reports of a pose without the heading, each with the one region or spot of the map that it is to mean, by ids.
+fn what_is_meant(found: &Whereabout) -> Vec<(String, String)> {
+    let room = format!("{} {}", found.map.0, found.terms.area.0);
+    let spot = match found.terms.spot {
+        Spot::InDoorway(way) => format!("{} in {:?}", found.map.0, way.door),
+        Spot::AtDoor { way, .. } => format!("{room} at {:?}", way.door),
+        Spot::On { replica } => format!("{room} on {replica:?}"),
+        Spot::NextTo { replica, .. } => format!("{room} by {replica:?}"),
+        other => format!("{room} {other:?}"),
+    };
+    let levels = [(Detail::Region, room), (Detail::Spot, spot)];
+    let said = |language| {
+        let levels = levels.iter();
+        levels.map(move |(d, meant)| (found.position.say_in(language, *d), meant.clone()))
+    };
+    said(Language::Russian).chain(said(Language::English)).collect()
 }
 
 #[test]
@@ -94,6 +124,42 @@ fn poses_in_imported_houses_are_told_apart() {
     check(house(4));
     check(unnumbered(&house(1)));
     check(doubled(&house(7)));
+}
+
+/// A flat with rugs, an office and a building of two storeys.
+#[test]
+fn poses_in_other_imported_buildings_are_told_apart() {
+    for (folder, file) in
+        [("virtualhome", "TestScene1_graph.json"), ("rmf", "office.building.yaml")]
+    {
+        let Some(folder) = shared(folder) else { return };
+        let world = read(&folder.join(file), &Options::default()).expect("it reads").world;
+        check_some(unnumbered(&world), 25);
+    }
+    let storeys = World::load(concat!(env!("CARGO_MANIFEST_DIR"), "/maps/two-storeys.toml"));
+    check_some(unnumbered(&storeys.expect("the map is sound")), 40);
+}
+
+#[test]
+fn who_stands_on_a_rug_is_told_so() {
+    let Some(folder) = shared("virtualhome") else { return };
+    let path = folder.join("TestScene2_graph.json");
+    let world = read(&path, &Options::default()).expect("it reads").world;
+    let engine = Engine::in_memory(world, None).unwrap();
+    let map = *engine.floors().unwrap().keys().next().unwrap();
+    let pose = Pose { at: Point::new(-647.0, -203.0), heading: Deg::ZERO };
+    let found = engine.locate(map, pose, false).unwrap();
+    let said = [Language::Russian, Language::English].map(|l| found.position.say(l));
+    assert_eq!(
+        said,
+        ["Я нахожусь в Гостиной стоя на Ковре-4.", "I am in the living room standing on Rug 4."]
+    );
+    for text in said {
+        let region = engine.read_position(&text).unwrap();
+        assert!(engine.region_contains(&region, pose).unwrap());
+        let beside = Pose { at: Point::new(-647.0, -420.0), ..pose };
+        assert!(!engine.region_contains(&region, beside).unwrap());
+    }
 }
 
 /// Nothing is said that is not needed: a room that has no namesake is told by its name, one on another floor by the

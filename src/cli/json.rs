@@ -273,6 +273,9 @@ pub(super) fn whereabout(world: &World, found: &Whereabout) -> Value {
         Spot::AtDoor { way, distance } => {
             json!({"kind": "at_door", "way": self::passage(world, &way), "distance_cm": round(distance)})
         }
+        Spot::On { replica } => {
+            json!({"kind": "on", "thing": world.name(Entity::Replica(replica))})
+        }
         Spot::NextTo { replica, distance } => {
             json!({"kind": "next_to", "thing": world.name(Entity::Replica(replica)), "distance_cm": round(distance)})
         }

@@ -78,6 +78,9 @@ pub(super) fn describe(
     let spot = match terms.spot {
         semantics::Spot::InDoorway(way) => Spot::InDoorway(doorway(world, relations, way)),
         semantics::Spot::AtDoor { way, .. } => Spot::AtDoor(doorway(world, relations, way)),
+        semantics::Spot::On { replica } => {
+            Spot::Object(Beside::On, named(world, Entity::Replica(replica)))
+        }
         semantics::Spot::NextTo { replica, .. } => {
             Spot::Object(Beside::NextTo, named(world, Entity::Replica(replica)))
         }
@@ -204,6 +207,9 @@ impl Telling<'_> {
         match *spot {
             semantics::Spot::InDoorway(way) => SaidSpot::InDoorway(door(way)),
             semantics::Spot::AtDoor { way, .. } => SaidSpot::AtDoor(door(way)),
+            semantics::Spot::On { replica } => {
+                SaidSpot::Object(Beside::On, self.namesakes(Entity::Replica(replica)))
+            }
             semantics::Spot::NextTo { replica, .. } => {
                 SaidSpot::Object(Beside::NextTo, self.namesakes(Entity::Replica(replica)))
             }

@@ -8,7 +8,7 @@ use crate::language::report::read::{
 };
 use crate::language::report::{Beside, Opening};
 use crate::map::{Entity, Permeability, World};
-use crate::semantics::{Claim, Located, Nearness, Relations, Way, claim_bounds, claim_holds};
+use crate::semantics::{Claim, Nearness, Relations, Way, claim_bounds, claim_holds, stands_in};
 use crate::units::{AreaId, Deg, MapId, Point, Pose, ReplicaId};
 
 use super::lexicon::named;
@@ -230,16 +230,14 @@ fn claims(
         None => Claim::InArea,
         Some(SaidSpot::InDoorway(door)) => Claim::InDoorway(ways(door)),
         Some(SaidSpot::AtDoor(door)) => Claim::AtDoor(ways(door)),
-        Some(SaidSpot::Object(Beside::NextTo, names)) => {
-            let is_here = |id: &ReplicaId| {
-                let single = relations.measurements().of_thing(*id);
-                single.is_some_and(|s| matches!(s.place, Located::In { area: a, .. } if a == area))
-            };
+        Some(SaidSpot::Object(beside @ (Beside::NextTo | Beside::On), names)) => {
+            let is_here = |id: &ReplicaId| stands_in(relations.measurements(), *id, area);
             let things = names.iter().filter_map(|name| match name {
                 Entity::Replica(id) => Some(*id).filter(is_here),
                 _ => None,
             });
-            return Ok(things.map(Claim::NextTo).collect());
+            let claim = if *beside == Beside::On { Claim::On } else { Claim::NextTo };
+            return Ok(things.map(claim).collect());
         }
         Some(SaidSpot::Object(..)) => {
             let reason = "стороны вещи не измерены как области; бывает «рядом с …»".to_owned();

@@ -17,6 +17,7 @@ pub enum Claim {
     InArea,
     InDoorway(Vec<usize>),
     AtDoor(Vec<usize>),
+    On(ReplicaId),
     NextTo(ReplicaId),
     InCorner,
     AlongWall,
@@ -53,6 +54,10 @@ pub fn claim_holds(
         Claim::AtDoor(places) => meant(places, &|o| {
             (at - nearest_on_segment(at, o.ends.0, o.ends.1)).norm() <= near.door
         }),
+        Claim::On(thing) => measured
+            .bodies
+            .get(thing)
+            .is_some_and(|body| body.outline.iter().any(|part| part.distance_to(at) <= 0.0)),
         Claim::NextTo(thing) => measured.bodies.get(thing).is_some_and(|body| {
             body.outline.iter().any(|part| part.distance_to(at) <= near.object)
         }),

@@ -67,7 +67,7 @@ pub use measure::{
 };
 pub use names::{Subject, Symbols};
 pub use openings::Opening;
-pub use position::{Nearness, Spot, Way, Whereabouts, walls, whereabouts};
+pub use position::{Nearness, Spot, Way, Whereabouts, stands_in, walls, whereabouts};
 pub use relations::{
     Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
     derive_from,

@@ -7,6 +7,7 @@ use crate::geometry::contact::Footprint;
 use crate::map::{Permeability, World};
 use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Vector};
 
+use super::body::Body;
 use super::measure::{Located, Measurements};
 use super::openings::{Opening, joins_own_items, outward_normal};
 use crate::geometry::nearest_on_segment;
@@ -45,8 +46,18 @@ pub struct Way {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Spot {
     InDoorway(Way),
-    AtDoor { way: Way, distance: f64 },
-    NextTo { replica: ReplicaId, distance: f64 },
+    AtDoor {
+        way: Way,
+        distance: f64,
+    },
+    /// Underfoot lies something that the robot drives over.
+    On {
+        replica: ReplicaId,
+    },
+    NextTo {
+        replica: ReplicaId,
+        distance: f64,
+    },
     InCorner,
     AlongWall,
     InMiddle,
@@ -130,6 +141,16 @@ fn at_door(openings: &[Opening], area: AreaId, p: Point, near: &Nearness) -> Opt
     (distance <= near.door).then(|| Spot::AtDoor { way: way(opening, area), distance })
 }
 
+/// Whether a thing stands on the floor of an Area, so that one can be said to be next to it.
+#[must_use]
+pub fn stands_in(measured: &Measurements, thing: ReplicaId, area: AreaId) -> bool {
+    /// Tenths of a millimetre.
+    const FLOOR: i64 = 800;
+    measured.of_thing(thing).is_some_and(|single| {
+        matches!(single.place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR)
+    })
+}
+
 /// The nearest thing that stands on the floor and is the only one of its kind and of its name in the Area.
 fn next_to(
     world: &World,
@@ -138,9 +159,8 @@ fn next_to(
     p: Point,
     near: &Nearness,
 ) -> Option<Spot> {
-    const FLOOR: i64 = 800;
-    let stands = |id: &ReplicaId| matches!(measured.singles[id].place, Located::In { area: a, above_floor, .. } if a == area && above_floor <= FLOOR);
-    let bodies: Vec<_> = measured.bodies.values().filter(|b| stands(&b.id)).collect();
+    let stands = |b: &&Body| stands_in(measured, b.id, area);
+    let bodies: Vec<&Body> = measured.bodies.values().filter(stands).collect();
     let name = |id: ReplicaId| world.replicas.get(&id).map(|r| r.name.as_str());
     let distance = |outline: &[Footprint]| {
         outline.iter().map(|f| f.distance_to(p)).fold(f64::INFINITY, f64::min)
@@ -151,10 +171,16 @@ fn next_to(
             let mut others = bodies.iter().filter(|c| c.id != b.id);
             others.all(|c| c.object != b.object && name(c.id) != name(b.id))
         })
-        .map(|b| (distance(&b.outline), b.id))
+        .map(|b| (distance(&b.outline), *b))
         .filter(|(d, _)| *d <= near.object)
-        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
-        .map(|(distance, replica)| Spot::NextTo { replica, distance })
+        .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.id.cmp(&b.1.id)))
+        .map(|(distance, body)| {
+            let is_flat = body.top - body.bottom <= world.robot.step.get();
+            match distance <= 0.0 && is_flat {
+                true => Spot::On { replica: body.id },
+                false => Spot::NextTo { replica: body.id, distance },
+            }
+        })
 }
 
 pub(super) fn by_walls(

@@ -32,7 +32,7 @@ impl Position {
 
 impl Named {
     /// "in the corridor", but "on the balcony".
-    fn english_place(&self) -> String {
+    pub(crate) fn english_place(&self) -> String {
         let on = [
             "balcony", "stairs", "terrace", "porch", "roof", "floor", "storey", "landing",
             "street", "bridge", "veranda",
@@ -52,16 +52,11 @@ impl Named {
 
 impl Doorway {
     fn english(&self) -> String {
-        let noun = self.name.as_ref().map_or_else(
-            || {
-                if self.opening == Opening::Door {
-                    "the door".to_owned()
-                } else {
-                    "the passage".to_owned()
-                }
-            },
-            Named::english,
-        );
+        let opening = self.opening;
+        let noun = match &self.name {
+            Some(name) => name.english_door(opening),
+            None => opening.english().to_owned(),
+        };
         match &self.to {
             Some(to) => format!("{noun} leading from {} to {}", self.from.english(), to.english()),
             None => format!("{noun} leading out of {}", self.from.english()),
@@ -94,7 +89,7 @@ impl Facing {
 
 fn doorway_in_english(door: &Doorway) -> String {
     let opening = match (&door.name, door.opening) {
-        (Some(name), _) => format!("in the doorway of {}", name.english()),
+        (Some(name), opening) => format!("in the doorway of {}", name.english_door(opening)),
         (None, Opening::Door) => "in the doorway".into(),
         (None, Opening::Passage) => "in the passage".into(),
     };
@@ -106,6 +101,7 @@ fn doorway_in_english(door: &Doorway) -> String {
 
 fn beside_in_english(beside: Beside) -> &'static str {
     match beside {
+        Beside::On => "standing on",
         Beside::NextTo => "next to",
         Beside::InFrontOf => "in front of",
         Beside::Behind => "behind",

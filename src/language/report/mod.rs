@@ -30,6 +30,8 @@ use super::words::Language;
 /// How the robot stands to an object that the map has only once, or that is told apart by its name.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Beside {
+    /// A rug or mat is underfoot.
+    On,
     NextTo,
     /// In front of the object's own front.
     InFrontOf,

@@ -1,6 +1,6 @@
 //! Names and doorways as a report and a way in words tell them: the values, without sentences.
 
-use crate::language::words::{Case, Language, NounPhrase, WordHints, english};
+use crate::language::words::{Case, Language, NounPhrase, PlaceSense, WordHints, english, russian};
 
 /// A name of the map in both languages.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -45,6 +45,37 @@ impl Named {
         english::with_article(&self.english)
     }
 
+    /// The English name of a door or passage: "the gate", "Door 2", but "the door L1_office" where its name does not
+    /// say what it is.
+    #[must_use]
+    pub fn english_door(&self, opening: Opening) -> String {
+        const OPENINGS: [&str; 10] = [
+            "door", "doors", "gate", "gates", "passage", "doorway", "opening", "hatch", "arch",
+            "entrance",
+        ];
+        let lower = self.english.to_lowercase();
+        let mut words = lower.split(|c: char| !c.is_alphabetic());
+        match words.any(|word| OPENINGS.contains(&word)) {
+            true => self.english(),
+            false => format!("{} {}", opening.english(), self.english),
+        }
+    }
+
+    /// The way to a storey: «на Второй этаж», «на этаж «L2»»; "to the second floor", "to the floor “L2”".
+    #[must_use]
+    pub fn whither_storey(&self, language: Language) -> String {
+        let lower = self.english.to_lowercase();
+        let is_storey = ["floor", "storey", "level"].iter().any(|word| lower.contains(word));
+        match language {
+            Language::Russian if self.russian.place() == PlaceSense::Upon => {
+                russian::whither(&self.russian)
+            }
+            Language::Russian => format!("на этаж «{}»", self.russian.name()),
+            Language::English if is_storey => format!("to {}", self.english()),
+            Language::English => format!("to the floor “{}”", self.english),
+        }
+    }
+
     /// The name within a sentence: in a case, or with its article.
     #[must_use]
     pub fn form(&self, case: Case, language: Language) -> String {
@@ -61,6 +92,16 @@ pub enum Opening {
     Door,
     /// An opening without a leaf.
     Passage,
+}
+
+impl Opening {
+    #[must_use]
+    pub(crate) fn english(self) -> &'static str {
+        match self {
+            Self::Door => "the door",
+            Self::Passage => "the passage",
+        }
+    }
 }
 
 /// A door or passage, told by the Areas on its two sides.

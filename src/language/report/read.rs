@@ -253,7 +253,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             });
             return Some(SaidSpot::AlongWall(thing));
         }
-        let beside = if self.all_of("рядом").is_some() {
+        let beside = if self.all_of("стоя на").is_some() {
+            Beside::On
+        } else if self.all_of("рядом").is_some() {
             self.one_of(&["с", "со"])?;
             Beside::NextTo
         } else if self.one_of(&["перед", "передо"]).is_some() {
@@ -420,6 +422,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
             return Some(SaidSpot::AlongWall(thing));
         }
         let beside = [
+            ("standing on", Beside::On),
             ("next to", Beside::NextTo),
             ("in front of", Beside::InFrontOf),
             ("behind", Beside::Behind),
@@ -442,7 +445,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         let name = match common {
             Some(_) => None,
             None => {
-                let name = self.name()?;
+                let name = self.english_door()?;
                 self.one_of(&["leading"])?;
                 Some(name)
             }
@@ -458,10 +461,19 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         Some(SaidDoorway { opening: common, name, from, to })
     }
 
+    /// "the gate", "the door L1_office"
+    fn english_door(&mut self) -> Option<Vec<T>> {
+        self.maybe(Self::name).or_else(|| {
+            self.one_of(&["the"])?;
+            self.one_of(&["door", "passage"])?;
+            self.name()
+        })
+    }
+
     fn english_in_doorway(&mut self) -> Option<SaidDoorway<T>> {
         let mut name = None;
         let opening = if self.all_of("in the doorway of").is_some() {
-            name = Some(self.name()?);
+            name = Some(self.english_door()?);
             None
         } else if self.all_of("in the doorway").is_some() {
             Some(Opening::Door)

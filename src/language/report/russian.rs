@@ -139,6 +139,9 @@ fn doorway_in_russian(door: &Doorway) -> String {
 
 fn beside_in_russian(beside: Beside, object: &NounPhrase) -> String {
     match beside {
+        Beside::On => {
+            format!("стоя {}", russian::with(Preposition::Na, Case::Prepositional, object))
+        }
         Beside::NextTo => {
             format!("рядом {}", russian::with(Preposition::S, Case::Instrumental, object))
         }
