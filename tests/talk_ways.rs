@@ -3,7 +3,7 @@
 use orthoframe::engine::{Engine, Method, RouteAnswer, World};
 use orthoframe::exchange::{Options, read};
 use orthoframe::language::Language;
-use orthoframe::language::directions::{Directions, Passage};
+use orthoframe::language::directions::{Directions, Passage, Side};
 use orthoframe::language::report::Detail;
 use orthoframe::map::Entity;
 use orthoframe::units::{Deg, Vector};
@@ -105,6 +105,8 @@ fn told(sentence: &str) -> Vec<f64> {
         ("развернитесь", 180.0),
         ("turn left", 90.0),
         ("turn right", -90.0),
+        ("then left", 90.0),
+        ("then right", -90.0),
         ("bear left", 45.0),
         ("bear right", -45.0),
         ("turn round", 180.0),
@@ -172,6 +174,54 @@ fn the_turns_that_are_said_lead_to_the_next_door() {
         }
     }
     assert!(checked > 80, "{checked}");
+}
+
+/// Seen from where the route passes nearest to its middle, a landmark is on the hand that is told.
+#[test]
+fn what_is_passed_stands_on_the_hand_that_is_told() {
+    let (mut right, mut wrong) = (0, Vec::new());
+    for (name, world) in worlds() {
+        let engine = Engine::in_memory(world, None).unwrap();
+        let world = engine.world().unwrap();
+        for (answer, way) in ways(&engine) {
+            let floor = &engine.floors().unwrap()[&answer.map];
+            let points = &answer.route.as_ref().unwrap().points;
+            for (stage, passage) in answer.stages.iter().zip(&way.passages) {
+                for (side, thing) in passage.stretches.iter().flat_map(|s| &s.passed) {
+                    let named = |r: &&orthoframe::map::Replica| {
+                        r.area == stage.area && r.name == thing.phrase().name()
+                    };
+                    let id = world.replicas.values().find(named).unwrap().id;
+                    let bounds = &floor.scene().replicas[&id].bounds;
+                    let middle = nalgebra::center(&bounds.min, &bounds.max);
+                    let here = points.windows(2).flat_map(|w| {
+                        let along = w[1] - w[0];
+                        let steps = (0..=20).map(move |k| w[0] + along * (f64::from(k) / 20.0));
+                        steps.map(move |at| (at, along))
+                    });
+                    let here = here.filter(|(at, along)| {
+                        along.norm() > 1.0
+                            && floor.locate(*at).is_some_and(|(area, _)| area == stage.area)
+                    });
+                    let nearest =
+                        here.min_by(|a, b| (a.0 - middle).norm().total_cmp(&(b.0 - middle).norm()));
+                    let (at, along) = nearest.unwrap();
+                    let left = along.perp(&(middle - at)) > 0.0;
+                    match left == (*side == Side::Left) {
+                        true => right += 1,
+                        false => wrong.push(format!(
+                            "{name}: {} – {}: {}",
+                            answer.from,
+                            answer.to,
+                            thing.phrase().name()
+                        )),
+                    }
+                }
+            }
+        }
+    }
+    // A way that winds round a thing passes it on both hands.
+    assert!(right > 60 && wrong.len() * 50 < right, "{right} {wrong:#?}");
 }
 
 #[test]

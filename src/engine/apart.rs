@@ -101,7 +101,7 @@ impl Engine {
             match language {
                 Language::Russian => {
                     let into = match apart.place {
-                        Entity::Map(map) => format!("на этаж «{}»", world.maps[&map].name),
+                        Entity::Map(_) => to.whither_storey(language),
                         _ => russian::with(Preposition::V, Case::Accusative, to.phrase()),
                     };
                     let into = capitalized(&into);
@@ -115,22 +115,15 @@ impl Engine {
                 }
                 Language::English => {
                     let to = match apart.place {
-                        Entity::Map(map) => {
-                            let (name, english) =
-                                (&world.maps[&map].name, &world.maps[&map].name_en);
-                            format!(
-                                "the floor “{}”",
-                                if english.is_empty() { name } else { english }
-                            )
-                        }
-                        _ => to.english(),
+                        Entity::Map(_) => to.whither_storey(language),
+                        _ => format!("to {}", to.english()),
                     };
                     match (apart.by_stairs, elsewhere) {
                         (true, _) => {
-                            format!("Only stairs lead to {to}, and the robot cannot climb them.")
+                            format!("Only stairs lead {to}, and the robot cannot climb them.")
                         }
-                        (false, true) => format!("Neither door nor lift leads to {to}."),
-                        (false, false) => format!("Neither door nor passage leads to {to}."),
+                        (false, true) => format!("Neither door nor lift leads {to}."),
+                        (false, false) => format!("Neither door nor passage leads {to}."),
                     }
                 }
             }

@@ -328,12 +328,8 @@ impl Words<'_> {
                 Language::English => format!("call the lift “{lift}”"),
             },
             Deed::Ride { lift, to, .. } => match self.language {
-                Language::Russian => {
-                    format!("поехать на лифте «{lift}» на этаж «{}»", self.storey(to))
-                }
-                Language::English => {
-                    format!("ride the lift “{lift}” to the floor “{}”", self.storey(to))
-                }
+                Language::Russian => format!("поехать на лифте «{lift}» {}", self.storey(to)),
+                Language::English => format!("ride the lift “{lift}” {}", self.storey(to)),
             },
             Deed::Take(thing) => format!("{} {}", pick("взять", "take"), accusative(thing)),
             Deed::Put { thing, onto: Some(onto) } => format!(
@@ -421,11 +417,8 @@ impl Words<'_> {
         let area = |e| if let Entity::Area(id) = e { Some(id) } else { None };
         let area = self.world.find(room).into_iter().find_map(area);
         let map = area.and_then(|id| self.world.placement(id)).map(|(map, _)| map);
-        let name = |map| match self.world.maps[&map].name_en.as_str() {
-            english if self.language == Language::English && !english.is_empty() => english,
-            _ => self.world.maps[&map].name.as_str(),
-        };
-        map.map_or(room, name).to_owned()
+        let map = map.map(|map| named(self.world, Entity::Map(map)));
+        map.map_or(room.to_owned(), |map| map.whither_storey(self.language))
     }
 
     /// Made to have things in it, and not on it.

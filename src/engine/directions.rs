@@ -32,6 +32,8 @@ const AT_BEND: f64 = 110.0;
 const WORTH_TELLING: f64 = 60.0;
 /// So many landmarks a stretch.
 const LANDMARKS: usize = 2;
+/// What is moved oftener than this is no landmark, percent.
+const MOVED_OFTEN: u8 = 50;
 
 impl Engine {
     /// A way over the map in the terms of people. `heading` is how one stands at its beginning, where that is known.
@@ -59,8 +61,10 @@ impl Surroundings<'_> {
     ) -> Result<Option<Directions>, Error> {
         let Ok(route) = &answer.route else { return Ok(None) };
         let (world, relations) = (self.world()?, self.relations()?);
-        let guide = Guide { world, relations, floor: self.floor(answer.map)?, end: &answer.end };
         let mut line: &[Point] = &route.points;
+        let start = line.first().copied();
+        let floor = self.floor(answer.map)?;
+        let guide = Guide { world, relations, floor, end: &answer.end, start };
         let mut start = None;
         let mut facing = heading.map(|h| {
             let (sin, cos) = h.sin_cos();
@@ -156,6 +160,8 @@ struct Guide<'e> {
     relations: &'e Relations,
     floor: &'e FloorPlan,
     end: &'e End,
+    /// Where the way begins.
+    start: Option<Point>,
 }
 
 impl Guide<'_> {
@@ -190,12 +196,18 @@ impl Guide<'_> {
             }
         }
         let mut told: Vec<Named> = Vec::new();
+        let mut is_new = |thing: &Named| {
+            let is_new = !told.contains(thing);
+            told.push(thing.clone());
+            is_new
+        };
         for stretch in &mut stretches {
-            stretch.passed.retain(|(_, thing)| {
-                let is_new = !told.contains(thing);
-                told.push(thing.clone());
-                is_new
-            });
+            stretch.passed.retain(|(_, thing)| is_new(thing));
+        }
+        let mut turned_at: Vec<Named> = Vec::new();
+        for stretch in &mut stretches {
+            stretch.at = stretch.at.take().filter(|thing| !turned_at.contains(thing));
+            turned_at.extend(stretch.at.clone());
         }
         // Turning by a thing is enough to be told of it once.
         for n in 1..stretches.len() {
@@ -207,12 +219,16 @@ impl Guide<'_> {
         stretches
     }
 
-    /// Things on the floor of a room that are there to stay and whose names no other thing of the room bears.
+    /// Things on the floor of a room that are there to stay, that are not at the way's own ends and whose names no other
+    /// thing of the room bears.
     fn landmarks(&self, area: AreaId) -> Vec<(&PlacedReplica, Named)> {
         let here: Vec<&PlacedReplica> = self.floor.scene().replicas_in(area).collect();
         let name = |thing: &PlacedReplica| self.world.name(Entity::Replica(thing.id));
         let stays = |thing: &&&PlacedReplica| {
+            let replica = &self.world.replicas[&thing.id];
             *self.end != End::Entity(Entity::Replica(thing.id))
+                && self.start.is_none_or(|start| distance(thing, start, start) >= WORTH_TELLING)
+                && replica.move_prob <= MOVED_OFTEN
                 && !self.world.has_trait(thing.id, "portable")
                 && self.relations.support_of(thing.id).is_none()
                 && here.iter().filter(|other| name(other) == name(thing)).count() == 1
@@ -244,7 +260,7 @@ fn segments_apart((a, b): (Point, Point), (c, d): (Point, Point)) -> f64 {
     to(a, (c, d)).min(to(b, (c, d))).min(to(c, (a, b))).min(to(d, (a, b)))
 }
 
-/// What one passes between two points, in order, the nearest only.
+/// What one passes between two points, in order, the nearest only, and nothing that lies across the way.
 fn passed(
     landmarks: &[(&PlacedReplica, Named)],
     a: Point,
@@ -258,7 +274,12 @@ fn passed(
             let middle = nalgebra::center(&thing.bounds.min, &thing.bounds.max);
             let along = (middle - a).dot(&way);
             let away = distance(thing, a, b);
-            let side = if way.perp(&(middle - a)) > 0.0 { Side::Left } else { Side::Right };
+            let corners = || thing.prisms.iter().flat_map(|p| p.polygon.edges()).map(|(p, _)| p);
+            let side = match () {
+                () if corners().all(|p| way.perp(&(p - a)) > 0.0) => Side::Left,
+                () if corners().all(|p| way.perp(&(p - a)) < 0.0) => Side::Right,
+                () => return None,
+            };
             (away <= BESIDE && along > 0.0 && along < length).then_some((away, along, side, name))
         })
         .collect();

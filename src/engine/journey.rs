@@ -2,11 +2,12 @@
 
 use crate::geometry::{Leg, Method, Remedy, Ride, Target, across};
 use crate::language::Language;
-use crate::language::report::Detail;
-use crate::map::World;
+use crate::language::report::{Detail, Named};
+use crate::map::{Entity, World};
 use crate::units::{Deg, MapId, Point};
 
 use super::advice::Advice;
+use super::lexicon::named;
 use super::route::{End, Located, RouteAnswer};
 use super::surroundings::Surroundings;
 use super::{Engine, Error};
@@ -62,7 +63,25 @@ impl Surroundings<'_> {
         let world = self.world()?;
         let floors = self.floors()?;
         let ends = ((start.map, start.at), (goal.map, goal.target));
-        match across(world, floors, ends.0, ends.1, method) {
+        // A door is reached on whichever side is nearer.
+        let sides = match goal.target {
+            Target::Door { door, .. } => world.door_areas(door),
+            _ => Vec::new(),
+        };
+        let others = sides.into_iter().filter_map(|area| match goal.target {
+            Target::Door { door, area: own } if own != area => Some(Target::Door { door, area }),
+            _ => None,
+        });
+        let length = |legs: &Vec<Leg>| legs.iter().map(|leg| leg.route.length).sum::<f64>();
+        let found = others.fold(across(world, floors, ends.0, ends.1, method), |best, target| {
+            let side = across(world, floors, ends.0, (goal.map, target), method);
+            match (&best, &side) {
+                (Ok(a), Ok(b)) if length(b) < length(a) => side,
+                (Err(_), Ok(_)) => side,
+                _ => best,
+            }
+        });
+        match found {
             Ok(found) => {
                 let rides: Vec<Ride> = found.iter().filter_map(|leg| leg.ride.clone()).collect();
                 let lift = |k: usize| rides.get(k).map(|r| world.domain.lifts[r.lift].0.as_str());
@@ -119,8 +138,9 @@ impl Surroundings<'_> {
         for (k, leg) in journey.legs.iter().enumerate() {
             let heading = heading.filter(|_| k == 0);
             let told = self.route_in_words(leg, heading, language, detail)?;
-            // Who stands before the lift already need not be told so.
-            let stays = leg.end == End::Lift && leg.stages.len() < 2;
+            // Who stands before the lift already need not be told so, nor who has come where the ride ends.
+            let stays = leg.end == End::Lift && leg.stages.len() < 2
+                || k > 0 && self.directions(leg, None)?.is_some_and(|way| way.is_there());
             sentences.extend(told.into_iter().filter(|_| !stays));
             if let Some(ride) = journey.rides.get(k) {
                 sentences.push(ride_in_words(world, ride, language));
@@ -130,15 +150,12 @@ impl Surroundings<'_> {
     }
 }
 
-/// «Поднимитесь на лифте «Лифт-1» на этаж «Второй этаж».»
+/// «Поднимитесь на лифте «Лифт-1» на Второй этаж.»
 #[must_use]
 pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
-    let lift = &world.domain.lifts[ride.lift].0;
-    let floor = world.placement(ride.to).map_or("", |(map, _)| world.maps[&map].name.as_str());
-    let floor_en = world.placement(ride.to).map_or("", |(map, _)| {
-        let map = &world.maps[&map];
-        if map.name_en.is_empty() { map.name.as_str() } else { map.name_en.as_str() }
-    });
+    let lift = Named::plain(&world.domain.lifts[ride.lift].0);
+    let floor = world.placement(ride.to).map(|(map, _)| named(world, Entity::Map(map)));
+    let whither = floor.map(|floor| floor.whither_storey(language)).unwrap_or_default();
     match language {
         Language::Russian => {
             let verb = if ride.rise > 1.0 {
@@ -148,7 +165,7 @@ pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
             } else {
                 "Проезжайте"
             };
-            format!("{verb} на лифте «{lift}» на этаж «{floor}».")
+            format!("{verb} на лифте «{}» {whither}.", lift.phrase().name())
         }
         Language::English => {
             let way = if ride.rise > 1.0 {
@@ -158,7 +175,7 @@ pub fn ride_in_words(world: &World, ride: &Ride, language: Language) -> String {
             } else {
                 ""
             };
-            format!("Take the lift “{lift}” {way}to the floor “{floor_en}”.")
+            format!("Take the lift “{}” {way}{whither}.", lift.english_name())
         }
     }
 }

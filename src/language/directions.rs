@@ -138,10 +138,19 @@ impl Directions {
                 .filter_map(|n| self.say_passage(n, language, detail))
                 .collect(),
         };
-        if sentences.is_empty() {
-            sentences.push(self.already_there(language));
+        if sentences.is_empty() || self.is_there() {
+            sentences = vec![self.already_there(language)];
         }
         sentences
+    }
+
+    /// Whether no step is left to the goal.
+    #[must_use]
+    pub fn is_there(&self) -> bool {
+        /// cm
+        const NO_WAY: f64 = 10.0;
+        let length = |passage: &Passage| passage.stretches.iter().map(|s| s.length).sum::<f64>();
+        matches!(&self.passages[..], [only] if length(only) < NO_WAY)
     }
 
     /// One room's part of the way as a sentence; none where nothing is left to do.
@@ -156,13 +165,22 @@ impl Directions {
 
     fn already_there(&self, language: Language) -> String {
         let room = self.passages.last().map(|p| &p.room);
-        match (room, language) {
-            (Some(room), Language::Russian) => {
+        match (&self.goal, room, language) {
+            (Goal::Thing(thing), _, Language::Russian) => {
+                let at = russian::with(Preposition::U, Case::Genitive, thing.phrase());
+                format!("Вы уже {at}.")
+            }
+            (Goal::Thing(thing), _, Language::English) => {
+                format!("You are already at {}.", thing.english())
+            }
+            (Goal::Room, Some(room), Language::Russian) => {
                 format!("Вы уже {}.", russian::where_at(room.phrase()))
             }
-            (Some(room), Language::English) => format!("You are already in {}.", room.english()),
-            (None, Language::Russian) => "Вы уже на месте.".to_owned(),
-            (None, Language::English) => "You are already there.".to_owned(),
+            (Goal::Room, Some(room), Language::English) => {
+                format!("You are already {}.", room.english_place())
+            }
+            (_, _, Language::Russian) => "Вы уже на месте.".to_owned(),
+            (_, _, Language::English) => "You are already there.".to_owned(),
         }
     }
 
@@ -176,7 +194,8 @@ impl Directions {
                 return match (target, language) {
                     (None, _) => self.already_there(language),
                     (Some(to), Language::Russian) => {
-                        format!("Пройдите {} {to}.", russian::where_at(rooms[0].phrase()))
+                        let here = capitalized(&russian::where_at(rooms[0].phrase()));
+                        format!("{here} пройдите {to}.")
                     }
                     (Some(to), Language::English) => {
                         format!("In {}, go to {to}.", rooms[0].english())
@@ -248,25 +267,36 @@ impl Told<'_> {
     /// Doors and turns: «Поверните налево, затем направо и выйдите через Дверь-ZY в Комнату-Y.»
     fn turns(&self) -> Option<String> {
         let end = self.end()?;
-        // How one stands in the first room is mostly unknown, and the door is in sight.
-        if self.first
-            && self.passage.exit.is_some()
-            && self.passage.stretches.first().is_none_or(|s| s.angle.is_none())
-        {
+        // How one stands in the first room is mostly unknown: without that no turn has a meaning.
+        if self.first && self.passage.stretches.first().is_none_or(|s| s.angle.is_none()) {
             return Some(end);
         }
         let turns = self.main_turns();
         let Some((first, rest)) = turns.split_first() else {
             return Some(match (self.first, self.is_russian()) {
                 (true, _) => end,
-                (false, true) => format!("идите прямо и {end}"),
-                (false, false) => format!("go straight on and {end}"),
+                (false, true) => match self.target_after_walk() {
+                    Some(to) => format!("идите прямо {to}"),
+                    None => format!("идите прямо и {end}"),
+                },
+                (false, false) => {
+                    let way = self
+                        .target_after_walk()
+                        .unwrap_or_else(|| end.strip_prefix("go ").unwrap_or(&end).to_owned());
+                    format!("go straight on {way}")
+                }
             });
         };
         let mut text = first.imperative(self.language).unwrap_or_default().to_owned();
+        let mut before = *first;
         for turn in rest {
             text.push_str(self.pick(", затем ", ", then "));
-            text.push_str(turn.imperative(self.language).unwrap_or_default());
+            let whole = turn.imperative(self.language).unwrap_or_default();
+            // «Поверните направо, затем налево»
+            let verb = before.imperative(self.language).and_then(|b| b.split(' ').next());
+            let shorter = verb.and_then(|verb| whole.strip_prefix(verb)).map(str::trim_start);
+            text.push_str(shorter.filter(|rest| !rest.is_empty()).unwrap_or(whole));
+            before = *turn;
         }
         Some(format!("{text}{}{end}", self.pick(" и ", " and ")))
     }
@@ -328,6 +358,15 @@ impl Told<'_> {
             true => russian::where_at(self.passage.room.phrase()),
             false => format!("in {},", self.passage.room.english()),
         };
+        // «пройдите 3,8 м мимо Стола-1 (он слева) до Стула-2»
+        let end = match (self.target_after_walk(), clauses.last_mut()) {
+            (Some(to), Some(walk)) => {
+                walk.push(' ');
+                walk.push_str(&to);
+                None
+            }
+            _ => end,
+        };
         let end = end.into_iter().map(|end| match &self.passage.exit {
             Some(exit) if Turn::of(exit.angle) != Turn::Straight => {
                 let turn = Turn::of(exit.angle).imperative(self.language).unwrap_or_default();
@@ -373,19 +412,30 @@ impl Told<'_> {
         format!("{} {far}{by}", self.pick("пройдите", "walk"))
     }
 
+    /// «до Точки-К», "to Point K", behind a way that was told; none where the way goes on, or the room was the goal.
+    fn target_after_walk(&self) -> Option<String> {
+        if self.passage.exit.is_some() && self.next.is_some() {
+            return None;
+        }
+        match (self.goal, self.is_russian()) {
+            (Goal::Room, _) => None,
+            (Goal::Thing(thing), true) => {
+                Some(russian::with(Preposition::Do, Case::Genitive, thing.phrase()))
+            }
+            (Goal::Thing(thing), false) => Some(format!("to {}", thing.english())),
+            (Goal::Point(at), true) => Some(format!("до точки {at}")),
+            (Goal::Point(at), false) => Some(format!("to the point {at}")),
+        }
+    }
+
     /// «выйдите через Дверь-ВZ в Комнату-Z», «дойдите до Точки-К»; none where the room itself was the goal.
     fn end(&self) -> Option<String> {
         let (Some(exit), Some(next)) = (&self.passage.exit, self.next) else {
-            return match (self.goal, self.is_russian()) {
-                (Goal::Room, _) => None,
-                (Goal::Thing(thing), true) => Some(format!(
-                    "дойдите {}",
-                    russian::with(Preposition::Do, Case::Genitive, thing.phrase())
-                )),
-                (Goal::Thing(thing), false) => Some(format!("walk up to {}", thing.english())),
-                (Goal::Point(at), true) => Some(format!("дойдите до точки {at}")),
-                (Goal::Point(at), false) => Some(format!("walk to the point {at}")),
+            let verb = match self.goal {
+                Goal::Thing(_) => self.pick("дойдите", "walk up"),
+                _ => self.pick("дойдите", "walk"),
             };
+            return self.target_after_walk().map(|to| format!("{verb} {to}"));
         };
         Some(match self.is_russian() {
             true => {
@@ -403,9 +453,8 @@ impl Told<'_> {
             }
             false => {
                 let door = match (&exit.name, exit.opening) {
-                    (Some(name), _) => name.english(),
-                    (None, Opening::Door) => "the door".to_owned(),
-                    (None, Opening::Passage) => "the passage".to_owned(),
+                    (Some(name), opening) => name.english_door(opening),
+                    (None, opening) => opening.english().to_owned(),
                 };
                 match self.first {
                     true => format!(
@@ -489,19 +538,31 @@ mod tests {
             &expect![[r#"
                 Пройдите из Комнаты-В через Кухню в Кабинет директора, к Точке-К.
                 Выйдите из Комнаты-В через Дверь-ВZ на Кухню. Возьмите левее и выйдите через Дверь-ZY в Кабинет директора. Поверните направо и дойдите до Точки-К.
-                В Комнате-В пройдите 3,2 м, возьмите левее и выйдите через Дверь-ВZ на Кухню. На Кухне возьмите левее, пройдите 1 м, возьмите правее, пройдите 60 см, возьмите левее и выйдите через Дверь-ZY в Кабинет директора. В Кабинете директора у Кресла у окна поверните направо, пройдите 2,1 м мимо Письменного стола (он слева) и дойдите до Точки-К.
+                В Комнате-В пройдите 3,2 м, возьмите левее и выйдите через Дверь-ВZ на Кухню. На Кухне возьмите левее, пройдите 1 м, возьмите правее, пройдите 60 см, возьмите левее и выйдите через Дверь-ZY в Кабинет директора. В Кабинете директора у Кресла у окна поверните направо и пройдите 2,1 м мимо Письменного стола (он слева) до Точки-К.
                 Go from Room-B through the kitchen to director's office, to Point-K.
                 Leave Room-B through Door-BZ into the kitchen. Bear left and go through Door-ZY into director's office. Turn right and walk up to Point-K.
-                In Room-B, walk 3.2 m, bear left and go through Door-BZ into the kitchen. In the kitchen, bear left, walk 1 m, bear right, walk 60 cm, bear left and go through Door-ZY into director's office. In director's office, turn right at Кресло у окна, walk 2.1 m past the desk (on your left) and walk up to Point-K.
+                In Room-B, walk 3.2 m, bear left and go through Door-BZ into the kitchen. In the kitchen, bear left, walk 1 m, bear right, walk 60 cm, bear left and go through Door-ZY into director's office. In director's office, turn right at Кресло у окна and walk 2.1 m past the desk (on your left) to Point-K.
             "#]],
         );
     }
 
     #[test]
     fn who_is_there_already_is_told_so() {
-        let here = Passage { room: name("Кухня"), stretches: vec![], exit: None };
+        let here = || Passage { room: name("Кухня"), stretches: vec![], exit: None };
+        let at = Directions { passages: vec![here()], goal: Goal::Thing(name("Стол")) };
         check(
-            &Directions { passages: vec![here], goal: Goal::Room },
+            &at,
+            &expect![[r#"
+            Вы уже у Стола.
+            Вы уже у Стола.
+            Вы уже у Стола.
+            You are already at the table.
+            You are already at the table.
+            You are already at the table.
+        "#]],
+        );
+        check(
+            &Directions { passages: vec![here()], goal: Goal::Room },
             &expect![[r#"
             Вы уже на Кухне.
             Вы уже на Кухне.
