@@ -2,7 +2,7 @@
 //!
 //! After paper 1, section 7: the Area's base, less the bases of all Orthoframes between what the robot drives
 //! over and its height, less the dead zones. Unlike the paper's, a dead zone is found by the robot's size: it is
-//! floor that the disc covers from no place where it fits, nor the footprint in a strait ([`super::strait`]).
+//! floor that the disc covers from no place where it fits, nor the footprint at any heading ([`super::coverage`]).
 //!
 //! A Fragment's floor ends on the lines of its doorways. Near an open doorway the neighbour's floor and
 //! furniture are taken into account as far as the robot's radius reaches, so that both Fragments agree on where
@@ -24,10 +24,11 @@ use crate::map::{DoorKind, DoorState, DoorStatus, Permeability, RobotProfile, Wo
 use crate::units::{AreaId, DoorId, Point, ReplicaId, Vector};
 
 use super::buckets::Buckets;
+use super::coverage::Coverage;
 use super::dead_zone::dead_zones;
 use super::doors::Doorway;
 use super::edging::Edging;
-use super::grid::{Contour, Grid, Outlines, difference, intersection, overlays, smooth};
+use super::grid::{Contour, Grid, Outlines, Shapes, difference, intersection, overlays, smooth};
 use super::mesh::{Mesh, NONE};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
@@ -36,7 +37,6 @@ use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::{Prism, Scene};
 use super::storey::{Storey, THIN};
-use super::strait::Strait;
 use super::{Bounds, Polygon, Region, nearest_on_segment};
 
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
@@ -160,7 +160,7 @@ impl FragmentFloor {
         let mut beyond: Vec<Contour> = Vec::new();
         for &(_, doorway, side) in &open {
             floor.extend(stub(site, &grid, doorway, side, reach));
-            beyond.push(self::beyond(&grid, doorway, side, reach));
+            beyond.push(self::beyond(&grid, doorway, side, 0.0, reach));
         }
         let mut blocked: Vec<Contour> =
             obstacles.iter().map(|o| grid.contour(&o.polygon)).collect();
@@ -214,33 +214,48 @@ impl FragmentFloor {
         built
     }
 
-    /// The same floor with what a robot with a footprint covers in straits: free where it was dead.
-    pub(super) fn with_straits(&self, site: &Site<'_>, straits: &[&Strait]) -> Self {
-        let grid = self.grid;
-        let contours = |regions: &[Region]| -> Vec<Contour> {
-            regions.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect()
-        };
-        let open = site.doorways_of(self.area).filter(|(_, d, _)| site.is_open(d));
-        let beyond: Vec<Contour> =
-            open.map(|(_, d, side)| beyond(&grid, d, side, site.reach())).collect();
-        let inside = difference(&contours(&self.raw()), &beyond);
-        let inside: Vec<Contour> = inside.into_iter().flatten().collect();
-        let mut covered = contours(&self.free());
-        covered.extend(straits.iter().flat_map(|s| &s.swept).map(|p| grid.contour(p)));
-        let rules = [OverlayRule::Intersect, OverlayRule::Difference];
-        let [free, dead] = overlays(&inside, &covered, rules, FillRule::NonZero);
-        let free = smooth(free);
-        let frames = Mesh::of(&grid, &free, PATIENCE);
-        debug_assert!(frames.fills(&grid, &free), "{:?}", self.area);
+    /// The same floor with what a robot with a footprint covers: free where it was dead for its disc. `lanes` are those of
+    /// the straits that lead over it.
+    pub(super) fn with_footprint(
+        &self,
+        site: &Site<'_>,
+        coverage: &Coverage<'_>,
+        lanes: Vec<(Point, Point)>,
+    ) -> Self {
+        let inside: Vec<Contour> =
+            self.inside(site, &self.grid, 0.0).into_iter().flatten().collect();
+        let zones = difference(&inside, &contours(&self.grid, &self.free()));
+        let (mut left, mut dead) = (Vec::new(), Shapes::new());
+        for zone in zones {
+            let of_disc = dead_zones(&self.grid, vec![zone.clone()]);
+            if of_disc.is_empty() {
+                left.extend(zone);
+                continue;
+            }
+            let of_footprint = coverage.left_of(&zone);
+            left.extend(of_footprint.iter().flatten().cloned());
+            dead.extend(dead_zones(&self.grid, of_footprint));
+        }
+        let free = smooth(difference(&inside, &left));
+        let frames = Mesh::of(&self.grid, &free, PATIENCE);
+        debug_assert!(frames.fills(&self.grid, &free), "{:?}", self.area);
         Self {
-            dead: Outlines::of(&dead_zones(&grid, dead)),
+            dead: Outlines::of(&dead),
             dead_zones: OnDemand::default(),
             ids: ids(&frames),
             passframes: OnDemand::default(),
             frames,
-            lanes: straits.iter().flat_map(|s| s.lanes).map(|l| (l.ends[0], l.ends[1])).collect(),
+            lanes,
             ..self.clone()
         }
+    }
+
+    /// The floor that nothing stands on up to the open doorways' lines, or so much further, in cm, on a grid.
+    pub(super) fn inside(&self, site: &Site<'_>, grid: &Grid, further: f64) -> Shapes {
+        let open = site.doorways_of(self.area).filter(|(_, d, _)| site.is_open(d));
+        let beyond: Vec<Contour> =
+            open.map(|(_, d, side)| beyond(grid, d, side, further, site.reach())).collect();
+        difference(&contours(grid, &self.raw()), &beyond)
     }
 
     /// The doorways that it names, by their index in [`super::FloorPlan::doorways`].
@@ -264,7 +279,7 @@ impl FragmentFloor {
         self.bare.regions(&self.grid)
     }
 
-    /// Floor that the robot covers neither from a place where it may turn nor in a strait; what stands around, see
+    /// Floor that the robot covers from no place and at no heading; what stands around, see
     /// [`super::FloorPlan::around`].
     #[must_use]
     pub fn dead_zones(&self) -> &[Region] {
@@ -360,8 +375,8 @@ impl Doorway {
         self.gap / 2.0 + if side == 0 { depth } else { -depth }
     }
 
-    fn beyond(&self, side: usize, depth: f64) -> Polygon {
-        self.rectangle(self.past(side, 0.0), self.past(side, depth), 0.5)
+    fn beyond(&self, side: usize, from: f64, depth: f64) -> Polygon {
+        self.rectangle(self.past(side, from), self.past(side, depth), 0.5)
     }
 
     /// What a disc on the doorway's line can touch, on both sides.
@@ -371,10 +386,14 @@ impl Doorway {
     }
 }
 
-/// What lies beyond a doorway's line, deeper than the [`stub`].
-fn beyond(grid: &Grid, doorway: &Doorway, side: usize, reach: f64) -> Contour {
+/// What lies so far beyond a doorway's line, in cm, or deeper, until behind the [`stub`].
+fn beyond(grid: &Grid, doorway: &Doorway, side: usize, from: f64, reach: f64) -> Contour {
     let depth = doorway.gap / 2.0 + 2.0 * reach + 10.0;
-    grid.contour(&doorway.beyond(side, depth))
+    grid.contour(&doorway.beyond(side, from, depth))
+}
+
+pub(super) fn contours(grid: &Grid, regions: &[Region]) -> Vec<Contour> {
+    regions.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect()
 }
 
 /// The floor through an open doorway as far as a disc on its line reaches.

@@ -22,6 +22,7 @@ mod blocked;
 mod buckets;
 mod chain;
 pub mod contact;
+mod coverage;
 mod dead_zone;
 mod digest;
 mod doors;

@@ -10,14 +10,19 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay_rule::OverlayRule;
+
 use crate::map::{DoorState, RobotProfile, World};
 use crate::units::{AreaId, DoorId, MapId, Point, ReplicaId};
 
 use super::buckets::Buckets;
+use super::coverage::{self, Coverage};
 use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
 use super::doors::{Doorway, doorways};
 use super::floor::{FragmentFloor, SLACK, Site};
+use super::grid::{Contour, overlay};
 use super::kept;
 use super::network::{Network, Portal, overlap};
 use super::replica_index::ReplicaIndex;
@@ -42,7 +47,7 @@ pub struct FloorPlan {
     by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
-    /// The same, with what is covered in straits.
+    /// The same, with what only the footprint covers.
     covered: Vec<Arc<FragmentFloor>>,
     pub(super) network: Network,
     /// By Fragment, then by doorway.
@@ -357,7 +362,7 @@ impl FloorPlan {
         &self.fragments[number as usize]
     }
 
-    /// The Fragment with the Passframes of straits.
+    /// The Fragment with the Passframes of all that the footprint covers.
     pub(super) fn covered(&self, number: u32) -> &FragmentFloor {
         &self.covered[number as usize]
     }
@@ -446,16 +451,22 @@ impl FloorPlan {
                     open.extend(own.filter(|&d| crossed.insert(d)));
                 }
             }
-            let mut changed: BTreeSet<usize> = stale.iter().copied().collect();
+            let mut changed = BTreeSet::new();
+            let reach = self.body_reach();
+            let mut near = Vec::new();
+            let mut mark = |changed: &mut BTreeSet<usize>, extent: &Bounds| {
+                self.by_place.meeting(extent, &mut near);
+                changed.extend(near.iter().map(|&n| n as usize));
+            };
+            for &number in &stale {
+                mark(&mut changed, &self.extent_of(&self.fragments[number]).grown(reach));
+            }
             let within = stale.iter().map(|&n| (n, strait::within(self, n as u32)));
             let through = crossed.iter().map(|&d| (count + d, strait::through(self, world, d)));
             for (place, fresh) in within.chain(through).collect::<Vec<_>>() {
                 let gone = std::mem::replace(&mut self.straits[place], fresh);
-                let both = gone.iter().chain(&self.straits[place]);
-                let mut near = Vec::new();
-                for strait in both {
-                    self.by_place.meeting(&strait.extent(), &mut near);
-                    changed.extend(near.iter().map(|&n| n as usize));
+                for strait in gone.iter().chain(&self.straits[place]) {
+                    mark(&mut changed, &strait.extent());
                 }
             }
             for number in changed {
@@ -470,17 +481,71 @@ impl FloorPlan {
         self.network.join(&self.fragments, self.doorways.len(), straits);
     }
 
-    /// Counts to a Fragment's free floor what is covered in straits.
+    /// Counts to a Fragment's free floor what the footprint covers and the disc does not.
     fn cover(&mut self, world: &World, number: usize) {
         let own = &self.fragments[number];
         let extent = self.extent_of(own);
-        let lies_here = |s: &&Strait| s.extent().meets(&extent);
-        let straits: Vec<&Strait> = self.straits.iter().flatten().filter(lies_here).collect();
-        let covered = match straits.is_empty() {
-            true => Arc::clone(own),
-            false => Arc::new(self.with_site(world, |site| own.with_straits(site, &straits))),
+        let near = self.straits.iter().flatten().filter(|s| s.extent().meets(&extent));
+        let lanes: Vec<(Point, Point)> =
+            near.flat_map(|s| s.lanes).map(|lane| (lane.ends[0], lane.ends[1])).collect();
+        if own.dead_zones().is_empty() && lanes.is_empty() {
+            self.covered[number] = Arc::clone(own);
+            return;
+        }
+        let covered = self.with_site(world, |site| {
+            own.with_footprint(site, &self.coverage(site, number as u32, &lanes), lanes)
+        });
+        self.covered[number] = Arc::new(covered);
+    }
+
+    /// What the footprint can touch that covers some floor of a Fragment.
+    fn coverage(&self, site: &Site<'_>, number: u32, lanes: &[(Point, Point)]) -> Coverage<'_> {
+        /// Floors overlap by so much in cm on either side of the line on which they meet.
+        const WELD: f64 = 0.1;
+        let grid = self.floor(number).grid;
+        let place = self.extent_of(self.floor(number)).grown(self.body_reach());
+        let (mut numbers, mut shut) = (vec![number], Vec::new());
+        let mut k = 0;
+        while let Some(&at) = numbers.get(k) {
+            k += 1;
+            for &(index, side) in self.doorways_at(at) {
+                let doorway = &self.doorways[index];
+                let next = self.number(doorway.areas[1 - side]).map(|n| n as u32);
+                if !site.is_open(doorway) {
+                    shut.push(doorway.line());
+                } else if let Some(next) = next.filter(|n| !numbers.contains(n))
+                    && self.floor(next).bounds.meets(&place)
+                {
+                    numbers.push(next);
+                }
+            }
+        }
+        let floors: Vec<&FragmentFloor> = numbers.iter().map(|&n| self.floor(n)).collect();
+        let within = |regions: Vec<Region>| -> Vec<Contour> {
+            let near = regions.iter().flat_map(Region::contours);
+            near.map(|c| grid.contour(&c.clone().clipped(&place))).collect()
         };
-        self.covered[number] = covered;
+        let inside =
+            floors.iter().flat_map(|f| within(f.grid.regions(&f.inside(site, &f.grid, WELD))));
+        let inside: Vec<Contour> = inside.collect();
+        let floor = overlay(&inside, &[], OverlayRule::Subject, FillRule::NonZero);
+        let floor: Vec<Contour> = floor.into_iter().flatten().collect();
+        let rims: Vec<(Point, Point)> =
+            floor.iter().flat_map(|c| grid.polygon(c).edges().collect::<Vec<_>>()).collect();
+        let walls = floors.iter().flat_map(|f| f.walls.iter().copied());
+        Coverage {
+            robot: &self.robot,
+            grid,
+            edges: rims.into_iter().chain(walls).chain(shut).collect(),
+            free: floors.iter().flat_map(|f| within(f.free())).collect(),
+            floor,
+            lanes: lanes.iter().map(|(a, b)| (b.y - a.y).atan2(b.x - a.x)).collect(),
+        }
+    }
+
+    /// How far from what the body covers it may touch something, in cm.
+    fn body_reach(&self) -> f64 {
+        2.0 * coverage::extent(&self.robot) + 5.0
     }
 
     /// The places where a Fragment's centre space touches another's.

@@ -19,8 +19,7 @@
 //! A footprint may lie aside of the centre on which it turns; then the way back leads along a line of its own, since
 //! the robot drives ahead both times. A strait has both ways, so that where the robot came in it comes out.
 //!
-//! What the body passes over on a lane, and on all lines beside it that join the same two pieces, is free floor. What only
-//! another heading through the same gap would cover is not.
+//! What the body passes over there is free floor, as all that it covers somewhere ([`super::coverage`]).
 //!
 //! Deliberately absent: turning, shifting the heading or backing within a strait. A bend too narrow for the covering
 //! disc is no way.
@@ -30,22 +29,22 @@
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
-use std::f64::consts::{PI, SQRT_2};
+use std::f64::consts::PI;
 
 use crate::map::{RobotProfile, World};
 use crate::units::{Point, Vector};
 
-use super::dead_zone::RIM;
+use super::coverage::{body, meeting, over, shrunk};
 use super::doors::{distance, segment_distance};
 use super::floor::{FragmentFloor, SLACK};
-use super::grid::{Contour, Grid, Shapes, difference};
+use super::grid::{Contour, Grid, Shapes};
 use super::mesh::Mesh;
 use super::narrows::Narrows;
 use super::network::Piece;
 use super::plan::FloorPlan;
 use super::route::Anchor;
 use super::search::CellKey;
-use super::{Bounds, Polygon, convex_hull};
+use super::{Bounds, Polygon};
 
 /// Straight legs between two pieces of centre space, one for each way.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,8 +52,6 @@ pub(super) struct Strait {
     pub(super) lanes: [Lane; 2],
     /// The doorways that it passes, by their indices in the plan, which rise, each with the Fragments on its sides.
     pub(super) doorways: Vec<(usize, [u32; 2])>,
-    /// What the body passes over on all the lines beside the lanes that lead from the one piece to the other.
-    pub(super) swept: Vec<Polygon>,
 }
 
 impl Strait {
@@ -63,9 +60,9 @@ impl Strait {
         self.lanes[0].cells
     }
 
-    /// A box around all that the body passes over.
+    /// A box around its lanes.
     pub(super) fn extent(&self) -> Bounds {
-        self.swept.iter().fold(Bounds::EMPTY, |b, s| b.union(&s.bounds()))
+        Bounds::of(self.lanes.iter().flat_map(|lane| lane.ends))
     }
 }
 
@@ -272,53 +269,21 @@ fn join(plan: &FloorPlan, numbers: &[u32]) -> Vec<Strait> {
         let ways = near.iter().flat_map(|&from| goals.iter().map(move |&to| to - from));
         site.headings.extend(ways.filter(|way| way.norm() > LINE).map(|way| way.y.atan2(way.x)));
     }
-    let mut best: BTreeMap<(Piece, Piece), (Lane, &Site<'_>)> = BTreeMap::new();
+    let mut best: BTreeMap<(Piece, Piece), Lane> = BTreeMap::new();
     for site in &sites {
         for (pieces, lane) in self::best(plan, site) {
-            let is_shorter = best.get(&pieces).is_none_or(|b| lane.length() < b.0.length());
+            let is_shorter = best.get(&pieces).is_none_or(|b| lane.length() < b.length());
             if is_shorter {
-                best.insert(pieces, (lane, site));
+                best.insert(pieces, lane);
             }
         }
     }
     let both = best.iter().filter(|((from, to), _)| from < to);
-    let straits = both.filter_map(|(&(from, to), &(lane, site))| {
-        let (back, back_site) = *best.get(&(to, from))?;
-        let mut swept = beside(plan, site, (from, to), &lane);
-        // A footprint that is the same turned about sweeps the same on its way back.
-        if lane.reversed() != back {
-            swept.extend(beside(plan, back_site, (to, from), &back));
-        }
-        Some(Strait { lanes: [lane, back], doorways: Vec::new(), swept })
+    let straits = both.filter_map(|(&(from, to), &lane)| {
+        let back = *best.get(&(to, from))?;
+        Some(Strait { lanes: [lane, back], doorways: Vec::new() })
     });
     straits.collect()
-}
-
-/// What the body passes over on a lane and on all lines beside it that lead from the same piece to the same other.
-fn beside(plan: &FloorPlan, site: &Site<'_>, pieces: (Piece, Piece), lane: &Lane) -> Vec<Polygon> {
-    /// So far within a stretch, in cm, its outermost lines are driven.
-    const WITHIN: f64 = 1e-3;
-    let way = (lane.ends[1] - lane.ends[0]).normalize();
-    let scan = Scan::of(plan.robot(), site, way);
-    let between = scan.marks.windows(2).filter(|m| m[1] - m[0] > 4.0 * WITHIN);
-    let outermost = between.flat_map(|m| [m[0] + WITHIN, m[1] - WITHIN]);
-    let mut found: Vec<((Piece, Piece), Lane)> = Vec::new();
-    outermost.chain(scan.regular()).for_each(|offset| scan.lanes_at(offset, &mut found));
-    let beside = found.into_iter().filter(|f| f.0 == pieces).map(|f| f.1);
-    // What rounding and slack leave along the walls belongs to what is passed.
-    let body: Vec<Vector> = body(plan.robot(), way)
-        .iter()
-        .flat_map(|v| {
-            [(1., 1.), (-1., 1.), (-1., -1.), (1., -1.)].map(|(x, y)| v + Vector::new(x, y) * RIM)
-        })
-        .collect();
-    let clear = beside.filter(|lane| is_clear(plan.robot(), site, lane)).chain([*lane]);
-    clear.map(|lane| over(&body, lane.ends)).collect()
-}
-
-/// What a body passes over from one place to another.
-fn over(body: &[Vector], [a, b]: [Point; 2]) -> Polygon {
-    Polygon::new(convex_hull(body.iter().flat_map(|&v| [a + v, b + v]).collect()))
 }
 
 /// A place in each piece of centre space of so little area that lines may miss it.
@@ -436,7 +401,7 @@ impl<'a> Scan<'a> {
         };
         let ((left, right), (low, high)) = (extent(way), extent(across));
         let mut edges = Vec::new();
-        for contour in shrunk(robot, site, way).iter().flatten() {
+        for contour in clear(robot, site, way).iter().flatten() {
             let at = |p: Point| (p.coords.dot(&way), p.coords.dot(&across));
             edges.extend(site.grid.polygon(contour).edges().map(|(a, b)| [at(a), at(b)]));
         }
@@ -510,37 +475,9 @@ impl<'a> Scan<'a> {
 }
 
 /// Where the centre of a robot that heads along `way` may be at the site.
-fn shrunk(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Shapes {
+fn clear(robot: &RobotProfile, site: &Site<'_>, way: Vector) -> Shapes {
     let body = body(robot, way);
     let extent = body.iter().map(|v| v.norm()).fold(0.0, f64::max);
-    let reach = site.place.grown(extent + 1.0);
-    let back: Vec<Vector> = body.iter().map(|v| -v).collect();
-    let near = site.edges.iter().filter(|&&(a, b)| Bounds::of([a, b]).meets(&reach));
-    let blocked: Vec<Contour> =
-        near.map(|&(a, b)| site.grid.contour(&over(&back, [a, b]))).collect();
-    difference(site.floor, &blocked)
-}
-
-/// The footprint turned to a heading, with its clearance, as one convex polygon about the centre.
-fn body(robot: &RobotProfile, way: Vector) -> Vec<Vector> {
-    let across = Vector::new(-way.y, way.x);
-    let clearance = (robot.clearance.get() - SLACK) / (PI / 8.0).cos();
-    let bounds = Bounds::of(robot.footprint.iter().copied());
-    let middle = nalgebra::center(&bounds.min, &bounds.max);
-    let mut points = Vec::new();
-    for p in &robot.footprint {
-        let corner = way * p.x + across * p.y;
-        for k in 0..8 {
-            let (sin, cos) = (f64::from(k) * PI / 4.0 + PI / 8.0).sin_cos();
-            let away = if clearance > 0.0 {
-                way * (cos * clearance) + across * (sin * clearance)
-            } else {
-                // Without clearance the body itself gives way by the slack, to both sides.
-                let inward = (middle - p).map(|d| if d == 0.0 { 0.0 } else { d.signum() });
-                (way * inward.x + across * inward.y) * (SLACK / SQRT_2)
-            };
-            points.push(Point::origin() + corner + away);
-        }
-    }
-    convex_hull(points).into_iter().map(|p| p.coords).collect()
+    let near: Vec<(Point, Point)> = meeting(site.edges, &site.place.grown(extent + 1.0)).collect();
+    shrunk(&site.grid, site.floor, &near, &body)
 }
