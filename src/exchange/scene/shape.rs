@@ -61,7 +61,10 @@ const WORDS: &[(Build, &[&str])] = &[
         Build::Table,
         &["table", "diningtable", "sidetable", "coffeetable", "kitchentable", "desk", "bench"],
     ),
-    (Build::Seat, &["chair", "armchair", "sofa", "couch", "bed", "ottoman", "dogbed", "loveseat"]),
+    (
+        Build::Seat,
+        &["chair", "stool", "armchair", "sofa", "couch", "bed", "ottoman", "dogbed", "loveseat"],
+    ),
     (
         Build::Case,
         &[

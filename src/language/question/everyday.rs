@@ -207,7 +207,13 @@ fn other_words(
     }
     // «журнальный столик» is one name; «столик» by itself any table.
     let small = everyday::undiminished(&key);
-    if let Some(word) = small.iter().find(|word| is_name(word, lexicon)) {
+    // «тумбочка» is a thing of its own: no «тумба под телевизор», which is only a part of a name.
+    let own = !everyday::same_things(&key).is_empty();
+    let whole = |word: &str| {
+        let hits = lexicon.nouns.find(word);
+        !own || hits.iter().any(|hit| hit.spelling != crate::language::Spelling::Part)
+    };
+    if let Some(word) = small.iter().find(|word| is_name(word, lexicon) && whole(word)) {
         return Some((1, word.clone()));
     }
     let mistyped =

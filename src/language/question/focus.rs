@@ -10,9 +10,7 @@ use super::lexicon::{Extension, KindId, Meaning};
 use super::mark::Pronoun;
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
 use super::{Answer, Doubt, Memory};
-use crate::language::words::{
-    Gender, NounPhrase, Number, WordHints, word_keys, word_ranges,
-};
+use crate::language::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 use crate::map::Entity;
 
 /// So many exchanges back a description is still understood by what was spoken of.
@@ -172,6 +170,13 @@ impl Knowledge<'_> {
             }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }
+    }
+
+    /// What the rooms have that were told last.
+    pub(super) fn had_by_rooms(&self) -> Option<Vec<Thing>> {
+        let Some(Query::Find(noun)) = &self.memory.query else { return None };
+        let has = noun.restrictions.iter().find(|r| r.rel == Rel::Has)?;
+        self.find(has.anchors.first()?, true).ok().filter(|found| !found.is_empty())
     }
 
     fn taken_up(&self, pronoun: Pronoun, rel: Option<Rel>) -> Option<Thing> {

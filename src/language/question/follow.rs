@@ -4,8 +4,8 @@ use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Best;
 use super::{
-    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble, several,
-    vocabulary,
+    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble,
+    several, vocabulary,
 };
 use crate::language::words::{Gender, word_keys};
 use crate::map::Entity;
@@ -33,6 +33,15 @@ impl Asker<'_> {
         let of_those = self.asks_of_those(text);
         if !begins.iter().any(|b| key.starts_with(b)) && !of_those {
             return None;
+        }
+        // «А дверь открыта?» asks of itself, «А красная дверь?» as before.
+        if let Ok(query @ Query::Holds { .. }) = self.read(text, memory)
+            && let Query::Holds { subject, claims, .. } = &query
+            && claims.iter().all(|claim| matches!(claim, Claim::Value(_)))
+            && subject.filters.is_empty()
+            && (!subject.head.kinds.is_empty() || !subject.head.named.is_empty())
+        {
+            return Some(query);
         }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
@@ -100,8 +109,8 @@ impl Asker<'_> {
                     extreme = extreme.or(phrase.noun.best.as_ref().map(|best| best.extreme));
                 }
                 Item::Noun(phrase) if phrase.pronoun == Some(Pronoun::They) => {}
-                Item::Place { rel: Rel::From | Rel::Of, nouns, .. }
-                    if matches!(&nouns[..], [p] if p.pronoun == Some(Pronoun::They)) => {}
+                Item::Place { rel: Rel::From | Rel::Of, nouns, .. } if matches!(&nouns[..], [p] if p.pronoun == Some(Pronoun::They)) =>
+                    {}
                 _ => return None,
             }
         }
@@ -143,12 +152,11 @@ impl Asker<'_> {
         }
         let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
         let meant = *memory.listed.get(at)?;
-        let noun = Noun {
-            head: Head { things: Some(vec![meant]), ..Head::default() },
-            ..Noun::default()
-        };
+        let noun =
+            Noun { head: Head { things: Some(vec![meant]), ..Head::default() }, ..Noun::default() };
         let mut query = memory.query.clone()?;
-        if asks_where || !matches!(query, Query::Property { .. } | Query::Size { .. } | Query::Where(_))
+        if asks_where
+            || !matches!(query, Query::Property { .. } | Query::Size { .. } | Query::Where(_))
         {
             return Some(Query::Where(noun));
         }

@@ -448,6 +448,26 @@ impl Lexicon {
         kinds
     }
 
+    /// Of the kinds that a word may mean those that it names properly. An English compound is one of its head's kind
+    /// only where Russian calls it by the same noun: a dining table is «стол» as a table is, a tissue box is no
+    /// «коробка», a bedside table no «стол».
+    pub(super) fn proper(&self, kinds: &[KindId], language: Language) -> Vec<KindId> {
+        if language == Language::Russian {
+            return kinds.to_vec();
+        }
+        let narrower = |id: &KindId| self.with_narrower(*id, language).into_iter().skip(1);
+        let covered: BTreeSet<KindId> = kinds.iter().flat_map(narrower).collect();
+        let noun = |id: &KindId| {
+            let phrase = &self.kind(*id).phrase;
+            name_key(phrase.head().unwrap_or(phrase.name()))
+        };
+        let (narrow, broad): (Vec<KindId>, Vec<KindId>) =
+            kinds.iter().partition(|kind| covered.contains(kind));
+        let same = |id: &KindId| broad.iter().any(|other| noun(other) == noun(id));
+        let same: Vec<KindId> = narrow.into_iter().filter(same).collect();
+        broad.into_iter().chain(same).collect()
+    }
+
     /// Whether things of this kind are rooms, storeys or buildings.
     pub(super) fn is_area(&self, id: KindId) -> bool {
         matches!(

@@ -516,7 +516,12 @@ impl Asker<'_> {
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let knowledge = self.knowledge(sentence.language, memory);
-        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
+        // «В каких комнатах есть книги? В какой их больше всего?»: the books, where rooms are asked for.
+        let rooms = sentence.asks_of_rooms(&self.mind.lexicon);
+        let referent = |pronoun: Pronoun, rel: Option<Rel>| {
+            let had = || knowledge.had_by_rooms().filter(|_| pronoun == Pronoun::They && rooms);
+            had().unwrap_or_else(|| knowledge.referent(pronoun, rel))
+        };
         assemble::query(&sentence, &self.mind.lexicon, &referent)
     }
 

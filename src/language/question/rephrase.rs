@@ -190,8 +190,20 @@ fn on_it(words: &Words<'_>) -> Option<String> {
 /// exit.
 fn leads_outside(words: &Words<'_>) -> Option<String> {
     const LEADING: [&str; 14] = [
-        "that", "which", "leading", "leads", "going", "goes", "которая", "которую", "что", "ведет",
-        "ведущая", "ведущую", "ведущей", "выходит",
+        "that",
+        "which",
+        "leading",
+        "leads",
+        "going",
+        "goes",
+        "которая",
+        "которую",
+        "что",
+        "ведет",
+        "ведущая",
+        "ведущую",
+        "ведущей",
+        "выходит",
     ];
     let exit = |key: &str| {
         Some(match key {
@@ -227,7 +239,8 @@ fn leads_outside(words: &Words<'_>) -> Option<String> {
     }
     // What stands between tells whence: "from the kitchen".
     let between = at + 1..from;
-    if between.len() > 4 || (!between.is_empty() && !words.is(between.start, &["from", "из", "с"])) {
+    if between.len() > 4 || (!between.is_empty() && !words.is(between.start, &["from", "из", "с"]))
+    {
         return None;
     }
     let start = words.at[at].start;
@@ -550,7 +563,10 @@ mod tests {
             "Какого цвета дверь между холл и кухней?",
         );
         check("Закрыта ли дверь, ведущая на улицу?", "Закрыта ли выход?");
-        check("Is the door from the hall to the outside locked?", "Is the exit from the hall locked?");
+        check(
+            "Is the door from the hall to the outside locked?",
+            "Is the exit from the hall locked?",
+        );
         check("What is to its left?", "What is to the left of it?");
         check("Какая дверь соединяет холл с кухней?", "Какая дверь соединяет холл с кухней?");
         check("Стулья 3 и 4 белые?", "Стулья 3 и Стулья 4 белые?");

@@ -175,7 +175,13 @@ impl Asker<'_> {
         }
         let (told, asked) = text.split_once([',', ';', '–', '—'])?;
         let words = word_keys(asked);
-        if words.len() < 2 || !opening::begins_question(&words) || several::asks_in(told) {
+        // «дальше от двери, чем стол»
+        let compares = ["чем", "than"].contains(&words.first().map_or("", String::as_str));
+        if words.len() < 2
+            || compares
+            || !opening::begins_question(&words)
+            || several::asks_in(told)
+        {
             return None;
         }
         let mut after = memory.clone();

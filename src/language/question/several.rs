@@ -188,9 +188,22 @@ pub(super) fn without_tag(text: &str) -> &str {
         "нет",
         "правильно",
     ];
+    // «Не могу найти часы, где они?» asks once.
+    const WHERE: [&str; 8] = [
+        "где они",
+        "где он",
+        "где она",
+        "где оно",
+        "where are they",
+        "where is it",
+        "where s it",
+        "where could they be",
+    ];
     let Some((before, tag)) = text.rsplit_once(',') else { return text };
-    let tag = word_keys(tag);
-    let is_tag = TAGS.contains(&tag.join(" ").as_str());
+    let tag = word_keys(tag).join(" ");
+    let asked = WHERE.contains(&tag.as_str());
+    let is_tag = TAGS.contains(&tag.as_str())
+        || (asked && has_mark(&word_keys(before), |mark| mark == Mark::Where));
     if is_tag && word_ranges(before).len() > 1 { before } else { text }
 }
 

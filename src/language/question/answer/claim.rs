@@ -536,11 +536,15 @@ impl Knowledge<'_> {
         let mut parts = Vec::new();
         let (mut any, mut unknown) = (false, false);
         for &thing in &found {
-            let mut fits = Vec::new();
-            for claim in claims {
+            let (mut fits, mut own) = (Vec::new(), Vec::new());
+            // «на комоде или в нём»: what makes it in the thing does not make it on the thing as well.
+            let inside = |claim: &&Claim| matches!(claim, Claim::Related(r) if r.rel == Rel::In);
+            let others = claims.iter().filter(|claim| !inside(claim));
+            for claim in claims.iter().filter(inside).chain(others) {
                 let (holds, why, _) = self.judge(thing, claim)?;
-                if holds {
-                    facts.extend(why);
+                let why: Vec<Fact> = why.into_iter().collect();
+                if holds && (why.is_empty() || why.iter().any(|fact| !own.contains(fact))) {
+                    own.extend(why);
                     let words = self.claim_words(thing, claim)?;
                     // What is locked is closed too: once is enough.
                     if !fits.contains(&words) {
@@ -548,6 +552,7 @@ impl Knowledge<'_> {
                     }
                 }
             }
+            facts.extend(own);
             any |= !fits.is_empty();
             if !fits.is_empty() {
                 parts.push(format!("{} {}", self.name(thing), enumerate(&fits, self.language)));

@@ -371,7 +371,16 @@ impl Knowledge<'_> {
 
     /// What a thing stands on, lies in, is beside: the other end of a relation.
     pub(super) fn anchor(&self, rel: Rel, of: &Noun, what: Option<&Noun>) -> Result<Draft, Doubt> {
-        let all = self.definite(of)?;
+        // «На каком столе ваза?»: of several vases, each by itself.
+        const EACH: usize = 6;
+        let all = match self.definite(of) {
+            Err(Doubt::Ambiguous { candidates, .. })
+                if matches!(rel, Rel::On | Rel::In) && candidates.len() <= EACH =>
+            {
+                candidates
+            }
+            found => found?,
+        };
         if let (Rel::NextTo | Rel::Near | Rel::At | Rel::Leaning, Some(walls)) = (rel, what)
             && self.is_walls(walls)
         {

@@ -104,9 +104,7 @@ impl Knowledge<'_> {
             Use::Put => found,
             _ => {
                 let roomy = |(area, free): (f64, f64)| {
-                    use_for == Use::Sit
-                        && free >= ROOM_TO_SIT.0
-                        && free >= ROOM_TO_SIT.1 * area
+                    use_for == Use::Sit && free >= ROOM_TO_SIT.0 && free >= ROOM_TO_SIT.1 * area
                 };
                 let empty = |t: &Thing| {
                     t.replica().is_none_or(|id| {

@@ -256,10 +256,26 @@ impl<'s, 't> Frame<'s, 't> {
         if let Some(first) = frame.nouns.first_mut().filter(|_| all) {
             first.noun.all = true;
         }
+        frame.except_rooms();
         frame.look_aside();
         let walls = frame.on_walls(items.len());
         frame.spots.extend(walls);
         Ok(frame)
+    }
+
+    /// "Is there a window in every room except the hall?": of the rooms, not of the windows.
+    fn except_rooms(&mut self) {
+        let rooms = |noun: &Noun| self.is_area(noun) && (noun.plural || noun.all);
+        let subject = self.nouns.iter().position(|s| rooms(&s.noun));
+        let spot = self.spots.iter().position(|s| rooms(&s.nouns[0]));
+        let (except, rest): (Vec<Noun>, Vec<Noun>) =
+            std::mem::take(&mut self.except).into_iter().partition(|noun| self.is_area(noun));
+        match (subject, spot) {
+            (Some(at), _) => self.nouns[at].noun.except.extend(except),
+            (None, Some(at)) => self.spots[at].nouns[0].except.extend(except),
+            (None, None) => self.except.extend(except),
+        }
+        self.except.extend(rest);
     }
 
     /// «Стульев на кухне больше трёх?»: gives a number that stands last to what is counted.

@@ -149,13 +149,23 @@ pub(super) fn fragment(
     let small = |mark: &Mark| {
         matches!(
             mark,
-            Mark::The | Mark::A | Mark::Be | Mark::Hang | Mark::One | Mark::Best(_) | Mark::And
+            Mark::The
+                | Mark::A
+                | Mark::Be
+                | Mark::Hang
+                | Mark::One
+                | Mark::Best(_)
+                | Mark::Rank(_)
+                | Mark::And
         ) || (*mark == Mark::Exists && of_those)
             || (*mark == Mark::Which && of_those)
     };
     // «А дверь открыта?» says it of the door.
     let says = !frame.nouns.is_empty() && !frame.values.is_empty();
-    if items.is_empty() || says || frame.nouns.len() > 1 || !frame.marks.iter().all(|(mark, _)| small(mark))
+    if items.is_empty()
+        || says
+        || frame.nouns.len() > 1
+        || !frame.marks.iter().all(|(mark, _)| small(mark))
     {
         return None;
     }

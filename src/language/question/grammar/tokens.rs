@@ -353,6 +353,18 @@ impl<'t> Sentence<'t> {
         found
     }
 
+    /// Whether a sentence asks for rooms: «в какой комнате».
+    pub(in super::super) fn asks_of_rooms(&self, lexicon: &Lexicon) -> bool {
+        let rooms = |n: u32| {
+            let kinds = &self.nouns[n as usize].kinds;
+            kinds.iter().any(|kind| lexicon.kind(*kind).extension == Extension::Rooms)
+        };
+        self.tokens.windows(2).any(|pair| {
+            let asks = matches!(pair[0].kind, Tok::Mark(Mark::Which | Mark::What | Mark::HowMany));
+            asks && matches!(pair[1].kind, Tok::Noun(n) if rooms(n))
+        })
+    }
+
     /// Whether a floor is one of several in a house: "the second floor", "floors", "which floor", "floor 2".
     fn is_numbered(&self, at: usize, taken: usize) -> bool {
         let before = self.tokens.iter().rev().find(|t| t.kind != Tok::Mark(Mark::Filler));

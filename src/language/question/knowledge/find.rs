@@ -229,6 +229,13 @@ impl Knowledge<'_> {
             let without = self.find(except, true)?;
             found.retain(|t| !without.contains(t));
         }
+        // "What is farthest from the toilet?" asks of its room, where no kind is named.
+        if let Some(Best { extreme: Extreme::Farthest, anchor: Some(anchor) }) = &noun.best
+            && noun.head.anything
+            && let Ok([anchor]) = self.find(anchor, loose).as_deref()
+        {
+            found = self.this_side(found, *anchor, 1);
+        }
         match (&noun.best, noun.rank) {
             (Some(best), rank) => {
                 let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
@@ -248,7 +255,11 @@ impl Knowledge<'_> {
                 Ok(found.into_iter().filter(|t| Some(*t) != known).collect())
             }
             // «второй стул»: nothing says in which order.
-            (None, Some(_)) => Err(Doubt::NotUnderstood { words: noun.text.clone() }),
+            (None, Some(rank)) => Err(match (found.len() as u64) < rank {
+                true if !found.is_empty() => Doubt::TooFew { found },
+                true => self.none_such(noun),
+                false => self.ambiguous(noun, &found),
+            }),
             (None, None) => Ok(found),
         }
     }
@@ -345,7 +356,24 @@ impl Knowledge<'_> {
     fn meant(&self, noun: &Noun, found: &[Thing]) -> Result<Thing, Doubt> {
         let one = !noun.plural && !noun.indefinite && !noun.other && noun.head.things.is_none();
         let meant = self.in_focus(found).filter(|_| one);
-        meant.ok_or_else(|| self.ambiguous(noun, found))
+        let exact = || self.exactly(noun, found).unwrap_or_else(|| found.to_vec());
+        meant.map_or_else(
+            || match exact()[..] {
+                [only] => Ok(only),
+                ref several => Err(self.ambiguous(noun, several)),
+            },
+            Ok,
+        )
+    }
+
+    /// Those of some things that a word names outright: "the box" is no tissue box where there is a box. None where
+    /// that leaves all or nothing.
+    fn exactly(&self, noun: &Noun, found: &[Thing]) -> Option<Vec<Thing>> {
+        let kinds = self.lexicon().proper(&noun.head.kinds, self.language);
+        let own: HashSet<Thing> =
+            self.base(&Head { kinds, ..Head::default() }).into_iter().collect();
+        let exact: Vec<Thing> = found.iter().filter(|t| own.contains(t)).copied().collect();
+        (!exact.is_empty() && exact.len() < found.len()).then_some(exact)
     }
 
     pub(in crate::language::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
@@ -501,7 +529,7 @@ impl Knowledge<'_> {
                     None => vec![Thing::Robot],
                 };
                 if let (Extreme::Nearest, [anchor], 1) = (best.extreme, &anchors[..], rank) {
-                    return Ok(self.nearest(found, *anchor, count));
+                    return Ok(self.nearest(self.this_side(found, *anchor, count), *anchor, count));
                 }
                 let sign = if best.extreme == Extreme::Nearest { 1.0 } else { -1.0 };
                 let away = |t: Thing| {
@@ -543,6 +571,14 @@ impl Knowledge<'_> {
         let limit = limit.0;
         // Equal ones are all the biggest.
         Ok(ranked.into_iter().take_while(|(m, _)| *m <= limit + 1e-6).map(|(_, t)| t).collect())
+    }
+
+    /// Of some things those in the room of another, where there are so many: what is behind a wall is not near.
+    fn this_side(&self, found: Vec<Thing>, anchor: Thing, count: u64) -> Vec<Thing> {
+        let Some(room) = anchor.replica().and_then(|_| self.area_of(anchor)) else { return found };
+        let here = |t: &&Thing| **t != anchor && self.area_of(**t) == Some(room);
+        let near: Vec<Thing> = found.iter().filter(here).copied().collect();
+        if near.len() as u64 >= count.max(1) { near } else { found }
     }
 
     /// The things nearest to another, so many and those equally near. Distances between surfaces are measured only as

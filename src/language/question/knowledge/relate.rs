@@ -93,6 +93,14 @@ impl Knowledge<'_> {
                     Frame::Viewer => self.for_viewer(rel, anchor),
                 }
             }
+            // What is behind a wall is not near.
+            (Rel::Near, Thing::Entity(Entity::Replica(_))) => {
+                let room = self.area_of(anchor);
+                let mut found = self.by_relation(rel, anchor);
+                found
+                    .retain(|t| room.is_none() || self.area_of(*t).is_none_or(|r| Some(r) == room));
+                found
+            }
             _ => self.by_relation(rel, anchor),
         }
     }
