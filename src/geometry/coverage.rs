@@ -13,29 +13,30 @@
 //!   │  ╲└────┘             the lanes' of straits
 //! ```
 //!
-//! Between headings the union has teeth, where a corner of the footprint was turned on. They are no floor worth a
-//! Passframe: only what holds a disc of [`ROUND`] of the robot's radius counts, so that what is covered may be told
-//! dead that near to a dead zone, and never the other way.
+//! Between headings the union has teeth, where a corner of the footprint was turned on, and a body that pokes into the
+//! mouth of a narrow gap covers a little of it. Both would cost Passframes: the teeth are evened by [`EVEN`] of the
+//! robot's radius to either side, and only pieces that hold a disc of [`DEEP`] of it count. So what is covered may be
+//! told dead within 14 % of the radius of a dead zone, as for a disc ([`super::offset`]), and what is not free within 4 %.
 
 use std::f64::consts::{PI, SQRT_2, TAU};
-
-use i_overlay::core::fill_rule::FillRule;
-use i_overlay::core::overlay_rule::OverlayRule;
 
 use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
 use super::dead_zone::RIM;
 use super::floor::SLACK;
-use super::grid::{Contour, Grid, Shapes, difference, intersection, overlay, positive};
-use super::offset::{grow, shrink};
-use super::{Bounds, Polygon, convex_hull};
+use super::grid::{Contour, Grid, Shapes, difference, intersection, positive};
+use super::offset::shrink;
+use super::{Bounds, Polygon, convex_hull, nearest_on_segment};
 
 /// Headings are tried at this step, in radians.
 const TURN: f64 = PI / 36.0;
 
-/// The disc that the teeth between two headings do not hold, in radii of the robot.
-const ROUND: f64 = 0.06;
+/// What is covered is evened by so much, in radii of the robot: the teeth between two headings.
+const EVEN: f64 = 0.04;
+
+/// The disc that the mouth of a narrow gap does not hold, in radii of the robot.
+const DEEP: f64 = 0.07;
 
 /// Headings and directions that differ less, in radians, are one.
 const SAME: f64 = 1e-5;
@@ -45,8 +46,6 @@ pub(super) struct Coverage<'a> {
     pub(super) robot: &'a RobotProfile,
     pub(super) grid: Grid,
     pub(super) floor: Vec<Contour>,
-    /// What the disc covers of it.
-    pub(super) free: Vec<Contour>,
     /// All that the body must not touch: the floor's edges, walls without thickness, shut doorways.
     pub(super) edges: Vec<(Point, Point)>,
     /// Headings of straits' lanes, in radians.
@@ -61,18 +60,20 @@ impl Coverage<'_> {
         let place = bounds.grown(extent + 1.0);
         let near: Vec<(Point, Point)> = meeting(&self.edges, &place.grown(extent + 1.0)).collect();
         let ground = self.cut(&self.floor, &place);
-        let (headings, least) = self.headings(&near);
+        let (headings, width) = self.headings(&near);
         let mut left = vec![zone.to_vec()];
-        let mut is_freed = false;
         for heading in headings {
             let way = Vector::new(heading.cos(), heading.sin());
             let body = about_middle(body(self.robot, way));
-            let clear = shrunk(&self.grid, &ground, &near, &body);
-            if clear.is_empty() {
+            let Bounds { min, max } = Bounds::of(body.iter().map(|&v| Point::from(v)));
+            // Bodies placed further off do not touch the zone.
+            let around = Bounds { min: bounds.min - max.coords, max: bounds.max - min.coords };
+            let touching = Bounds { min: around.min + min.coords, max: around.max + max.coords };
+            let close: Vec<(Point, Point)> = meeting(&near, &touching.grown(1.0)).collect();
+            let covered = self.swept(&shrunk(&self.grid, &ground, &close, &body), &body, &bounds);
+            if covered.is_empty() {
                 continue;
             }
-            is_freed = true;
-            let covered = self.swept(&clear, &body);
             let flat: Vec<Contour> = left.into_iter().flatten().collect();
             left = difference(&flat, &covered);
             left.retain(|shape| !is_rim(&self.grid, shape));
@@ -80,41 +81,45 @@ impl Coverage<'_> {
                 return left;
             }
         }
-        if is_freed { self.without_teeth(zone, left, &place, least) } else { left }
+        self.without_teeth(zone, left, width)
     }
 
-    /// Everything that a body passes over whose place lies in `clear`. What rounding and slack leave along the walls
-    /// belongs to it.
-    fn swept(&self, clear: &Shapes, body: &[Vector]) -> Vec<Contour> {
-        let wider: Vec<Vector> = body
-            .iter()
-            .flat_map(|v| {
-                [(1., 1.), (-1., 1.), (-1., -1.), (1., -1.)]
-                    .map(|(x, y)| v + Vector::new(x, y) * RIM)
-            })
-            .collect();
+    /// What a body passes over about a place if it is set down anywhere in `clear`. What rounding and slack leave along the
+    /// walls belongs to it.
+    fn swept(&self, clear: &Shapes, body: &[Vector], place: &Bounds) -> Vec<Contour> {
+        let wider = body.iter().flat_map(|&v| {
+            let sides = [(1., 1.), (-1., 1.), (-1., -1.), (1., -1.)];
+            sides.map(|(x, y)| Point::from(v + Vector::new(x, y) * RIM))
+        });
+        let wider: Vec<Vector> = convex_hull(wider.collect()).iter().map(|p| p.coords).collect();
         let mut covered: Vec<Contour> = Vec::new();
         for contour in clear.iter().flatten() {
-            let edges = self.grid.polygon(contour);
-            covered.extend(
-                edges
-                    .edges()
-                    .map(|edge| self.grid.contour(&over(&wider, <[Point; 2]>::from(edge)))),
-            );
-            covered.push(contour.clone());
+            let polygon = self.grid.polygon(contour);
+            let swept = polygon.edges().map(|(a, b)| over(&wider, [a, b]));
+            let near = swept.filter(|s| s.bounds().meets(place));
+            covered.extend(near.map(|s| self.grid.contour(&s)));
+            if polygon.bounds().meets(place) {
+                covered.push(contour.clone());
+            }
         }
         covered
     }
 
-    /// The dead zone less all that hangs together with the free floor and holds the least disc.
-    fn without_teeth(&self, zone: &[Contour], left: Shapes, place: &Bounds, least: f64) -> Shapes {
+    /// The dead zone less what is worth a Passframe of that which a body so wide covers of it.
+    fn without_teeth(&self, zone: &[Contour], left: Shapes, width: f64) -> Shapes {
+        let radius = self.robot.radius.get();
+        let deep = (DEEP * radius).min(width * 0.4);
         let left: Vec<Contour> = left.into_iter().flatten().collect();
-        let mut free = self.cut(&self.free, place);
-        free.extend(difference(zone, &left).into_iter().flatten());
-        let free = self.grid.regions(&overlay(&free, &[], OverlayRule::Subject, FillRule::NonZero));
-        let core = self.grid.regions(&positive(&shrink(&self.grid, &free, least)));
-        let covered = positive(&grow(&self.grid, &core, least, &free));
-        let covered: Vec<Contour> = covered.into_iter().flatten().collect();
+        let mut covered = difference(zone, &left);
+        covered.retain(|shape| {
+            let regions = self.grid.regions(&vec![shape.clone()]);
+            !positive(&shrink(&self.grid, &regions, deep)).is_empty()
+        });
+        let rim: Vec<(Point, Point)> =
+            zone.iter().flat_map(|c| self.grid.polygon(c).edges().collect::<Vec<_>>()).collect();
+        let even =
+            |c: &Contour| self.grid.contour(&evened(&self.grid.polygon(c), &rim, EVEN * radius));
+        let covered: Vec<Contour> = covered.iter().flatten().map(even).collect();
         let mut left = difference(zone, &covered);
         left.retain(|shape| !is_rim(&self.grid, shape));
         left
@@ -127,7 +132,7 @@ impl Coverage<'_> {
         intersection(contours, &[square]).into_iter().flatten().collect()
     }
 
-    /// The headings that are tried, in radians, and the radius of the disc that makes floor of what is covered, in cm.
+    /// The headings that are tried, in radians, and how wide the body is at its narrowest, in cm.
     fn headings(&self, near: &[(Point, Point)]) -> (Vec<f64>, f64) {
         let upright =
             Polygon::new(body(self.robot, Vector::x()).into_iter().map(Point::from).collect());
@@ -140,12 +145,11 @@ impl Coverage<'_> {
                 Some((angle(along), upright.corners.iter().map(off).fold(0.0, f64::max)))
             })
             .collect();
-        let least = sides.iter().map(|side| side.1).fold(f64::INFINITY, f64::min);
+        let width = sides.iter().map(|side| side.1).fold(f64::INFINITY, f64::min);
         let mut directions: Vec<f64> =
             near.iter().map(|&(a, b)| angle(b - a).rem_euclid(PI)).collect();
         distinct(&mut directions);
-        let mut found: Vec<f64> = (0..72).map(|k| f64::from(k) * TURN).collect();
-        found.extend(&self.lanes);
+        let mut found = self.lanes.clone();
         for &(side, _) in &sides {
             found.extend(directions.iter().flat_map(|d| [d - side, d - side + PI]));
         }
@@ -165,9 +169,47 @@ impl Coverage<'_> {
         let whole = if is_symmetric(&upright) { PI } else { TAU };
         found.iter_mut().for_each(|h| *h = h.rem_euclid(whole));
         distinct(&mut found);
-        (found, (ROUND * self.robot.radius.get()).min(least / 4.0))
+        let regular = (0..).map(|k| f64::from(k) * TURN).take_while(|h| *h < whole - SAME);
+        let is_new = |h: &f64| found.iter().all(|f| (f - h).abs() >= SAME);
+        let regular: Vec<f64> = regular.filter(is_new).collect();
+        // Those along the walls cover most.
+        found.extend(regular);
+        (found, width)
     }
 }
+
+/// A contour without the corners that stand out, to either side, by no more than a tolerance from the lines between
+/// others; those on the rim stay.
+fn evened(contour: &Polygon, rim: &[(Point, Point)], tolerance: f64) -> Polygon {
+    let stays =
+        |p: &Point| rim.iter().any(|&(a, b)| (nearest_on_segment(*p, a, b) - p).norm() < ON_RIM);
+    let mut corners = contour.corners.clone();
+    let Some(first) = corners.iter().position(stays) else { return contour.clone() };
+    corners.rotate_left(first);
+    corners.push(corners[0]);
+    let fixed: Vec<usize> = (0..corners.len()).filter(|&i| stays(&corners[i])).collect();
+    let mut kept = Vec::new();
+    for ends in fixed.windows(2) {
+        kept.push(corners[ends[0]]);
+        // Douglas and Peucker 1973.
+        let mut open = vec![(ends[0], ends[1])];
+        while let Some((from, to)) = open.pop() {
+            let off = |i: &usize| {
+                (nearest_on_segment(corners[*i], corners[from], corners[to]) - corners[*i]).norm()
+            };
+            let furthest = (from + 1..to).max_by(|a, b| off(a).total_cmp(&off(b)));
+            match furthest.filter(|i| off(i) > tolerance) {
+                Some(i) => open.extend([(i, to), (from, i)]),
+                None if from > ends[0] => kept.push(corners[from]),
+                None => {}
+            }
+        }
+    }
+    Polygon::new(kept)
+}
+
+/// Corners nearer to a dead zone's rim, in cm, lie on it.
+const ON_RIM: f64 = 0.05;
 
 /// A body passes a gap that is wider than it by this factor at one of the regular headings.
 const TIGHT: f64 = 1.002;
@@ -228,9 +270,20 @@ pub(super) fn shrunk(
     difference(floor, &blocked)
 }
 
-/// What a body passes over from one place to another.
+/// What a convex body, its corners counter-clockwise, passes over from one place to another.
 pub(super) fn over(body: &[Vector], [a, b]: [Point; 2]) -> Polygon {
-    Polygon::new(convex_hull(body.iter().flat_map(|&v| [a + v, b + v]).collect()))
+    let n = body.len();
+    // The sides that look ahead go with the body to its new place, the others stay.
+    let looks_ahead = |i: usize| (b - a).perp(&(body[(i + 1) % n] - body[i % n])) > 0.0;
+    let mut corners = Vec::with_capacity(n + 2);
+    for (i, &v) in body.iter().enumerate() {
+        let sides = [looks_ahead(i + n - 1), looks_ahead(i)];
+        corners.push(if sides[0] { b + v } else { a + v });
+        if sides[0] != sides[1] {
+            corners.push(if sides[1] { b + v } else { a + v });
+        }
+    }
+    Polygon::new(corners)
 }
 
 /// The footprint turned to a heading, with its clearance, as one convex polygon about the centre.

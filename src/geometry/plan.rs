@@ -537,7 +537,6 @@ impl FloorPlan {
             robot: &self.robot,
             grid,
             edges: rims.into_iter().chain(walls).chain(shut).collect(),
-            free: floors.iter().flat_map(|f| within(f.free())).collect(),
             floor,
             lanes: lanes.iter().map(|(a, b)| (b.y - a.y).atan2(b.x - a.x)).collect(),
         }
