@@ -115,7 +115,8 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
     }
     let mut pieces = Vec::new();
     for record in list(&house, "objects") {
-        reader.thing(record, &[], &mut pieces);
+        let piece = reader.piece(record);
+        reader.thing(record, piece, &[], &mut pieces);
     }
     if assets.is_empty() && !list(&house, "objects").is_empty() {
         reader.remarks.clear();
@@ -299,32 +300,29 @@ impl Reader<'_> {
         })
     }
 
-    /// A thing and what lies on it; `surfaces` are heights on which it may stand itself, in cm.
-    fn thing(&mut self, record: &Value, surfaces: &[f64], pieces: &mut Vec<Piece>) {
-        let piece = self.piece(record).map(|mut piece| {
-            let under = surfaces.iter().filter(|&at| DROP.contains(&(piece.bottom - at)));
-            piece.bottom = under.copied().reduce(f64::min).unwrap_or(piece.bottom);
-            piece
-        });
-        let children = list(record, "children");
+    /// A thing, if its size is known, and what lies on it; `surfaces` are heights on which it may stand itself, in cm.
+    fn thing(
+        &mut self,
+        record: &Value,
+        piece: Option<Piece>,
+        surfaces: &[f64],
+        pieces: &mut Vec<Piece>,
+    ) {
+        let children: Vec<(&Value, Option<Piece>)> =
+            list(record, "children").iter().map(|child| (child, self.piece(child))).collect();
         // On top of it, or where something else in it stands: on the seat of a sofa, in a drawer.
         let mut inside: Vec<f64> = Vec::new();
-        if let Some(piece) = piece {
-            let feet = children.iter().filter_map(|child| self.foot(child));
-            inside.extend(feet.chain([piece.bottom + piece.height]));
+        if let Some(mut piece) = piece {
+            let under = surfaces.iter().filter(|&at| DROP.contains(&(piece.bottom - at)));
+            piece.bottom = under.copied().reduce(f64::min).unwrap_or(piece.bottom);
+            inside.extend(children.iter().filter_map(|(_, child)| Some(child.as_ref()?.bottom)));
+            inside.push(piece.bottom + piece.height);
             pieces.push(piece);
         }
         // Nesting is limited by the parser.
-        for child in children {
-            self.thing(child, &inside, pieces);
+        for (child, piece) in children {
+            self.thing(child, piece, &inside, pieces);
         }
-    }
-
-    /// The height of a thing's foot as the file has it, in cm.
-    fn foot(&self, record: &Value) -> Option<f64> {
-        let asset = self.assets.known.get(text(record, "assetId")?)?;
-        let half = tilted(asset.half, angles(record.get("rotation")));
-        Some(triple(record.get("position"))?[1] - half[1])
     }
 
     fn piece(&mut self, record: &Value) -> Option<Piece> {
