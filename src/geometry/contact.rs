@@ -137,32 +137,9 @@ pub fn overlap_area(a: &Footprint, b: &Footprint) -> f64 {
     }
 }
 
-/// Sutherland and Hodgman: cut the subject by each edge of a convex window.
-///
-/// A subject that is not convex comes out with seams along the window's border; they have no area.
+/// Of a polygon within a convex one. One that is not convex is cut with seams along the border; they have no area.
 fn clipped_area(subject: &Polygon, window: &Polygon) -> f64 {
-    let mut kept = subject.corners.clone();
-    let mut next = Vec::with_capacity(kept.len() + window.corners.len());
-    for (a, b) in window.edges() {
-        let along = b - a;
-        let side = |p: Point| along.perp(&(p - a));
-        next.clear();
-        for (i, &q) in kept.iter().enumerate() {
-            let p = kept[(i + kept.len() - 1) % kept.len()];
-            let (before, here) = (side(p), side(q));
-            if (before < 0.0) != (here < 0.0) {
-                next.push(p + (q - p) * (before / (before - here)));
-            }
-            if here >= 0.0 {
-                next.push(q);
-            }
-        }
-        std::mem::swap(&mut kept, &mut next);
-        if kept.is_empty() {
-            return 0.0;
-        }
-    }
-    Polygon::new(kept).signed_area().max(0.0)
+    subject.clone().within_convex(window).signed_area().max(0.0)
 }
 
 /// The shortest way from one footprint to another.

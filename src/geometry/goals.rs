@@ -115,11 +115,10 @@ impl FloorPlan {
         let along = (doorway.line().1 - doorway.line().0) / doorway.width().max(1e-9);
         let steps = (0..=40).map(|k| reach + 5.0 + 5.0 * f64::from(k));
         let shifts: [f64; 9] = [0.0, 15.0, -15.0, 30.0, -30.0, 50.0, -50.0, 75.0, -75.0];
-        let spot = steps
+        let mut spots: Vec<(f64, f64)> = steps
             .flat_map(|d| shifts.map(|s| (d, s)))
             .filter(|(d, s)| s.abs() <= 2.0 * d)
-            .collect::<Vec<_>>();
-        let mut spots = spot;
+            .collect();
         // The nearer the better; a step aside costs a little more than one back.
         spots.sort_by(|a, b| (a.0 + 1.2 * a.1.abs()).total_cmp(&(b.0 + 1.2 * b.1.abs())));
         let (at, cell) = spots
