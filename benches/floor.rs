@@ -5,7 +5,7 @@
 //! of the processor's time of all threads together and on the clock; a query is the least of five on the clock.
 //! With `DETOUR` set to a command (`floor/detour.cpp` or `floor/detour.mjs`, which say how they are run), Recast and
 //! Detour themselves take part; `-- --write NAME FILE` writes what they are given.
-//! `-- --build NAME` builds one floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
+//! `-- --build NAME` (also `flat-80-long`, for a robot of 80 by 36 cm) builds one floor of ours over and over, `-- --ask NAME` asks the way on it, for a profiler.
 #![allow(clippy::print_stdout, reason = "a benchmark's product is its table")]
 
 #[path = "../tests/floors.rs"]
@@ -38,12 +38,17 @@ const QUERIES: usize = 200;
 fn floor(name: &str) -> Generated {
     let mut floor = match name {
         "room-20" => room(20),
-        "flat-80" => building(1, 3, 13),
+        "flat-80" | "flat-80-long" => building(1, 3, 13),
         "office-3000" => building(4, 25, 15),
         _ => building(20, 50, 20),
     };
     let world = &mut floor.builder.world;
     world.robot.radius = Cm::of(RADIUS);
+    if name.ends_with("-long") {
+        let corners = [(-40.0, -18.0), (40.0, -18.0), (40.0, 18.0), (-40.0, 18.0)];
+        world.robot.footprint = corners.map(|(x, y)| Point::new(x, y)).to_vec();
+        world.robot.radius = Cm::of(43.87);
+    }
     // Filled at once, as when they are read from a store, maps have no gaps.
     world.objects = std::mem::take(&mut world.objects).into_iter().collect();
     world.orthoframes = std::mem::take(&mut world.orthoframes).into_iter().collect();

@@ -6,6 +6,7 @@ use orthoframe::units::*;
 
 use crate::floor_properties::{Random, random_world};
 use crate::floors::{Builder, p, rectangle};
+use crate::footprint::shaped;
 
 /// Positive when a, b, c turn left.
 fn turn(a: Point, b: Point, c: Point) -> f64 {
@@ -267,7 +268,9 @@ fn passframes_are_few() {
     for seed in 0..6 {
         let mut closed = random_world(seed + 500);
         closed.world.doors.values_mut().for_each(|d| d.state = DoorState::CLOSED);
-        for b in [room_with_bays(seed), random_world(seed), closed] {
+        let mut long = random_world(seed + 20);
+        shaped(&mut long, seed as usize, &mut Random(seed));
+        for b in [room_with_bays(seed), random_world(seed), closed, long] {
             let plan = FloorPlan::build(&b.world, MapId(1), &b.world.robot, &DoorStates::new());
             for (region, frames) in plan.fragments().flat_map(counts) {
                 // The most pieces of which 1.2 times are fewer than the Passframes.
