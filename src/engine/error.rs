@@ -259,6 +259,14 @@ pub enum RequestError {
     #[diagnostic(code(engine::not_a_door), help("двери карты: ortho relations --name СОЕДИНЯЕТ"))]
     NotADoor { name: String },
 
+    /// A door that joins no two rooms of the map.
+    #[error("«{name}» ведёт наружу, а робот открывает и закрывает только двери между помещениями")]
+    #[diagnostic(
+        code(engine::leads_outside),
+        help("двери карты: ortho relations --name СОЕДИНЯЕТ")
+    )]
+    LeadsOutside { name: String },
+
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
     #[diagnostic(code(engine::not_a_device), help("прибор – то, чей тип имеет признак device"))]
@@ -431,6 +439,10 @@ impl RequestError {
             }
             Self::NotADoor { name } => format!(
                 "{} is no door between rooms, and the robot opens and shuts no others.",
+                capitalized(&called(name))
+            ),
+            Self::LeadsOutside { name } => format!(
+                "{} leads outside, and the robot opens and shuts only doors between rooms.",
                 capitalized(&called(name))
             ),
             Self::NotADevice { name } => {

@@ -368,7 +368,7 @@ impl Engine {
             sides.extend([join.from, join.to]);
         }
         if sides.is_empty() {
-            return Err(RequestError::NotADoor { name }.into());
+            return Err(RequestError::LeadsOutside { name }.into());
         }
         let at_door = vec![fact(predicate::ROBOT_AT_DOOR, vec![name])];
         let in_area = |area: &AreaId| {
@@ -457,7 +457,8 @@ impl Engine {
             })
             .collect();
         if facts.is_empty() {
-            return Err(RequestError::NotADoor { name: world.name(entity).to_owned() }.into());
+            let name = world.name(Entity::Door(door)).to_owned();
+            return Err(RequestError::LeadsOutside { name }.into());
         }
         Ok(facts)
     }

@@ -281,11 +281,7 @@ pub(super) fn by_lift(said: &Said) -> Option<String> {
     let other = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(_))));
     let own = verb + taken..said.clause_end(verb);
     let goes = own.into_iter().filter(|n| !(at..at + length).contains(n)).any(other);
-    goes.then(|| {
-        let mut text = said.text.clone();
-        text.replace_range(said.words[at - 1].end..said.words[at + length - 1].end, "");
-        text
-    })
+    goes.then(|| said.without(&(at..at + length)))
 }
 
 /// "Fetch the battery; no, the toolbox", «принеси чашку, нет, тарелку»: the second of two.
@@ -359,4 +355,13 @@ pub(super) fn without_spot(said: &Said) -> Option<String> {
         let next = at + taken..at + taken + 1;
         tells.then(|| said.with(&(at..next.end), said.of(&next)))
     })
+}
+
+/// "Open the door to the outside": outside is what lies behind it, as a street does.
+pub(super) fn to_outside(said: &Said) -> Option<String> {
+    let at = (1..said.keys.len()).find(|&n| {
+        let before = n - usize::from(said.is(n - 1, &["the"]));
+        said.is(n, &["outside"]) && before > 0 && said.is(before - 1, &["to"])
+    })?;
+    (!said.is(at + 1, &["of"])).then(|| said.with(&(at..at + 1), "street"))
 }

@@ -1,7 +1,7 @@
 //! How many of what is named are meant: all that is there, any of them, all at the end of a sentence. By words alone, as
 //! [`spoken`](super::spoken).
 
-use super::spoken::Said;
+use super::spoken::{Said, state_at};
 use super::verbs::Sort;
 use super::vocabulary::Meaning;
 use crate::language::words::Language;
@@ -49,11 +49,45 @@ pub(super) fn everything(said: &Said) -> Option<String> {
     };
     (0..said.keys.len()).find_map(|at| {
         let russian = said.text.get(said.words[at].clone())?.to_lowercase() == "всё";
-        let what = said.phrase(at, &WHAT).filter(|taken| carries(at) && before_link(at + taken));
+        let there = |n: usize| before_link(n) || said.is(n, &["there", "там"]);
+        let what = said.phrase(at, &WHAT).filter(|taken| carries(at) && there(at + taken));
         let taken = what.or(said.phrase(at, &ALL)).or(russian.then_some(1))?;
         let things = Language::of(&said.keys[at]).pick("все вещи", "all the things");
+        // "Take what is inside": in what was spoken of.
+        let inside = said.is(at + taken, &["inside", "внутри", "there", "там"]);
+        if inside && at + taken + 1 == said.clause_end(at + taken) {
+            let of_it = Language::of(&said.keys[at]).pick("из него", "from it");
+            return Some(said.with(&(at..at + taken + 1), &format!("{things} {of_it}")));
+        }
         let follows = before_link(at + taken) || said.is(at + taken, &["кроме", "except"]);
         follows.then(|| said.with(&(at..at + taken), things))
+    })
+}
+
+/// "Lock every door that is open": its state stands before the noun.
+pub(super) fn in_state(said: &Said) -> Option<String> {
+    const IS: [&str; 6] = ["that is", "that are", "that s", "which is", "which are", "still"];
+    let end = said.keys.len();
+    let (at, state, next) = (2..end).find_map(|n| {
+        let is = n + said.phrase(n, &IS)?;
+        let state = is + usize::from(said.is(is, &["still"]));
+        let next = state + state_at(said, state)?;
+        let joint = || matches!(said.meaning(next), Some((_, Meaning::And | Meaning::Filler)));
+        (next == end || said.parted(next) || joint()).then_some((n, state, next))
+    })?;
+    let mut noun = 0;
+    while let Some((verb, taken, _)) = said.verb_from(noun).filter(|(verb, ..)| *verb < at) {
+        noun = verb + taken;
+    }
+    while let Some((taken, Meaning::Filler | Meaning::All | Meaning::Me)) = said.meaning(noun) {
+        noun += taken;
+    }
+    (noun > 0 && noun < at).then(|| {
+        let state = match said.of(&(state..next)) {
+            half @ ("on" | "off") => format!("switched {half}"),
+            state => state.to_owned(),
+        };
+        said.with(&(noun..next), &format!("{state} {}", said.of(&(noun..at))))
     })
 }
 
@@ -100,8 +134,7 @@ pub(super) fn any_at_the_end(said: &Said) -> Option<String> {
         Language::Russian => "любую",
         Language::English => "any",
     };
-    let mut text = said.text.clone();
-    text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
+    let mut text = said.without(&(at..end));
     let noun = said.words.get(noun).filter(|word| word.start < said.words[at].start)?;
     text.replace_range(article.unwrap_or(noun.start)..noun.start, &format!("{any} "));
     Some(text)
@@ -134,8 +167,7 @@ pub(super) fn all_at_the_end(said: &Said) -> Option<String> {
     })?;
     let end = at + said.phrase(at, &ALL)?;
     let all = Language::of(&said.keys[at]).pick(" все", " all");
-    let mut text = said.text.clone();
-    text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
+    let mut text = said.without(&(at..end));
     text.insert_str(said.words[verb + taken - 1].end, all);
     Some(text)
 }

@@ -76,6 +76,13 @@ impl Said {
         None
     }
 
+    /// The text without some words and the mark before them.
+    pub(super) fn without(&self, words: &Range<usize>) -> String {
+        let mut text = self.text.clone();
+        text.replace_range(self.words[words.start - 1].end..self.words[words.end - 1].end, "");
+        text
+    }
+
     /// The text with some words replaced by others.
     pub(super) fn with(&self, words: &Range<usize>, said: &str) -> String {
         let mut text = self.text.clone();
@@ -88,7 +95,7 @@ impl Said {
 pub(super) fn plain(text: &str) -> String {
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 33] = [
+    let rewritings: [fn(&Said) -> Option<String>; 36] = [
         time::until_called,
         time::at_the_end,
         time::told_when,
@@ -98,6 +105,7 @@ pub(super) fn plain(text: &str) -> String {
         going::corrected,
         without_forbidden,
         contrasted,
+        instead,
         excluded,
         ellipsis::verb_first,
         ellipsis::verb_again,
@@ -105,6 +113,7 @@ pub(super) fn plain(text: &str) -> String {
         ellipsis::object_shared,
         ellipsis::noun_again,
         ensured,
+        quantity::in_state,
         quantity::everything,
         switched,
         going::gone,
@@ -116,6 +125,7 @@ pub(super) fn plain(text: &str) -> String {
         going::where_it_is,
         going::there_and_back,
         going::without_spot,
+        going::to_outside,
         quantity::all_at_the_end,
         left_alone,
         dashed,
@@ -193,6 +203,19 @@ fn contrasted(said: &Said) -> Option<String> {
     Some(said.with(&(not..end), &kept))
 }
 
+/// "the mug instead of the cup", «кружку вместо чашки»: what is merely not meant.
+fn instead(said: &Said) -> Option<String> {
+    const INSTEAD: [&str; 3] = ["instead of", "rather than", "вместо"];
+    let (at, taken) = (2..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &INSTEAD)?)))?;
+    let goes_on = |n: &usize| {
+        let meaning = said.meaning(*n).map(|(_, meaning)| meaning);
+        !said.parted(*n) && !matches!(meaning, Some(Meaning::Link(_) | Meaning::And))
+    };
+    let end = (at + taken + 1..said.keys.len()).find(|n| !goes_on(n)).unwrap_or(said.keys.len());
+    let ordered = said.verb_from(0).is_some_and(|(verb, ..)| verb < at);
+    (ordered && at + taken < said.keys.len()).then(|| said.without(&(at..end)))
+}
+
 /// "the cup, not the red one", «чашку, только не красную»: all but that.
 fn excluded(said: &Said) -> Option<String> {
     const BUT_NOT: [&str; 5] = ["not", "but not", "только не", "но не", "не"];
@@ -204,18 +227,14 @@ fn excluded(said: &Said) -> Option<String> {
     // "to me, not to the kitchen", "go to the desk, not the workbench": the other place is merely not meant.
     let goes = said.verb_from(0).is_some_and(|(.., verb)| verb == Verb::GoTo);
     if goes || matches!(said.meaning(at + taken), Some((_, Meaning::Link(_)))) {
-        let mut text = said.text.clone();
-        text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
-        return Some(text);
+        return Some(said.without(&(at..end)));
     }
     // "the bowl from the table, not the one from the bed": told by its own place already.
     let link = |n: usize| matches!(said.meaning(n), Some((_, Meaning::Link(_))));
     let other_place =
         said.phrase(at + taken, &["the one", "the ones", "ту что", "тот что", "то что"]);
     if other_place.is_some() && (0..at).any(link) {
-        let mut text = said.text.clone();
-        text.replace_range(said.words[at - 1].end..said.words[end - 1].end, "");
-        return Some(text);
+        return Some(said.without(&(at..end)));
     }
     if told.is_empty()
         || told.clone().any(|n| matches!(said.meaning(n), Some((_, Meaning::Verb(_)))))
@@ -231,6 +250,50 @@ fn excluded(said: &Said) -> Option<String> {
     text.replace_range(from..said.words[end - 1].end, &format!(" {except} {}", said.of(&told)));
     Some(text)
 }
+
+/// What a state is called, and the orders that bring it about.
+const STATES: [(&[&str], &str, &str); 6] = [
+    (&["closed", "shut", "закрыт", "закрыта", "закрыто", "закрыты"], "закрой", "close"),
+    (&["open", "opened", "открыт", "открыта", "открыто", "открыты"], "открой", "open"),
+    (&["locked", "заперт", "заперта", "заперты", "заперто"], "запри", "lock"),
+    (&["unlocked", "отперт", "отперта", "отперты"], "отопри", "unlock"),
+    (
+        &[
+            "on",
+            "switched on",
+            "turned on",
+            "включен",
+            "включена",
+            "включено",
+            "включены",
+            "горит",
+            "горел",
+            "горела",
+            "горели",
+            "работал",
+        ],
+        "включи",
+        "switch on",
+    ),
+    (
+        &[
+            "off",
+            "switched off",
+            "turned off",
+            "выключен",
+            "выключена",
+            "выключено",
+            "выключены",
+            "погашен",
+            "погашена",
+            "не горит",
+            "не горел",
+            "не горела",
+        ],
+        "выключи",
+        "switch off",
+    ),
+];
 
 /// "Make sure that the door is closed", «проследи, чтобы свет был выключен»: what makes it so.
 fn ensured(said: &Said) -> Option<String> {
@@ -278,48 +341,6 @@ fn ensured(said: &Said) -> Option<String> {
         "лежала",
         "стояла",
     ];
-    const STATES: [(&[&str], &str, &str); 6] = [
-        (&["closed", "shut", "закрыт", "закрыта", "закрыто", "закрыты"], "закрой", "close"),
-        (&["open", "opened", "открыт", "открыта", "открыто", "открыты"], "открой", "open"),
-        (&["locked", "заперт", "заперта", "заперты", "заперто"], "запри", "lock"),
-        (&["unlocked", "отперт", "отперта", "отперты"], "отопри", "unlock"),
-        (
-            &[
-                "on",
-                "switched on",
-                "turned on",
-                "включен",
-                "включена",
-                "включено",
-                "включены",
-                "горит",
-                "горел",
-                "горела",
-                "горели",
-                "работал",
-            ],
-            "включи",
-            "switch on",
-        ),
-        (
-            &[
-                "off",
-                "switched off",
-                "turned off",
-                "выключен",
-                "выключена",
-                "выключено",
-                "выключены",
-                "погашен",
-                "погашена",
-                "не горит",
-                "не горел",
-                "не горела",
-            ],
-            "выключи",
-            "switch off",
-        ),
-    ];
     let (at, sure) = (0..said.keys.len()).find_map(|n| Some((n, said.phrase(n, &SURE)?)))?;
     let mut from = at + sure;
     if said.is(at, &["сделай", "сделайте"]) && !said.is(from, &["чтобы", "так"])
@@ -354,6 +375,11 @@ fn ensured(said: &Said) -> Option<String> {
         Language::English => english,
     };
     Some(said.with(&(at..end), &format!("{verb} {}", what.join(" "))))
+}
+
+/// How many words at one are a state: "switched on".
+pub(super) fn state_at(said: &Said, at: usize) -> Option<usize> {
+    STATES.iter().filter_map(|(called, ..)| said.phrase(at, called)).max()
 }
 
 /// "Lights on in the bedroom, please": without a verb.
@@ -532,6 +558,18 @@ mod tests {
             ("Bring me a book, any will do", "Bring me any book"),
             ("Проверь, закрыта ли дверь", "Проверь, закрыта ли дверь"),
             ("Is the light on?", "Is the light on?"),
+            ("Lock every door that is open", "Lock every open door"),
+            (
+                "Switch off every lamp in the hall that is still on, please",
+                "Switch off every switched on lamp in the hall, please",
+            ),
+            ("Bring the mug instead of the cup, please", "Bring the mug, please"),
+            ("Принеси кружку вместо чашки на стол", "Принеси кружку на стол"),
+            (
+                "Go to the fridge and take what's inside",
+                "Go to the fridge and take all the things from it",
+            ),
+            ("Open the door to the outside", "Open the door to the street"),
             ("Встань за диваном", "Встань за диваном"),
             ("Put the cup on the table", "Put the cup on the table"),
         ] {

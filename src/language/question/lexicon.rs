@@ -96,8 +96,8 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     ),
     (
         Extension::Exits,
-        "выход|улица|наружная дверь|вход|входная дверь",
-        "exit|way out|street|outdoors|entrance|front door|entrance door|main door",
+        "выход|улица|наружная дверь|вход|входная дверь|уличная дверь",
+        "exit|way out|street|outdoors|entrance|front door|entrance door|main door|outside door|outer door|exterior door",
     ),
     (Extension::Floor, "пол", "floor|ground"),
     (Extension::Walls, "стена|стенка", "wall"),

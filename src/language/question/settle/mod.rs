@@ -361,9 +361,9 @@ impl Settler<'_, '_> {
             self.face(spot, stands, edits)?;
         }
         let there = self.area_of_there(clause, told);
-        let (mut skipped, mut until_word) = (None, 0);
+        let mut until_word = 0;
         for (n, (at, phrase)) in objects.iter().enumerate() {
-            if skipped == Some(phrase.words.start) || phrase.words.start < until_word {
+            if phrase.words.start < until_word {
                 continue;
             }
             if let Some((thing, last)) = self.either(sort, &objects[n..], clause.items)? {
@@ -392,18 +392,18 @@ impl Settler<'_, '_> {
                 edits.push(Edit { at, name, things: vec![thing], object: true, goal: None });
                 continue;
             }
-            // What cannot be done is not asked about either.
-            let is_idle = matches!(sort, Sort::Other | Sort::Leave)
-                && self.object(sort, phrase, &[], More::default()).is_err();
-            if phrase.pronoun.is_some() || phrase.person.is_some() || is_idle {
-                continue;
-            }
             let until = objects.get(n + 1).map_or(usize::MAX, |(next, _)| *next);
             let mine: Vec<&&Spot<'_>> = own
                 .iter()
                 .filter(|s| s.item < until && (s.item > *at || n == 0))
                 .filter(|s| !self.is_cut_off(clause.items, *at, s.item))
                 .collect();
+            // What cannot be done is not asked about either.
+            let is_idle = matches!(sort, Sort::Other | Sort::Leave)
+                && self.object(sort, phrase, &mine, More::default()).is_err();
+            if phrase.pronoun.is_some() || phrase.person.is_some() || is_idle {
+                continue;
+            }
             // «дверь coe_door»: a kind, and the name that tells which.
             let is_apposed = objects.get(n + 1).is_some_and(|(_, next)| {
                 next.words.start == phrase.words.end
@@ -414,11 +414,12 @@ impl Settler<'_, '_> {
                 edits.push(Edit::deletion(&self.bytes(&phrase.words)));
                 continue;
             }
-            let except = self.except_after(clause.items, *at);
+            let except = self.except_after(clause.items, *at, &objects[n + 1..]);
             let value = self.value_after(clause.items, *at, phrase);
             let more = More {
                 value: value.as_ref().map(|(value, _)| *value),
-                except: except.map(|(except, _)| except.noun.clone()),
+                except: except.iter().flat_map(|e| &e.0).map(|p| p.noun.clone()).collect(),
+                place: told.place,
                 there,
                 gone_to: told.gone_to,
                 like: objects[..n]
@@ -453,8 +454,9 @@ impl Settler<'_, '_> {
             if let Some((except, from)) = except {
                 // Behind the value that the noun has taken, if there is one.
                 let from = self.sentence.words[from - 1].end.max(end);
-                edits.push(Edit::deletion(&(from..self.bytes(&except.words).end)));
-                skipped = Some(except.words.start);
+                let last = except.last().map_or(from, |last| self.bytes(&last.words).end);
+                edits.push(Edit::deletion(&(from..last)));
+                until_word = except.last().map_or(until_word, |last| last.words.end);
             }
         }
         if objects.is_empty() {

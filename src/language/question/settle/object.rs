@@ -24,7 +24,9 @@ pub(super) type Chosen = (Thing, Range<usize>);
 #[derive(Default)]
 pub(super) struct More {
     pub(super) value: Option<ValueId>,
-    pub(super) except: Option<Noun>,
+    pub(super) except: Vec<Noun>,
+    /// What was spoken of before the clause: «возьми с него».
+    pub(super) place: Option<Thing>,
     /// The room of which it is said to be there.
     pub(super) there: Option<AreaId>,
     /// The room into which the sentence sends the robot before.
@@ -47,7 +49,14 @@ impl Settler<'_, '_> {
         let at = self.bytes(&phrase.words);
         let mut noun = phrase.noun.clone();
         noun.filters.extend(more.value.map(|value| Filter::new(value, false)));
-        noun.except.extend(more.except);
+        // "The light in every room except the kitchen": what is there is left out.
+        let is_area = |noun: &Noun| {
+            let base = self.knowledge.base(&noun.head);
+            !base.is_empty() && base.iter().all(|t| t.area().is_some())
+        };
+        let (rooms, except): (Vec<Noun>, Vec<Noun>) =
+            more.except.into_iter().partition(|except| is_area(except) && !is_area(&phrase.noun));
+        noun.except.extend(except);
         noun.indefinite |= self.is_any(&phrase.words);
         noun.other |= self.is_one_more(&phrase.words);
         if noun.head.anything && (noun.all || noun.text.to_lowercase().contains("everything")) {
@@ -72,14 +81,26 @@ impl Settler<'_, '_> {
             }
         }
         let noun = &noun;
-        let mut within: Vec<Restriction> = Vec::new();
+        let mut noun_is: Option<Noun> = None;
+        let out = |room| Restriction { rel: Rel::In, anchors: vec![room], negated: true };
+        let mut within: Vec<Restriction> = rooms.into_iter().map(out).collect();
+        let doors = sort == Sort::Door && self.are_doors(noun);
         for spot in spots {
-            let anchors = vec![with(&spot.phrase.noun, &spot.within)];
+            let mut anchor = with(&spot.phrase.noun, &spot.within);
+            if let (Some(place), true) = (more.place, spot.phrase.pronoun.is_some()) {
+                anchor.head = Head { things: Some(vec![place]), ..Head::default() };
+            }
+            // «дверь на улицу»: the way out is the door itself.
+            if doors && self.are_doors(&anchor) {
+                noun_is = Some(anchor);
+                continue;
+            }
+            let anchors = vec![anchor];
             let rel = match (sort, spot.rel) {
                 // «ключ от лаборатории», not «ключи с письменного стола»
                 (_, Rel::From | Rel::Of) if is_key(noun) && !self.is_out_of(spot) => Rel::Opens,
                 // «дверь из кухни в коридор»
-                (Sort::Door, Rel::To | Rel::In | Rel::On | Rel::From | Rel::Through | Rel::Of) => {
+                (_, Rel::To | Rel::In | Rel::On | Rel::From | Rel::Through | Rel::Of) if doors => {
                     Rel::Of
                 }
                 (_, rel) => rel,
@@ -90,6 +111,8 @@ impl Settler<'_, '_> {
             };
             within.push(Restriction { rel, anchors, negated: false });
         }
+        let told = noun_is.map(|way_out| Noun { head: way_out.head, ..noun.clone() });
+        let noun = told.as_ref().unwrap_or(noun);
         if self.is_strange(&phrase.words) {
             return Ok(None);
         }
@@ -114,7 +137,12 @@ impl Settler<'_, '_> {
             found = able;
         } else if matches!(sort, Sort::Switch | Sort::Door | Sort::Carry | Sort::Put) {
             // None of them can be: that is said of one, and not asked which.
-            found.truncate(1);
+            let strict = (self.strict)(&noun.text).map(Thing::Entity);
+            found = strict
+                .filter(|t| found.contains(t))
+                .or(found.first().copied())
+                .into_iter()
+                .collect();
         }
         let lights = |kind| self.knowledge.lexicon().kind(kind).extension == Extension::Lighting;
         let of_light = noun.head.named.is_empty() && noun.head.kinds.iter().any(|k| lights(*k));
@@ -159,6 +187,13 @@ impl Settler<'_, '_> {
             }
         }
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
+    }
+
+    /// Whether a noun means doors.
+    fn are_doors(&self, noun: &Noun) -> bool {
+        let base = self.knowledge.base(&noun.head);
+        let is_door = |t: &Thing| matches!(t, Thing::Entity(Entity::Door(_)));
+        !base.is_empty() && base.iter().all(is_door)
     }
 
     /// "Either the apple or the potato": the nearest of what is named, and the words that name it; none where only one

@@ -58,11 +58,13 @@ impl Settler<'_, '_> {
         sort: &impl Fn(usize) -> Sort,
     ) -> Vec<Spot<'i>> {
         let mut spots: Vec<Spot<'i>> = Vec::new();
+        let is_last =
+            |n: usize| !items[n + 1..].iter().any(|item| matches!(item, Item::Place { .. }));
         for (n, item) in items.iter().enumerate() {
             let Item::Place { rel, nouns, .. } = item else { continue };
             let Some(phrase) = nouns.first() else { continue };
             let rel = &self.having(*rel, phrase);
-            if phrase.pronoun.is_some() || phrase.person.is_some() {
+            if phrase.person.is_some() || phrase.pronoun.is_some() && *rel != Rel::From {
                 continue;
             }
             let last = nouns.last().map_or(phrase.words.end, |p| p.words.end);
@@ -82,6 +84,8 @@ impl Settler<'_, '_> {
                 && adjacent
                 && !self.is_faced(phrase)
                 && last.clause == clause
+                && phrase.pronoun.is_none()
+                && !(is_last(n) && self.is_put_beside(last, *rel, sort(clause)))
                 && self.tells_where(last, *rel, phrase, sort(clause))
             {
                 last.within.push(restriction);
@@ -136,19 +140,15 @@ impl Settler<'_, '_> {
         }
     }
 
+    /// "Put the statue from the table next to the vase": it goes there, and no table is told by it.
+    fn is_put_beside(&self, last: &Spot<'_>, rel: Rel, sort: Sort) -> bool {
+        sort == Sort::Put && last.rel == Rel::From && is_side(rel)
+    }
+
     /// Whether a place is beside what can be carried.
     fn is_beside(&self, spot: &Spot<'_>) -> bool {
         let base = self.knowledge.base(&spot.phrase.noun.head);
-        matches!(
-            spot.rel,
-            Rel::NextTo
-                | Rel::Near
-                | Rel::LeftOf
-                | Rel::RightOf
-                | Rel::InFrontOf
-                | Rel::Behind
-                | Rel::Between
-        ) && base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
+        is_side(spot.rel) && base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
     }
 
     /// Whether what is named is a storey, whichever.
@@ -299,6 +299,20 @@ impl Settler<'_, '_> {
         let found = self.tagged(&spot.phrase.words, found);
         self.one(noun, within, &found, at)
     }
+}
+
+/// Whether a place is beside its anchor, and not in it or on it.
+fn is_side(rel: Rel) -> bool {
+    matches!(
+        rel,
+        Rel::NextTo
+            | Rel::Near
+            | Rel::LeftOf
+            | Rel::RightOf
+            | Rel::InFrontOf
+            | Rel::Behind
+            | Rel::Between
+    )
 }
 
 fn is_storey(thing: &Thing) -> bool {

@@ -79,12 +79,22 @@ impl Settler<'_, '_> {
         &self,
         items: &'i [Item],
         at: usize,
-    ) -> Option<(&'i Phrase, usize)> {
+        objects: &[(usize, &'i Phrase)],
+    ) -> Option<(Vec<&'i Phrase>, usize)> {
         let places = items.get(at + 1..)?;
         let after = places.iter().position(|item| !matches!(item, Item::Place { .. }))?;
-        let [Item::Mark(Mark::Except), Item::Noun(except), ..] = &places[after..] else {
+        let [Item::Mark(Mark::Except), Item::Noun(first), ..] = &places[after..] else {
             return None;
         };
+        // "… except the kitchen and the hall"
+        let except = at + 1 + after + 1;
+        let own = objects.iter().skip_while(|(item, _)| *item < except);
+        let listed = own.enumerate().take_while(|(n, (item, _))| *item == except + 2 * n);
+        let joined = listed.take_while(|(n, (item, _))| {
+            *n == 0 || matches!(items[item - 1], Item::Mark(Mark::And))
+        });
+        let except: Vec<&Phrase> = joined.map(|(_, (_, phrase))| *phrase).collect();
+        let except = if except.is_empty() { vec![first] } else { except };
         let from = match &items[at + after] {
             Item::Noun(phrase) => phrase.words.end,
             Item::Place { nouns, .. } => nouns.last()?.words.end,
