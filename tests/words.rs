@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use orthoframe::language::command::Listener;
+use orthoframe::language::command::{Listener, Misheard, in_time, is_order};
+use orthoframe::language::question::conditional;
 use orthoframe::language::{
     Animacy, Case, FormIndex, Gender, Language, NounPhrase, Number, WordHints,
 };
@@ -128,6 +129,19 @@ fn a_very_long_name_is_only_slow() {
     let name = "Комната-В у окна ".repeat(6_000);
     let phrase = NounPhrase::parse(&name, &WordHints::default());
     assert!(phrase.case(Case::Genitive).starts_with("Комнаты-В у окна"));
+}
+
+/// Readers look at each word beside the others: what no one says in one breath is refused before.
+#[test]
+fn a_very_long_order_is_refused_at_once() {
+    let mut index = FormIndex::default();
+    index.insert(&NounPhrase::parse("Чашка", &WordHints::default()), 1);
+    for text in ["if ".repeat(500), ",".repeat(10_000), "если чашка на столе, то ".repeat(200)]
+    {
+        let heard = Listener::new(&index).hear(&text);
+        assert!(matches!(heard, Err(Misheard::TooLong { .. })), "{heard:?}");
+        assert!(conditional(&text).is_none() && !is_order(&text) && in_time(&text).is_none());
+    }
 }
 
 #[test]

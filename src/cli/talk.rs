@@ -16,7 +16,9 @@ use serde_json::json;
 
 use crate::engine::{Engine, Error, Memory, TaskAnswer, task_in_words};
 use crate::language::Language;
-use crate::language::command::{Command, Misheard, has_verb, in_time, is_order, likely_verb};
+use crate::language::command::{
+    Command, Misheard, has_verb, in_time, is_order, is_too_long, likely_verb,
+};
 use crate::language::question::{Conditional, conditional, sentences};
 use crate::units::name_key;
 
@@ -122,6 +124,9 @@ impl Dialogue {
             "выход" | "exit" | "quit" | "конец" => return Ok(false),
             _ => {}
         }
+        if is_too_long(line) {
+            return self.answer(line, shows).map(|()| true);
+        }
         let offered = self.offered.take();
         if let Some(reason) = self.refusal.take().filter(|_| is_why(line)) {
             let text = match Language::of(line) {
@@ -203,6 +208,11 @@ impl Dialogue {
         if !asks && self.engine.is_command(line)? || begs && self.engine.orders_tersely(line)? {
             return self.command(line);
         }
+        self.answer(line, shows)
+    }
+
+    /// Answers a question, or carries out what proves to be none.
+    fn answer(&mut self, line: &str, shows: bool) -> Result<(), Failure> {
         match self.engine.ask(line, &mut self.memory)? {
             Ok(answer) if self.json => {
                 say(&view(&self.engine, &answer)?.to_string())?;
@@ -216,6 +226,9 @@ impl Dialogue {
             Err(unanswered) => {
                 // «Дверь-ВZ закрой»: no question, but a command with its verb behind.
                 let kind = unanswered.doubt.kind();
+                if is_too_long(line) {
+                    return self.put(kind, &unanswered.text);
+                }
                 let not_understood = kind != "ambiguous" && !line.contains('?');
                 // What the map lacks is an answer to a question, whatever its words are like.
                 let asked = kind == "unknown" && self.engine.asks_something(line)?;
@@ -357,16 +370,21 @@ impl Completer for Names {
         pos: usize,
         _: &Context<'_>,
     ) -> rustyline::Result<(usize, Vec<String>)> {
+        /// Words of the longest name.
+        const WORDS: usize = 6;
         let before = &line[..pos];
-        let start = before
-            .rfind([' ', '«', '"', ','])
-            .map_or(0, |at| at + before[at..].chars().next().map_or(1, char::len_utf8));
-        let typed = name_key(&before[start..]);
-        if typed.is_empty() {
-            return Ok((pos, Vec::new()));
+        let begins = before.match_indices([' ', '«', '"', ',']).map(|(at, mark)| at + mark.len());
+        let starts: Vec<usize> = std::iter::once(0).chain(begins).collect();
+        // The more words of a name stand there the surer is what is meant: «письменный с» is no «Спальня».
+        for &start in &starts[starts.len().saturating_sub(WORDS)..] {
+            let typed = name_key(&before[start..]);
+            let fits = |name: &&String| !typed.is_empty() && name_key(name).starts_with(&typed);
+            let found: Vec<String> = self.names.iter().filter(fits).take(40).cloned().collect();
+            if !found.is_empty() {
+                return Ok((start, found));
+            }
         }
-        let fits = |name: &&String| name_key(name).starts_with(&typed);
-        Ok((start, self.names.iter().filter(fits).take(40).cloned().collect()))
+        Ok((pos, Vec::new()))
     }
 }
 
@@ -376,3 +394,22 @@ impl Hinter for Names {
 impl Highlighter for Names {}
 impl Validator for Names {}
 impl Helper for Names {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_more_words_of_a_name_stand_there_the_surer_it_is() {
+        let names = ["Письменный стол", "Спальня", "Стол-1"].map(String::from).to_vec();
+        let (names, history) = (Names { names }, MemHistory::new());
+        let complete = |line: &str| {
+            let (start, found) = names.complete(line, line.len(), &Context::new(&history)).unwrap();
+            (line[start..].to_owned(), found.join(", "))
+        };
+        let pair = |typed: &str, found: &str| (typed.to_owned(), found.to_owned());
+        assert_eq!(complete("Где письменный с"), pair("письменный с", "Письменный стол"));
+        assert_eq!(complete("Где с"), pair("с", "Спальня, Стол-1"));
+        assert_eq!(complete("Где "), pair("", ""));
+    }
+}

@@ -2,13 +2,22 @@
 
 use super::vocabulary::{Meaning, Verb, longest};
 use super::{Listener, Misheard, spoken, time, verbs};
-use crate::language::words::{phrase_at, word_keys};
+use crate::language::words::{phrase_at, word_keys, word_ranges};
 use crate::units::Source;
+
+/// Whether a text is longer than anything that is said to a robot in one breath. The readers look at each word beside
+/// the others, so that what is longer is refused before it is read.
+#[must_use]
+pub fn is_too_long(text: &str) -> bool {
+    /// Words of the longest command or question that is read.
+    const WORDS: usize = 150;
+    text.chars().nth(Listener::<()>::LONGEST).is_some() || word_ranges(text).len() > WORDS
+}
 
 /// A text that tells by a conjunction in which order it is to be done, in that order.
 #[must_use]
 pub fn in_time(text: &str) -> Option<String> {
-    spoken::in_time(text)
+    (!is_too_long(text)).then(|| spoken::in_time(text)).flatten()
 }
 
 /// Whether a word tells what another than the robot does: «придёт».
@@ -42,7 +51,7 @@ pub(in crate::language) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
 /// [`Misheard::Timed`]
 pub fn without_clock(text: &str) -> Result<(), Misheard> {
     // What is too long is refused for that.
-    if text.chars().nth(Listener::<()>::LONGEST).is_some() {
+    if is_too_long(text) {
         return Ok(());
     }
     let said = spoken::Said::new(text.to_owned());

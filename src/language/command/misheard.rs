@@ -3,7 +3,6 @@
 use miette::{Diagnostic, SourceSpan};
 use thiserror::Error;
 
-use super::Listener;
 use crate::language::question::Unanswered;
 use crate::language::words::{Language, alternatives};
 use crate::units::{Source, capitalized};
@@ -16,7 +15,7 @@ pub enum Misheard {
     #[diagnostic(code(language::empty), help("скажите, что сделать, например «Принеси лекарство»"))]
     Empty,
     /// Longer than any command.
-    #[error("задание слишком длинно: {length} знаков, больше {limit}", limit = Listener::<()>::LONGEST)]
+    #[error("задание слишком длинно: {length} знаков")]
     #[diagnostic(code(language::too_long), help("разделите его на несколько"))]
     TooLong { length: usize },
     /// A word that no command has in this place.

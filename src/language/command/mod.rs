@@ -34,7 +34,7 @@ mod vocabulary;
 pub(in crate::language) use hints::{
     awaited, has_haunt, is_adjective, is_of_another, says_whither,
 };
-pub use hints::{in_time, is_command, is_order, preamble, without_clock};
+pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
 pub use misheard::Misheard;
 pub(in crate::language) use verbs::{
     Sort, clauses, gathered, is_known, link_at, link_before, small_words, without_verbs,
@@ -209,8 +209,8 @@ impl<'i, T: Clone + Eq + Hash> Listener<'i, T> {
     /// # Errors
     /// [`Misheard`], at the first word that stands in the way.
     pub fn hear(&self, text: &str) -> Result<Vec<Command<T>>, Misheard> {
-        let length = text.chars().take(100_000).count();
-        if length > Self::LONGEST {
+        if is_too_long(text) {
+            let length = text.chars().take(100_000).count();
             return Err(Misheard::TooLong { length });
         }
         assemble::commands(text, self)

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::is_too_long;
 use super::spoken;
 use super::vocabulary::{Meaning, Verb, longest, verbs};
 use crate::language::words::word_ranges;
@@ -103,6 +104,9 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
 /// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
 #[must_use]
 pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
+    if is_too_long(text) {
+        return Cow::Borrowed(text);
+    }
     let text = spoken::plain(&joined(text));
     let text = without_relatives(&text).into_owned();
     let text = repeated(&text).into_owned();

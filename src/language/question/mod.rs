@@ -45,6 +45,7 @@ pub use settle::{Settled, Strict};
 pub use several::sentences;
 pub use values::{Property, ValueEntry, ValueId, Values};
 
+use crate::language::command::is_too_long;
 use crate::language::report::Detail;
 use crate::language::words::{Language, word_keys};
 use crate::map::World;
@@ -502,8 +503,8 @@ impl Asker<'_> {
     /// # Errors
     /// What was not understood.
     pub fn read(&self, text: &str, memory: &Memory) -> Result<Query, Doubt> {
-        let length = text.chars().take(1_000_000).count();
-        if length > Self::LONGEST {
+        if is_too_long(text) {
+            let length = text.chars().take(1_000_000).count();
             return Err(Doubt::TooLong { length });
         }
         if let Some(query) = courtesy::query(text) {

@@ -178,6 +178,9 @@ pub fn conditional(text: &str) -> Option<Conditional> {
         "не трогай ее",
         "не трогай его",
     ];
+    if command::is_too_long(text) {
+        return None;
+    }
     let (words, keys) = (word_ranges(text), word_keys(text));
     let phrase = |at: usize, all: &[&str]| all.iter().filter_map(|p| phrase_at(&keys, at, p)).max();
     let said = |range: Range<usize>| {

@@ -5,6 +5,7 @@ use super::mark::Mark;
 use super::{
     Answer, Asker, Doubt, Memory, Outcome, Query, Rel, Thing, Unanswered, opening, several,
 };
+use crate::language::command::is_too_long;
 use crate::language::words::{Language, word_keys};
 
 impl Asker<'_> {
@@ -16,7 +17,7 @@ impl Asker<'_> {
         language: Language,
         memory: &mut Memory,
     ) -> Option<Outcome> {
-        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+        if is_too_long(text) {
             return None;
         }
         let parts = several::parts(text)?;

@@ -74,7 +74,7 @@ impl Asker<'_> {
         strict: &Strict<'_>,
     ) -> Result<Settled, Misread> {
         let waiting = memory.waiting.take();
-        if text.chars().take(Self::LONGEST + 1).count() > Self::LONGEST {
+        if command::is_too_long(text) {
             return Ok(Settled { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
         let gathered = command::gathered(text);
