@@ -529,6 +529,12 @@ impl Rule<'_, '_> {
         let atoms: Vec<String> = bases(rel).iter().map(atom).collect();
         match &atoms[..] {
             [] => self.measured = true,
+            // What is behind a wall is not near.
+            [only] if rel == Rel::Near => {
+                let (only, room) = (only.clone(), self.variable());
+                self.atoms
+                    .push(format!("{only}, in_area({term}, {room}), in_area({other}, {room})"));
+            }
             [only] => self.atoms.push(only.clone()),
             all => self.atoms.push(format!("({})", all.join(" ; "))),
         }
