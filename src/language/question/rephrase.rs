@@ -189,22 +189,9 @@ fn on_it(words: &Words<'_>) -> Option<String> {
 /// «Дверь на улицу», «дверь, которая ведёт наружу», "the door from the kitchen to the outside", "the outside door": an
 /// exit.
 fn leads_outside(words: &Words<'_>) -> Option<String> {
-    const LEADING: [&str; 14] = [
-        "that",
-        "which",
-        "leading",
-        "leads",
-        "going",
-        "goes",
-        "которая",
-        "которую",
-        "что",
-        "ведет",
-        "ведущая",
-        "ведущую",
-        "ведущей",
-        "выходит",
-    ];
+    const RELATIVE: [&str; 5] = ["that", "which", "которая", "которую", "что"];
+    const LEADS: [&str; 4] = ["leads", "goes", "ведет", "выходит"];
+    const LEADING: [&str; 5] = ["leading", "going", "ведущая", "ведущую", "ведущей"];
     let exit = |key: &str| {
         Some(match key {
             "door" => "exit",
@@ -228,14 +215,18 @@ fn leads_outside(words: &Words<'_>) -> Option<String> {
         words.is(n, &["наружу"])
             || words.is(n, &["улицу"]) && words.is(n - 1, &["на"])
             || words.is(n, &["outside", "outdoors", "street"]) && words.is(n - 1, &["to", "the"])
-            || words.is(n, &["outside", "outdoors"]) && words.is(n - 1, &LEADING)
+            || words.is(n, &["outside", "outdoors"])
+                && (words.is(n - 1, &LEADING) || words.is(n - 1, &LEADS))
     })?;
     let mut from = out;
     while from > at + 1 && words.is(from - 1, &["на", "to", "the"]) {
         from -= 1;
     }
-    while from > at + 1 && words.is(from - 1, &LEADING) {
+    if words.is(from - 1, &LEADING) {
         from -= 1;
+    } else if words.is(from - 1, &LEADS) {
+        // «Какая дверь ведёт наружу?» asks for it.
+        from = (from - 2..from).find(|&n| words.is(n, &RELATIVE))?;
     }
     // What stands between tells whence: "from the kitchen".
     let between = at + 1..from;
