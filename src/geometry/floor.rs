@@ -218,12 +218,11 @@ impl FragmentFloor {
     /// the straits that lead over it.
     pub(super) fn with_footprint(
         &self,
-        site: &Site<'_>,
+        inside: Shapes,
         coverage: &Coverage<'_>,
         lanes: Vec<(Point, Point)>,
     ) -> Self {
-        let inside: Vec<Contour> =
-            self.inside(site, &self.grid, 0.0).into_iter().flatten().collect();
+        let inside: Vec<Contour> = inside.into_iter().flatten().collect();
         let zones = difference(&inside, &contours(&self.grid, &self.free()));
         let (mut left, mut dead) = (Vec::new(), Shapes::new());
         for zone in zones {
@@ -250,11 +249,17 @@ impl FragmentFloor {
         }
     }
 
-    /// The floor that nothing stands on up to the open doorways' lines, or so much further, in cm, on a grid.
-    pub(super) fn inside(&self, site: &Site<'_>, grid: &Grid, further: f64) -> Shapes {
-        let open = site.doorways_of(self.area).filter(|(_, d, _)| site.is_open(d));
+    /// The floor that nothing stands on up to the lines of its open doorways, each told with its side, or so much further,
+    /// in cm; for a robot that keeps `reach` from everything.
+    pub(super) fn inside<'a>(
+        &self,
+        open: impl Iterator<Item = (&'a Doorway, usize)>,
+        further: f64,
+        reach: f64,
+    ) -> Shapes {
+        let grid = &self.grid;
         let beyond: Vec<Contour> =
-            open.map(|(_, d, side)| beyond(grid, d, side, further, site.reach())).collect();
+            open.map(|(d, side)| beyond(grid, d, side, further, reach)).collect();
         difference(&contours(grid, &self.raw()), &beyond)
     }
 

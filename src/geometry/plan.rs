@@ -7,8 +7,8 @@
 //! **Invariant**: a plan after [`FloorPlan::rebuild`] equals one built anew from the same world.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
-use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::{Arc, OnceLock};
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -22,7 +22,7 @@ use super::dead_zone::{Surroundings, surroundings};
 use super::digest::digests;
 use super::doors::{Doorway, doorways};
 use super::floor::{FragmentFloor, SLACK, Site};
-use super::grid::{Contour, overlay};
+use super::grid::{Contour, Shapes, overlay};
 use super::kept;
 use super::network::{Network, Portal, overlap};
 use super::replica_index::ReplicaIndex;
@@ -47,8 +47,10 @@ pub struct FloorPlan {
     by_area: Arc<BTreeMap<AreaId, Vec<(usize, usize)>>>,
     /// In the order of the Areas' ids; a Fragment's place here is its number in the search.
     pub(super) fragments: Vec<Arc<FragmentFloor>>,
-    /// The same, with what only the footprint covers.
-    covered: Vec<Arc<FragmentFloor>>,
+    /// The same, with what only the footprint covers; made when it is asked for. Not used for a disc.
+    covered: Vec<OnceLock<Arc<FragmentFloor>>>,
+    /// Of each doorway whether it stands open, is high enough and without a step.
+    admits: Vec<bool>,
     pub(super) network: Network,
     /// By Fragment, then by doorway.
     straits: Vec<Vec<Strait>>,
@@ -97,6 +99,7 @@ impl FloorPlan {
             scene: Arc::new(scene),
             fragments: Vec::new(),
             covered: Vec::new(),
+            admits: Vec::new(),
             network: Network::default(),
             straits: Vec::new(),
             by_place: Arc::default(),
@@ -121,7 +124,6 @@ impl FloorPlan {
             floors.sort_by_key(|f| f.area);
             (floors, stale.len())
         });
-        plan.covered.clone_from(&fragments);
         plan.fragments = fragments;
         let boxes: Vec<Bounds> = plan.fragments.iter().map(|f| plan.extent_of(f)).collect();
         plan.by_place = Arc::new(Buckets::of(&boxes));
@@ -329,12 +331,12 @@ impl FloorPlan {
 
     /// All Fragments, in the order of their Areas' ids.
     pub fn fragments(&self) -> impl ExactSizeIterator<Item = &FragmentFloor> + '_ {
-        self.covered.iter().map(Arc::as_ref)
+        (0..self.fragments.len() as u32).map(|n| self.covered(n))
     }
 
     #[must_use]
     pub fn fragment(&self, area: AreaId) -> Option<&FragmentFloor> {
-        self.number(area).map(|n| self.covered[n].as_ref())
+        self.number(area).map(|n| self.covered(n as u32))
     }
 
     /// The Passframes of an Area.
@@ -364,7 +366,10 @@ impl FloorPlan {
 
     /// The Fragment with the Passframes of all that the footprint covers.
     pub(super) fn covered(&self, number: u32) -> &FragmentFloor {
-        &self.covered[number as usize]
+        if self.robot.footprint.is_empty() {
+            return self.floor(number);
+        }
+        self.covered[number as usize].get_or_init(|| Arc::new(self.cover(number)))
     }
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
@@ -387,8 +392,8 @@ impl FloorPlan {
     }
 
     /// Whether a doorway stands open, is high enough and without a step; how wide does not matter.
-    pub(super) fn admits(&self, world: &World, doorway: usize) -> bool {
-        self.with_site(world, |site| site.is_open(&self.doorways[doorway]))
+    pub(super) fn admits(&self, doorway: usize) -> bool {
+        self.admits[doorway]
     }
 
     /// The doorways that the robot can pass as they stand.
@@ -441,6 +446,12 @@ impl FloorPlan {
         }
         let count = self.fragments.len();
         self.straits.resize(count + self.doorways.len(), Vec::new());
+        self.covered.resize(count, OnceLock::new());
+        self.admits.resize(self.doorways.len(), false);
+        for &doorway in &crossed {
+            self.admits[doorway] =
+                self.with_site(world, |site| site.is_open(&self.doorways[doorway]));
+        }
         if !self.robot.footprint.is_empty() {
             // Straits lead on through Fragments without a place to turn.
             let mut open: Vec<usize> = crossed.iter().copied().collect();
@@ -462,7 +473,7 @@ impl FloorPlan {
                 mark(&mut changed, &self.extent_of(&self.fragments[number]).grown(reach));
             }
             let within = stale.iter().map(|&n| (n, strait::within(self, n as u32)));
-            let through = crossed.iter().map(|&d| (count + d, strait::through(self, world, d)));
+            let through = crossed.iter().map(|&d| (count + d, strait::through(self, d)));
             for (place, fresh) in within.chain(through).collect::<Vec<_>>() {
                 let gone = std::mem::replace(&mut self.straits[place], fresh);
                 for strait in gone.iter().chain(&self.straits[place]) {
@@ -470,36 +481,36 @@ impl FloorPlan {
                 }
             }
             for number in changed {
-                self.cover(world, number);
-            }
-        } else {
-            for number in stale {
-                self.covered[number] = Arc::clone(&self.fragments[number]);
+                self.covered[number] = OnceLock::new();
             }
         }
         let straits = self.straits.iter().flatten().cloned().collect();
         self.network.join(&self.fragments, self.doorways.len(), straits);
     }
 
-    /// Counts to a Fragment's free floor what the footprint covers and the disc does not.
-    fn cover(&mut self, world: &World, number: usize) {
-        let own = &self.fragments[number];
+    /// A Fragment whose free floor is what the footprint covers too.
+    fn cover(&self, number: u32) -> FragmentFloor {
+        let own = self.floor(number);
         let extent = self.extent_of(own);
         let near = self.straits.iter().flatten().filter(|s| s.extent().meets(&extent));
         let lanes: Vec<(Point, Point)> =
             near.flat_map(|s| s.lanes).map(|lane| (lane.ends[0], lane.ends[1])).collect();
         if own.dead_zones().is_empty() && lanes.is_empty() {
-            self.covered[number] = Arc::clone(own);
-            return;
+            return own.clone();
         }
-        let covered = self.with_site(world, |site| {
-            own.with_footprint(site, &self.coverage(site, number as u32, &lanes), lanes)
-        });
-        self.covered[number] = Arc::new(covered);
+        let coverage = self.coverage(number, &lanes);
+        own.with_footprint(self.inside(number, 0.0), &coverage, lanes)
+    }
+
+    /// The floor of a Fragment that nothing stands on, up to so far beyond the lines of its open doorways, in cm.
+    fn inside(&self, number: u32, further: f64) -> Shapes {
+        let own = self.doorways_at(number).iter().filter(|d| self.admits[d.0]);
+        let open = own.map(|&(index, side)| (&self.doorways[index], side));
+        self.floor(number).inside(open, further, self.reach().max(2.0 * SLACK))
     }
 
     /// What the footprint can touch that covers some floor of a Fragment.
-    fn coverage(&self, site: &Site<'_>, number: u32, lanes: &[(Point, Point)]) -> Coverage<'_> {
+    fn coverage(&self, number: u32, lanes: &[(Point, Point)]) -> Coverage<'_> {
         /// Floors overlap by so much in cm on either side of the line on which they meet.
         const WELD: f64 = 0.1;
         let grid = self.floor(number).grid;
@@ -511,7 +522,7 @@ impl FloorPlan {
             for &(index, side) in self.doorways_at(at) {
                 let doorway = &self.doorways[index];
                 let next = self.number(doorway.areas[1 - side]).map(|n| n as u32);
-                if !site.is_open(doorway) {
+                if !self.admits[index] {
                     shut.push(doorway.line());
                 } else if let Some(next) = next.filter(|n| !numbers.contains(n))
                     && self.floor(next).bounds.meets(&place)
@@ -526,7 +537,7 @@ impl FloorPlan {
             near.map(|c| grid.contour(&c.clone().clipped(&place))).collect()
         };
         let inside =
-            floors.iter().flat_map(|f| within(f.grid.regions(&f.inside(site, &f.grid, WELD))));
+            numbers.iter().flat_map(|&n| within(self.floor(n).grid.regions(&self.inside(n, WELD))));
         let inside: Vec<Contour> = inside.collect();
         let floor = overlay(&inside, &[], OverlayRule::Subject, FillRule::NonZero);
         let floor: Vec<Contour> = floor.into_iter().flatten().collect();

@@ -31,7 +31,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 use std::f64::consts::PI;
 
-use crate::map::{RobotProfile, World};
+use crate::map::RobotProfile;
 use crate::units::{Point, Vector};
 
 use super::coverage::{body, meeting, over, shrunk};
@@ -189,8 +189,8 @@ pub(super) fn within(plan: &FloorPlan, number: u32) -> Vec<Strait> {
 
 /// The straits through an open doorway that the covering disc does not pass. Where the Fragment behind has no place for
 /// the disc, they lead on through its further doorways; each is found for the first doorway that it passes.
-pub(super) fn through(plan: &FloorPlan, world: &World, index: usize) -> Vec<Strait> {
-    if plan.robot().footprint.is_empty() || !plan.admits(world, index) {
+pub(super) fn through(plan: &FloorPlan, index: usize) -> Vec<Strait> {
+    if plan.robot().footprint.is_empty() || !plan.admits(index) {
         return Vec::new();
     }
     let sides = |index: usize| -> Option<[u32; 2]> {
@@ -210,7 +210,7 @@ pub(super) fn through(plan: &FloorPlan, world: &World, index: usize) -> Vec<Stra
         }
         for &(next, _) in plan.doorways_at(number) {
             let is_new = passed.iter().all(|&(known, _)| known != next);
-            if let Some(ends) = sides(next).filter(|_| is_new && plan.admits(world, next)) {
+            if let Some(ends) = sides(next).filter(|_| is_new && plan.admits(next)) {
                 passed.push((next, ends));
                 numbers.extend(ends.iter().filter(|n| !numbers.contains(n)).collect::<Vec<_>>());
             }
