@@ -124,7 +124,7 @@ fn stairs_are_no_way_and_it_is_said() {
     for (command, russian, english) in [
         (
             "Поезжай на второй этаж",
-            "На этаж «Второй этаж» ведёт только лестница, а по ней роботу не проехать.",
+            "На Второй этаж ведёт только лестница, а по ней роботу не проехать.",
             "Only stairs lead to the floor “Second floor”, and the robot cannot climb them.",
         ),
         (
