@@ -288,6 +288,10 @@ fn joined(text: &str) -> Cow<'_, str> {
     let mut moved: Vec<(usize, Range<usize>)> = Vec::new();
     for (at, key) in keys.iter().enumerate() {
         let Some((_, halves)) = SPLIT.iter().find(|(verb, _)| verb == key) else { continue };
+        // "Turn off every lamp that is on"
+        if keys.get(at + 1).is_some_and(|next| halves.contains(&next.as_str())) {
+            continue;
+        }
         let end = (at + 1..=words.len()).find(|&end| ends_clause(text, &words, &keys, end));
         let mut last = end.unwrap_or(words.len());
         // "… on, please", "… off now"
@@ -496,6 +500,7 @@ mod tests {
             ("turn the lamp on the desk off, please", "turn off the lamp on the desk, please"),
             ("Switch all lights off and come back", "Switch off all lights and come back"),
             ("put the book on the shelf", "put the book on the shelf"),
+            ("Turn off every lamp that's on", "Turn off every switched on lamp"),
             ("Put it down.", "Put down it."),
             ("Switch everything off in the hall", "Switch off all the things in the hall"),
             ("Верни её на место", "Верни на место её"),

@@ -415,10 +415,22 @@ impl Settler<'_, '_> {
                 continue;
             }
             let except = self.except_after(clause.items, *at, &objects[n + 1..]);
+            // «кроме двери в ванную»
+            let last = except.as_ref().and_then(|(except, _)| except.last());
+            let from =
+                last.and_then(|last| objects.iter().position(|(_, p)| p.words == last.words));
+            let next = |n: usize| objects.get(n).map_or(usize::MAX, |(item, _)| *item);
+            let of_except: Vec<&&Spot<'_>> = from.map_or_else(Vec::new, |from| {
+                own.iter().filter(|s| (next(from)..next(from + 1)).contains(&s.item)).collect()
+            });
             let value = self.value_after(clause.items, *at, phrase);
             let more = More {
                 value: value.as_ref().map(|(value, _)| *value),
-                except: except.iter().flat_map(|e| &e.0).map(|p| p.noun.clone()).collect(),
+                except: except
+                    .iter()
+                    .flat_map(|e| &e.0)
+                    .map(|p| self.left_out(sort, p, &of_except))
+                    .collect(),
                 place: told.place,
                 there,
                 gone_to: told.gone_to,
@@ -455,6 +467,7 @@ impl Settler<'_, '_> {
                 // Behind the value that the noun has taken, if there is one.
                 let from = self.sentence.words[from - 1].end.max(end);
                 let last = except.last().map_or(from, |last| self.bytes(&last.words).end);
+                let last = of_except.iter().map(|s| s.at.end).max().unwrap_or(last);
                 edits.push(Edit::deletion(&(from..last)));
                 until_word = except.last().map_or(until_word, |last| last.words.end);
             }

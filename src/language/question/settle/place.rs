@@ -58,8 +58,6 @@ impl Settler<'_, '_> {
         sort: &impl Fn(usize) -> Sort,
     ) -> Vec<Spot<'i>> {
         let mut spots: Vec<Spot<'i>> = Vec::new();
-        let is_last =
-            |n: usize| !items[n + 1..].iter().any(|item| matches!(item, Item::Place { .. }));
         for (n, item) in items.iter().enumerate() {
             let Item::Place { rel, nouns, .. } = item else { continue };
             let Some(phrase) = nouns.first() else { continue };
@@ -85,7 +83,8 @@ impl Settler<'_, '_> {
                 && !self.is_faced(phrase)
                 && last.clause == clause
                 && phrase.pronoun.is_none()
-                && !(is_last(n) && self.is_put_beside(last, *rel, sort(clause)))
+                && !(sort(clause) == Sort::Put
+                    && self.is_put_beside(last, *rel, phrase, &items[n + 1..]))
                 && self.tells_where(last, *rel, phrase, sort(clause))
             {
                 last.within.push(restriction);
@@ -140,9 +139,15 @@ impl Settler<'_, '_> {
         }
     }
 
-    /// "Put the statue from the table next to the vase": it goes there, and no table is told by it.
-    fn is_put_beside(&self, last: &Spot<'_>, rel: Rel, sort: Sort) -> bool {
-        sort == Sort::Put && last.rel == Rel::From && is_side(rel)
+    /// "Put the statue from the table next to the vase": it goes there, and no table is told by it; "from the chair next to
+    /// the bed onto the table" says another whither.
+    fn is_put_beside(&self, last: &Spot<'_>, rel: Rel, phrase: &Phrase, after: &[Item]) -> bool {
+        let can_be_carried = |phrase: &Phrase| {
+            let base = self.knowledge.base(&phrase.noun.head);
+            base.iter().any(|t| self.knowledge.can(Sort::Carry, *t))
+        };
+        let ends = !after.iter().any(|item| matches!(item, Item::Place { .. }));
+        last.rel == Rel::From && is_side(rel) && (ends || can_be_carried(phrase))
     }
 
     /// Whether a place is beside what can be carried.

@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use super::Settler;
+use super::choice::with;
+use super::place::Spot;
 use crate::language::command::{self, Sort};
 use crate::language::question::grammar::Sentence;
 use crate::language::question::grammar::{Item, Phrase};
 use crate::language::question::lexicon::KindId;
 use crate::language::question::mark::Mark;
-use crate::language::question::query::Rel;
+use crate::language::question::query::{Noun, Rel, Restriction};
 use crate::language::question::values::ValueId;
 use crate::language::question::{Asker, purposes};
 use crate::language::words::Language;
@@ -101,6 +103,17 @@ impl Settler<'_, '_> {
             _ => return None,
         };
         Some((except, from))
+    }
+
+    /// What is left out, with the places that tell which: those that follow the last of it.
+    pub(super) fn left_out(&self, sort: Sort, except: &Phrase, spots: &[&&Spot<'_>]) -> Noun {
+        let own = spots.iter().filter(|s| s.phrase.words.start >= except.words.end);
+        let within = own.map(|s| Restriction {
+            rel: if sort == Sort::Door { Rel::Of } else { s.rel },
+            anchors: vec![with(&s.phrase.noun, &s.within)],
+            negated: false,
+        });
+        with(&except.noun, &within.collect::<Vec<_>>())
     }
 
     /// "the book on the dresser and the cup from the kitchen": what is named behind a place and its joint is an object
