@@ -11,8 +11,8 @@ use crate::map::Entity;
 use crate::units::capitalized;
 
 use super::knowledge::{Frame, Knowledge};
-use super::lexicon::{Extension, lower_first};
-use super::query::{Filter, Noun, Rel, Thing};
+use super::lexicon::{Extension, KindId, lower_first};
+use super::query::{Filter, Noun, Rel, Restriction, Thing};
 use super::values::{Property, ValueId};
 
 /// More than this is not listed one by one.
@@ -357,7 +357,28 @@ impl Knowledge<'_> {
     /// Where a description says its things are: «в Комнате-В на столах».
     pub(super) fn restrictions(&self, noun: &Noun) -> String {
         let mut parts: Vec<String> = noun.sizes.iter().map(|size| self.size_words(*size)).collect();
+        // "in every room except the kitchen"
+        let rooms = |a: &Noun| {
+            let is_room = |k: &KindId| self.lexicon().kind(*k).extension == Extension::Rooms;
+            a.restrictions.is_empty() && a.head.kinds.iter().any(is_room)
+        };
+        let of_rooms = |r: &&Restriction| r.rel == Rel::In && r.anchors.iter().all(rooms);
+        let every = noun.restrictions.iter().any(|r| !r.negated && of_rooms(&r));
+        let except = noun.restrictions.iter().find_map(|r| {
+            let area = self.find(r.anchors.first()?, true).ok()?.into_iter().next()?;
+            (every && r.negated && r.rel == Rel::In && area.area().is_some()).then_some(area)
+        });
         for restriction in &noun.restrictions {
+            if except.is_some() && !restriction.negated && of_rooms(&restriction) {
+                continue;
+            }
+            if let Some(area) = except.filter(|_| restriction.negated) {
+                parts.push(match self.is_russian() {
+                    true => format!("вне {}", self.form(area, Case::Genitive)),
+                    false => format!("outside {}", self.name(area)),
+                });
+                continue;
+            }
             let mut anchors: Vec<Thing> = Vec::new();
             let mut text = String::new();
             let walls = restriction.anchors.iter().any(|anchor| self.is_walls(anchor));
