@@ -114,7 +114,10 @@ impl Knowledge<'_> {
             // "the bigger one" of several that were told
             let one = word_keys(&noun.text).last().is_some_and(|word| word == "one");
             if one && noun.head.anything && self.memory.listed.len() > 1 {
-                let things = Some(self.memory.listed.clone());
+                // "Which rooms have a TV? What does the one in the bedroom stand on?"
+                let rooms = self.memory.listed.iter().all(|t| t.area().is_some());
+                let had = self.had_by_rooms().filter(|_| rooms && !noun.restrictions.is_empty());
+                let things = Some(had.unwrap_or_else(|| self.memory.listed.clone()));
                 noun.head = Head { things, ..Head::default() };
             }
         });

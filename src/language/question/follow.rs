@@ -20,6 +20,9 @@ impl Asker<'_> {
         if let Some(query) = self.turned_round(&key, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
         }
+        if let Some(query) = self.other_side(text, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.more_of_those(text, memory) {
             return Some(query);
         }
@@ -465,6 +468,9 @@ impl Asker<'_> {
         };
         // "Where is the nearest chair? And the farthest?", «Сколько комнат? Какая самая большая?»
         if noun.best.is_some() {
+            if !noun.restrictions.is_empty() {
+                asked.restrictions = noun.restrictions;
+            }
             asked.best = noun.best;
             asked.rank = noun.rank;
             asked.plural = false;

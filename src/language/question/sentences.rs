@@ -64,7 +64,7 @@ impl Asker<'_> {
     }
 
     /// «Что справа от тебя и что слева?»: the other side of what the question before was about.
-    fn other_side(&self, part: &str, memory: &Memory) -> Option<Query> {
+    pub(super) fn other_side(&self, part: &str, memory: &Memory) -> Option<Query> {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
         let sided =
@@ -73,14 +73,23 @@ impl Asker<'_> {
         for item in sentence.items() {
             match item {
                 Item::Link(rel) if sided(rel) && side.is_none() => side = Some(rel),
-                Item::Mark(Mark::What | Mark::Be | Mark::Exists) => {}
+                // "And to the right of it?"
+                Item::Place { rel, nouns, .. }
+                    if sided(rel)
+                        && side.is_none()
+                        && matches!(&nouns[..], [only] if only.pronoun.is_some()) =>
+                {
+                    side = Some(rel);
+                }
+                Item::Mark(Mark::What | Mark::Be | Mark::Exists | Mark::And) => {}
                 _ => return None,
             }
         }
         let Some(Query::Find(before)) = &memory.query else { return None };
         let mut noun = before.clone();
         let [place] = &mut noun.restrictions[..] else { return None };
-        place.rel = side.filter(|_| sided(place.rel))?;
+        // The same side once more is a question about something else.
+        place.rel = side.filter(|side| sided(place.rel) && *side != place.rel)?;
         Some(Query::Find(noun))
     }
 

@@ -53,8 +53,11 @@ impl Property {
 }
 
 const NAMES: &[(Property, &str)] = &[
-    (Property::Colour, "цвет|colour|color|цвета|цветом|цвете|colors|colours|окраска|расцветка"),
-    (Property::Material, "материал|material|материала|материалом|материалы|materials"),
+    (
+        Property::Colour,
+        "цвет|colour|color|цвета|цветом|по цвету|цвете|colors|colours|окраска|расцветка",
+    ),
+    (Property::Material, "материал|material|материала|материалом|по материалу|материалы|materials"),
     (Property::State, "состояние|state|status|состоянии|состояния|condition|статус|положение"),
     (Property::Surface, "поверхность|surface|texture|фактура"),
     (Property::Shape, "форма|shape|формы|форме"),

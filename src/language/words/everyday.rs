@@ -24,7 +24,7 @@ const SAME: &[&str] = &[
     "посудомоечная машина|посудомойка|dishwasher",
     "мусорное ведро|мусорка|мусорная корзина|урна|помойка|мусорный бак|корзина для мусора|bin|trash can|trash bin|garbage can|garbage bin|rubbish bin|waste basket|wastebasket|dustbin|trash|garbage|waste bin|trashcan",
     "мешок для мусора|мусорный мешок|мусорный пакет|пакет для мусора|пакет с мусором|мешок с мусором|garbage bag|trash bag|rubbish bag|bin bag|bin liner",
-    "распылитель|пульверизатор|опрыскиватель|спрей|spray bottle|spray|sprayer",
+    "распылитель|пульверизатор|опрыскиватель|спрей|spray bottle|sprayer bottle|spray|sprayer",
     "будильник|alarm clock|alarm",
     "жидкое мыло|флакон мыла|флакон с мылом|дозатор мыла|soap bottle|liquid soap|hand soap|soap dispenser",
     "туалет|санузел|уборная|wc|toilet|lavatory|restroom|washroom|loo|bathroom",
