@@ -4,6 +4,8 @@
 //! Invariant: nothing is taken for meant that the last few exchanges did not name; where they name several of one rank
 //! that fit, it is asked back.
 
+use std::collections::HashSet;
+
 use super::everyday;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId, Meaning};
@@ -95,6 +97,36 @@ impl Knowledge<'_> {
             }
         }
         None
+    }
+
+    /// Those of some things that an answer has told one after the other, in its order.
+    pub(super) fn of_listed(&self, things: &[Thing]) -> Vec<Thing> {
+        let told = self.memory.listed.iter().copied();
+        told.filter(|t| things.contains(t)).collect()
+    }
+
+    /// The one of several things that was just spoken of, if one is meant.
+    pub(super) fn meant(&self, noun: &Noun, found: &[Thing]) -> Result<Thing, Doubt> {
+        let one = !noun.plural && !noun.indefinite && !noun.other && noun.head.things.is_none();
+        let meant = self.in_focus(found).filter(|_| one);
+        let exact = || self.exactly(noun, found).unwrap_or_else(|| found.to_vec());
+        meant.map_or_else(
+            || match exact()[..] {
+                [only] => Ok(only),
+                ref several => Err(self.ambiguous(noun, several)),
+            },
+            Ok,
+        )
+    }
+
+    /// Those of some things that a word names outright: "the box" is no tissue box where there is a box. None where
+    /// that leaves all or nothing.
+    fn exactly(&self, noun: &Noun, found: &[Thing]) -> Option<Vec<Thing>> {
+        let kinds = self.lexicon().proper(&noun.head.kinds, self.language);
+        let own: HashSet<Thing> =
+            self.base(&Head { kinds, ..Head::default() }).into_iter().collect();
+        let exact: Vec<Thing> = found.iter().filter(|t| own.contains(t)).copied().collect();
+        (!exact.is_empty() && exact.len() < found.len()).then_some(exact)
     }
 
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.

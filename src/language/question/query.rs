@@ -426,6 +426,18 @@ impl Claim {
 }
 
 impl Query {
+    /// The one description of what is looked for, counted, or said to exist.
+    pub(super) fn sought(&self) -> Option<&Noun> {
+        match self {
+            Self::Find(noun) | Self::Count(noun) => Some(noun),
+            Self::Exists { what, .. } => match &what[..] {
+                [noun] => Some(noun),
+                _ => None,
+            },
+            _ => None,
+        }
+    }
+
     /// Does something to every noun of the query.
     pub(super) fn each_noun(&mut self, act: &mut dyn FnMut(&mut Noun)) {
         match self {

@@ -55,14 +55,7 @@ impl Knowledge<'_> {
 
     /// «В гостиной нет стульев. Почему?»: where they are instead.
     fn absent(&self, query: &Query) -> Option<Draft> {
-        let noun = match query {
-            Query::Find(noun) | Query::Count(noun) => noun,
-            Query::Exists { what, .. } => match &what[..] {
-                [noun] => noun,
-                _ => return None,
-            },
-            _ => return None,
-        };
+        let noun = query.sought()?;
         let anywhere = Noun { restrictions: Vec::new(), plural: true, ..noun.clone() };
         let known = !noun.restrictions.is_empty() && !noun.head.anything;
         let found = self.find(&anywhere, true).ok().filter(|found| known && !found.is_empty())?;

@@ -171,14 +171,7 @@ impl Knowledge<'_> {
 
     /// «Есть ли грязные тарелки?» where the map says of no plate whether it is dirty.
     fn all_untold(&self, query: &Query) -> Option<String> {
-        let noun = match query {
-            Query::Find(noun) | Query::Count(noun) => noun,
-            Query::Exists { what, .. } => match &what[..] {
-                [noun] => noun,
-                _ => return None,
-            },
-            _ => return None,
-        };
+        let noun = query.sought()?;
         let [filter] = &noun.filters[..] else { return None };
         if filter.negated || noun.head.anything || noun.best.is_some() {
             return None;

@@ -264,12 +264,6 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Those of some things that an answer has told one after the other, in its order.
-    fn of_listed(&self, things: &[Thing]) -> Vec<Thing> {
-        let told = self.memory.listed.iter().copied();
-        told.filter(|t| things.contains(t)).collect()
-    }
-
     /// «Стул у окна»: of several windows the one is meant that has a chair, where only one chair is at any. None
     /// where that tells nothing.
     fn told_together(
@@ -350,30 +344,6 @@ impl Knowledge<'_> {
             [] => Err(self.none_such(noun)),
             _ => self.meant(noun, &found),
         }
-    }
-
-    /// The one of several things that was just spoken of, if one is meant.
-    fn meant(&self, noun: &Noun, found: &[Thing]) -> Result<Thing, Doubt> {
-        let one = !noun.plural && !noun.indefinite && !noun.other && noun.head.things.is_none();
-        let meant = self.in_focus(found).filter(|_| one);
-        let exact = || self.exactly(noun, found).unwrap_or_else(|| found.to_vec());
-        meant.map_or_else(
-            || match exact()[..] {
-                [only] => Ok(only),
-                ref several => Err(self.ambiguous(noun, several)),
-            },
-            Ok,
-        )
-    }
-
-    /// Those of some things that a word names outright: "the box" is no tissue box where there is a box. None where
-    /// that leaves all or nothing.
-    fn exactly(&self, noun: &Noun, found: &[Thing]) -> Option<Vec<Thing>> {
-        let kinds = self.lexicon().proper(&noun.head.kinds, self.language);
-        let own: HashSet<Thing> =
-            self.base(&Head { kinds, ..Head::default() }).into_iter().collect();
-        let exact: Vec<Thing> = found.iter().filter(|t| own.contains(t)).copied().collect();
-        (!exact.is_empty() && exact.len() < found.len()).then_some(exact)
     }
 
     pub(in crate::language::question) fn ambiguous(&self, noun: &Noun, found: &[Thing]) -> Doubt {
