@@ -205,7 +205,7 @@ fn a_journey_is_told_floor_by_floor() {
         .journey_in_words(&journey, None, Language::Russian, Detail::Spot)
         .expect("a map")
         .join("\n");
-    let ride = format!("Поднимитесь на лифте «{name}» на этаж «Второй этаж».");
+    let ride = format!("Поднимитесь на лифте «{name}» на Второй этаж.");
     assert!(text.contains(&ride), "{text}");
     assert!(text.ends_with("в Холл-2."), "{text}");
     let back = engine.journey("Холл-2", "Холл-1", Method::Shortest).expect("both are known");
