@@ -369,7 +369,7 @@ impl FloorPlan {
         if self.robot.footprint.is_empty() {
             return self.floor(number);
         }
-        self.covered[number as usize].get_or_init(|| Arc::new(self.cover(number)))
+        self.covered[number as usize].get_or_init(|| self.cover(number))
     }
 
     /// Which part of the Map's centre space a cell belongs to: the robot can go between cells of one region.
@@ -489,17 +489,17 @@ impl FloorPlan {
     }
 
     /// A Fragment whose free floor is what the footprint covers too.
-    fn cover(&self, number: u32) -> FragmentFloor {
-        let own = self.floor(number);
+    fn cover(&self, number: u32) -> Arc<FragmentFloor> {
+        let own = &self.fragments[number as usize];
         let extent = self.extent_of(own);
         let near = self.straits.iter().flatten().filter(|s| s.extent().meets(&extent));
         let lanes: Vec<(Point, Point)> =
             near.flat_map(|s| s.lanes).map(|lane| (lane.ends[0], lane.ends[1])).collect();
         if own.dead_zones().is_empty() && lanes.is_empty() {
-            return own.clone();
+            return Arc::clone(own);
         }
         let coverage = self.coverage(number, &lanes);
-        own.with_footprint(self.inside(number, 0.0), &coverage, lanes)
+        Arc::new(own.with_footprint(self.inside(number, 0.0), &coverage, lanes))
     }
 
     /// The floor of a Fragment that nothing stands on, up to so far beyond the lines of its open doorways, in cm.
