@@ -356,12 +356,3 @@ pub(super) fn without_spot(said: &Said) -> Option<String> {
         tells.then(|| said.with(&(at..next.end), said.of(&next)))
     })
 }
-
-/// "Open the door to the outside": outside is what lies behind it, as a street does.
-pub(super) fn to_outside(said: &Said) -> Option<String> {
-    let at = (1..said.keys.len()).find(|&n| {
-        let before = n - usize::from(said.is(n - 1, &["the"]));
-        said.is(n, &["outside"]) && before > 0 && said.is(before - 1, &["to"])
-    })?;
-    (!said.is(at + 1, &["of"])).then(|| said.with(&(at..at + 1), "street"))
-}

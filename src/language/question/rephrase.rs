@@ -186,8 +186,7 @@ fn on_it(words: &Words<'_>) -> Option<String> {
     tail.then(|| words.replaced(vec![(last - 1..last + 1, String::new())]))
 }
 
-/// «Дверь на улицу», «дверь, которая ведёт наружу», "the door from the kitchen to the outside", "the outside door": an
-/// exit.
+/// «Дверь, которая ведёт на улицу», "the door from the kitchen to the outside": an exit.
 fn leads_outside(words: &Words<'_>) -> Option<String> {
     const RELATIVE: [&str; 5] = ["that", "which", "которая", "которую", "что"];
     const LEADS: [&str; 4] = ["leads", "goes", "ведет", "выходит"];
@@ -203,13 +202,6 @@ fn leads_outside(words: &Words<'_>) -> Option<String> {
         })
     };
     let (at, exit) = words.keys.iter().enumerate().find_map(|(n, key)| Some((n, exit(key)?)))?;
-    let before = at.checked_sub(1).filter(|&n| {
-        words.is(n, &["outside", "exterior", "outer", "external", "уличная", "уличную", "наружная"])
-            || words.is(n, &["наружную", "уличной", "наружной"])
-    });
-    if let Some(before) = before {
-        return Some(words.replaced(vec![(before..at + 1, exit.to_owned())]));
-    }
     // The last of the words that say whither.
     let out = (at + 1..words.keys.len()).find(|&n| {
         words.is(n, &["наружу"])
