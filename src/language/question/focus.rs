@@ -62,7 +62,6 @@ impl Memory {
 
     fn follow(&mut self, exchange: Exchange) {
         self.is_lost = false;
-        self.is_unanswered = false;
         if !exchange.is_empty() {
             self.exchanges.insert(0, exchange);
             self.exchanges.truncate(RECENT);
@@ -79,7 +78,7 @@ impl Memory {
 
     /// Notes that a question had no answer. Where all that it named is unknown to the map, pronouns mean that from now on.
     pub(super) fn miss(&mut self, doubt: &Doubt, names_nothing: bool) {
-        self.is_unanswered = true;
+        (self.facts, self.said) = (Vec::new(), None);
         self.is_lost |= matches!(doubt, Doubt::Unknown { .. }) && names_nothing;
     }
 }
@@ -105,18 +104,20 @@ impl Knowledge<'_> {
         told.filter(|t| things.contains(t)).collect()
     }
 
-    /// The one of several things that was just spoken of, if one is meant.
+    /// Of several things that a description in the singular fits: the one that was just spoken of, else the one that is
+    /// exactly of the kind.
+    ///
+    /// # Errors
+    /// Several are left.
     pub(super) fn meant(&self, noun: &Noun, found: &[Thing]) -> Result<Thing, Doubt> {
         let one = !noun.plural && !noun.indefinite && !noun.other && noun.head.things.is_none();
-        let meant = self.in_focus(found).filter(|_| one);
-        let exact = || self.exactly(noun, found).unwrap_or_else(|| found.to_vec());
-        meant.map_or_else(
-            || match exact()[..] {
-                [only] => Ok(only),
-                ref several => Err(self.ambiguous(noun, several)),
-            },
-            Ok,
-        )
+        if let Some(thing) = self.in_focus(found).filter(|_| one) {
+            return Ok(thing);
+        }
+        match self.exactly(noun, found).as_deref().unwrap_or(found) {
+            [only] => Ok(*only),
+            several => Err(self.ambiguous(noun, several)),
+        }
     }
 
     /// Those of some things that a word names outright: "the box" is no tissue box where there is a box. None where
@@ -162,7 +163,7 @@ impl Knowledge<'_> {
         }
     }
 
-    fn kind_of(&self, thing: Thing) -> Option<KindId> {
+    pub(super) fn kind_of(&self, thing: Thing) -> Option<KindId> {
         let replica = self.world.replicas.get(&thing.replica()?)?;
         let object = self.world.objects.get(&replica.object)?;
         self.lexicon().kind_of(&Extension::ObjectType(object.object_type?))
@@ -180,9 +181,8 @@ impl Knowledge<'_> {
                 || anchor.best.is_some();
             let found = if told { None } else { self.find(anchor, false).ok() };
             if let Some(meant) = found.filter(|f| f.len() > 1).and_then(|f| self.in_focus(&f)) {
-                let head = Head { things: Some(vec![meant]), ..Head::default() };
                 let text = std::mem::take(&mut anchor.text);
-                *anchor = Noun { head, text, ..Noun::default() };
+                *anchor = Noun { text, ..Noun::of(vec![meant]) };
             }
         }
     }

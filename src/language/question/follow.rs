@@ -4,10 +4,10 @@ use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Best;
 use super::{
-    Asker, Claim, Detail, Extension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble,
+    Asker, Claim, Detail, Dimension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble,
     several, vocabulary,
 };
-use crate::language::words::{Gender, word_keys};
+use crate::language::words::{Gender, Language, word_keys};
 use crate::map::Entity;
 
 impl Asker<'_> {
@@ -17,7 +17,8 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
-        if let Some(query) = self.turned_round(&key, last).or_else(|| by_how_much(&key, last)) {
+        if let Some(query) = self.turned_round(text, &key, last).or_else(|| by_how_much(&key, last))
+        {
             return Some(query);
         }
         if let Some(query) = self.other_side(text, memory) {
@@ -134,9 +135,8 @@ impl Asker<'_> {
             named.extend(knowledge.find(noun, true).ok());
         });
         let things = named.into_iter().find(|things| agree(things))?;
-        let head = Head { things: Some(things), ..Head::default() };
         let best = Some(Best { extreme, anchor: None });
-        Some(Query::Find(Noun { head, best, indefinite: true, ..Noun::default() }))
+        Some(Query::Find(Noun { best, indefinite: true, ..Noun::of(things) }))
     }
 
     /// «Где третья?», "And the third one?": of those that were listed, in their order.
@@ -155,21 +155,13 @@ impl Asker<'_> {
         }
         let at = usize::try_from(rank?).ok()?.checked_sub(1)?;
         let meant = *memory.listed.get(at)?;
-        let noun =
-            Noun { head: Head { things: Some(vec![meant]), ..Head::default() }, ..Noun::default() };
-        let mut query = memory.query.clone()?;
-        if asks_where
-            || !matches!(query, Query::Property { .. } | Query::Size { .. } | Query::Where(_))
-        {
-            return Some(Query::Where(noun));
-        }
-        let mut first = true;
-        query.each_noun(&mut |old| {
-            if std::mem::take(&mut first) {
-                *old = noun.clone();
+        let noun = Noun::of(vec![meant]);
+        Some(match memory.query.clone()? {
+            query @ (Query::Property { .. } | Query::Size { .. }) if !asks_where => {
+                query.of_another(&noun)
             }
-        });
-        Some(query)
+            _ => Query::Where(noun),
+        })
     }
 
     /// «А всего?», "And in the whole flat?": the last question without its place.
@@ -220,7 +212,7 @@ impl Asker<'_> {
     }
 
     /// «А обратно?», «Через какую дверь?»: the way that was asked for, the other way or by its doors.
-    fn turned_round(&self, key: &str, last: &Query) -> Option<Query> {
+    fn turned_round(&self, text: &str, key: &str, last: &Query) -> Option<Query> {
         const BACK: [&str; 12] = [
             "а обратно",
             "обратно",
@@ -270,49 +262,8 @@ impl Asker<'_> {
             let (through, avoiding) = (Vec::new(), Vec::new());
             return Some(Query::Passing { from, to, through, avoiding, asks });
         }
-        const LONG: [&str; 14] = [
-            "сколько это по времени",
-            "а сколько это по времени",
-            "сколько это займет",
-            "а сколько это займет",
-            "сколько это займет времени",
-            "сколько времени это займет",
-            "а сколько времени это займет",
-            "как долго",
-            "how long does it take",
-            "how long does that take",
-            "how long will it take",
-            "how long would it take",
-            "how long would that take",
-            "and how long does it take",
-        ];
-        if LONG.contains(&words.join(" ").as_str()) {
-            return Some(Query::Duration { from: from.clone(), to: to.clone() });
-        }
-        const FAR: [&str; 18] = [
-            "how far is it",
-            "how far is that",
-            "how far",
-            "how long is it",
-            "how long is that",
-            "how long is the way",
-            "how many metres is it",
-            "how many metres is that",
-            "how many meters is it",
-            "how many meters is that",
-            "сколько это метров",
-            "сколько метров",
-            "сколько это в метрах",
-            "как это далеко",
-            "как далеко",
-            "далеко это",
-            "это далеко",
-            "далеко",
-        ];
-        let small = ["а", "и", "and", "примерно", "about", "roughly", "approximately", "s"];
-        let told: Vec<&str> = words.iter().filter(|word| !small.contains(word)).copied().collect();
-        if FAR.contains(&told.join(" ").as_str()) {
-            return Some(Query::Distance { from: from.clone(), to: to.clone() });
+        if let Some(query) = self.measured_way(text, from.as_ref(), to) {
+            return Some(query);
         }
         if !BACK.contains(&words.join(" ").as_str()) {
             return None;
@@ -324,11 +275,34 @@ impl Asker<'_> {
         | Query::Distance { from, to }
         | Query::Passing { from, to, .. } = &mut query
         {
-            let head = Head { things: Some(vec![Thing::Robot]), ..Head::default() };
-            let start = from.take().unwrap_or(Noun { head, ..Noun::default() });
+            let start = from.take().unwrap_or_else(|| Noun::of(vec![Thing::Robot]));
             *from = Some(std::mem::replace(to, start));
         }
         Some(query)
+    }
+
+    /// «Далеко это?», "How long does it take?": how long the way is that was asked for, in metres or in time.
+    fn measured_way(&self, text: &str, from: Option<&Noun>, to: &Noun) -> Option<Query> {
+        let text = self.plain(text);
+        let mut in_time = None;
+        for item in Sentence::new(&text, &self.mind.lexicon).items() {
+            match item {
+                Item::Mark(Mark::HowLong) => in_time = Some(true),
+                Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
+                    in_time = in_time.or(Some(false));
+                }
+                Item::Mark(Mark::HowGet | Mark::Be | Mark::The | Mark::And | Mark::Move) => {}
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::Any)
+                        || phrase.person == Some(Mark::There) => {}
+                _ => return None,
+            }
+        }
+        let (from, to) = (from.cloned(), to.clone());
+        Some(match in_time? {
+            true => Query::Duration { from, to },
+            false => Query::Distance { from, to },
+        })
     }
 
     /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
@@ -389,38 +363,21 @@ impl Asker<'_> {
         if asks_where {
             return Some(Query::Where(noun));
         }
-        let mut query = last.clone();
-        let mut first = true;
-        query.each_noun(&mut |old| {
-            if std::mem::take(&mut first) {
-                *old = noun.clone();
-            }
-        });
-        Some(query)
+        Some(last.clone().of_another(&noun))
     }
 
     /// The other things of the kind of the last one: of several that were just listed, those that were not spoken of
     /// before.
     fn others_of_last(&self, memory: &Memory) -> Option<Noun> {
-        let spoken = memory.spoken.iter().find_map(|t| t.replica())?;
-        let object = self.world.objects.get(&self.world.replicas.get(&spoken)?.object)?;
-        let kind = self.mind.lexicon.kind_of(&Extension::ObjectType(object.object_type?))?;
-        let head = match memory.topic_among(&memory.last) {
-            Some(known) => {
-                let others = memory.last.iter().filter(|t| **t != known).copied();
-                return Some(Noun {
-                    head: Head { things: Some(others.collect()), ..Head::default() },
-                    plural: true,
-                    ..Noun::default()
-                });
-            }
+        let known = memory.topic_among(&memory.last);
+        if known.is_some() || memory.last.len() > 1 {
             // Of several that were told at once none is "the other".
-            None if memory.last.len() > 1 => {
-                let head = Head { things: Some(memory.last.clone()), ..Head::default() };
-                return Some(Noun { head, plural: true, ..Noun::default() });
-            }
-            None => Head { kinds: vec![kind], ..Head::default() },
-        };
+            let others = memory.last.iter().filter(|t| Some(**t) != known).copied();
+            return Some(Noun { plural: true, ..Noun::of(others.collect()) });
+        }
+        let spoken = memory.spoken.iter().find(|t| t.replica().is_some())?;
+        let kind = self.knowledge(Language::English, memory).kind_of(*spoken)?;
+        let head = Head { kinds: vec![kind], ..Head::default() };
         Some(Noun { head, plural: true, other: true, ..Noun::default() })
     }
 

@@ -120,13 +120,13 @@ pub struct Memory {
     exchanges: Vec<focus::Exchange>,
     /// Whether the last question named what the map lacks: a pronoun means nothing that is known.
     is_lost: bool,
-    /// Whether the last question had no answer that could be explained.
-    is_unanswered: bool,
     /// The things of the last answer.
     last: Vec<Thing>,
     /// The last several things that an answer told, in its order: «вторую» counts them.
     listed: Vec<Thing>,
     facts: Vec<Fact>,
+    /// What the last answer said, for a "why" that rests on no fact.
+    said: Option<String>,
     /// The words of the last question: who asked for a «софа» calls a «Диван» «она».
     words: String,
     /// What was asked last, for «А чайник?»
@@ -179,6 +179,7 @@ impl Memory {
         self.pending = None;
         if !matches!(answer.query, Query::Why { .. } | Query::Courtesy(_)) {
             self.facts.clone_from(&answer.facts);
+            self.said = Some(answer.text.clone());
             self.query = Some(answer.query.clone());
             self.words.clone_from(&answer.words);
         }
@@ -446,13 +447,12 @@ impl Asker<'_> {
             }
             Err(unanswered) => {
                 let (doubt, query) = *unanswered;
+                let before = memory.exchanges.clone();
                 // What else the question named is spoken of all the same.
-                let mut named = memory.clone();
-                self.hear_of(text, &mut named);
-                let names_nothing = named.exchanges == memory.exchanges && !self.has_pronoun(text);
                 if matches!(doubt, Doubt::Unknown { .. } | Doubt::NotUnderstood { .. }) {
-                    *memory = named;
+                    self.hear_of(text, memory);
                 }
+                let names_nothing = memory.exchanges == before && !self.has_pronoun(text);
                 memory.miss(&doubt, names_nothing);
                 memory.pending = match (&doubt, query) {
                     (Doubt::Ambiguous { reference, candidates }, Some(query)) => Some(Pending {

@@ -397,6 +397,11 @@ pub enum Use {
 }
 
 impl Noun {
+    /// What is told by itself, not described.
+    pub(super) fn of(things: Vec<Thing>) -> Self {
+        Self { head: Head { things: Some(things), ..Head::default() }, ..Self::default() }
+    }
+
     /// Does something to this noun and to all that it names.
     pub(super) fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
         act(self);
@@ -426,6 +431,17 @@ impl Claim {
 }
 
 impl Query {
+    /// The same question about something else: what stands in it first.
+    pub(super) fn of_another(mut self, noun: &Noun) -> Self {
+        let mut is_first = true;
+        self.each_noun(&mut |old| {
+            if std::mem::take(&mut is_first) {
+                old.clone_from(noun);
+            }
+        });
+        self
+    }
+
     /// The one description of what is looked for, counted, or said to exist.
     pub(super) fn sought(&self) -> Option<&Noun> {
         match self {

@@ -6,7 +6,7 @@ use crate::language::words::{Case, Language, enumerate};
 use super::answer::Draft;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
-use super::query::{Noun, Query};
+use super::query::{Noun, Query, Thing};
 use super::{Doubt, Fact, Said};
 use crate::language::words::length;
 
@@ -15,17 +15,20 @@ const SAID: usize = 4;
 
 impl Knowledge<'_> {
     pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
-        let last = self.memory.query.as_ref().filter(|_| !self.memory.is_unanswered);
-        let facts = match (about, last) {
-            (None, Some(_)) if !self.memory.facts.is_empty() => self.memory.facts.clone(),
-            (Some(query), _) | (None, Some(query)) => {
+        let facts = match (about, &self.memory.said, &self.memory.query) {
+            (Some(query), ..) => {
                 let answer = self.answer(query)?;
                 if answer.facts.is_empty() {
-                    return Ok(self.absent(query).unwrap_or_else(|| self.why_plain(&answer)));
+                    let plain = || self.why_plain(&answer.text, &answer.topic);
+                    return Ok(self.absent(query).unwrap_or_else(plain));
                 }
                 answer.facts
             }
-            (None, None) => Vec::new(),
+            (None, Some(said), Some(query)) if self.memory.facts.is_empty() => {
+                let plain = || self.why_plain(said, &self.memory.spoken);
+                return Ok(self.absent(query).unwrap_or_else(plain));
+            }
+            _ => self.memory.facts.clone(),
         };
         let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
             let text = self
@@ -56,6 +59,7 @@ impl Knowledge<'_> {
     /// «В гостиной нет стульев. Почему?»: where they are instead.
     fn absent(&self, query: &Query) -> Option<Draft> {
         let noun = query.sought()?;
+        self.find(noun, true).ok().filter(Vec::is_empty)?;
         let anywhere = Noun { restrictions: Vec::new(), plural: true, ..noun.clone() };
         let known = !noun.restrictions.is_empty() && !noun.head.anything;
         let found = self.find(&anywhere, true).ok().filter(|found| known && !found.is_empty())?;
@@ -68,18 +72,18 @@ impl Knowledge<'_> {
     }
 
     /// Of what rests on no relation – a way, the floor, a value that is not given – the answer itself is the reason.
-    fn why_plain(&self, answer: &super::Answer) -> Draft {
-        let text = answer.text.trim_end_matches('.');
+    fn why_plain(&self, said: &str, named: &[Thing]) -> Draft {
+        let text = said.trim_end_matches('.');
         let rest =
             ["Да, ", "Нет, ", "Yes, ", "No, "].iter().find_map(|head| text.strip_prefix(head));
         let text = rest.unwrap_or(text);
-        let is_name = answer.topic.iter().any(|t| text.starts_with(&self.name(*t)));
+        let is_name = named.iter().any(|t| text.starts_with(&self.name(*t)));
         let text = if is_name { text.to_owned() } else { lower_first(text) };
         let text = match self.is_russian() {
             true => format!("по карте так: {text}"),
             false => format!("by the map it is so: {text}"),
         };
-        Draft::plain(Said::Found, text).with(answer.things.clone())
+        Draft::plain(Said::Found, text)
     }
 
     /// The measurements that a fact comes from, or what it lacks.

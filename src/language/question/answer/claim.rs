@@ -139,16 +139,14 @@ impl Knowledge<'_> {
             }
             // "Is the remote not on the TV stand?": none of them is, whichever is meant.
             Err(Doubt::Ambiguous { candidates, reference }) => {
-                let mut verdicts = std::collections::HashSet::new();
-                for &thing in &candidates {
-                    for claim in claims {
-                        verdicts.insert(self.judge(thing, claim)?.0);
-                    }
+                let each = candidates.iter().flat_map(|t| claims.iter().map(|c| (*t, c)));
+                let verdicts: Vec<bool> = each
+                    .map(|(thing, claim)| Ok(self.judge(thing, claim)?.0))
+                    .collect::<Result<_, Doubt>>()?;
+                if verdicts.windows(2).any(|pair| pair[0] != pair[1]) {
+                    return Err(Doubt::Ambiguous { candidates, reference });
                 }
-                match verdicts.len() {
-                    1 => candidates,
-                    _ => return Err(Doubt::Ambiguous { candidates, reference }),
-                }
+                candidates
             }
             found => found?,
         };
