@@ -20,7 +20,7 @@ pub(super) fn answer(
     question: &str,
     explain: bool,
 ) -> Result<Outcome, Failure> {
-    let mut memory = Memory::default();
+    let mut memory = Memory::speaking(common.lang.language());
     match engine.ask(question, &mut memory)? {
         Ok(answer) => {
             if common.json {

@@ -59,14 +59,19 @@ impl Failure {
             Self::Engine(error) => {
                 let english = Some(error).filter(|_| lang == Lang::En).and_then(|e| e.in_english());
                 let shown: &dyn Diagnostic = english.as_deref().unwrap_or(error.as_ref());
+                let told = error.english().filter(|_| lang == Lang::En);
                 if as_json {
                     let mut leaves = Vec::new();
                     gather(shown, None, &mut leaves);
-                    let faults: Vec<FaultView> = leaves.iter().map(view).collect();
+                    let mut faults: Vec<FaultView> = leaves.iter().map(view).collect();
+                    // What is told in one piece holds its remedy.
+                    if let (Some(text), [only]) = (told, &mut faults[..]) {
+                        (only.message, only.help) = (text, None);
+                    }
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
                     println!("{view}");
                 } else {
-                    match error.english().filter(|_| lang == Lang::En) {
+                    match told {
                         Some(text) => eprintln!("  × {text}"),
                         None => eprint!("{}", drawn(shown)),
                     }

@@ -33,7 +33,7 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
     let keeps = !common.read_only && common.as_of.is_none();
     let mut dialogue = Dialogue {
         engine,
-        memory: Memory::default(),
+        memory: Memory::speaking(common.lang.language()),
         offered: None,
         refusal: None,
         json: common.json,

@@ -17,6 +17,7 @@ use crate::units::{Cm, Deg, Point, Source};
 
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};
+use super::shape::{self, Build};
 use super::stock::{Facing, Piece, shelve, state};
 
 const FORMAT: &str = "ProcTHOR";
@@ -312,15 +313,28 @@ impl Reader<'_> {
             list(record, "children").iter().map(|child| (child, self.piece(child))).collect();
         // On top of it, or where something else in it stands: on the seat of a sofa, in a drawer.
         let mut inside: Vec<f64> = Vec::new();
+        let mut seat = None;
         if let Some(mut piece) = piece {
             let under = surfaces.iter().filter(|&at| DROP.contains(&(piece.bottom - at)));
             piece.bottom = under.copied().reduce(f64::min).unwrap_or(piece.bottom);
             inside.extend(children.iter().filter_map(|(_, child)| Some(child.as_ref()?.bottom)));
-            inside.push(piece.bottom + piece.height);
+            let top = piece.bottom + piece.height;
+            if shape::build(&piece.word) == Build::Seat {
+                let mut levels: Vec<f64> = inside.iter().map(|at| at - piece.bottom).collect();
+                levels.sort_by(f64::total_cmp);
+                seat = Some((top, piece.bottom + shape::seat_level(piece.height, &levels)));
+            }
+            inside.push(top);
             pieces.push(piece);
         }
         // Nesting is limited by the parser.
-        for (child, piece) in children {
+        for (child, mut piece) in children {
+            // A pillow at the height of the headboard falls onto the bed.
+            if let (Some(piece), Some((top, seat))) = (&mut piece, seat)
+                && (piece.bottom - top).abs() < *DROP.start()
+            {
+                piece.bottom = seat;
+            }
             self.thing(child, piece, &inside, pieces);
         }
     }

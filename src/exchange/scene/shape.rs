@@ -386,7 +386,7 @@ pub(super) fn parts(build: Build, half: [f64; 2], height: f64, levels: &[f64]) -
 }
 
 /// Where the things on a seat stand; where there are none, as high as people sit.
-fn seat_level(height: f64, levels: &[f64]) -> f64 {
+pub(super) fn seat_level(height: f64, levels: &[f64]) -> f64 {
     let told = levels.iter().copied().rfind(|&l| l < height - SAME_LEVEL && l > height / 4.0);
     told.unwrap_or_else(|| {
         let usual = SEAT.min(height * SEAT_SHARE);

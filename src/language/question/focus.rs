@@ -193,7 +193,7 @@ impl Knowledge<'_> {
         let last = &self.memory.last;
         match pronoun {
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
-            Pronoun::They if last.len() > 1 => last.clone(),
+            Pronoun::They if last.len() > 1 => self.several_meant(rel),
             _ if self.memory.is_lost => Vec::new(),
             // "What can I write with and where is it?": each of them.
             Pronoun::Any
@@ -205,6 +205,18 @@ impl Knowledge<'_> {
             }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }
+    }
+
+    /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.
+    fn several_meant(&self, rel: Option<Rel>) -> Vec<Thing> {
+        let last = &self.memory.last;
+        let fit = |things: &[Thing]| {
+            things.len() > 1
+                && rel.is_none_or(|rel| things.iter().all(|t| self.may_be_anchor(rel, *t)))
+        };
+        let topics = self.memory.exchanges.iter().flat_map(|e| [&e.topics, &e.listed]);
+        let mut told = std::iter::once(last).chain(topics);
+        told.find(|things| fit(things)).unwrap_or(last).clone()
     }
 
     /// What the rooms have that were told last.

@@ -262,7 +262,10 @@ impl Asker<'_> {
             let (through, avoiding) = (Vec::new(), Vec::new());
             return Some(Query::Passing { from, to, through, avoiding, asks });
         }
-        if let Some(query) = self.measured_way(text, from.as_ref(), to) {
+        let way = || (from.clone(), to.clone());
+        if let Some(query) =
+            self.measured_way(text, from.as_ref(), to).or_else(|| on_the_way(&words, way()))
+        {
             return Some(query);
         }
         if !BACK.contains(&words.join(" ").as_str()) {
@@ -531,6 +534,73 @@ fn by_how_much(key: &str, last: &Query) -> Option<Query> {
         _ => return None,
     }
     Some(query)
+}
+
+/// "What do I pass on the way?", «Какие комнаты по пути?»: the way that was asked for, by its rooms and doors.
+fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query> {
+    const ASKED: [&str; 12] = [
+        "what",
+        "which",
+        "how",
+        "many",
+        "что",
+        "какие",
+        "какая",
+        "какую",
+        "какой",
+        "сколько",
+        "скольких",
+        "чего",
+    ];
+    const PASSED: [&str; 10] = [
+        "rooms",
+        "room",
+        "doors",
+        "door",
+        "комнаты",
+        "комнат",
+        "комнату",
+        "двери",
+        "дверей",
+        "дверь",
+    ];
+    const ON_WAY: [&str; 7] = ["way", "along", "pass", "пути", "дороге", "проеду", "прохожу"];
+    const SMALL: [&str; 22] = [
+        "do",
+        "will",
+        "would",
+        "i",
+        "you",
+        "we",
+        "on",
+        "the",
+        "that",
+        "this",
+        "there",
+        "are",
+        "is",
+        "through",
+        "go",
+        "а",
+        "и",
+        "and",
+        "я",
+        "мне",
+        "по",
+        "будет",
+    ];
+    let known = [&ASKED[..], &PASSED, &ON_WAY, &SMALL].concat();
+    let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
+    if !has(&ASKED) || !has(&ON_WAY) || !words.iter().all(|word| known.contains(word)) {
+        return None;
+    }
+    let rooms = words.iter().any(|word| word.starts_with("room") || word.starts_with("комнат"));
+    let asks = match (has(&["many", "сколько", "скольких"]), rooms) {
+        (false, _) => Passing::How,
+        (true, true) => Passing::Rooms,
+        (true, false) => Passing::Doors,
+    };
+    Some(Query::Passing { from, to, through: Vec::new(), avoiding: Vec::new(), asks })
 }
 
 /// A question about one thing, put of another of its kind that is elsewhere.

@@ -115,6 +115,8 @@ pub(super) enum Mark {
     Link(Rel),
     Nearer(Closeness),
     Best(Extreme),
+    /// «большой», "the big": of several the one that is most so.
+    Grade(Extreme),
     /// «вторая» before «по величине», "second" before "biggest"
     Rank(u64),
     /// «что ты умеешь», "what can you do"

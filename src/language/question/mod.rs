@@ -114,6 +114,8 @@ pub struct Past {
 /// What was said so far in a dialogue.
 #[derive(Debug, Clone, Default)]
 pub struct Memory {
+    /// In which language was last spoken: that of an answer to what has no words.
+    language: Language,
     /// What was spoken of, the latest first.
     pub(super) spoken: Vec<Thing>,
     /// What the last exchanges were about, the latest first.
@@ -152,6 +154,12 @@ struct Pending {
 }
 
 impl Memory {
+    /// Nothing was said yet, and who has no words is answered in this language.
+    #[must_use]
+    pub fn speaking(language: Language) -> Self {
+        Self { language, ..Self::default() }
+    }
+
     /// The single thing spoken of last, for «её» in a command.
     #[must_use]
     pub fn last_thing(&self) -> Option<Thing> {
@@ -419,7 +427,10 @@ impl Asker<'_> {
     /// # Errors
     /// [`Unanswered`]: not understood, ambiguous, or unknown to the map.
     pub fn ask(&self, text: &str, memory: &mut Memory) -> Result<Answer, Unanswered> {
-        let language = Language::of(text);
+        if text.chars().any(char::is_alphabetic) {
+            memory.language = Language::of(text);
+        }
+        let language = memory.language;
         let parts = self.each_part(text, language, memory);
         if let Some(Ok(answer)) = parts {
             return Ok(answer);

@@ -10,6 +10,7 @@ use crate::language::question::mark::Mark;
 use crate::language::question::query::{
     Best, Closeness, Dimension, Extreme, Filter, Head, Noun, Query, Rel, Restriction,
 };
+use crate::language::words::Language;
 
 impl Frame<'_, '_> {
     /// «В какой комнате больше всего стульев?», "Which table has the most books?"
@@ -250,11 +251,13 @@ impl Frame<'_, '_> {
         }
         let [.., first, second] = &self.nouns[..] else { return None };
         let (mut what, mut other) = (first.noun.clone(), second.noun.clone());
-        // "… the fridge or the wardrobe in Room V": a place belongs to the noun before it.
+        // "… the fridge or the wardrobe in Room V": a place belongs to the noun before it; «Что на столе левее: …?» to all.
         for spot in &self.spots {
-            let noun = if spot.at > second.at { &mut other } else { &mut what };
-            if spot.at > first.at && !self.is_area(noun) {
-                self.attach(noun, spot);
+            let own = [(&mut what, first.at..second.at), (&mut other, second.at..usize::MAX)];
+            for (noun, own) in own {
+                if (spot.at < first.at || own.contains(&spot.at)) && !self.is_area(noun) {
+                    self.attach(noun, spot);
+                }
             }
         }
         if self.asks() || (self.has(Mark::Or) && than.is_none()) {
@@ -398,7 +401,11 @@ impl Frame<'_, '_> {
         let [only] = &self.nouns[..] else { return None };
         let alone = self.marks.iter().any(|(m, _)| matches!(m, Mark::Best(_)));
         // «Левая тумбочка пустая?» claims it of the one.
-        let claimed = self.values.iter().any(|(_, at, _)| *at > only.at);
+        let valued = self.values.iter().any(|(_, at, _)| *at > only.at);
+        // "Is the biggest bed in the bedroom?"
+        let begins = self.marks.first() == Some(&(Mark::Be, 0));
+        let placed = begins && self.spots.iter().any(|s| s.at > only.at);
+        let claimed = valued || (placed && self.sentence.language == Language::English);
         if (only.noun.best.is_none() && !alone) || claimed {
             return None;
         }

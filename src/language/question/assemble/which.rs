@@ -144,6 +144,16 @@ impl Frame<'_, '_> {
         })
     }
 
+    /// «на каком из них», "which of them": of what was spoken of one is asked for.
+    fn is_one_of(&self, at: usize) -> bool {
+        let words = self.sentence.keys.windows(2);
+        let of = words.into_iter().any(|pair| {
+            matches!(pair, [of, them] if ["из", "of"].contains(&of.as_str())
+                && ["них", "them", "those", "these", "двух", "обоих", "обеих"].contains(&them.as_str()))
+        });
+        of && self.follows_which(at)
+    }
+
     /// «Чем занят стол?»
     pub(super) fn occupied(&self) -> Option<Query> {
         if !self.has(Mark::OccupiedBy) {
@@ -180,7 +190,7 @@ impl Frame<'_, '_> {
             s.at > question
                 && self.follows_which(s.at)
                 && !self.nominal_subject(s, link)
-                && (s.noun.head.things.is_none() || link.is_none())
+                && (s.noun.head.things.is_none() || link.is_none() || self.is_one_of(s.at))
         });
         let other = self.nouns.iter().find(|s| asked.is_none_or(|a| a.at != s.at));
         if let (Some(rel), Some(of)) = (link, other) {

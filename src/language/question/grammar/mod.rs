@@ -292,8 +292,18 @@ impl<'t> Sentence<'t> {
 
     fn person<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
         let is_person = |m| matches!(m, Mark::Pronoun(_) | Mark::You | Mark::Me | Mark::There);
-        let (rest, mark) = self.mark(input, is_person)?;
-        let words = input.0[0].from as usize..input.0[0].to as usize;
+        let (rest, mark) = match self.mark(input, |m| m == Mark::All) {
+            Err(_) => self.mark(input, is_person)?,
+            // "all of them"; "Are there pillows on both?"
+            Ok((after, _)) => match self.mark(after, |m| matches!(m, Mark::Pronoun(_))) {
+                Err(_) if self.is_both(input.0[0].from) && !begins_noun(after) => {
+                    (after, Mark::Pronoun(Pronoun::They))
+                }
+                found => found?,
+            },
+        };
+        let last = input.0[input.0.len() - rest.0.len() - 1];
+        let words = input.0[0].from as usize..last.to as usize;
         let noun = Noun { text: self.said(&words).to_owned(), ..Noun::default() };
         let pronoun = match mark {
             Mark::Pronoun(pronoun) => Some(pronoun),
@@ -313,6 +323,11 @@ impl<'t> Sentence<'t> {
                 only_plural_nominative,
             },
         ))
+    }
+
+    fn is_both(&self, word: u32) -> bool {
+        ["оба", "обе", "обоих", "обеих", "обоим", "обеим", "обоими", "обеими", "both"]
+            .contains(&self.keys[word as usize].as_str())
     }
 
     fn described<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Phrase> {
@@ -381,6 +396,10 @@ impl<'t> Sentence<'t> {
                     None => noun.filters.push(Filter::new(value, false)),
                 },
                 Modifier::Best(best) => noun.best = Some(best),
+                Modifier::Grade(extreme) if self.tells_one(&noun) => {
+                    noun.best = Some(Best { extreme, anchor: None });
+                }
+                Modifier::Grade(_) => return fail(input),
                 Modifier::Rank(rank) => noun.rank = Some(rank),
             }
         }
@@ -400,6 +419,17 @@ impl<'t> Sentence<'t> {
         let phrase =
             Phrase { noun, words, pronoun, person, nominative, cases, only_plural_nominative };
         Ok((rest, phrase))
+    }
+
+    /// Whether a description tells which one is meant: «большой стол», not «большие столы» and not "a big table". How
+    /// big a thing is that is called big, nothing says.
+    fn tells_one(&self, noun: &Noun) -> bool {
+        let asks = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Exists | Mark::HowMany));
+        !noun.plural
+            && !noun.indefinite
+            && !noun.all
+            && noun.count.is_none()
+            && !self.tokens.iter().any(asks)
     }
 
     /// The head, and its owner with the relation to it.
@@ -512,6 +542,7 @@ impl<'t> Sentence<'t> {
     fn single<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let Some((first, rest)) = input.split_first() else { return fail(input) };
         let item = match first.kind {
+            Tok::Mark(Mark::Grade(_)) => return fail(input),
             Tok::Mark(mark) => Item::Mark(mark),
             Tok::Value(value) => Item::Value(value),
             Tok::Property(n) => Item::Property(self.properties[n as usize].clone()),
@@ -524,13 +555,30 @@ impl<'t> Sentence<'t> {
 
     fn unknown<'a>(&self, input: Tokens<'a>) -> Parsed<'a, Item> {
         let one = |i: Tokens<'a>| match i.split_first() {
-            Some((token, rest)) if token.kind == Tok::Unknown => Ok((rest, *token)),
+            Some((token, rest))
+                if matches!(token.kind, Tok::Unknown | Tok::Mark(Mark::Grade(_))) =>
+            {
+                Ok((rest, *token))
+            }
             _ => fail(i),
         };
         let (rest, words) = many1(one).parse(input)?;
         let (first, last) = (words[0], words[words.len() - 1]);
         Ok((rest, Item::Unknown(first.from as usize..last.to as usize)))
     }
+}
+
+/// Whether a noun, or what may stand before one, comes next.
+fn begins_noun(input: Tokens<'_>) -> bool {
+    matches!(
+        input.0.first().map(|t| t.kind),
+        Some(
+            Tok::Noun(_)
+                | Tok::Value(_)
+                | Tok::Number(_)
+                | Tok::Mark(Mark::The | Mark::Best(_) | Mark::Grade(_) | Mark::Rank(_) | Mark::One)
+        )
+    )
 }
 
 fn fail<O>(input: Tokens<'_>) -> Parsed<'_, O> {

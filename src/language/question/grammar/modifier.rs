@@ -19,6 +19,7 @@ pub(super) enum Modifier {
     /// «… или белые»: another value that will do.
     OrValue(ValueId),
     Best(Best),
+    Grade(Extreme),
     Rank(u64),
     Quantity(Quantity),
 }
@@ -46,6 +47,7 @@ impl Sentence<'_> {
                 }
                 None => Modifier::Best(Best { extreme, anchor: None }),
             },
+            Tok::Mark(Mark::Grade(extreme)) => Modifier::Grade(extreme),
             Tok::Mark(Mark::Rank(rank)) => Modifier::Rank(rank),
             Tok::Mark(Mark::Link(_) | Mark::CountedFrom(_))
                 if matches!(
