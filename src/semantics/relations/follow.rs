@@ -43,17 +43,16 @@ impl Relations {
             let mut put = |rel: &'static str, cells: &[Cell<'_>]| {
                 rows.out.insert((rel, tuple(cells)));
             };
-            // What is gone is in the old world only.
-            let old = Feed { world: before, symbols: &self.symbols, measured: &self.measured };
-            change.single_before.iter().for_each(|s| old.single(id, s, &mut put));
-            change.removed.iter().for_each(|(&key, pair)| old.pair(key, pair, &mut put));
+            // What is gone, or goes later, is in the old world only; the Objects of things are the same in both.
+            let feed = Feed { world: before, symbols: &self.symbols, measured: &self.measured };
+            change.single_before.iter().for_each(|s| feed.single(id, s, &mut put));
+            change.removed.iter().for_each(|(&key, pair)| feed.pair(key, pair, &mut put));
             let mut back: Vec<(&'static str, Vec<Value>)> = Vec::new();
             let mut put = |rel: &'static str, cells: &[Cell<'_>]| back.push((rel, tuple(cells)));
-            let new = Feed { world: after, symbols: &self.symbols, measured: &self.measured };
-            change.single_after.iter().for_each(|s| new.single(id, s, &mut put));
+            change.single_after.iter().for_each(|s| feed.single(id, s, &mut put));
             for key in &change.added {
                 if let Some(pair) = self.measured.pairs().get(key) {
-                    new.pair(*key, pair, &mut put);
+                    feed.pair(*key, pair, &mut put);
                 }
             }
             rows.into.extend(back);
