@@ -277,7 +277,7 @@ fn rooms_that_the_source_joins_can_be_driven_between() {
     }
 }
 
-/// Into how many parts the doors of a ProcTHOR house leave its rooms, by the file alone.
+/// Into how many parts the doors and empty walls of a ProcTHOR house leave its rooms, by the file alone.
 fn parts_of_house(path: &std::path::Path) -> usize {
     let text = std::fs::read_to_string(path).expect("a file");
     let house: serde_json::Value = serde_json::from_str(&text).expect("JSON");
@@ -287,9 +287,24 @@ fn parts_of_house(path: &std::path::Path) -> usize {
         .filter_map(|r| r["id"].as_str())
         .map(|r| (r.into(), r.into()))
         .collect();
-    for door in list("doors") {
-        let end = |name: &str| door[name].as_str().and_then(|r| part.get(r)).cloned();
-        let (Some(one), Some(other)) = (end("room0"), end("room1")) else { continue };
+    let doors = list("doors");
+    let sides = |door: &serde_json::Value| {
+        ["room0", "room1"].map(|end| door[end].as_str().map(str::to_owned))
+    };
+    let mut joined: Vec<[Option<String>; 2]> = doors.iter().map(sides).collect();
+    // "wall|6|1.74|5.22|3.48|5.22": a room and the ends of the wall.
+    let mut empty: BTreeMap<String, String> = BTreeMap::new();
+    for wall in list("walls").iter().filter(|w| w["empty"] == true) {
+        let (id, room) =
+            (wall["id"].as_str().expect("an id"), wall["roomId"].as_str().expect("a room"));
+        let ends = id.splitn(3, '|').nth(2).expect("its ends").to_owned();
+        if let Some(other) = empty.insert(ends, room.to_owned()) {
+            joined.push([Some(other), Some(room.to_owned())]);
+        }
+    }
+    for [one, other] in joined {
+        let end = |room: Option<String>| room.and_then(|r| part.get(&r)).cloned();
+        let (Some(one), Some(other)) = (end(one), end(other)) else { continue };
         part.values_mut().filter(|p| **p == one).for_each(|p| p.clone_from(&other));
     }
     part.into_values().collect::<BTreeSet<_>>().len()

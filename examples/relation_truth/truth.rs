@@ -191,6 +191,19 @@ impl House {
                 found.doors.insert((id(door, "id"), rooms));
             }
         }
+        // An empty wall stands once for each of its rooms, "wall|6|1.74|5.22|3.48|5.22"; the first is its passage.
+        let mut empty: BTreeMap<String, (String, String)> = BTreeMap::new();
+        for wall in list(house, "walls").iter().filter(|w| w["empty"] == true) {
+            let (own, room) = (id(wall, "id"), id(wall, "roomId"));
+            let ends = own.splitn(3, '|').nth(2).unwrap_or_default().to_owned();
+            match empty.remove(&ends) {
+                Some((first, other)) => {
+                    let rooms = format!("{} + {}", (&room).min(&other), (&room).max(&other));
+                    found.doors.insert((own.min(first), rooms));
+                }
+                None => drop(empty.insert(ends, (own, room))),
+            }
+        }
         found
     }
 

@@ -114,6 +114,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
             openings.extend(reader.opening(record, is_window, &walls, &rooms));
         }
     }
+    openings.extend(open_sides(&walls, &rooms));
     let mut pieces = Vec::new();
     for record in list(&house, "objects") {
         let piece = reader.piece(record);
@@ -165,6 +166,8 @@ struct Wall {
     to: Point,
     height: f64,
     room: String,
+    /// Nothing stands here: two rooms are open to each other.
+    is_empty: bool,
     material: Properties,
 }
 
@@ -179,10 +182,45 @@ impl Wall {
             to: plan(second),
             height: top - first[1],
             room: text(record, "roomId").unwrap_or_default().to_owned(),
+            is_empty: record.get("empty").and_then(Value::as_bool) == Some(true),
             material: surface(record.get("material"), ""),
         };
         Some((text(record, "id")?, wall))
     }
+}
+
+/// Where two rooms meet without a wall: both have an empty one there, from end to end. Each is told once.
+fn open_sides(walls: &BTreeMap<&str, Wall>, rooms: &[Room]) -> Vec<Opening> {
+    /// Ends of one wall as the file rounds them, cm.
+    const SAME: f64 = 1.0;
+    let empty: Vec<(&str, usize, &Wall)> = walls
+        .iter()
+        .filter(|(_, wall)| wall.is_empty)
+        .filter_map(|(id, wall)| {
+            Some((*id, rooms.iter().position(|r| r.source == wall.room)?, wall))
+        })
+        .collect();
+    let meets = |a: &Wall, b: &Wall| (a.from - b.to).norm() < SAME && (a.to - b.from).norm() < SAME;
+    let mut found = Vec::new();
+    for (n, &(id, one, wall)) in empty.iter().enumerate() {
+        let other = empty[n + 1..].iter().find(|(_, room, w)| *room != one && meets(wall, w));
+        let Some(&(_, other, _)) = other else { continue };
+        let mut jambs = [wall.from, wall.to];
+        if lies_left(&rooms[one].outline, jambs) == Some(false) {
+            jambs.swap(0, 1);
+        }
+        found.push(Opening {
+            source: id.to_owned(),
+            name: String::new(),
+            what: OpeningKind::Passage,
+            jambs,
+            rooms: Some([Some(one), Some(other)]),
+            height: Some(Cm::of(wall.height)).filter(|height| *height > Cm::ZERO),
+            sill: Cm::ZERO,
+            properties: Properties::new(),
+        });
+    }
+    found
 }
 
 /// ЦВЕТ and МАТЕРИАЛ of a floor or wall.

@@ -3,7 +3,7 @@
 use crate::language::words::Language;
 use crate::map::{DoorStatus, Entity};
 
-use super::knowledge::{Knowledge, bases};
+use super::knowledge::{FURNITURE, Knowledge, bases};
 use super::lexicon::Extension;
 use super::query::{Claim, Filter, Noun, Query, Rel, Restriction, Thing};
 use super::values::Property;
@@ -342,7 +342,9 @@ impl Rule<'_, '_> {
                 }
                 Extension::Things => add(format!("replica({term}, _, _, _, _)")),
                 Extension::Furniture => {
-                    add(format!("replica({term}, _, _, _, _), !{has_trait}({term}, \"portable\")"));
+                    let used = FURNITURE.map(|t| format!("{has_trait}({term}, \"{t}\")"));
+                    let used = used.join(" ; ");
+                    add(format!("({used}), !{has_trait}({term}, \"portable\")"));
                 }
                 Extension::Rooms => add(format!("area({term}, _)")),
                 Extension::AreaType(id) => {

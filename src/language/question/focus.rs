@@ -133,6 +133,7 @@ impl Knowledge<'_> {
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.
     pub(super) fn focus(&self, query: &mut Query) {
         if self.memory.exchanges.is_empty() {
+            self.put_together(query);
             return;
         }
         if let Query::Holds { claims, .. } | Query::Choice { claims, .. } = query {
@@ -154,12 +155,42 @@ impl Knowledge<'_> {
                 noun.head = Head { things, ..Head::default() };
             }
         });
+        self.put_together(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some([only]) = noun.head.things.as_deref()
             && let Some(kind) = self.kind_of(*only)
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+    }
+
+    /// "How far is the sofa from the dining table?": of several tables the one in the room of the sofa.
+    fn put_together(&self, query: &mut Query) {
+        let nouns: Vec<&mut Noun> = match query {
+            Query::Distance { from: Some(from), to } => vec![from, to],
+            Query::Closer { what, near, than, .. } => vec![what, near, than],
+            Query::WhichMore { of, to: Some(to), .. } => of.iter_mut().chain([to]).collect(),
+            Query::Larger { what, than, to: Some(to), .. } => vec![what, than, to],
+            _ => return,
+        };
+        let found: Vec<Vec<Thing>> =
+            nouns.iter().map(|noun| self.find(noun, false).unwrap_or_default()).collect();
+        let mut rooms = found.iter().filter_map(|found| match found[..] {
+            [only] if only.replica().is_some() => self.area_of(only),
+            _ => None,
+        });
+        let Some(room) = rooms.next().filter(|room| rooms.all(|other| other == *room)) else {
+            return;
+        };
+        for (noun, found) in nouns.into_iter().zip(&found) {
+            let mut here = found.iter().filter(|t| self.area_of(**t) == Some(room));
+            if let (true, Some(&only), None) = (is_one(noun), here.next(), here.next())
+                && found.len() > 1
+            {
+                let text = std::mem::take(&mut noun.text);
+                *noun = Noun { text, ..Noun::of(vec![only]) };
+            }
         }
     }
 
@@ -171,15 +202,7 @@ impl Knowledge<'_> {
 
     fn focus_places(&self, restrictions: &mut [Restriction]) {
         for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
-            let told = anchor.plural
-                || anchor.indefinite
-                || anchor.all
-                || anchor.other
-                || anchor.head.anything
-                || anchor.head.things.is_some()
-                || anchor.count.is_some()
-                || anchor.best.is_some();
-            let found = if told { None } else { self.find(anchor, false).ok() };
+            let found = is_one(anchor).then(|| self.find(anchor, false).ok()).flatten();
             if let Some(meant) = found.filter(|f| f.len() > 1).and_then(|f| self.in_focus(&f)) {
                 let text = std::mem::take(&mut anchor.text);
                 *anchor = Noun { text, ..Noun::of(vec![meant]) };
@@ -311,4 +334,16 @@ impl Knowledge<'_> {
         let area = || self.relations.area_of(id).map(|id| Thing::Entity(Entity::Area(id)));
         support.or_else(area).or(Some(latest))
     }
+}
+
+/// Whether a description means one thing and does not tell by itself which.
+fn is_one(noun: &Noun) -> bool {
+    !(noun.plural
+        || noun.indefinite
+        || noun.all
+        || noun.other
+        || noun.head.anything
+        || noun.head.things.is_some()
+        || noun.count.is_some()
+        || noun.best.is_some())
 }

@@ -460,7 +460,7 @@ impl Asker<'_> {
         Some(query)
     }
 
-    fn is_room(&self, noun: &Noun) -> bool {
+    pub(super) fn is_room(&self, noun: &Noun) -> bool {
         let named = |e: &Entity| matches!(e, Entity::Area(_));
         (!noun.head.named.is_empty() && noun.head.named.iter().all(named))
             || noun.head.kinds.iter().any(|k| self.mind.lexicon.is_area(*k))
@@ -565,7 +565,7 @@ fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query>
         "дверь",
     ];
     const ON_WAY: [&str; 7] = ["way", "along", "pass", "пути", "дороге", "проеду", "прохожу"];
-    const SMALL: [&str; 22] = [
+    const SMALL: [&str; 24] = [
         "do",
         "will",
         "would",
@@ -581,6 +581,8 @@ fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query>
         "is",
         "through",
         "go",
+        "have",
+        "to",
         "а",
         "и",
         "and",
@@ -591,7 +593,8 @@ fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query>
     ];
     let known = [&ASKED[..], &PASSED, &ON_WAY, &SMALL].concat();
     let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
-    if !has(&ASKED) || !has(&ON_WAY) || !words.iter().all(|word| known.contains(word)) {
+    let passes = has(&ON_WAY) || (has(&PASSED) && has(&["through"]));
+    if !has(&ASKED) || !passes || !words.iter().all(|word| known.contains(word)) {
         return None;
     }
     let rooms = words.iter().any(|word| word.starts_with("room") || word.starts_with("комнат"));

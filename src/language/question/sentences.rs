@@ -63,12 +63,24 @@ impl Asker<'_> {
         Some(Ok(Answer::joined(answers, language)))
     }
 
-    /// «Что справа от тебя и что слева?»: the other side of what the question before was about.
+    /// «Что справа от тебя и что слева?», «А внутри?»: another side of what the question before was about.
     pub(super) fn other_side(&self, part: &str, memory: &Memory) -> Option<Query> {
         let text = self.plain(part);
         let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let sided =
-            |rel: Rel| matches!(rel, Rel::LeftOf | Rel::RightOf | Rel::InFrontOf | Rel::Behind);
+        let sided = |rel: Rel| {
+            matches!(
+                rel,
+                Rel::LeftOf
+                    | Rel::RightOf
+                    | Rel::InFrontOf
+                    | Rel::Behind
+                    | Rel::In
+                    | Rel::On
+                    | Rel::Under
+                    | Rel::Above
+                    | Rel::NextTo
+            )
+        };
         let mut side = None;
         for item in sentence.items() {
             match item {
@@ -90,6 +102,11 @@ impl Asker<'_> {
         let [place] = &mut noun.restrictions[..] else { return None };
         // The same side once more is a question about something else.
         place.rel = side.filter(|side| sided(place.rel) && *side != place.rel)?;
+        // Nothing is on a room or under it.
+        let of_room = place.anchors.iter().any(|anchor| self.is_room(anchor));
+        if of_room {
+            return None;
+        }
         Some(Query::Find(noun))
     }
 

@@ -413,11 +413,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::LeftMost),
-        "левый|левая|левое|левую|левой|левого|левом|левому|левые|левых|the left|самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost",
+        "левый|левая|левое|левую|левой|левого|левом|левому|левые|левых|the left|самый левый|самая левая|самое левое|левее всех|крайний слева|крайняя слева|крайнее слева|left most|leftmost|furthest to the left|farthest to the left|furthest left|farthest left|most to the left|farthest on the left|furthest on the left|дальше всех влево",
     ),
     (
         Mark::Best(Extreme::RightMost),
-        "правый|правая|правое|правую|правой|правого|правом|правому|правые|правых|the right|самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost",
+        "правый|правая|правое|правую|правой|правого|правом|правому|правые|правых|the right|самый правый|самая правая|самое правое|правее всех|крайний справа|крайняя справа|крайнее справа|right most|rightmost|furthest to the right|farthest to the right|furthest right|farthest right|most to the right|farthest on the right|furthest on the right|дальше всех вправо",
     ),
     (
         Mark::Best(Extreme::Most),

@@ -251,11 +251,51 @@ impl Knowledge<'_> {
             .filter(|g| areas.iter().filter_map(|a| a.area()).any(|a| g.areas.contains(&a)))
             .map(|g| g.thing)
             .collect();
-        match (passages.is_empty(), self.is_russian()) {
-            (true, _) => String::new(),
-            (false, true) => format!("; кроме того, есть {}", self.list(&passages)),
-            (false, false) => format!("; besides, there is {}", self.list(&passages)),
+        let is_area = |t: &Thing| t.area().is_some();
+        let parts = match areas[..] {
+            [here] if is_area(&here) => self.with_destinations(&passages, here),
+            _ => vec![self.list(&passages)],
+        };
+        let list = enumerate(&parts, self.language);
+        match (passages.len(), self.is_russian()) {
+            (0, _) => String::new(),
+            (_, true) => format!("; кроме того, есть {list}"),
+            (1, false) => format!("; besides, there is {list}"),
+            (_, false) => format!("; besides, there are {list}"),
         }
+    }
+
+    /// Openings of a room by where they lead: out of the map, or to rooms.
+    pub(super) fn by_destination(
+        &self,
+        openings: &[Thing],
+        here: Thing,
+    ) -> Vec<(Vec<Thing>, Vec<Thing>)> {
+        let mut groups: Vec<(Vec<Thing>, Vec<Thing>)> = Vec::new();
+        for opening in openings {
+            let areas = self.gate(*opening).into_iter().flat_map(|g| &g.areas);
+            let others: Vec<Thing> =
+                areas.map(|a| Thing::Entity(Entity::Area(*a))).filter(|t| *t != here).collect();
+            match groups.iter_mut().find(|(to, _)| *to == others) {
+                Some((_, same)) => same.push(*opening),
+                None => groups.push((others, vec![*opening])),
+            }
+        }
+        groups
+    }
+
+    /// Openings of a room with where they lead, those to the same place together.
+    fn with_destinations(&self, openings: &[Thing], here: Thing) -> Vec<String> {
+        let groups = self.by_destination(openings, here);
+        let told = |(to, openings): &(Vec<Thing>, Vec<Thing>)| {
+            let names = self.list(openings);
+            match (to.is_empty(), self.is_russian()) {
+                (false, _) => format!("{names} ({})", self.place(Rel::To, to)),
+                (true, true) => format!("{names} (наружу)"),
+                (true, false) => format!("{names} (outside)"),
+            }
+        };
+        groups.iter().map(told).collect()
     }
 
     /// Names; of doors with where they lead, of left and right with how far they are.
@@ -285,19 +325,10 @@ impl Knowledge<'_> {
         }
         let detail = |thing: &Thing| -> String {
             let name = self.name(*thing);
-            if let (Some(gate), Some(Thing::Entity(Entity::Area(here)))) = (self.gate(*thing), from)
+            if let (Some(_), Some(here @ Thing::Entity(Entity::Area(_)))) =
+                (self.gate(*thing), from)
             {
-                let others: Vec<Thing> = gate
-                    .areas
-                    .iter()
-                    .filter(|a| **a != here)
-                    .map(|a| Thing::Entity(Entity::Area(*a)))
-                    .collect();
-                return match (others.is_empty(), self.is_russian()) {
-                    (false, _) => format!("{name} ({})", self.place(Rel::To, &others)),
-                    (true, true) => format!("{name} (наружу)"),
-                    (true, false) => format!("{name} (outside)"),
-                };
+                return self.with_destinations(&[*thing], here).concat();
             }
             let away = anchor.and_then(|a| self.distance(*thing, a)).filter(|d| *d >= 1.0);
             match away {

@@ -85,9 +85,12 @@ impl Knowledge<'_> {
             Query::RoomOf(noun) => self.room_of(noun)?,
             Query::Find(noun) => self.say_found(noun)?,
             Query::Count(noun) => self.count(noun)?,
-            Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
+            // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not".
+            Query::Exists { what, either, negated } => {
+                self.exists(what, *either, *negated && self.is_russian())?
+            }
             Query::Holds { subject, claims, negated } => {
-                self.say_holds(subject, claims, *negated)?
+                self.say_holds(subject, claims, *negated && self.is_russian())?
             }
             Query::Choice { subject, claims } => self.choose(subject, claims)?,
             Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,

@@ -226,20 +226,16 @@ impl Knowledge<'_> {
         let thing = Thing::Entity(Entity::Area(id));
         let name = self.name(thing);
         let map = self.world.placement(id).map(|(map, _)| Thing::Entity(Entity::Map(map)));
-        let several = self.world.maps.len() > 1;
-        let gates: Vec<_> = self.gates().iter().filter(|g| g.areas.contains(&id)).collect();
-        let next: Vec<String> = gates
-            .iter()
-            .filter_map(|g| {
-                let other = g.areas.iter().find(|a| **a != id)?;
-                let other = self.place(Rel::To, &[Thing::Entity(Entity::Area(*other))]);
-                Some(format!("{other} ({})", self.name(g.thing)))
-            })
+        let gates = self.gates().iter().filter(|g| g.areas.contains(&id)).map(|g| g.thing);
+        let gates: Vec<Thing> = gates.collect();
+        let groups =
+            self.by_destination(&gates, thing).into_iter().filter(|(to, _)| !to.is_empty());
+        let next: Vec<String> = groups
+            .map(|(to, through)| format!("{} ({})", self.place(Rel::To, &to), self.list(&through)))
             .collect();
         let mut text = match (map, self.is_russian()) {
             (Some(map), true) => {
                 let floor = self.form(map, Case::Genitive);
-                let _ = several;
                 format!("{name} – помещение {floor}")
             }
             (Some(map), false) => format!("{name} is a room of {}", self.name(map)),

@@ -11,6 +11,10 @@ use crate::map::Entity;
 use crate::units::{AreaId, ObjectId, ReplicaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
+/// What furniture is for; a picture or a television set is none.
+pub(in crate::language::question) const FURNITURE: [&str; 4] =
+    ["support", "container", "seat", "bed"];
+
 impl Knowledge<'_> {
     /// Everything of a kind.
     pub(in crate::language::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
@@ -47,8 +51,9 @@ impl Knowledge<'_> {
             }
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
             Extension::Furniture => {
-                let all = self.world.replicas.keys();
-                all.filter(|id| !self.world.has_trait(**id, "portable")).map(replica).collect()
+                let used = |id| FURNITURE.iter().any(|wanted| self.world.has_trait(id, wanted));
+                let furniture = |id: &&_| used(**id) && !self.world.has_trait(**id, "portable");
+                self.world.replicas.keys().filter(furniture).map(replica).collect()
             }
             Extension::AreaType(kind) => {
                 let all = self.world.areas.values().filter(|a| a.area_type == Some(*kind));

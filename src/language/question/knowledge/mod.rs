@@ -9,6 +9,7 @@ mod relate;
 mod values;
 mod walls;
 
+pub(super) use find::FURNITURE;
 pub(super) use levels::Level;
 pub(super) use passages::{Limits, Passage};
 
