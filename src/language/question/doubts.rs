@@ -148,12 +148,29 @@ impl Knowledge<'_> {
             let all = self.values(t);
             all.into_iter().find(|(p, _, _)| p == wanted).and_then(|(_, v, _)| v)
         };
-        for wanted in [Property::Colour, Property::Material, Property::State] {
-            let own = property(thing, &wanted);
-            let alike = candidates.iter().filter(|t| property(**t, &wanted) == own).count();
-            if let (Some(value), 1) = (own, alike) {
-                return Some(self.value_of(&wanted, value, thing));
-            }
+        // What each of the candidates has tells better than what the map gives of some.
+        let own = |wanted: &Property, of_all: bool| {
+            let value = property(thing, wanted)?;
+            let all = candidates.iter().map(|t| property(*t, wanted));
+            let known = all.clone().all(|other| other.is_some()) || !of_all;
+            let alike = all.filter(|other| *other == Some(value)).count();
+            (known && alike == 1).then(|| self.value_of(wanted, value, thing))
+        };
+        if let Some(colour) = own(&Property::Colour, true) {
+            return Some(colour);
+        }
+        let place = self.own_place(thing, candidates);
+        let here = |t: &&Thing| self.own_place(**t, candidates) == place;
+        if self.gate(thing).is_none()
+            && place.is_some()
+            && candidates.iter().filter(here).count() == 1
+        {
+            return place;
+        }
+        const VALUES: [Property; 3] = [Property::Colour, Property::Material, Property::State];
+        let value = |of_all: bool| VALUES.iter().find_map(|wanted| own(wanted, of_all));
+        if let Some(value) = value(true).or_else(|| value(false)) {
+            return Some(value);
         }
         let mut marks: Vec<String> = Vec::new();
         if let Some(value) = property(thing, &Property::Colour)
@@ -172,19 +189,7 @@ impl Knowledge<'_> {
                 (false, _) => format!("between {rooms}"),
             });
         }
-        let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
-        if let Some(own) = support(thing)
-            && candidates.iter().any(|t| support(*t) != Some(own))
-        {
-            let own = Thing::Entity(Entity::Replica(own));
-            let inside = self.tuple(Rel::In, thing, own).is_some();
-            marks.push(self.place(if inside { Rel::In } else { Rel::On }, &[own]));
-        } else if let Some(own) = self.area_of(thing)
-            && candidates.iter().any(|t| self.area_of(*t) != Some(own))
-            && thing.area().is_none()
-        {
-            marks.extend(self.in_room(thing));
-        }
+        marks.extend(place);
         if marks.is_empty() {
             marks.extend(self.bearing(thing, candidates));
         }
@@ -204,6 +209,20 @@ impl Knowledge<'_> {
 }
 
 impl Knowledge<'_> {
+    /// What a thing is on or in, else its room, where that is not so of all the candidates.
+    fn own_place(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
+        let support = |t: Thing| t.replica().and_then(|id| self.relations.support_of(id));
+        if let Some(own) = support(thing)
+            && candidates.iter().any(|t| support(*t) != Some(own))
+        {
+            let own = Thing::Entity(Entity::Replica(own));
+            return Some(self.place(self.on_or_in(thing, own), &[own]));
+        }
+        let own = self.area_of(thing).filter(|_| thing.area().is_none())?;
+        let apart = candidates.iter().any(|t| self.area_of(*t) != Some(own));
+        apart.then(|| self.in_room(thing)).flatten()
+    }
+
     /// What stands on this thing and on no other candidate: «с Лекарством», "with the medicine".
     fn bearing(&self, thing: Thing, candidates: &[Thing]) -> Option<String> {
         let borne = self.related(Rel::On, thing);

@@ -9,9 +9,9 @@ use std::collections::HashSet;
 use super::everyday;
 use super::knowledge::Knowledge;
 use super::lexicon::{Extension, KindId, Meaning};
-use super::mark::Pronoun;
+use super::mark::{Mark, Pronoun};
 use super::query::{Claim, Head, Noun, Query, Rel, Restriction, Thing};
-use super::{Answer, Doubt, Memory};
+use super::{Answer, Doubt, Memory, vocabulary};
 use crate::language::words::{Gender, NounPhrase, Number, WordHints, word_keys, word_ranges};
 use crate::map::Entity;
 
@@ -156,12 +156,28 @@ impl Knowledge<'_> {
             }
         });
         self.put_together(query);
+        self.by_state(query);
         // «Сколько их всего?» of one thing: how many of its kind there are.
         if let Query::Count(noun) = query
             && let Some([only]) = noun.head.things.as_deref()
             && let Some(kind) = self.kind_of(*only)
         {
             noun.head = Head { kinds: vec![kind], ..Head::default() };
+        }
+    }
+
+    /// «Что в микроволновке? Она включена?»: of what was spoken of, what can be in that state.
+    fn by_state(&self, query: &mut Query) {
+        let Query::Holds { subject, claims, .. } = query else { return };
+        let [Claim::Value(filter)] = &claims[..] else { return };
+        let words = word_keys(&subject.text);
+        let Some((_, Mark::Pronoun(pronoun))) = vocabulary::longest(&words) else { return };
+        let Some([only]) = subject.head.things.as_deref() else { return };
+        let lacks = |thing: Thing| self.own_value(thing, filter.value).is_none();
+        let Some(exchange) = self.memory.exchanges.first().filter(|_| lacks(*only)) else { return };
+        let mut spoken = exchange.topics.iter().chain(&exchange.listed);
+        if let Some(&meant) = spoken.find(|t| !lacks(**t) && self.agrees(pronoun, **t)) {
+            subject.head.things = Some(vec![meant]);
         }
     }
 

@@ -52,6 +52,12 @@ impl Asker<'_> {
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
         let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
+        let counts = sentence.items().contains(&Item::Mark(Mark::HowMany));
+        // «А сколько из них белых?» tells by itself of what.
+        let of_told = |r: &super::Restriction| matches!(r.rel, Rel::From | Rel::Of);
+        if counts && noun.restrictions.iter().any(of_told) {
+            return None;
+        }
         // "Which one is the smallest?"
         if noun.head.anything && noun.best.is_some() && noun.restrictions.is_empty() {
             noun.head = Head::default();
@@ -71,10 +77,19 @@ impl Asker<'_> {
             return Some(query);
         }
         if noun.head == Head::default() {
-            return Some(match self.elsewhere(query, noun)? {
-                Query::Count(noun) if of_those => Query::Find(noun),
-                query => query,
-            });
+            let query = self.elsewhere(query, noun)?;
+            return match (counts, query.sought()) {
+                (false, _) if of_those => match query {
+                    Query::Count(noun) => Some(Query::Find(noun)),
+                    query => Some(query),
+                },
+                (false, _) => Some(query),
+                // «А на кухне сколько?»
+                (true, sought) => Some(Query::Count(sought?.clone())),
+            };
+        }
+        if counts {
+            return None;
         }
         // «Сколько стульев в кухне? А спальня?»: a room takes the place of a room.
         let is_room = self.is_room(&noun);
@@ -565,7 +580,12 @@ fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query>
         "дверь",
     ];
     const ON_WAY: [&str; 7] = ["way", "along", "pass", "пути", "дороге", "проеду", "прохожу"];
-    const SMALL: [&str; 24] = [
+    const SMALL: [&str; 29] = [
+        "на",
+        "этом",
+        "этой",
+        "том",
+        "всего",
         "do",
         "will",
         "would",

@@ -39,6 +39,7 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         its_side,
         seen_from_there,
         leads_outside,
+        put_it_down,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -184,6 +185,14 @@ fn on_it(words: &Words<'_>) -> Option<String> {
         && words.is(last, &["it", "them"])
         && words.is(last - 1, &["on", "in", "inside"]);
     tail.then(|| words.replaced(vec![(last - 1..last + 1, String::new())]))
+}
+
+/// "Where could I put a plate down?": the adverb stands with its verb.
+fn put_it_down(words: &Words<'_>) -> Option<String> {
+    let put = words.find(&["put", "set", "lay"])?;
+    let down = words.find(&["down"]).filter(|down| *down > put + 1 && *down < put + 6)?;
+    let verb = format!("{} down", words.keys[put]);
+    Some(words.replaced(vec![(put..put + 1, verb), (down..down + 1, String::new())]))
 }
 
 /// «Дверь, которая ведёт на улицу», "the door from the kitchen to the outside": an exit.

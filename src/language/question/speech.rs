@@ -130,8 +130,17 @@ impl Knowledge<'_> {
         let Some(&anchor) = anchors.first() else { return String::new() };
         let rel = if rel == Rel::There { self.there(anchor) } else { rel };
         let is_area = matches!(anchor, Thing::Entity(Entity::Area(_) | Entity::Map(_)));
-        if let Some(storey) = self.bare_storey(anchor, anchors.len()) {
+        let storeys: Option<Vec<String>> = anchors.iter().map(|a| self.bare_storey(*a)).collect();
+        if let Some(storeys) = storeys {
+            let several = storeys.len() > 1;
+            let storey = enumerate(&storeys, self.language);
             return match (rel, self.is_russian()) {
+                (Rel::In | Rel::On | Rel::Of | Rel::At, true) if several => {
+                    format!("на этажах {storey}")
+                }
+                (Rel::In | Rel::On | Rel::Of | Rel::At, false) if several => {
+                    format!("on floors {storey}")
+                }
                 (Rel::In | Rel::On | Rel::Of | Rel::At, true) => format!("на этаже {storey}"),
                 (Rel::From, true) => format!("с этажа {storey}"),
                 (Rel::To, true) => format!("на этаж {storey}"),
@@ -229,9 +238,9 @@ impl Knowledge<'_> {
     }
 
     /// The name of one storey of several where that is no more than a code: «L2».
-    fn bare_storey(&self, thing: Thing, number: usize) -> Option<String> {
+    fn bare_storey(&self, thing: Thing) -> Option<String> {
         let is_map = matches!(thing, Thing::Entity(Entity::Map(_)));
-        if !is_map || number != 1 || self.world.maps.len() < 2 {
+        if !is_map || self.world.maps.len() < 2 {
             return None;
         }
         let name = self.name(thing);
@@ -269,7 +278,10 @@ impl Knowledge<'_> {
 
     /// The words for what a description means, as a phrase that declines: «чёрный стул».
     pub(super) fn kind_phrase(&self, noun: &Noun) -> (NounPhrase, String) {
-        let kind = noun.head.kinds.first().map(|k| self.lexicon().counted(*k));
+        let told = noun.head.things.iter().flatten();
+        let told: Vec<Option<KindId>> = told.map(|t| self.kind_of(*t)).collect();
+        let alike = told.first().copied().flatten().filter(|k| told.iter().all(|o| *o == Some(*k)));
+        let kind = noun.head.kinds.first().copied().or(alike).map(|k| self.lexicon().counted(k));
         let (base, english_base) = match kind {
             Some(kind) => match self.shared_head(noun) {
                 Some(head) if self.is_russian() => (head, kind.english.clone()),

@@ -318,6 +318,14 @@ impl Knowledge<'_> {
         if let (Some(rel), Some(a), Some(b)) = (rel, thing(0), thing(1)) {
             return format!("{} {} {}", self.name(a), self.is(&[a]), self.place(rel, &[b]));
         }
+        // «Холодильник-1 закрыт»
+        if let ("HAS", Some(x), Some(name)) = (relation, thing(0), args.get(1))
+            && let Some((property, Some(value), _)) =
+                self.values(x).into_iter().find(|(p, _, _)| self.property_name(x, p) == *name)
+            && let Some(words) = self.value_words(x, &property, value)
+        {
+            return words;
+        }
         let words: Vec<String> = args.iter().map(|a| self.symbol_words(a)).collect();
         match (relation, self.is_russian(), &words[..]) {
             ("JOINS", true, [o, a, b]) => format!("{o} соединяет «{a}» и «{b}»"),

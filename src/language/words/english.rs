@@ -68,6 +68,10 @@ pub fn plural(noun: &str) -> String {
     {
         return format!("{}{}", plural(&noun[..at]), &noun[at..]);
     }
+    // "TVs"
+    if word.chars().count() > 1 && word.chars().all(char::is_uppercase) {
+        return format!("{before}{word}s");
+    }
     let lower = word.to_lowercase();
     const IRREGULAR: [(&str, &str); 14] = [
         ("person", "people"),

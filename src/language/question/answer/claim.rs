@@ -169,6 +169,12 @@ impl Knowledge<'_> {
         {
             return Ok(self.say_empty(thing, negated));
         }
+        // Of what the map says nothing, nothing is claimed.
+        if let [Claim::Value(filter)] = claims
+            && found.iter().any(|t| self.own_value(*t, filter.value).is_some())
+        {
+            found.retain(|t| self.own_value(*t, filter.value).is_some());
+        }
         if let (&[thing], [Claim::Value(filter)]) = (&found[..], claims)
             && self.own_value(thing, filter.value).is_none()
         {
@@ -495,7 +501,7 @@ impl Knowledge<'_> {
     }
 
     /// The value that a thing has of the property asked about.
-    fn own_value(
+    pub(in crate::language::question) fn own_value(
         &self,
         thing: Thing,
         asked: crate::language::question::values::ValueId,

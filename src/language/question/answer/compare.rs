@@ -4,11 +4,12 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::lower_first;
 use crate::language::question::query::{Closeness, Extreme, Head, Noun, Sized, Thing};
 use crate::language::question::values::Property;
 use crate::language::question::{Doubt, Said};
-use crate::language::words::{Case, russian};
-use crate::language::words::{area, length};
+use crate::language::words::russian::{self, Counted};
+use crate::language::words::{Case, area, length};
 
 impl Knowledge<'_> {
     pub(super) fn say_best(&self, noun: &Noun, found: Vec<Thing>) -> Draft {
@@ -51,7 +52,18 @@ impl Knowledge<'_> {
             Extreme::Most | Extreme::Fewest => match &best.anchor {
                 Some(counted) => {
                     let all = self.find(counted, true).unwrap_or_default().into_iter().collect();
-                    self.counted(counted, self.having(&all, first))
+                    let number = self.having(&all, first);
+                    // «по 1 телевизору»
+                    let each = self.is_russian()
+                        && found.len() > 1
+                        && Counted::of(number as u64) == Counted::One;
+                    match each {
+                        true => {
+                            let phrase = self.kind_phrase(counted).0;
+                            format!("{number} {}", lower_first(&phrase.case(Case::Dative)))
+                        }
+                        false => self.counted(counted, number),
+                    }
                 }
                 None => String::new(),
             },

@@ -450,19 +450,16 @@ impl Knowledge<'_> {
             };
             let list =
                 if number <= 12 { format!(": {}", self.list(&found)) } else { String::new() };
+            let are = |number| if number == 1 { "is" } else { "are" };
+            let of_told = noun.head.things.is_some() && !noun.filters.is_empty();
             match (self.is_russian(), place.is_empty()) {
+                (true, true) if of_told => format!("из них {counted}{list}"),
+                (false, true) if of_told => format!("among them {} {counted}{list}", are(number)),
                 (true, true) => format!("на карте {counted}{list}"),
                 (true, false) if self.is_having(noun) => format!("{counted} {place}{list}"),
                 (true, false) => format!("{place} {counted}{list}"),
-                (false, true) => {
-                    format!("there {} {counted}{list}", if number == 1 { "is" } else { "are" })
-                }
-                (false, false) => {
-                    format!(
-                        "there {} {counted} {place}{list}",
-                        if number == 1 { "is" } else { "are" }
-                    )
-                }
+                (false, true) => format!("there {} {counted}{list}", are(number)),
+                (false, false) => format!("there {} {counted} {place}{list}", are(number)),
             }
         };
         let said = if number == 0 { Said::Nothing } else { Said::Found };

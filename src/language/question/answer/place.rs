@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::question::query::{Extreme, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::report::{Detail, Named};
 use crate::language::words::length;
@@ -18,7 +18,18 @@ impl Knowledge<'_> {
         self.one_of_each_lift(noun, &mut found);
         let mut facts = Vec::new();
         if let [only] = found[..] {
-            let text = self.where_one(only, &mut facts);
+            let mut text = self.where_one(only, &mut facts);
+            // «Где ближайший лифт?»
+            let near = noun.best.as_ref().filter(|best| best.anchor.is_none());
+            let near = near.filter(|b| matches!(b.extreme, Extreme::Nearest | Extreme::Farthest));
+            if let Some(away) = near.and_then(|_| self.distance(only, Thing::Robot)) {
+                let away = length(away, self.language);
+                let away = match self.is_russian() {
+                    true => format!(", в {away} от меня"),
+                    false => format!(", {away} from me"),
+                };
+                text.insert_str(text.find(';').unwrap_or(text.len()), &away);
+            }
             let support = only.replica().and_then(|id| self.relations.support_of(id));
             let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
             let area = self.area_of(only).map(|id| Thing::Entity(Entity::Area(id)));
@@ -63,12 +74,7 @@ impl Knowledge<'_> {
             && let Some(support) = self.relations.support_of(id)
         {
             let support = Thing::Entity(Entity::Replica(support));
-            let holds = |rel: Rel| self.tuple(rel, thing, support).map(|(relation, _, _)| relation);
-            // What sinks into a sofa lies on it all the same.
-            let upon = holds(Rel::On) == Some("ON_TOP_OF")
-                && support.replica().is_some_and(|id| !self.world.has_trait(id, "container"));
-            let inside = holds(Rel::In).is_some() && !upon;
-            let rel = if inside { Rel::In } else { Rel::On };
+            let rel = self.on_or_in(thing, support);
             parts.push(self.place(rel, &[support]));
             facts.extend(self.fact(rel, thing, support));
         }
@@ -81,6 +87,15 @@ impl Knowledge<'_> {
             return self.pick("неизвестно где", "at an unknown place").to_owned();
         }
         parts.join(" ")
+    }
+
+    /// Whether a thing lies in or on what bears it. What sinks into a sofa lies on it all the same.
+    pub(in crate::language::question) fn on_or_in(&self, thing: Thing, support: Thing) -> Rel {
+        let holds = |rel: Rel| self.tuple(rel, thing, support).map(|(relation, _, _)| relation);
+        let has = |wanted| support.replica().is_some_and(|id| self.world.has_trait(id, wanted));
+        let upon =
+            !has("container") && (holds(Rel::On) == Some("ON_TOP_OF") || has("seat") || has("bed"));
+        if holds(Rel::In).is_some() && !upon { Rel::In } else { Rel::On }
     }
 
     /// «на L1 и L2»: the storey of a room, the storeys of a lift.
@@ -225,7 +240,6 @@ impl Knowledge<'_> {
     fn where_area(&self, id: AreaId) -> String {
         let thing = Thing::Entity(Entity::Area(id));
         let name = self.name(thing);
-        let map = self.world.placement(id).map(|(map, _)| Thing::Entity(Entity::Map(map)));
         let gates = self.gates().iter().filter(|g| g.areas.contains(&id)).map(|g| g.thing);
         let gates: Vec<Thing> = gates.collect();
         let groups =
@@ -233,15 +247,7 @@ impl Knowledge<'_> {
         let next: Vec<String> = groups
             .map(|(to, through)| format!("{} ({})", self.place(Rel::To, &to), self.list(&through)))
             .collect();
-        let mut text = match (map, self.is_russian()) {
-            (Some(map), true) => {
-                let floor = self.form(map, Case::Genitive);
-                format!("{name} – помещение {floor}")
-            }
-            (Some(map), false) => format!("{name} is a room of {}", self.name(map)),
-            (None, true) => format!("{name} – помещение"),
-            (None, false) => format!("{name} is a room"),
-        };
+        let mut text = format!("{name} {} {}", self.is(&[thing]), self.storeys_of(id));
         if !next.is_empty() {
             let list = enumerate(&next, self.language);
             text = match self.is_russian() {

@@ -15,7 +15,11 @@ use crate::units::name_key;
 
 impl Knowledge<'_> {
     /// The map's own name of a property.
-    pub(super) fn property_name(&self, thing: Thing, property: &Property) -> String {
+    pub(in crate::language::question) fn property_name(
+        &self,
+        thing: Thing,
+        property: &Property,
+    ) -> String {
         let find = |properties: &crate::map::Properties| {
             properties.keys().find(|name| Property::of(name) == *property).cloned()
         };
@@ -43,6 +47,7 @@ impl Knowledge<'_> {
         let mut parts: Vec<String> = Vec::new();
         let mut facts = Vec::new();
         let mut known = false;
+        let mut lacking: Vec<Thing> = Vec::new();
         for &thing in &found {
             let name = self.name(thing);
             let own: Vec<_> =
@@ -58,7 +63,7 @@ impl Knowledge<'_> {
                 continue;
             }
             if own.is_empty() {
-                parts.push(self.no_property(property, thing));
+                lacking.push(thing);
                 continue;
             }
             known = true;
@@ -83,24 +88,42 @@ impl Knowledge<'_> {
                     }
                 });
             }
-            let words = enumerate(&words, self.language);
-            parts.push(match (self.is_russian(), property) {
-                (
-                    true,
-                    Property::Colour | Property::State | Property::Surface | Property::Orientation,
-                ) => {
-                    format!("{name} {words}")
-                }
-                (true, Property::Material) => format!("{name} {words}"),
-                (true, other) => format!("{name}: {} – {words}", other.noun(Language::Russian)),
-                (false, Property::Material) => format!("{name} is made of {}", material(&words)),
-                (false, Property::Other(key)) => format!("{key} of {name}: {words}"),
-                (false, _) => format!("{name} is {words}"),
-            });
+            parts.push(self.property_words(thing, property, &enumerate(&words, self.language)));
         }
+        parts.extend(self.unsaid(property, &lacking));
         let said = if known { Said::Found } else { Said::Unknown };
         let text = parts.join("; ");
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
+    }
+
+    /// «Чашка-1 белая», "Cup 1 is made of glass": what a thing has of a property, of which the words are given.
+    fn property_words(&self, thing: Thing, property: &Property, words: &str) -> String {
+        let name = self.name(thing);
+        match (self.is_russian(), property) {
+            (
+                true,
+                Property::Colour
+                | Property::State
+                | Property::Surface
+                | Property::Orientation
+                | Property::Material,
+            ) => format!("{name} {words}"),
+            (true, other) => format!("{name}: {} – {words}", other.noun(Language::Russian)),
+            (false, Property::Material) => format!("{name} is made of {}", material(words)),
+            (false, Property::Other(key)) => format!("{key} of {name}: {words}"),
+            (false, _) => format!("{name} is {words}"),
+        }
+    }
+
+    /// That a thing has a value, as a clause; none of properties that have no words of their own.
+    pub(in crate::language::question) fn value_words(
+        &self,
+        thing: Thing,
+        property: &Property,
+        value: ValueId,
+    ) -> Option<String> {
+        let told = !matches!(property, Property::Other(_));
+        told.then(|| self.property_words(thing, property, &self.value_of(property, value, thing)))
     }
 
     /// «Какого цвета сиденье у кресла?»: the map gives properties of whole things.

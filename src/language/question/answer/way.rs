@@ -178,6 +178,8 @@ impl Knowledge<'_> {
             from => (from.map(|noun| self.one(noun)).transpose()?, self.one(to)?),
         };
         let start = from.unwrap_or(Thing::Robot);
+        // Between rooms, which may touch, only the way tells how far it is.
+        let rooms = start.area().is_some() || to.area().is_some();
         let straight = self.distance(start, to);
         let areas = |t: Thing| match self.gate(t) {
             Some(gate) => gate.areas.clone(),
@@ -192,6 +194,7 @@ impl Knowledge<'_> {
                 self.senses.way(from, to, self.language, Detail::Region).ok().map(|w| w.length)
             }
         };
+        let straight = straight.filter(|_| !rooms || way.is_none());
         let (a, b) = (self.form(start, Case::Genitive), self.form(to, Case::Genitive));
         let until = russian::preposition(russian::Preposition::Do, &b);
         let of = russian::preposition(russian::Preposition::Ot, &a);

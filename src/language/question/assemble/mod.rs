@@ -157,7 +157,8 @@ pub(super) fn fragment(
                 | Mark::Best(_)
                 | Mark::Rank(_)
                 | Mark::And
-        ) || (*mark == Mark::Exists && of_those)
+        ) || (*mark == Mark::HowMany && frame.nouns.is_empty())
+            || (*mark == Mark::Exists && of_those)
             || (*mark == Mark::Which && of_those)
     };
     // «А дверь открыта?» says it of the door.
