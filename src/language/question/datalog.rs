@@ -279,8 +279,13 @@ impl Rule<'_, '_> {
         // Sorts at once, the values and sizes of others are looked at after the rule.
         self.measured |= !noun.also.is_empty() || noun.like.is_some() || noun.beyond.is_some();
         for except in &noun.except {
+            let before = std::mem::take(&mut self.atoms);
             let other = self.noun(except);
-            self.atoms.push(format!("{term} != {other}"));
+            let body = std::mem::replace(&mut self.atoms, before);
+            match body.is_empty() {
+                true => self.atoms.push(format!("{term} != {other}")),
+                false => self.none_of(&term, &other, &body.join(", ")),
+            }
         }
         for restriction in &noun.restrictions {
             self.restriction(&term, restriction);
@@ -298,6 +303,8 @@ impl Rule<'_, '_> {
 
     fn kinds(&mut self, term: &str, noun: &Noun) {
         if noun.head.anything {
+            // What has a value may be a door as well.
+            self.measured |= !noun.filters.is_empty() && noun.restrictions.is_empty();
             self.atoms.push(format!("replica({term}, _, _, _, _)"));
             return;
         }
@@ -376,7 +383,9 @@ impl Rule<'_, '_> {
                 Extension::Part(_) | Extension::Sort(_) => unknown |= noun.head.kinds.len() == 1,
             }
         }
-        self.measured |= unknown;
+        // A lift is counted once, on however many floors it stops.
+        let is_lift = |k: &_| self.knowledge.lexicon().kind(*k).english == "lift";
+        self.measured |= unknown || noun.head.kinds.iter().any(is_lift);
         match &choices[..] {
             [] => {}
             [only] => self.atoms.push(only.clone()),
@@ -400,6 +409,7 @@ impl Rule<'_, '_> {
         }
         let not = if filter.negated { "!" } else { "" };
         let mut atoms: Vec<String> = Vec::new();
+        let mut by_value = false;
         for value in filter.values() {
             let states: Vec<&str> = STATES
                 .iter()
@@ -407,12 +417,24 @@ impl Rule<'_, '_> {
                 .map(|(_, word)| *word)
                 .collect();
             if states.is_empty() {
+                by_value = true;
                 let has = self.relation("HAS");
                 let spellings = self.knowledge.spellings(value).into_iter();
                 atoms.extend(spellings.map(|word| format!("{not}{has}({term}, _, \"{word}\")")));
             } else {
                 let door = self.relation("DOOR_IS");
                 atoms.extend(states.iter().map(|word| format!("{not}{door}({term}, \"{word}\")")));
+            }
+        }
+        // Only of what the map gives the property is it said that it is not so.
+        if filter.negated && by_value {
+            let has = self.relation("HAS");
+            let property = &values.entry(filter.value).property;
+            let names = self.knowledge.property_names(property).into_iter();
+            let known: Vec<String> =
+                names.map(|name| format!("{has}({term}, \"{name}\", _)")).collect();
+            if !known.is_empty() {
+                self.atoms.push(format!("({})", known.join(" ; ")));
             }
         }
         match (&atoms[..], filter.negated) {
@@ -432,6 +454,18 @@ impl Rule<'_, '_> {
         self.measured |= restriction.anchors.iter().any(|a| self.is_measured(restriction.rel, a));
         // How many there are is counted after the rule.
         self.measured |= restriction.anchors.iter().any(|a| a.count.is_some());
+        // Rooms stand in the facts with their storeys, things by their rooms alone.
+        let is_map = |t: &Thing| matches!(t, Thing::Entity(Entity::Map(_)));
+        if self.knowledge.find(anchor, true).is_ok_and(|found| found.iter().any(is_map)) {
+            self.measured = true;
+            return;
+        }
+        // Of several the biggest, or the top shelf, is looked for after the rule.
+        self.measured |= restriction.anchors.iter().any(|a| a.best.is_some() || a.rank.is_some());
+        if restriction.rel == Rel::Between && !self.of_gates {
+            self.measured = true;
+            return;
+        }
         if restriction.rel == Rel::Between {
             let ends: Vec<String> = restriction.anchors.iter().map(|a| self.noun(a)).collect();
             let joins = self.relation("JOINS");
@@ -463,8 +497,17 @@ impl Rule<'_, '_> {
             self.related(restriction.rel, term, &other, self.is_room(anchor));
         }
         let body = std::mem::replace(&mut self.atoms, before).join(", ");
+        self.none_of(term, term, &body);
+    }
+
+    /// That a term is none of those of which a body speaks: they get a relation of their own.
+    fn none_of(&mut self, term: &str, those: &str, body: &str) {
         let name = self.knowledge.pick("есть", "has_one");
-        self.helpers.push(format!(".decl {name}(x: Any)\n{name}({term}) :- {body}."));
+        let name = match self.helpers.len() {
+            0 => name.to_owned(),
+            n => format!("{name}_{n}"),
+        };
+        self.helpers.push(format!(".decl {name}(x: Any)\n{name}({those}) :- {body}."));
         self.atoms.push(format!("!{name}({term})"));
     }
 
@@ -544,6 +587,17 @@ impl Rule<'_, '_> {
 }
 
 impl Knowledge<'_> {
+    /// How the map calls a property.
+    fn property_names(&self, property: &Property) -> Vec<String> {
+        let named = |p: &crate::map::Properties| -> Vec<String> {
+            p.keys().filter(|name| Property::of(name) == *property).cloned().collect()
+        };
+        let replicas = self.world.replicas.values().flat_map(|r| named(&r.properties));
+        let objects = self.world.objects.values().flat_map(|o| named(&o.properties));
+        let names: std::collections::BTreeSet<String> = replicas.chain(objects).collect();
+        names.into_iter().collect()
+    }
+
     /// How the map spells a value.
     fn spellings(&self, value: super::values::ValueId) -> Vec<String> {
         let replicas = self.world.replicas.values().map(|r| &r.properties);
