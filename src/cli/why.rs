@@ -99,13 +99,7 @@ struct Names<'a> {
 
 impl Names<'_> {
     fn name(&self, name: &str) -> String {
-        let program = self.relations.rules().program();
-        let info = program.relation(name).map(|id| program.info(id));
-        match (info, self.lang) {
-            (Some(info), Lang::En) => info.second_name.clone().unwrap_or_else(|| info.name.clone()),
-            (Some(info), Lang::Ru) => info.name.clone(),
-            (None, _) => name.to_owned(),
-        }
+        self.relations.display_name(name, self.lang.language())
     }
 
     /// A shown tree with the relations' names in the wanted language.

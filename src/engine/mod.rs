@@ -300,7 +300,7 @@ impl Engine {
                 t.iter().any(|v| matches!(v, Value::Symbol(s) if **s == **of))
             })
         };
-        let label = relations.display_name(name);
+        let label = relations.display_name(name, crate::units::Language::Russian);
         Ok(tuples.into_iter().filter(wanted).map(|t| (label.clone(), t)).collect())
     }
 

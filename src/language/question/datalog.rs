@@ -71,10 +71,7 @@ impl Rule<'_, '_> {
     }
 
     fn relation(&self, english: &str) -> String {
-        match self.knowledge.language {
-            Language::Russian => self.knowledge.relations.display_name(english),
-            Language::English => english.to_owned(),
-        }
+        self.knowledge.relations.display_name(english, self.knowledge.language)
     }
 
     fn quoted(&self, thing: Thing) -> String {

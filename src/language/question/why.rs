@@ -133,7 +133,8 @@ impl Knowledge<'_> {
             let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
                 return Vec::new();
             };
-            return proof.steps.iter().map(|s| tuple(&s.fact.name, &s.fact.values)).collect();
+            let steps = proof.steps.iter();
+            return steps.map(|s| tuple(&self.shown(&s.fact.name), &s.fact.values)).collect();
         }
         match self.relations.why_not(&fact.relation, &args) {
             Ok(WhyNot::Nearest(failed)) => {
@@ -150,6 +151,11 @@ impl Knowledge<'_> {
             }
             _ => Vec::new(),
         }
+    }
+
+    /// A relation's name in the language of the answer.
+    fn shown(&self, relation: &str) -> String {
+        self.relations.display_name(relation, self.language)
     }
 
     fn measured(&self, proof: &Proof) -> Vec<String> {
@@ -267,10 +273,10 @@ impl Knowledge<'_> {
             Premise::Fact(n) => format!("#{n}"),
             Premise::Pattern { name, values } => {
                 let what = match values.iter().cloned().collect::<Option<Vec<Value>>>() {
-                    Some(values) => {
-                        self.measurement(name, &values).unwrap_or_else(|| tuple(name, &values))
-                    }
-                    None => format!("{name}({})", show(values)),
+                    Some(values) => self
+                        .measurement(name, &values)
+                        .unwrap_or_else(|| tuple(&self.shown(name), &values)),
+                    None => format!("{}({})", self.shown(name), show(values)),
                 };
                 match self.is_russian() {
                     true => format!("не выполнено условие {what}"),
@@ -278,8 +284,8 @@ impl Knowledge<'_> {
                 }
             }
             Premise::Absent { name, values } => match self.is_russian() {
-                true => format!("мешает {name}({})", show(values)),
-                false => format!("{name}({}) stands in the way", show(values)),
+                true => format!("мешает {}({})", self.shown(name), show(values)),
+                false => format!("{}({}) stands in the way", self.shown(name), show(values)),
             },
             Premise::Compared { text, left, right, .. } => match self.is_russian() {
                 true => {

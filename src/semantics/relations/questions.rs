@@ -7,7 +7,7 @@ use crate::map::Entity;
 use crate::semantics::measure::Measurements;
 use crate::semantics::names::{Subject, Symbols};
 use crate::semantics::openings::Opening;
-use crate::units::{AreaId, ReplicaId, name_key, nearest_name};
+use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
 use super::{Join, Profile, RelationCount, RelationError, RelationRules, Relations};
 
@@ -54,18 +54,20 @@ impl Relations {
         found
     }
 
-    /// A relation's first name, whichever of its names is given.
+    /// A relation's name in a language, whichever of its names is given.
     #[must_use]
-    pub fn display_name(&self, name: &str) -> String {
+    pub fn display_name(&self, name: &str, language: Language) -> String {
         let key = name_key(name);
         let is_it = |info: &RelationInfo| {
             name_key(&info.name) == key
                 || info.second_name.as_deref().is_some_and(|n| name_key(n) == key)
         };
         let mut relations = self.derived().relations();
-        relations
-            .find(|(_, info)| is_it(info))
-            .map_or_else(|| name.to_owned(), |(_, info)| info.name.clone())
+        let Some((_, info)) = relations.find(|(_, info)| is_it(info)) else {
+            return name.to_owned();
+        };
+        let english = info.second_name.as_ref().filter(|_| language == Language::English);
+        english.unwrap_or(&info.name).clone()
     }
 
     /// Whether a tuple of symbols holds.
