@@ -14,6 +14,7 @@ use crate::language::Language;
 use crate::language::command::{in_time, is_order};
 use crate::language::question::{Conditional, conditional};
 use crate::robot::Directive;
+use crate::semantics::predicate;
 
 use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
@@ -246,7 +247,26 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
             return say(&format!("{head} {}", apart.join(" "))).map(|_| ());
         }
     }
-    say(&ending(engine.world()?, answer, lang)).map(|_| ())
+    let mut told = vec![ending(engine.world()?, answer, lang)];
+    if matches!(answer.ending, TaskEnding::Done | TaskEnding::AlreadyTrue) {
+        told.extend(places_found(engine, answer, lang)?);
+    }
+    say(&told.join(" ")).map(|_| ())
+}
+
+/// Who asks to find a thing wants to know where it is.
+fn places_found(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<Vec<String>, Failure> {
+    let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
+    let mut places = Vec::new();
+    for name in goals.flat_map(|goal| goal.args.first()) {
+        let shown = name_in(engine.world()?, name, lang.language());
+        let question = match lang {
+            Lang::Ru => format!("Где {name}?"),
+            Lang::En => format!("Where is {shown}?"),
+        };
+        places.extend(engine.ask(&question, &mut Memory::default())?.ok().map(|found| found.text));
+    }
+    Ok(places)
 }
 
 fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {

@@ -369,7 +369,8 @@ fn pose(pose: Pose) -> Value {
 
 /// Hundredths: a tenth of a millimetre, a hundredth of a degree.
 fn round(value: f64) -> f64 {
-    (value * 100.0).round() / 100.0
+    // (Nothing added up is minus zero.)
+    (value * 100.0).round() / 100.0 + 0.0
 }
 
 fn merge(view: &mut Value, more: Value) {

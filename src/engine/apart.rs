@@ -3,8 +3,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::language::words::russian::{self, Preposition};
-use crate::language::{Case, Language};
+use crate::language::Language;
+use crate::language::words::russian;
 use crate::map::Entity;
 use crate::semantics::{predicate, storey_name};
 use crate::units::{AreaId, capitalized};
@@ -102,7 +102,7 @@ impl Engine {
                 Language::Russian => {
                     let into = match apart.place {
                         Entity::Map(_) => to.whither_storey(language),
-                        _ => russian::with(Preposition::V, Case::Accusative, to.phrase()),
+                        _ => russian::whither(to.phrase()),
                     };
                     let into = capitalized(&into);
                     match (apart.by_stairs, elsewhere) {
