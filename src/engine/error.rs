@@ -260,12 +260,20 @@ pub enum RequestError {
     NotADoor { name: String },
 
     /// A door that joins no two rooms of the map.
-    #[error("«{name}» ведёт наружу, а робот открывает и закрывает только двери между помещениями")]
+    #[error("«{name}» ведёт наружу, а робот пользуется только дверями между помещениями")]
     #[diagnostic(
         code(engine::leads_outside),
         help("двери карты: ortho relations --name СОЕДИНЯЕТ")
     )]
     LeadsOutside { name: String },
+
+    /// A thing that is to be clean: rooms, and what bears things, are tidied.
+    #[error("робот прибирает вещи, а не моет и не чистит: «{name}» остаётся как есть")]
+    #[diagnostic(
+        code(engine::not_cleaned),
+        help("прибирают помещения и то, на чём лежат вещи: «Приберись на столе»")
+    )]
+    NotCleaned { name: String },
 
     /// Something that is to be switched and has no switch.
     #[error("«{name}» нельзя ни включить, ни выключить")]
@@ -442,8 +450,12 @@ impl RequestError {
                 capitalized(&called(name))
             ),
             Self::LeadsOutside { name } => format!(
-                "{} leads outside, and the robot opens and shuts only doors between rooms.",
+                "{} leads outside, and the robot uses only doors between rooms.",
                 capitalized(&called(name))
+            ),
+            Self::NotCleaned { name } => format!(
+                "The robot tidies up, and does not wash or wipe: {} stays as it is.",
+                called(name)
             ),
             Self::NotADevice { name } => {
                 format!("{} can be switched neither on nor off.", capitalized(&called(name)))

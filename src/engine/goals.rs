@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::language::command::{Command, Relation};
-use crate::map::{DoorStatus, Entity, World};
+use crate::map::{DoorStatus, Entity, World, is_open};
 use crate::robot::{Belief, GoalFact, Station, facts_of_map};
 use crate::semantics::{Relations, lifts, predicate, storey_name};
 use crate::units::{AreaId, DoorId};
@@ -159,6 +159,9 @@ impl Engine {
                 Entity::Replica(_) => one(fact(predicate::FOUND, vec![name(what.id)])),
                 place => one(self.being_at(place, now, relations)?),
             },
+            // What is no door is neither opened nor closed; if it is so already, nothing is to be done.
+            Command::Open(thing) if self.is_open(thing.id) == Some(true) => Vec::new(),
+            Command::Close(thing) if self.is_open(thing.id) == Some(false) => Vec::new(),
             Command::Open(door) => vec![self.door_facts(predicate::DOOR_OPEN, door.id)?],
             Command::Close(door) => vec![self.door_facts(predicate::DOOR_CLOSED, door.id)?],
             Command::Lock(door) => vec![self.door_facts(predicate::DOOR_LOCKED, door.id)?],
@@ -167,7 +170,12 @@ impl Engine {
             Command::SwitchOff(device) => one(self.switched(predicate::DEVICE_OFF, device.id)?),
             Command::CallLift => one(self.cabin_here(now, relations)?),
             Command::CallOperator => one(fact(predicate::CALLED, vec![OPERATOR.to_owned()])),
-            Command::Tidy(within) => self.tidied(*within, now, relations, belief)?,
+            Command::Clean(Some(thing @ Entity::Replica(_))) => {
+                return Err(RequestError::NotCleaned { name: name(*thing) }.into());
+            }
+            Command::Tidy(within) | Command::Clean(within) => {
+                self.tidied(*within, now, relations, belief)?
+            }
             // Each action ends with a report as it is.
             Command::Wait | Command::Report => Vec::new(),
             Command::Stop => {
@@ -223,7 +231,7 @@ impl Engine {
             // A door with a room on one side only is none to the planner.
             Entity::Door(door) => {
                 if !relations.joins().iter().any(|join| join.door == Some(door)) {
-                    return Err(RequestError::NotAPlace { name }.into());
+                    return Err(RequestError::LeadsOutside { name }.into());
                 }
                 predicate::ROBOT_AT_DOOR
             }
@@ -427,6 +435,12 @@ impl Engine {
         };
         let name = || RequestError::NotADoor { name: world.name(entity).to_owned() };
         Ok(door.ok_or_else(name)?)
+    }
+
+    /// Whether the map says that a thing is open; none where it says neither, and of doors.
+    fn is_open(&self, thing: Entity) -> Option<bool> {
+        let Entity::Replica(id) = thing else { return None };
+        is_open(&self.world().ok()?.replicas.get(&id)?.properties)
     }
 
     fn is_locked(&self, entity: Entity, now: &Now) -> Result<bool, Error> {

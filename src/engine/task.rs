@@ -212,7 +212,9 @@ impl Engine {
         };
         let mut ending = TaskEnding::AlreadyTrue;
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
-        let tidies = commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::PutBack(_)));
+        let tidies = commands
+            .iter()
+            .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
         let mut begun = 0;
         for goal in &goals {
             begun += 1;
@@ -261,7 +263,7 @@ impl Engine {
             seconds: last.time,
             ending,
             left,
-            tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_))),
+            tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
             reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
         })

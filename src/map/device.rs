@@ -11,6 +11,19 @@ pub fn is_on(properties: &Properties) -> Option<bool> {
     STATES.iter().find_map(|mark| says(mark.of(properties)?.1))
 }
 
+/// Whether a thing that opens is open. `None` when the properties say nothing of it.
+#[must_use]
+pub fn is_open(properties: &Properties) -> Option<bool> {
+    let state = Mark::State.of(properties)?.1.to_lowercase();
+    match state.as_str() {
+        "open" => Some(true),
+        "closed" | "shut" => Some(false),
+        word if word.starts_with("откры") => Some(true),
+        word if word.starts_with("закры") => Some(false),
+        _ => None,
+    }
+}
+
 /// Whether a room is dark by itself: without the lamps in it.
 #[must_use]
 pub fn is_dark(room: &Properties) -> bool {

@@ -45,7 +45,7 @@ mod world;
 
 pub use check::check;
 pub(crate) use check::plane;
-pub use device::{is_dark, is_on, switch};
+pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
 pub use file::{EditReading, Format, NextIds, Reading, edit, json_schema, kinds, read, read_file};

@@ -287,12 +287,14 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 return Ok(vec![Command::Leave(place)]);
             }
             Verb::Wait => return Ok(vec![Command::Wait]),
-            Verb::Tidy | Verb::Clear
-                if to.is_none() && (verb == Verb::Tidy || objects.is_empty()) =>
+            Verb::Tidy | Verb::Clean | Verb::Clear
+                if to.is_none() && (verb != Verb::Clear || objects.is_empty()) =>
             {
-                let places = at.map(|place| place.anchor).into_iter().chain(objects);
-                let tidied: Vec<_> = places.map(|place| Command::Tidy(Some(place))).collect();
-                return Ok(if tidied.is_empty() { vec![Command::Tidy(None)] } else { tidied });
+                let done = if verb == Verb::Clean { Command::Clean } else { Command::Tidy };
+                // "Tidy the table in the kitchen": the place tells which.
+                let at = at.map(|place| place.anchor).filter(|_| objects.is_empty());
+                let places: Vec<_> = at.into_iter().chain(objects).map(Some).map(done).collect();
+                return Ok(if places.is_empty() { vec![done(None)] } else { places });
             }
             // «Съезди на кухню и в спальню» is two verbs; «на кухню и спальню» has one preposition.
             Verb::GoTo if to.is_some() && !objects.is_empty() && listed && via.is_none() => {
@@ -397,6 +399,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 | Verb::SetDown
                 | Verb::Charge
                 | Verb::Tidy
+                | Verb::Clean
                 | Verb::CallOperator
                 | Verb::CallLift
                 | Verb::Report

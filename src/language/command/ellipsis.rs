@@ -74,7 +74,10 @@ pub(super) fn first_word(said: &Said, words: &Range<usize>) -> Option<usize> {
 }
 
 /// What is named before the first preposition, and that preposition.
-fn object(said: &Said, words: &Range<usize>) -> (Range<usize>, Option<(Relation, Role)>) {
+pub(super) fn object(
+    said: &Said,
+    words: &Range<usize>,
+) -> (Range<usize>, Option<(Relation, Role)>) {
     let mut named: Option<Range<usize>> = None;
     let mut at = words.start;
     while at < words.end {

@@ -17,7 +17,8 @@ pub(super) fn searched(said: &Said) -> Option<String> {
     Some(said.with(&(0..said.clause_end(at)), &format!("find {what} in {place}")))
 }
 
-/// "Go wherever the umbrella is", «поставь вазу туда, где стоит растение»: a place told by what is there.
+/// "Go wherever the umbrella is", «поставь вазу туда, где стоит растение»: a place told by what is there; of what is
+/// switched or taken, the room.
 pub(super) fn where_it_is(said: &Said) -> Option<String> {
     const WHEREVER: [&str; 8] = [
         "wherever",
@@ -29,6 +30,7 @@ pub(super) fn where_it_is(said: &Said) -> Option<String> {
         "там где",
         "где",
     ];
+    const WHERE: [&str; 3] = ["where", "там где", "где"];
     const IS: [&str; 9] =
         ["is", "are", "lies", "stands", "лежит", "стоит", "находится", "лежат", "стоят"];
     let mut from = 0;
@@ -38,9 +40,14 @@ pub(super) fn where_it_is(said: &Said) -> Option<String> {
         let (russian, english) = match Sort::of(kind) {
             Sort::Go => ("к", "to"),
             Sort::Put => ("рядом с", "next to"),
+            // «включи телевизор там, где стоит кровать»
+            Sort::Switch => ("в комнате, где стоит", "in the room with"),
+            _ if kind == Verb::Take => ("в комнате, где стоит", "in the room with"),
             _ => continue,
         };
-        let Some((at, told)) = (from..next).find_map(|n| Some((n, said.phrase(n, &WHEREVER)?)))
+        let is_there = matches!(Sort::of(kind), Sort::Go | Sort::Put);
+        let phrases = if is_there { &WHEREVER[..] } else { &WHERE[..] };
+        let Some((at, told)) = (from..next).find_map(|n| Some((n, said.phrase(n, phrases)?)))
         else {
             continue;
         };
@@ -124,6 +131,58 @@ pub(super) fn homeward(said: &Said) -> Option<String> {
     let ends = at + 1 == said.keys.len() || said.parted(at + 1);
     let ends = ends || matches!(next, Some(Meaning::And | Meaning::Filler));
     (ends && !said.is(at - 1, &["to", "your", "the"])).then(|| said.with(&(at..at + 1), "to base"))
+}
+
+/// "Leave the house", «выйди из дома»: to the way out.
+pub(super) fn out_of_the_house(said: &Said) -> Option<String> {
+    const OUT: [&str; 31] = [
+        "house",
+        "the house",
+        "this house",
+        "home",
+        "building",
+        "the building",
+        "this building",
+        "apartment",
+        "the apartment",
+        "flat",
+        "the flat",
+        "of the house",
+        "of the building",
+        "of the apartment",
+        "of the flat",
+        "outside",
+        "outdoors",
+        "дом",
+        "из дома",
+        "из дому",
+        "из этого дома",
+        "здание",
+        "из здания",
+        "из этого здания",
+        "квартиру",
+        "из квартиры",
+        "из этой квартиры",
+        "наружу",
+        "помещение наружу",
+        "из помещения наружу",
+        "на улицу",
+    ];
+    let mut from = 0;
+    while let Some((verb, taken, kind)) = said.verb_from(from) {
+        from = verb + taken;
+        let Some(length) = said.phrase(from, &OUT) else { continue };
+        let outside = said.is(from, &["outside", "outdoors", "наружу"]);
+        let goes = kind == Verb::Leave || kind == Verb::GoTo && outside;
+        let end = from + length;
+        let next = said.meaning(end).map(|(_, meaning)| meaning);
+        let ends = end == said.keys.len() || said.parted(end);
+        if goes && (ends || matches!(next, Some(Meaning::And | Meaning::Filler))) {
+            let way = Language::of(&said.keys[verb]).pick("поезжай на улицу", "go to the exit");
+            return Some(said.with(&(verb..end), way));
+        }
+    }
+    None
 }
 
 /// «Сходи принеси чашку», "go and look for the cup": going is meant by the second verb.

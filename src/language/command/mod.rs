@@ -157,6 +157,8 @@ pub enum Command<T> {
     Find(Thing<T>),
     /// Everywhere, unless a place is given.
     Tidy(Option<T>),
+    /// A room is tidied; of a thing the surface is meant.
+    Clean(Option<T>),
     CallOperator,
     /// The nearest cabin to this storey.
     CallLift,

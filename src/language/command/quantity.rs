@@ -1,8 +1,9 @@
 //! How many of what is named are meant: all that is there, any of them, all at the end of a sentence. By words alone, as
 //! [`spoken`](super::spoken).
 
+use super::ellipsis::object;
 use super::spoken::{Said, state_at};
-use super::verbs::Sort;
+use super::verbs::{Sort, is_relative};
 use super::vocabulary::Meaning;
 use crate::language::words::Language;
 
@@ -64,6 +65,33 @@ pub(super) fn everything(said: &Said) -> Option<String> {
     })
 }
 
+/// "All lamps except the one in the bedroom", «все лампы, кроме той, что в спальне»: the noun once more.
+pub(super) fn except_one(said: &Said) -> Option<String> {
+    const EXCEPT: [&str; 8] = [
+        "except",
+        "except for",
+        "apart from",
+        "other than",
+        "but",
+        "кроме",
+        "за исключением",
+        "не считая",
+    ];
+    const ONE: [&str; 7] = ["the one", "the ones", "that", "those", "той", "того", "тех"];
+    let (verb, taken, _) = said.verb_from(0)?;
+    let (except, end) = (verb + taken + 1..said.keys.len()).find_map(|n| {
+        let one = n + said.phrase(n, &EXCEPT)?;
+        Some((n, one + said.phrase(one, &ONE)?))
+    })?;
+    let place = matches!(said.meaning(end), Some((_, Meaning::Link(_))));
+    let (noun, _) = object(said, &(verb + taken..except));
+    if noun.is_empty() || !(place || is_relative(&said.keys, end)) {
+        return None;
+    }
+    let except_word = Language::of(&said.keys[except]).pick("кроме", "except");
+    Some(said.with(&(except..end), &format!("{except_word} {}", said.of(&noun))))
+}
+
 /// "Lock every door that is open": its state stands before the noun.
 pub(super) fn in_state(said: &Said) -> Option<String> {
     const IS: [&str; 6] = ["that is", "that are", "that s", "which is", "which are", "still"];
@@ -72,8 +100,14 @@ pub(super) fn in_state(said: &Said) -> Option<String> {
         let is = n + said.phrase(n, &IS)?;
         let state = is + usize::from(said.is(is, &["still"]));
         let next = state + state_at(said, state)?;
-        let joint = || matches!(said.meaning(next), Some((_, Meaning::And | Meaning::Filler)));
-        (next == end || said.parted(next) || joint()).then_some((n, state, next))
+        // "that is on, please", but "that is on the shelf" is a place.
+        let mut behind = next;
+        while let Some((small, Meaning::Filler)) = said.meaning(behind) {
+            behind += small;
+        }
+        let joint = || matches!(said.meaning(behind), Some((_, Meaning::And)));
+        let ends = behind == end || said.parted(next) || said.parted(behind) || joint();
+        ends.then_some((n, state, next))
     })?;
     let mut noun = 0;
     while let Some((verb, taken, _)) = said.verb_from(noun).filter(|(verb, ..)| *verb < at) {

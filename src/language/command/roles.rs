@@ -95,6 +95,7 @@ pub(super) fn question(verb: Verb) -> (&'static str, &'static str) {
             ("куда ехать", "where to go")
         }
         Verb::Tidy
+        | Verb::Clean
         | Verb::Charge
         | Verb::CallOperator
         | Verb::CallLift

@@ -95,7 +95,7 @@ impl Said {
 pub(super) fn plain(text: &str) -> String {
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 35] = [
+    let rewritings: [fn(&Said) -> Option<String>; 37] = [
         time::until_called,
         time::at_the_end,
         time::told_when,
@@ -103,6 +103,7 @@ pub(super) fn plain(text: &str) -> String {
         going::faced,
         going::by_lift,
         going::corrected,
+        quantity::except_one,
         without_forbidden,
         contrasted,
         instead,
@@ -119,6 +120,7 @@ pub(super) fn plain(text: &str) -> String {
         going::gone,
         going::stopping_at,
         going::homeward,
+        going::out_of_the_house,
         gapped,
         going::searched,
         going::where_it_was,

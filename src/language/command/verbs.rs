@@ -39,6 +39,7 @@ impl Sort {
             Verb::SwitchOn | Verb::SwitchOff => Self::Switch,
             Verb::Find => Self::Find,
             Verb::Tidy
+            | Verb::Clean
             | Verb::CallOperator
             | Verb::CallLift
             | Verb::Report

@@ -279,7 +279,7 @@ impl Knowledge<'_> {
         near.iter().find(may).or(near.first()).copied().or_else(spoken)
     }
 
-    fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
+    pub(super) fn agrees(&self, pronoun: Pronoun, thing: Thing) -> bool {
         let fits = |gender: Gender| match pronoun {
             Pronoun::He => gender == Gender::Masculine,
             Pronoun::HimOrIt => gender != Gender::Feminine,

@@ -55,6 +55,7 @@ const SAME: &[&str] = &[
     "кресло|armchair|easy chair",
     "торшер|floor lamp|standing lamp",
     "настольная лампа|desk lamp|table lamp",
+    "картофель|картошка|картофелина|potato",
     "зеркало|mirror|looking glass",
     "кровать|постель|койка|bed",
     "ковёр|коврик|палас|rug|carpet|mat",

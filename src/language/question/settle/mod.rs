@@ -22,7 +22,7 @@ pub(super) use reply::{Ordered, Waiting};
 
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
-use super::mark::Mark;
+use super::mark::{Mark, Pronoun};
 use super::purposes;
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
@@ -384,8 +384,8 @@ impl Settler<'_, '_> {
                 continue;
             }
             // «Отопри кабинет, возьми батарею, запри его»: what can be locked, though it was not named last.
-            if phrase.pronoun.is_some()
-                && let Some(thing) = self.meant_by_pronoun(sort, told)
+            if let Some(pronoun) = phrase.pronoun
+                && let Some(thing) = self.meant_by_pronoun(sort, pronoun, told)
             {
                 let name = self.knowledge.form(thing, Case::Accusative);
                 let at = self.bytes(&phrase.words);
@@ -500,17 +500,23 @@ impl Settler<'_, '_> {
             && self.candidates(&phrase.noun, &[told]).is_ok_and(fixed)
     }
 
-    /// What a door's or a device's verb is done to, of what the sentence has named; none where that was named last.
-    fn meant_by_pronoun(&self, sort: Sort, told: &Told) -> Option<Thing> {
-        let fits = |t: &Thing| match sort {
+    /// What of what the sentence has named a verb can be done to, of the pronoun's gender; none where that was named
+    /// last.
+    fn meant_by_pronoun(&self, sort: Sort, pronoun: Pronoun, told: &Told) -> Option<Thing> {
+        let able = |t: &Thing| match sort {
             Sort::Door => t.area().is_some() || self.knowledge.can(sort, *t),
             Sort::Switch => self.knowledge.can(sort, *t),
             _ => false,
         };
+        let agrees = |t: &Thing| self.knowledge.agrees(pronoun, *t);
         let last = told.things.last()?;
-        let earlier = told.things.iter().rev().find(|t| fits(t)).copied();
         // "Put the plate in the microwave and switch it on"
-        earlier.or(told.place.filter(|place| fits(place))).filter(|_| !fits(last))
+        let named = || told.things.iter().rev().chain(&told.place);
+        let fits = |t: &&Thing| able(t) && agrees(t);
+        let other = named().find(fits).or_else(|| named().find(|t| able(t)));
+        // «Поставь чашку на стол и закрой его»
+        let other = other.or_else(|| named().find(|t| agrees(t)).filter(|_| !agrees(last)));
+        other.filter(|other| *other != last && !fits(&last)).copied()
     }
 
     /// The room of which «там» says that a thing is in it: «принеси оттуда» tells where it is, «принеси туда» whither.
