@@ -32,6 +32,10 @@ const SAME_LEVEL: f64 = 5.0;
 const STANDS: f64 = 8.0;
 /// A foot deeper than this below a roof stands on something else, cm: as exact as a surveyed box is.
 const SUNK: f64 = 2.0;
+/// What hangs this far above a bed or sofa lies on its bedding, which the box leaves out, cm: as thick as bedding is.
+const BEDDING: f64 = 25.0;
+/// What holds a thing is so many times as large: two apples whose boxes overlap do not lie in one another.
+const ROOMIER: f64 = 2.5;
 /// Height of a seat for people where nothing tells it, cm, and its greatest share of the whole.
 const SEAT: f64 = 45.0;
 const SEAT_SHARE: f64 = 0.6;
@@ -199,6 +203,108 @@ impl Crate {
     fn reach(&self) -> f64 {
         self.half[0].hypot(self.half[1])
     }
+
+    /// Whether a thing stands within this box: its foot is in it, and there is room for it.
+    fn holds(&self, thing: &Self) -> bool {
+        self.volume() > ROOMIER * thing.volume()
+            && thing.bottom >= self.bottom - STANDS
+            && thing.bottom < self.top - SUNK
+            && !self.is_over_floor(thing)
+    }
+
+    /// Whether a thing beneath this table or seat stands on the floor that this stands on.
+    fn is_over_floor(&self, thing: &Self) -> bool {
+        matches!(self.build, Build::Table | Build::Seat) && thing.bottom < self.bottom + STANDS
+    }
+}
+
+/// The things whose boxes are over or under the middle of this one, or round it, and that may carry it.
+fn around<'a>(
+    things: &'a [Crate],
+    near: &'a Neighbours,
+    thing: &'a Crate,
+) -> impl Iterator<Item = usize> + 'a {
+    near.at(thing.at).copied().filter(move |&i| {
+        let other = &things[i];
+        !std::ptr::eq(other, thing) && other.build != Build::Hung && other.covers(thing.at)
+    })
+}
+
+/// The tightest of the boxes within which a thing stands.
+fn holder(things: &[Crate], around: &[usize], thing: &Crate) -> Option<usize> {
+    let holders = around.iter().copied().filter(|&i| things[i].holds(thing));
+    holders.min_by(|&i, &j| things[i].volume().total_cmp(&things[j].volume()))
+}
+
+/// By what a thing is taken along when it is set down.
+#[derive(Debug, Clone, Copy)]
+enum Rest {
+    /// It stands on the top of another.
+    On(usize),
+    /// Its foot is within the box of another.
+    With(usize),
+}
+
+/// The bottoms of all things after each was set down on what is beneath it, for nothing hovers and nothing sinks in:
+/// a box is off by some centimetres. What stands within a box goes along with it.
+pub(super) fn settled(things: &[Crate]) -> Vec<f64> {
+    let near = Neighbours::of(things);
+    let rests: Vec<Option<Rest>> = things.iter().map(|t| rest(things, &near, t)).collect();
+    let levels = levels(things);
+    let mut bottoms: Vec<Option<f64>> = vec![None; things.len()];
+    let mut is_waiting = vec![false; things.len()];
+    for n in 0..things.len() {
+        let mut waiting = vec![n];
+        while let Some(&n) = waiting.last() {
+            let own = things[n].bottom;
+            let (on, height) = match rests[n] {
+                Some(Rest::On(i)) => (i, things[i].top - own),
+                Some(Rest::With(i)) => (i, -above_level(&levels[i], own - things[i].bottom)),
+                None => (n, 0.0),
+            };
+            // Two that would carry one another stay where they are.
+            is_waiting[n] = true;
+            if bottoms[on].is_none() && !is_waiting[on] {
+                waiting.push(on);
+                continue;
+            }
+            let shift = bottoms[on].map_or(0.0, |b| b - things[on].bottom + height);
+            bottoms[n].get_or_insert(own + shift);
+            waiting.pop();
+        }
+    }
+    bottoms.into_iter().zip(things).map(|(bottom, thing)| bottom.unwrap_or(thing.bottom)).collect()
+}
+
+/// How far a height is above the level which is one surface with it.
+fn above_level(levels: &[f64], height: f64) -> f64 {
+    let above = levels.iter().map(|level| height - level);
+    above.filter(|d| (0.0..=SAME_LEVEL).contains(d)).reduce(f64::min).unwrap_or(0.0)
+}
+
+fn rest(things: &[Crate], near: &Neighbours, thing: &Crate) -> Option<Rest> {
+    if thing.build == Build::Hung {
+        return None;
+    }
+    let around: Vec<usize> = around(things, near, thing).collect();
+    let gap = |i: usize| thing.bottom - things[i].top;
+    let highest = |least: f64, most: f64| {
+        let lower = |&i: &usize| things[i].bottom < thing.bottom;
+        let under =
+            around.iter().copied().filter(lower).filter(|&i| (least..=most).contains(&gap(i)));
+        under.min_by(|&i, &j| gap(i).total_cmp(&gap(j)))
+    };
+    let sunk = |&i: &usize| {
+        things[i].bottom < thing.bottom && gap(i) < -SUNK && !things[i].is_over_floor(thing)
+    };
+    let nested = || around.iter().copied().filter(sunk).max_by(|&i, &j| gap(i).total_cmp(&gap(j)));
+    if let Some(round) = holder(things, &around, thing).or_else(nested) {
+        // Drawers one above another in a chest hang where they are.
+        let on = highest(-SUNK, SUNK).filter(|&i| things[round].holds(&things[i]));
+        return Some(on.map_or(Rest::With(round), Rest::On));
+    }
+    let bed = |&i: &usize| things[i].build == Build::Seat && thing.build == Build::Block;
+    highest(-SUNK, STANDS).or_else(|| highest(STANDS, BEDDING).filter(bed)).map(Rest::On)
 }
 
 /// For each thing the heights above its own bottom at which others stand in it. Sorted, no two nearer than 5 cm.
@@ -206,25 +312,10 @@ pub(super) fn levels(things: &[Crate]) -> Vec<Vec<f64>> {
     let near = Neighbours::of(things);
     let mut found = vec![Vec::new(); things.len()];
     for thing in things.iter().filter(|t| t.build != Build::Hung) {
-        let under = |other: &&usize| {
-            let other = &things[**other];
-            !std::ptr::eq(other, thing) && other.covers(thing.at)
-        };
-        let around: Vec<usize> = near.at(thing.at).filter(under).copied().collect();
-        let carried = around.iter().any(|&i| {
-            let gap = thing.bottom - things[i].top;
-            (-SUNK..=STANDS).contains(&gap) && things[i].build != Build::Hung
-        });
-        let holds = |&i: &usize| {
-            let other = &things[i];
-            other.build != Build::Hung
-                && other.volume() > thing.volume()
-                && thing.bottom >= other.bottom - STANDS
-                && thing.bottom < other.top - SUNK
-        };
-        let holder = around.iter().copied().filter(holds);
-        let smallest = holder.min_by(|&i, &j| things[i].volume().total_cmp(&things[j].volume()));
-        if let Some(i) = smallest.filter(|_| !carried) {
+        let around: Vec<usize> = around(things, &near, thing).collect();
+        let carried =
+            around.iter().any(|&i| (-SUNK..=STANDS).contains(&(thing.bottom - things[i].top)));
+        if let Some(i) = holder(things, &around, thing).filter(|_| !carried) {
             found[i].push((thing.bottom - things[i].bottom).max(0.0));
         }
     }
@@ -337,7 +428,7 @@ pub(super) fn parts(build: Build, half: [f64; 2], height: f64, levels: &[f64]) -
             });
             let mut parts: Vec<Part> = legs.collect();
             parts.append(&mut floors);
-            parts.push(solid("top", whole.clone(), top, height));
+            parts.push(solid("tabletop", whole.clone(), top, height));
             parts
         }
         Build::Seat => {
@@ -375,7 +466,7 @@ pub(super) fn parts(build: Build, half: [f64; 2], height: f64, levels: &[f64]) -
             let mut parts = vec![hollow("body")];
             parts.append(&mut shelves(0.0, height - SHELF));
             let top = height.min(SHELF);
-            parts.push(solid("top", whole.clone(), height - top, height));
+            parts.push(solid("rim", whole.clone(), height - top, height));
             parts
         }
         Build::Block | Build::Hung => match levels.first() {
@@ -435,6 +526,24 @@ mod tests {
         let found = levels(&things);
         assert_eq!(found[0], [30.0, 100.0]);
         assert!(found[1..].iter().all(Vec::is_empty));
+    }
+
+    #[test]
+    fn nothing_hovers_and_nothing_sinks_in() {
+        let things = [
+            thing(Build::Table, (0.0, 0.0), 60.0, 0.0, 90.0),
+            // A bowl that sinks into the table, with an apple in it that comes along.
+            thing(Build::Bowl, (0.0, 0.0), 15.0, 88.5, 98.5),
+            thing(Build::Block, (0.0, 0.0), 4.0, 89.5, 97.5),
+            // A case on the floor under the table.
+            thing(Build::Block, (30.0, 30.0), 10.0, 0.0, 60.0),
+            // A pillow over the bedding of a bed, and a lamp that hangs higher.
+            thing(Build::Seat, (300.0, 0.0), 90.0, 0.0, 50.0),
+            thing(Build::Block, (300.0, 0.0), 20.0, 65.0, 80.0),
+            thing(Build::Block, (340.0, 0.0), 5.0, 120.0, 140.0),
+        ];
+        assert_eq!(settled(&things), [0.0, 90.0, 91.0, 0.0, 0.0, 50.0, 120.0]);
+        assert!(levels(&things)[0].is_empty(), "nothing stands within the table");
     }
 
     #[test]

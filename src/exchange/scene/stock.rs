@@ -64,7 +64,7 @@ fn has_front(build: Build, word: &str) -> bool {
 }
 
 /// Kinds in the order of their first thing; things in the order of the file.
-pub(super) fn shelve(pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
+pub(super) fn shelve(mut pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
     let mut boxes: Vec<Crate> = pieces
         .iter()
         .map(|p| Crate {
@@ -76,11 +76,16 @@ pub(super) fn shelve(pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
             top: p.bottom + p.height,
         })
         .collect();
+    for (n, bottom) in shape::settled(&boxes).into_iter().enumerate() {
+        pieces[n].bottom = bottom;
+        (boxes[n].bottom, boxes[n].top) = (bottom, bottom + pieces[n].height);
+    }
     let levels = shape::levels(&boxes);
     let surrounds = shape::surrounds(&boxes);
     for (i, piece) in pieces.iter().enumerate() {
         let roomy = surrounds[i] || !levels[i].is_empty();
-        if piece.facing == Facing::Unknown && roomy && boxes[i].build != Build::Hung {
+        let known = matches!(boxes[i].build, Build::Hung | Build::Table);
+        if piece.facing == Facing::Unknown && roomy && !known {
             boxes[i].build = Build::Envelope;
         }
     }

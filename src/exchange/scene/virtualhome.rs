@@ -23,6 +23,8 @@ use super::stock::{Facing, Piece, shelve, state};
 const FORMAT: &str = "VirtualHome";
 /// A door leaf and its frame stand in the same place, nearer than this, cm.
 const SAME_PLACE: f64 = 30.0;
+/// A box that reaches deeper than this below the floor is cut off there, cm: more than a box is off by.
+const SUNK: f64 = 5.0;
 /// So far from a door one stands in the room behind it, cm.
 const STEP: f64 = 40.0;
 /// Thickness of a leaf, cm; the file does not tell it.
@@ -116,13 +118,19 @@ impl<'v> Node<'v> {
         let words = |field: &str| -> Vec<&'v str> {
             list(record, field).iter().filter_map(Value::as_str).collect()
         };
+        let mut low: [f64; 3] = std::array::from_fn(|i| centre[i] - size[i].abs() / 2.0);
+        let high: [f64; 3] = std::array::from_fn(|i| centre[i] + size[i].abs() / 2.0);
+        // The drain of a bath reaches through the floor, which lies at height 0: the bath stands on it.
+        if low[1] < -SUNK && high[1] > 0.0 {
+            low[1] = 0.0;
+        }
         Some(Self {
             id,
             class,
             prefab: text(record, "prefab_name").unwrap_or(class),
             category,
-            low: std::array::from_fn(|i| centre[i] - size[i].abs() / 2.0),
-            high: std::array::from_fn(|i| centre[i] + size[i].abs() / 2.0),
+            low,
+            high,
             states: words("states"),
             properties: words("properties"),
         })
