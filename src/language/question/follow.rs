@@ -3,10 +3,7 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Best;
-use super::{
-    Asker, Claim, Detail, Dimension, Head, Memory, Noun, Passing, Query, Rel, Thing, assemble,
-    several, vocabulary,
-};
+use super::{Asker, Claim, Head, Memory, Noun, Query, Rel, Thing, assemble, several, vocabulary};
 use crate::language::words::{Gender, Language, word_keys};
 use crate::map::Entity;
 
@@ -17,8 +14,7 @@ impl Asker<'_> {
         let last = waiting.or(memory.query.as_ref())?;
         let key = crate::units::name_key(text);
         let begins = ["а ", "и ", "and ", "what about ", "how about ", "а как же "];
-        if let Some(query) = self.turned_round(text, &key, last).or_else(|| by_how_much(&key, last))
-        {
+        if let Some(query) = self.of_the_way(text, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
         }
         if let Some(query) = self.other_side(text, memory) {
@@ -224,103 +220,6 @@ impl Asker<'_> {
         }
         asked.restrictions.clear();
         Some(query)
-    }
-
-    /// «А обратно?», «Через какую дверь?»: the way that was asked for, the other way or by its doors.
-    fn turned_round(&self, text: &str, key: &str, last: &Query) -> Option<Query> {
-        const BACK: [&str; 12] = [
-            "а обратно",
-            "обратно",
-            "а назад",
-            "а в обратную сторону",
-            "а наоборот",
-            "and back",
-            "and back again",
-            "and the way back",
-            "what about the way back",
-            "and the other way",
-            "and the other way round",
-            "and vice versa",
-        ];
-        let words: Vec<&str> = key.split(|c: char| !c.is_alphanumeric()).collect();
-        let words: Vec<&str> = words.into_iter().filter(|word| !word.is_empty()).collect();
-        let (Query::Way { from, to, .. }
-        | Query::CanReach { from, to }
-        | Query::Duration { from, to }
-        | Query::Distance { from, to }
-        | Query::Passing { from, to, .. }) = last
-        else {
-            return None;
-        };
-        // "Through which doors?"
-        let (through, which) = match &words[..] {
-            ["а" | "и" | "and", through, which, ..] | [through, which, ..] => (*through, *which),
-            _ => ("", ""),
-        };
-        let asks = which.starts_with("как") || ["which", "what"].contains(&which);
-        if ["через", "through"].contains(&through) && asks && words.len() < 5 {
-            let (from, to) = (from.clone(), to.clone());
-            return Some(Query::Way { from, to, detail: Detail::default() });
-        }
-        // «Через сколько комнат?», "Through how many doors?"
-        let counts = ["сколько", "how"].contains(&which);
-        let counted = words.iter().find_map(|word| match () {
-            () if word.starts_with("двер") || word.starts_with("door") => Some(Passing::Doors),
-            () if word.starts_with("комнат") || word.starts_with("room") => {
-                Some(Passing::Rooms)
-            }
-            () => None,
-        });
-        if let (true, true, Some(asks)) = (["через", "through"].contains(&through), counts, counted)
-        {
-            let (from, to) = (from.clone(), to.clone());
-            let (through, avoiding) = (Vec::new(), Vec::new());
-            return Some(Query::Passing { from, to, through, avoiding, asks });
-        }
-        let way = || (from.clone(), to.clone());
-        if let Some(query) =
-            self.measured_way(text, from.as_ref(), to).or_else(|| on_the_way(&words, way()))
-        {
-            return Some(query);
-        }
-        if !BACK.contains(&words.join(" ").as_str()) {
-            return None;
-        }
-        let mut query = last.clone();
-        if let Query::Way { from, to, .. }
-        | Query::CanReach { from, to }
-        | Query::Duration { from, to }
-        | Query::Distance { from, to }
-        | Query::Passing { from, to, .. } = &mut query
-        {
-            let start = from.take().unwrap_or_else(|| Noun::of(vec![Thing::Robot]));
-            *from = Some(std::mem::replace(to, start));
-        }
-        Some(query)
-    }
-
-    /// «Далеко это?», "How long does it take?": how long the way is that was asked for, in metres or in time.
-    fn measured_way(&self, text: &str, from: Option<&Noun>, to: &Noun) -> Option<Query> {
-        let text = self.plain(text);
-        let mut in_time = None;
-        for item in Sentence::new(&text, &self.mind.lexicon).items() {
-            match item {
-                Item::Mark(Mark::HowLong) => in_time = Some(true),
-                Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
-                    in_time = in_time.or(Some(false));
-                }
-                Item::Mark(Mark::HowGet | Mark::Be | Mark::The | Mark::And | Mark::Move) => {}
-                Item::Noun(phrase)
-                    if phrase.pronoun == Some(Pronoun::Any)
-                        || phrase.person == Some(Mark::There) => {}
-                _ => return None,
-            }
-        }
-        let (from, to) = (from.cloned(), to.clone());
-        Some(match in_time? {
-            true => Query::Duration { from, to },
-            false => Query::Distance { from, to },
-        })
     }
 
     /// «Какая самая маленькая?», "Which is the biggest?", "Which are open?": a superlative or a value, and no noun.
@@ -549,81 +448,6 @@ fn by_how_much(key: &str, last: &Query) -> Option<Query> {
         _ => return None,
     }
     Some(query)
-}
-
-/// "What do I pass on the way?", «Какие комнаты по пути?»: the way that was asked for, by its rooms and doors.
-fn on_the_way(words: &[&str], (from, to): (Option<Noun>, Noun)) -> Option<Query> {
-    const ASKED: [&str; 12] = [
-        "what",
-        "which",
-        "how",
-        "many",
-        "что",
-        "какие",
-        "какая",
-        "какую",
-        "какой",
-        "сколько",
-        "скольких",
-        "чего",
-    ];
-    const PASSED: [&str; 10] = [
-        "rooms",
-        "room",
-        "doors",
-        "door",
-        "комнаты",
-        "комнат",
-        "комнату",
-        "двери",
-        "дверей",
-        "дверь",
-    ];
-    const ON_WAY: [&str; 7] = ["way", "along", "pass", "пути", "дороге", "проеду", "прохожу"];
-    const SMALL: [&str; 29] = [
-        "на",
-        "этом",
-        "этой",
-        "том",
-        "всего",
-        "do",
-        "will",
-        "would",
-        "i",
-        "you",
-        "we",
-        "on",
-        "the",
-        "that",
-        "this",
-        "there",
-        "are",
-        "is",
-        "through",
-        "go",
-        "have",
-        "to",
-        "а",
-        "и",
-        "and",
-        "я",
-        "мне",
-        "по",
-        "будет",
-    ];
-    let known = [&ASKED[..], &PASSED, &ON_WAY, &SMALL].concat();
-    let has = |list: &[&str]| words.iter().any(|word| list.contains(word));
-    let passes = has(&ON_WAY) || (has(&PASSED) && has(&["through"]));
-    if !has(&ASKED) || !passes || !words.iter().all(|word| known.contains(word)) {
-        return None;
-    }
-    let rooms = words.iter().any(|word| word.starts_with("room") || word.starts_with("комнат"));
-    let asks = match (has(&["many", "сколько", "скольких"]), rooms) {
-        (false, _) => Passing::How,
-        (true, true) => Passing::Rooms,
-        (true, false) => Passing::Doors,
-    };
-    Some(Query::Passing { from, to, through: Vec::new(), avoiding: Vec::new(), asks })
 }
 
 /// A question about one thing, put of another of its kind that is elsewhere.

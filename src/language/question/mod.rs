@@ -21,6 +21,7 @@ mod knowledge;
 mod level_words;
 mod lexicon;
 mod mark;
+mod onward;
 mod opening;
 mod orders;
 mod purposes;

@@ -39,7 +39,7 @@ const WORDS: &[(Mark, &str)] = &[
     (Mark::How, "как|how|каким образом"),
     (
         Mark::Move,
-        "идти|ехать|пройти мне|проходить|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|enter|reach|reached|be reached|accessible|drive|walk|travel|come|move|navigate|get there",
+        "идти|ехать|пройти мне|проходить|прохожу|проеду|проезжаю|pass|подняться|спуститься|покинуть|попасть|проехать|пройти|добраться|доехать|дойти|выйти|перейти|выехать|переехать|подъехать|доберусь|попаду|доберёшься|проедешь|доедешь|get|enter|reach|reached|be reached|accessible|drive|walk|travel|come|move|navigate|get there",
     ),
     (Mark::As, "as|что и|как и|с чем"),
     (
@@ -71,7 +71,7 @@ const WORDS: &[(Mark, &str)] = &[
         Mark::HowGet,
         "how do i get out of|how can i get out of|how do you get out of|how do we get out of|how to get out of|how does one get out of|how do i leave|how can i leave|how to leave|how do i exit|how do i get out|how can i get out|как покинуть|как подняться|как спуститься|как мне подняться|как мне спуститься|как дойти|как проще попасть|как быстрее попасть|как быстрее добраться|как лучше пройти|how would one get|how might i get|как пройти|как проехать|как добраться|как попасть|как доехать|как дойти|как мне пройти|как мне проехать|как мне добраться|как мне попасть|как мне доехать|\
         как мне дойти|как пройти мне|как можно пройти|как можно попасть|как можно добраться|как ты проедешь|как ты доедешь|как ты попадёшь|как выйти|как выехать|как мне выйти|как вернуться|как перейти|как подъехать|как подойти|как зайти|как прийти|как тебе проехать|\
-        какой дорогой|на пути|по пути|по дороге|каким путём|каким маршрутом|путь|дорога|дорогу|маршрут|проложи маршрут|построй маршрут|покажи дорогу|покажи путь|опиши путь|опиши дорогу|опиши маршрут|кратчайший путь|какой путь|какой маршрут|\
+        какой дорогой|на пути|на этом пути|по пути|по этому пути|по дороге|каким путём|каким маршрутом|путь|дорога|дорогу|маршрут|проложи маршрут|построй маршрут|покажи дорогу|покажи путь|опиши путь|опиши дорогу|опиши маршрут|кратчайший путь|какой путь|какой маршрут|\
         how do i get|how can i get|how to get|how do you get|how can you get|how would i get|how would you get|how do i go|how can i go|how to go|how do i reach|how can i reach|how to reach|how do you reach|how do i find my way|\
         how does one get|how do we get|how can we get|how could i get|how should i get|how do you go|how do i come|how to come|how do i walk|how do i drive|\
         the way|way|what is the way|which way|the route|route|what is the route|what is the shortest way|what is the shortest route|shortest way|shortest route|shortest path|the shortest way|the shortest route|the shortest path|what is the shortest path|path|\

@@ -1,0 +1,131 @@
+//! Going on from a question for a way: the way back, how long it is, what lies on it.
+//!
+//! Invariant: a question that names anything else than the way, its rooms and doors goes on from nothing here.
+
+use super::grammar::{Item, Sentence};
+use super::lexicon::Extension;
+use super::mark::{Mark, Pronoun};
+use super::{Asker, Detail, Dimension, Noun, Passing, Query, Rel, Thing};
+use crate::language::words::word_keys;
+
+/// What is asked of a way that was told.
+#[derive(Default)]
+struct Asked {
+    counts: bool,
+    asks: bool,
+    /// «по пути», "pass", "through"
+    passes: bool,
+    /// How long it is, in time or in metres.
+    in_time: Option<bool>,
+    /// Doors or rooms.
+    of: Option<Passing>,
+}
+
+impl Asker<'_> {
+    /// «А обратно?», «Далеко это?», "How many doors do I pass on the way?": of the way that was asked for last.
+    pub(super) fn of_the_way(&self, text: &str, last: &Query) -> Option<Query> {
+        let (Query::Way { from, to, .. }
+        | Query::CanReach { from, to }
+        | Query::Duration { from, to }
+        | Query::Distance { from, to }
+        | Query::Passing { from, to, .. }) = last
+        else {
+            return None;
+        };
+        if is_back(text) {
+            return turned_round(last.clone());
+        }
+        let asked = self.asked_of_way(text)?;
+        let (from, to) = (from.clone(), to.clone());
+        let asks = match (asked.in_time, asked.counts, asked.passes) {
+            (Some(true), false, _) => return Some(Query::Duration { from, to }),
+            (Some(false), false, _) => return Some(Query::Distance { from, to }),
+            (None, true, true) => asked.of?,
+            // By its rooms and doors alone there may be a shorter one, which is shut.
+            (None, false, true) if asked.asks => {
+                return Some(Query::Way { from, to, detail: Detail::default() });
+            }
+            _ => return None,
+        };
+        Some(Query::Passing { from, to, through: Vec::new(), avoiding: Vec::new(), asks })
+    }
+
+    fn asked_of_way(&self, text: &str) -> Option<Asked> {
+        let text = self.plain(text);
+        let mut asked = Asked::default();
+        for item in Sentence::new(&text, &self.mind.lexicon).items() {
+            match item {
+                Item::Mark(Mark::HowLong) => asked.in_time = Some(true),
+                Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
+                    asked.in_time = asked.in_time.or(Some(false));
+                }
+                Item::Mark(Mark::HowMany) => asked.counts = true,
+                Item::Mark(Mark::What | Mark::Which) => asked.asks = true,
+                Item::Mark(Mark::HowGet | Mark::Move) | Item::Link(Rel::Through) => {
+                    asked.passes = true;
+                }
+                Item::Mark(
+                    Mark::Be
+                    | Mark::The
+                    | Mark::And
+                    | Mark::Exists
+                    | Mark::Have
+                    | Mark::Lead
+                    | Mark::Must,
+                )
+                | Item::Link(Rel::On | Rel::In | Rel::NextTo) => {}
+                Item::Noun(phrase)
+                    if phrase.pronoun == Some(Pronoun::Any) || phrase.person.is_some() => {}
+                Item::Noun(phrase) if asked.of.is_none() => {
+                    asked.of = Some(self.passed(&phrase.noun)?);
+                }
+                _ => return None,
+            }
+        }
+        Some(asked)
+    }
+
+    /// Doors or rooms in general, which a way leads through.
+    fn passed(&self, noun: &Noun) -> Option<Passing> {
+        let plain = noun.filters.is_empty() && noun.best.is_none() && noun.restrictions.is_empty();
+        noun.head.kinds.iter().filter(|_| plain).find_map(|kind| {
+            match self.mind.lexicon.kind(*kind).extension {
+                Extension::Doors => Some(Passing::Doors),
+                Extension::Rooms => Some(Passing::Rooms),
+                _ => None,
+            }
+        })
+    }
+}
+
+fn is_back(text: &str) -> bool {
+    const BACK: [&str; 12] = [
+        "а обратно",
+        "обратно",
+        "а назад",
+        "а в обратную сторону",
+        "а наоборот",
+        "and back",
+        "and back again",
+        "and the way back",
+        "what about the way back",
+        "and the other way",
+        "and the other way round",
+        "and vice versa",
+    ];
+    BACK.contains(&word_keys(text).join(" ").as_str())
+}
+
+fn turned_round(mut query: Query) -> Option<Query> {
+    if let Query::Way { from, to, .. }
+    | Query::CanReach { from, to }
+    | Query::Duration { from, to }
+    | Query::Distance { from, to }
+    | Query::Passing { from, to, .. } = &mut query
+    {
+        let start = from.take().unwrap_or_else(|| Noun::of(vec![Thing::Robot]));
+        *from = Some(std::mem::replace(to, start));
+        return Some(query);
+    }
+    None
+}
