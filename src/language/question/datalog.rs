@@ -582,34 +582,3 @@ impl Rule<'_, '_> {
         }
     }
 }
-
-impl Knowledge<'_> {
-    /// How the map calls a property.
-    fn property_names(&self, property: &Property) -> Vec<String> {
-        let named = |p: &crate::map::Properties| -> Vec<String> {
-            p.keys().filter(|name| Property::of(name) == *property).cloned().collect()
-        };
-        let replicas = self.world.replicas.values().flat_map(|r| named(&r.properties));
-        let objects = self.world.objects.values().flat_map(|o| named(&o.properties));
-        let names: std::collections::BTreeSet<String> = replicas.chain(objects).collect();
-        names.into_iter().collect()
-    }
-
-    /// How the map spells a value.
-    fn spellings(&self, value: super::values::ValueId) -> Vec<String> {
-        let replicas = self.world.replicas.values().map(|r| &r.properties);
-        let objects = self.world.objects.values().map(|o| &o.properties);
-        let doors = self.world.doors.values().map(|d| &d.properties);
-        let areas = self.world.areas.values().map(|a| &a.properties);
-        let all = replicas.chain(objects).chain(doors).chain(areas);
-        let values = &self.lexicon().values;
-        let mut found: Vec<String> = all
-            .flat_map(|p| p.values())
-            .filter(|v| values.meaning(v).is_some_and(|own| values.is(own, value)))
-            .cloned()
-            .collect();
-        found.sort_unstable();
-        found.dedup();
-        found
-    }
-}

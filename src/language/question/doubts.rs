@@ -2,15 +2,84 @@
 //!
 //! Invariant: a doubt names what was not understood, or the candidates with what tells them apart.
 
+use super::Unanswered;
 use super::knowledge::Knowledge;
 use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
-use super::{Doubt, Unanswered};
 use crate::language::words::russian::{self, Preposition};
 use crate::language::words::{Case, alternatives, enumerate};
 use crate::map::Entity;
 use crate::units::AreaId;
+
+/// Why a question has no answer.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Doubt {
+    /// Nothing but blanks, marks or pictures.
+    Empty,
+    TooLong {
+        length: usize,
+    },
+    /// Words that no question has.
+    NotUnderstood {
+        words: String,
+    },
+    /// Understood what about, but not what is asked.
+    Incomplete {
+        about: String,
+    },
+    /// A description that several things fit where one is meant.
+    Ambiguous {
+        reference: String,
+        candidates: Vec<Thing>,
+    },
+    /// Nothing on the map is called so.
+    Unknown {
+        reference: String,
+        near: Vec<String>,
+    },
+    /// Nothing on the map fits the description, though the map has its words.
+    NoneSuch {
+        noun: Box<Noun>,
+    },
+    /// Fewer things fit than are wanted.
+    TooFew {
+        found: Vec<Thing>,
+    },
+    /// A pronoun that means nothing yet.
+    NoReferent {
+        word: String,
+    },
+    /// «наверху», "downstairs", where there is no such storey.
+    NoStorey {
+        above: bool,
+    },
+    /// Windows are neither opened nor shut.
+    Windows,
+}
+
+impl Doubt {
+    pub(super) fn not_understood(words: &str) -> Self {
+        let words: String = words.chars().take(80).collect();
+        Self::NotUnderstood { words }
+    }
+
+    /// A stable word for the outcome: the three of SPEC T2, and what was not said.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Empty | Self::TooLong { .. } | Self::NotUnderstood { .. } | Self::Windows => {
+                "not_understood"
+            }
+            Self::Incomplete { .. } | Self::NoReferent { .. } => "incomplete",
+            Self::Ambiguous { .. } => "ambiguous",
+            Self::Unknown { .. }
+            | Self::NoneSuch { .. }
+            | Self::TooFew { .. }
+            | Self::NoStorey { .. } => "unknown",
+        }
+    }
+}
 
 impl Knowledge<'_> {
     pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {

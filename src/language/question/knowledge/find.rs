@@ -8,95 +8,10 @@ use crate::language::question::Doubt;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
 use crate::map::Entity;
-use crate::units::{AreaId, ObjectId, ReplicaId, Vector};
+use crate::units::{AreaId, Vector};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// What furniture is for; a picture or a television set is none.
-pub(in crate::language::question) const FURNITURE: [&str; 4] =
-    ["support", "container", "seat", "bed"];
-
 impl Knowledge<'_> {
-    /// Everything of a kind.
-    pub(in crate::language::question) fn members(&self, extension: &Extension) -> Vec<Thing> {
-        let replica = |&id: &ReplicaId| Thing::Entity(Entity::Replica(id));
-        let of_object = |object: ObjectId| {
-            let all = self.world.replicas.values().filter(move |r| r.object == object);
-            all.map(|r| Thing::Entity(Entity::Replica(r.id))).collect()
-        };
-        let with_trait = |wanted: &str| -> Vec<Thing> {
-            let kinds = self.by_type().iter();
-            let kinds = kinds.filter(|(kind, _)| self.world.types.object.has_trait(**kind, wanted));
-            let mut found: Vec<Thing> = kinds.flat_map(|(_, all)| all).map(replica).collect();
-            found.sort_unstable();
-            found
-        };
-        match extension {
-            Extension::ObjectType(kind) => {
-                self.by_type().get(&Some(*kind)).into_iter().flatten().map(replica).collect()
-            }
-            Extension::Object(object) => of_object(*object),
-            Extension::Trait(wanted) => with_trait(wanted),
-            Extension::Lighting => {
-                let mut found = with_trait("light");
-                // A switch stands for its light only where the map gives the lights themselves no place.
-                if !found.is_empty() {
-                    return found;
-                }
-                let types = &self.world.types.object;
-                let switches = self.by_type().iter().filter(|(kind, _)| {
-                    types.get(**kind).is_some_and(super::super::lexicon::Lexicon::is_switch)
-                });
-                found.extend(switches.flat_map(|(_, all)| all).map(replica));
-                found
-            }
-            Extension::Things => self.world.replicas.keys().map(replica).collect(),
-            Extension::Furniture => {
-                let used = |id| FURNITURE.iter().any(|wanted| self.world.has_trait(id, wanted));
-                let furniture = |id: &&_| used(**id) && !self.world.has_trait(**id, "portable");
-                self.world.replicas.keys().filter(furniture).map(replica).collect()
-            }
-            Extension::AreaType(kind) => {
-                let all = self.world.areas.values().filter(|a| a.area_type == Some(*kind));
-                all.map(|a| Thing::Entity(Entity::Area(a.id))).collect()
-            }
-            Extension::Rooms => {
-                self.world.areas.keys().map(|a| Thing::Entity(Entity::Area(*a))).collect()
-            }
-            Extension::DoorType(kind) => {
-                let all = self.world.doors.values().filter(|d| d.door_type == Some(*kind));
-                all.map(|d| Thing::Entity(Entity::Door(d.id))).collect()
-            }
-            Extension::Doors => {
-                self.gates().iter().filter(|g| !g.is_passage).map(|g| g.thing).collect()
-            }
-            Extension::Passages => {
-                self.gates().iter().filter(|g| g.is_passage).map(|g| g.thing).collect()
-            }
-            Extension::Windows => {
-                (0..self.lexicon().windows.len()).map(|n| Thing::Window(n as u32)).collect()
-            }
-            Extension::Places => {
-                self.world.places.keys().map(|p| Thing::Entity(Entity::Place(*p))).collect()
-            }
-            Extension::Storeys | Extension::Building => {
-                self.world.maps.keys().map(|m| Thing::Entity(Entity::Map(*m))).collect()
-            }
-            Extension::Robot => vec![Thing::Robot],
-            Extension::Lifts => {
-                let stops = self.world.domain.lifts.iter().filter_map(|(_, stops)| stops.first());
-                stops.map(|stop| Thing::Entity(Entity::Area(stop.area))).collect()
-            }
-            Extension::Exits => {
-                self.gates().iter().filter(|g| g.areas.len() == 1).map(|g| g.thing).collect()
-            }
-            Extension::Floor
-            | Extension::Walls
-            | Extension::Corners
-            | Extension::Part(_)
-            | Extension::Sort(_) => Vec::new(),
-        }
-    }
-
     /// What the head alone may mean.
     pub(in crate::language::question) fn base(&self, head: &Head) -> Vec<Thing> {
         if let Some(things) = &head.things {

@@ -4,13 +4,14 @@ mod facing;
 mod find;
 mod levels;
 mod measure;
+mod members;
 mod passages;
 mod relate;
 mod values;
 mod walls;
 
-pub(super) use find::FURNITURE;
 pub(super) use levels::Level;
+pub(super) use members::FURNITURE;
 pub(super) use passages::{Limits, Passage};
 
 use super::lexicon::Lexicon;

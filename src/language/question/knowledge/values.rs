@@ -5,8 +5,9 @@
 use super::{Gate, Knowledge};
 use crate::language::question::query::{Filter, Rel, Thing};
 use crate::language::question::values::{Property, ValueId};
-use crate::map::{DoorKind, DoorStatus, Entity};
+use crate::map::{DoorKind, DoorStatus, Entity, Properties};
 use crate::units::DoorId;
+use std::collections::BTreeSet;
 
 impl Knowledge<'_> {
     /// All values of a thing, with the map's own words for them.
@@ -135,5 +136,36 @@ impl Knowledge<'_> {
     /// Whether something is on or in a thing.
     fn bears_anything(&self, thing: Thing) -> bool {
         [Rel::On, Rel::In].iter().any(|rel| !self.related(*rel, thing).is_empty())
+    }
+}
+
+impl Knowledge<'_> {
+    /// How the map calls a property.
+    pub(in crate::language::question) fn property_names(&self, property: &Property) -> Vec<String> {
+        let named = |p: &Properties| -> Vec<String> {
+            p.keys().filter(|name| Property::of(name) == *property).cloned().collect()
+        };
+        let replicas = self.world.replicas.values().flat_map(|r| named(&r.properties));
+        let objects = self.world.objects.values().flat_map(|o| named(&o.properties));
+        let names: BTreeSet<String> = replicas.chain(objects).collect();
+        names.into_iter().collect()
+    }
+
+    /// How the map spells a value.
+    pub(in crate::language::question) fn spellings(&self, value: ValueId) -> Vec<String> {
+        let replicas = self.world.replicas.values().map(|r| &r.properties);
+        let objects = self.world.objects.values().map(|o| &o.properties);
+        let doors = self.world.doors.values().map(|d| &d.properties);
+        let areas = self.world.areas.values().map(|a| &a.properties);
+        let all = replicas.chain(objects).chain(doors).chain(areas);
+        let values = &self.lexicon().values;
+        let mut found: Vec<String> = all
+            .flat_map(|p| p.values())
+            .filter(|v| values.meaning(v).is_some_and(|own| values.is(own, value)))
+            .cloned()
+            .collect();
+        found.sort_unstable();
+        found.dedup();
+        found
     }
 }

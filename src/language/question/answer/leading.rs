@@ -1,0 +1,103 @@
+//! Doors and passages with where they lead.
+//!
+//! Invariant: a passage is told beside doors, never as one.
+
+use crate::language::question::knowledge::Knowledge;
+use crate::language::question::lexicon::Extension;
+use crate::language::question::query::{Noun, Rel, Thing};
+use crate::language::words::enumerate;
+use crate::map::Entity;
+
+impl Knowledge<'_> {
+    /// «В Коридор можно попасть из Комнаты-В и из Комнаты-Y.»
+    pub(super) fn led_from(&self, noun: &Noun, found: &[Thing]) -> Option<String> {
+        let to = noun.restrictions.iter().find(|r| r.rel == Rel::To && !r.negated)?;
+        let rooms = !found.is_empty() && found.iter().all(|t| t.area().is_some());
+        let to = self.find(to.anchors.first()?, true).ok().filter(|_| rooms)?;
+        let from: Vec<String> = found.iter().map(|t| self.place(Rel::From, &[*t])).collect();
+        Some(match self.is_russian() {
+            true => {
+                let from = enumerate(&from, self.language);
+                format!("{} можно попасть {from}", self.place(Rel::To, &to))
+            }
+            false => format!("one can get {} from {}", self.place(Rel::To, &to), self.list(found)),
+        })
+    }
+
+    pub(super) fn is_leading(&self, noun: &Noun) -> bool {
+        noun.restrictions.iter().any(|r| matches!(r.rel, Rel::From | Rel::To))
+    }
+
+    /// From one room to another.
+    pub(super) fn leads_both(&self, noun: &Noun) -> bool {
+        let has = |rel| noun.restrictions.iter().any(|r| r.rel == rel);
+        has(Rel::From) && has(Rel::To)
+    }
+
+    /// Passages beside doors, and what lies inside beside what stands on top.
+    pub(super) fn also(&self, noun: &Noun, found: &[Thing]) -> String {
+        let doors =
+            noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
+        let of_area =
+            noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
+        let Some(restriction) =
+            of_area.filter(|_| doors && noun.filters.is_empty() && !self.leads_both(noun))
+        else {
+            return String::new();
+        };
+        let Some(anchor) = restriction.anchors.first() else { return String::new() };
+        let Ok(areas) = self.find(anchor, true) else { return String::new() };
+        let passages: Vec<Thing> = self
+            .gates()
+            .iter()
+            .filter(|g| g.is_passage && !found.contains(&g.thing))
+            .filter(|g| areas.iter().filter_map(|a| a.area()).any(|a| g.areas.contains(&a)))
+            .map(|g| g.thing)
+            .collect();
+        let is_area = |t: &Thing| t.area().is_some();
+        let parts = match areas[..] {
+            [here] if is_area(&here) => self.with_destinations(&passages, here),
+            _ => vec![self.list(&passages)],
+        };
+        let list = enumerate(&parts, self.language);
+        match (passages.len(), self.is_russian()) {
+            (0, _) => String::new(),
+            (_, true) => format!("; кроме того, есть {list}"),
+            (1, false) => format!("; besides, there is {list}"),
+            (_, false) => format!("; besides, there are {list}"),
+        }
+    }
+
+    /// Openings of a room by where they lead: out of the map, or to rooms.
+    pub(super) fn by_destination(
+        &self,
+        openings: &[Thing],
+        here: Thing,
+    ) -> Vec<(Vec<Thing>, Vec<Thing>)> {
+        let mut groups: Vec<(Vec<Thing>, Vec<Thing>)> = Vec::new();
+        for opening in openings {
+            let areas = self.gate(*opening).into_iter().flat_map(|g| &g.areas);
+            let others: Vec<Thing> =
+                areas.map(|a| Thing::Entity(Entity::Area(*a))).filter(|t| *t != here).collect();
+            match groups.iter_mut().find(|(to, _)| *to == others) {
+                Some((_, same)) => same.push(*opening),
+                None => groups.push((others, vec![*opening])),
+            }
+        }
+        groups
+    }
+
+    /// Openings of a room with where they lead, those to the same place together.
+    pub(super) fn with_destinations(&self, openings: &[Thing], here: Thing) -> Vec<String> {
+        let groups = self.by_destination(openings, here);
+        let told = |(to, openings): &(Vec<Thing>, Vec<Thing>)| {
+            let names = self.list(openings);
+            match (to.is_empty(), self.is_russian()) {
+                (false, _) => format!("{names} ({})", self.place(Rel::To, to)),
+                (true, true) => format!("{names} (наружу)"),
+                (true, false) => format!("{names} (outside)"),
+            }
+        };
+        groups.iter().map(told).collect()
+    }
+}
