@@ -151,8 +151,12 @@ impl Knowledge<'_> {
                 // "Which rooms have a TV? What does the one in the bedroom stand on?"
                 let rooms = self.memory.listed.iter().all(|t| t.area().is_some());
                 let had = self.had_by_rooms().filter(|_| rooms && !noun.restrictions.is_empty());
-                let things = Some(had.unwrap_or_else(|| self.memory.listed.clone()));
-                noun.head = Head { things, ..Head::default() };
+                let things = had.unwrap_or_else(|| self.memory.listed.clone());
+                // "Is there one in the kitchen?": any of the kind.
+                noun.head = match self.alike(&things).filter(|_| word_keys(&noun.text).len() == 1) {
+                    Some(kind) => Head { kinds: vec![kind], ..Head::default() },
+                    None => Head { things: Some(things), ..Head::default() },
+                };
             }
         });
         self.put_together(query);
@@ -208,6 +212,12 @@ impl Knowledge<'_> {
                 *noun = Noun { text, ..Noun::of(vec![only]) };
             }
         }
+    }
+
+    /// The one kind of some things.
+    pub(super) fn alike(&self, things: &[Thing]) -> Option<KindId> {
+        let kind = self.kind_of(*things.first()?)?;
+        things.iter().all(|t| self.kind_of(*t) == Some(kind)).then_some(kind)
     }
 
     pub(super) fn kind_of(&self, thing: Thing) -> Option<KindId> {

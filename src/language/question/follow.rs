@@ -3,7 +3,9 @@
 use super::grammar::{Item, Sentence};
 use super::mark::{Mark, Pronoun};
 use super::query::Best;
-use super::{Asker, Claim, Head, Memory, Noun, Query, Rel, Thing, assemble, several, vocabulary};
+use super::{
+    Asker, Claim, Head, Memory, Noun, Query, Rel, Restriction, Thing, assemble, several, vocabulary,
+};
 use crate::language::words::{Gender, Language, word_keys};
 use crate::map::Entity;
 
@@ -70,6 +72,9 @@ impl Asker<'_> {
         // "And the one in the living room?": another of what was asked of.
         let another = noun.head.anything && !noun.restrictions.is_empty() && noun.best.is_none();
         if another && let Some(query) = another_placed(last, &noun) {
+            return Some(query);
+        }
+        if let Some(query) = self.in_another_room(last, &noun).filter(|_| !counts) {
             return Some(query);
         }
         if noun.head == Head::default() {
@@ -296,6 +301,32 @@ impl Asker<'_> {
         let kind = self.knowledge(Language::English, memory).kind_of(*spoken)?;
         let head = Head { kinds: vec![kind], ..Head::default() };
         Some(Noun { head, plural: true, other: true, ..Noun::default() })
+    }
+
+    /// «Что на столе в гостиной? А в спальне?»: on the table there, where only the table's room was told.
+    fn in_another_room(&self, last: &Query, noun: &Noun) -> Option<Query> {
+        let [there] = &noun.restrictions[..] else { return None };
+        let is_bare =
+            noun.head == Head::default() && noun.filters.is_empty() && noun.best.is_none();
+        let within = |r: &Restriction| {
+            let room = r.anchors.iter().all(|anchor| self.is_room(anchor));
+            matches!(r.rel, Rel::In | Rel::On) && !r.negated && room
+        };
+        if !is_bare || !within(there) {
+            return None;
+        }
+        let mut query = last.clone();
+        // The room may narrow the table as well as what is on it.
+        let mut replaced: Option<Vec<Noun>> = None;
+        query.each_noun(&mut |old| {
+            for room in old.restrictions.iter_mut().filter(|r| within(r)) {
+                if replaced.as_ref().is_none_or(|first| *first == room.anchors) {
+                    replaced.get_or_insert_with(|| room.anchors.clone());
+                    room.clone_from(there);
+                }
+            }
+        });
+        replaced.map(|_| query)
     }
 
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.

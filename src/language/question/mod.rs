@@ -398,6 +398,10 @@ impl Asker<'_> {
                 }
                 let names_nothing = memory.exchanges == before && !self.has_pronoun(text);
                 memory.miss(&doubt, names_nothing);
+                // «Это Часы-1 или Часы-2? – Где вторые?»
+                if let Doubt::Ambiguous { candidates, .. } = &doubt {
+                    memory.listed.clone_from(candidates);
+                }
                 memory.pending = match (&doubt, query) {
                     (Doubt::Ambiguous { reference, candidates }, Some(query)) => Some(Pending {
                         query,

@@ -278,9 +278,7 @@ impl Knowledge<'_> {
 
     /// The words for what a description means, as a phrase that declines: «чёрный стул».
     pub(super) fn kind_phrase(&self, noun: &Noun) -> (NounPhrase, String) {
-        let told = noun.head.things.iter().flatten();
-        let told: Vec<Option<KindId>> = told.map(|t| self.kind_of(*t)).collect();
-        let alike = told.first().copied().flatten().filter(|k| told.iter().all(|o| *o == Some(*k)));
+        let alike = noun.head.things.as_deref().and_then(|told| self.alike(told));
         let kind = noun.head.kinds.first().copied().or(alike).map(|k| self.lexicon().counted(k));
         let (base, english_base) = match kind {
             Some(kind) => match self.shared_head(noun) {

@@ -421,11 +421,11 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Best(Extreme::Most),
-        "больше всего|наибольшее количество|наибольшее число|самое большое количество|the most|most|the largest number of|the greatest number of|the highest number of",
+        "больше всего|всего больше|наибольшее количество|наибольшее число|самое большое количество|the most|most|the largest number of|the greatest number of|the highest number of",
     ),
     (
         Mark::Best(Extreme::Fewest),
-        "меньше всего|наименьшее количество|наименьшее число|самое маленькое количество|the fewest|fewest|the least|least|the smallest number of|the lowest number of",
+        "меньше всего|всего меньше|наименьшее количество|наименьшее число|самое маленькое количество|the fewest|fewest|the least|least|the smallest number of|the lowest number of",
     ),
     (Mark::More(Extreme::Most), "more"),
     (Mark::More(Extreme::Fewest), "fewer|less"),
