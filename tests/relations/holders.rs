@@ -41,6 +41,10 @@ name = "Подставка"
 rect = [20, 20]
 height = 45
 roof = "permeable"
+[orthoframe.cushion]
+name = "Сиденье дивана"
+rect = [48, 38]
+height = 2
 [orthoframe.sock]
 name = "Носок"
 rect = [20, 8]
@@ -84,6 +88,10 @@ items = [
 name = "Короб"
 type = "Вещь"
 items = [{ id = "A", orthoframe = "lidded" }]
+[object.sofa]
+name = "Диван"
+type = "Мебель для сидения"
+items = [{ id = "A", orthoframe = "lidded" }, { id = "B", orthoframe = "cushion", at = [1, 1, 10] }]
 [object.stand]
 name = "Подставка"
 type = "Вещь"
@@ -243,6 +251,43 @@ fn boxes_that_are_open_lidded_and_stacked() {
             INSIDE: чашка в ящике, ящик
             NEXT_TO: короб, ящик
             NEXT_TO: ящик, короб
+        "#]],
+    );
+}
+
+#[test]
+fn what_lies_on_a_seat_is_not_in_it() {
+    check(
+        r#"
+{ name = "диван", object = "sofa", at = [200, 200] },
+{ name = "носок", object = "sock", at = [210, 210, 12] },
+"#,
+        STACK,
+        &expect![[r#"
+            RESTS_ON: носок, диван
+            LIES_ON_OR_IN: носок, диван
+            ON_TOP_OF: носок, диван
+        "#]],
+    );
+}
+
+#[test]
+fn what_is_in_a_box_rests_on_nothing_outside_of_it() {
+    // The box is sunk into the table by a centimetre: its bottom is lower than the table's top.
+    check(
+        r#"
+{ name = "стол", object = "table", at = [200, 200] },
+{ name = "ящик", object = "box", at = [210, 210, 74] },
+{ name = "носок", object = "sock", at = [220, 220, 74.2] },
+"#,
+        STACK,
+        &expect![[r#"
+            RESTS_ON: носок, ящик
+            RESTS_ON: ящик, стол
+            LIES_ON_OR_IN: носок, ящик
+            LIES_ON_OR_IN: ящик, стол
+            ON_TOP_OF: ящик, стол
+            INSIDE: носок, ящик
         "#]],
     );
 }

@@ -29,6 +29,7 @@ object = [
   { name = "Вещь" },
   { name = "Ёмкость", traits = ["container"] },
   { name = "Ноша", traits = ["portable"] },
+  { name = "Мебель для сидения", traits = ["seat"] },
 ]
 
 [orthoframe]

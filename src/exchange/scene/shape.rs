@@ -547,6 +547,34 @@ mod tests {
     }
 
     #[test]
+    fn what_is_fixed_or_nested_keeps_its_distance() {
+        let things = [
+            // A bowl 2.5 cm above a counter, and one nested in it.
+            thing(Build::Block, (0.0, 0.0), 50.0, 0.0, 104.0),
+            thing(Build::Bowl, (0.0, 0.0), 10.0, 106.5, 114.5),
+            thing(Build::Bowl, (0.0, 0.0), 9.0, 109.0, 117.0),
+            // A shelf on the wall above a bed.
+            thing(Build::Seat, (500.0, 0.0), 90.0, 0.0, 30.0),
+            thing(Build::Case, (540.0, 0.0), 15.0, 45.0, 60.0),
+            // Two drawers of a closet with 3 cm between them.
+            thing(Build::Case, (900.0, 0.0), 50.0, 0.0, 200.0),
+            thing(Build::Case, (900.0, 0.0), 20.0, 14.0, 34.0),
+            thing(Build::Case, (900.0, 0.0), 20.0, 37.0, 57.0),
+        ];
+        assert_eq!(settled(&things), [0.0, 104.0, 106.5, 0.0, 45.0, 0.0, 14.0, 37.0]);
+    }
+
+    #[test]
+    fn what_is_hardly_larger_holds_nothing() {
+        // Two apples in one bowl, whose boxes overlap.
+        let things = [
+            thing(Build::Block, (0.0, 0.0), 8.0, 95.0, 112.0),
+            thing(Build::Block, (1.0, 0.0), 7.0, 103.0, 117.0),
+        ];
+        assert!(levels(&things).iter().all(Vec::is_empty));
+    }
+
+    #[test]
     fn solid_parts_do_not_lie_in_one_another() {
         let all =
             [Build::Block, Build::Table, Build::Seat, Build::Case, Build::Bowl, Build::Envelope];
