@@ -8,6 +8,7 @@ mod json;
 mod plane;
 mod procthor;
 mod pyrobosim;
+mod settle;
 mod shape;
 mod stock;
 mod thor;

@@ -6,6 +6,7 @@ use crate::exchange::{Kind, Thing};
 use crate::map::Properties;
 use crate::units::{Cm, Deg, Point};
 
+use super::settle;
 use super::shape::{self, Build, Crate};
 
 /// One thing as its file gives it. Lengths in cm.
@@ -76,7 +77,7 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
             top: p.bottom + p.height,
         })
         .collect();
-    for (n, bottom) in shape::settled(&boxes).into_iter().enumerate() {
+    for (n, bottom) in settle::settled(&boxes).into_iter().enumerate() {
         pieces[n].bottom = bottom;
         (boxes[n].bottom, boxes[n].top) = (bottom, bottom + pieces[n].height);
     }
