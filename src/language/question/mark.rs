@@ -82,6 +82,8 @@ pub(super) enum Mark {
     Avoiding,
     /// «не открывая дверей», "without opening a door"
     Unopened,
+    /// «придётся открывать двери», "have to open any doors"
+    MustOpen,
     /// «с какой стороны от», "which side of"
     Side,
     /// «придётся ли», "have to"

@@ -17,6 +17,8 @@ struct Asked {
     passes: bool,
     /// How long it is, in time or in metres.
     in_time: Option<bool>,
+    /// «придётся открывать двери»
+    opens: bool,
     /// Doors or rooms.
     of: Option<Passing>,
 }
@@ -37,6 +39,16 @@ impl Asker<'_> {
         }
         let asked = self.asked_of_way(text)?;
         let (from, to) = (from.clone(), to.clone());
+        if asked.opens {
+            let asks = Passing::Opens;
+            return Some(Query::Passing {
+                from,
+                to,
+                through: Vec::new(),
+                avoiding: Vec::new(),
+                asks,
+            });
+        }
         let asks = match (asked.in_time, asked.counts, asked.passes) {
             (Some(true), false, _) => return Some(Query::Duration { from, to }),
             (Some(false), false, _) => return Some(Query::Distance { from, to }),
@@ -59,6 +71,7 @@ impl Asker<'_> {
                 Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
                     asked.in_time = asked.in_time.or(Some(false));
                 }
+                Item::Mark(Mark::MustOpen) => asked.opens = true,
                 Item::Mark(Mark::HowMany) => asked.counts = true,
                 Item::Mark(Mark::What | Mark::Which) => asked.asks = true,
                 Item::Mark(Mark::HowGet | Mark::Move) | Item::Link(Rel::Through) => {

@@ -380,6 +380,8 @@ pub enum Passing {
     Must,
     /// Whether there is one on which no door is shut.
     Unopened,
+    /// Whether a door must be opened: no to what `Unopened` says yes to.
+    Opens,
     /// Whether one door is all that lies between.
     Directly,
     /// How many doors are on it.

@@ -46,7 +46,10 @@ impl Knowledge<'_> {
         if must {
             avoided.extend(&through);
         }
-        let limits = Limits { avoiding: avoided.clone(), open_only: asks == Passing::Unopened };
+        let limits = Limits {
+            avoiding: avoided.clone(),
+            open_only: matches!(asks, Passing::Unopened | Passing::Opens),
+        };
         let through = if must { &[][..] } else { &through[..] };
         let way = self.passage_through(&ends, &goals, through, &limits);
         // Who comes through a room twice on the way does not need to pass where he turns round.
@@ -76,6 +79,11 @@ impl Knowledge<'_> {
                 let text = self.pick("да, другого пути нет", "yes, there is no other way");
                 (Said::Yes, format!("{text}: {}", self.told(&any)))
             }
+            (Passing::Opens, Some(way)) => {
+                let none = self.pick("нет, на пути всё открыто", "no, all is open on the way");
+                (Said::No, format!("{none}: {}", self.told(&way)))
+            }
+            (Passing::Opens, None) => (Said::Yes, format!("{yes}: {}", self.told(&any))),
             (Passing::Whether | Passing::Unopened, Some(way)) => {
                 match self.blocked(start, goal, &way) {
                     Some(why) => (Said::No, format!("{no}: {why}")),

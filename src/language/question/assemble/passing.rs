@@ -47,6 +47,7 @@ impl Frame<'_, '_> {
             Some(doors) if self.is_doors(&doors.noun) && told => Passing::Doors,
             _ if self.asks() => return None,
             _ if self.has(Mark::Unopened) => Passing::Unopened,
+            _ if self.has(Mark::MustOpen) => Passing::Opens,
             _ if self.has(Mark::Directly) && self.has(Mark::Can) && goes => Passing::Directly,
             _ if through.is_empty() && avoiding.is_empty() => return None,
             _ if self.has(Mark::Must) && goes => Passing::Must,
