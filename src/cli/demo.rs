@@ -248,6 +248,11 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
         }
     }
     let mut told = vec![ending(engine.world()?, answer, lang)];
+    // That a thing is found already says nothing more than where it is.
+    let finds = answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND);
+    if matches!(answer.ending, TaskEnding::AlreadyTrue) && finds && answer.left.is_empty() {
+        told.clear();
+    }
     if matches!(answer.ending, TaskEnding::Done | TaskEnding::AlreadyTrue) {
         told.extend(places_found(engine, answer, lang)?);
     }

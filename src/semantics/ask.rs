@@ -2,10 +2,11 @@
 //!
 //! The relations hold what is near; a question may be about what is far. Lengths are cm, areas cm².
 
-use crate::geometry::Polygon;
 use crate::geometry::contact::{Footprint, gap, length_within, overlap_area};
+use crate::geometry::{Polygon, convex_hull};
 use crate::units::{AreaId, MapId, Point, ReplicaId, Vector};
 
+use super::body::Body;
 use super::measure::surface_distance;
 use super::relations::Relations;
 
@@ -120,7 +121,8 @@ impl Relations {
         gaps.map(|g| g.distance).reduce(f64::min)
     }
 
-    /// What stands between two things: across the straight way from middle to middle, or at most 15 cm beside it.
+    /// What stands between two things: across the shortest way from one to the other or at most 15 cm beside it, or with
+    /// half of itself where both see each other. Between two things on one support is only what is on that too.
     #[must_use]
     pub fn standing_between(&self, a: ReplicaId, b: ReplicaId) -> Vec<ReplicaId> {
         let bodies = &self.measurements().bodies;
@@ -138,6 +140,16 @@ impl Relations {
         let band =
             Footprint::new(Polygon::new(vec![from + side, to + side, to - side, from - side]));
         let (low, high) = (first.bottom.min(second.bottom), first.top.max(second.top));
+        let corners = [&first.hull, &second.hull].map(|h| h.polygon.corners.clone()).concat();
+        let amid = Footprint::new(Polygon::new(convex_hull(corners)));
+        let is_amid = |body: &Body| {
+            body.bottom < first.top.min(second.top)
+                && overlap_area(&body.hull, &amid)
+                    - overlap_area(&body.hull, &first.hull)
+                    - overlap_area(&body.hull, &second.hull)
+                    >= 0.5 * body.hull.area
+        };
+        let shared = self.support_of(a).filter(|_| self.support_of(a) == self.support_of(b));
         let crosses = |id: &ReplicaId| {
             let body = &bodies[id];
             *id != a
@@ -150,10 +162,15 @@ impl Relations {
                 && !self.holds_up(b, *id)
                 && !self.holds_up(*id, a)
                 && !self.holds_up(*id, b)
+                && shared.is_none_or(|support| self.holds_up(*id, support))
                 && (length_within(from, to, &body.hull) >= BETWEEN_LEAST
-                    || overlap_area(&body.hull, &band) > 0.0)
+                    || overlap_area(&body.hull, &band) > 0.0
+                    || is_amid(body))
         };
         let mut found: Vec<ReplicaId> = bodies.keys().copied().filter(|id| crosses(id)).collect();
+        // A table stands between, rather than all that is on it.
+        let bearers = found.clone();
+        found.retain(|id| !bearers.iter().any(|bearer| self.holds_up(*id, *bearer)));
         found.sort_by(|x, y| {
             let at = |id: &ReplicaId| (bodies[id].centre - from).dot(&along);
             at(x).total_cmp(&at(y))

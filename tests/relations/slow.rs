@@ -390,7 +390,7 @@ fn next(shapes: &[Shape], (a, b): (usize, usize), distance: f64, judged: &mut Ju
         });
     let common = x.top().min(y.top()) - x.bottom().max(y.bottom());
     let level = common / (x.top() - x.bottom()).min(y.top() - y.bottom());
-    let limit = ((x.size + y.size) / 6.0).clamp(10.0, 60.0);
+    let limit = ((x.size + y.size) / 4.0).clamp(30.0, 60.0);
     if in_room && is_clear && (level - 0.333).abs() > 0.002 && !is_near(distance, limit) {
         judged.say("NEXT_TO", a, b, level > 0.333 && distance < limit);
     }

@@ -66,8 +66,10 @@ fn books_in_a_bookcase_and_on_it() {
             INSIDE: том-1, стеллаж
             INSIDE: том-2, стеллаж
             INSIDE: том-3, стеллаж
+            NEXT_TO: стеллаж, том-5
             NEXT_TO: том-1, том-2
             NEXT_TO: том-2, том-1
+            NEXT_TO: том-5, стеллаж
         "#]],
     );
 }

@@ -81,6 +81,18 @@ impl Doubt {
     }
 }
 
+impl super::Unanswered {
+    /// "No, the map has nothing called that": of what is like no name, there is none.
+    pub(super) fn denied(self) -> Self {
+        if !matches!(&self.doubt, Doubt::Unknown { near, .. } if near.is_empty()) {
+            return self;
+        }
+        let no = self.language.pick("нет, ", "no, ");
+        let told = super::lexicon::lower_first(&self.text);
+        Self { text: speech::sentence(&format!("{no}{told}")), ..self }
+    }
+}
+
 impl Knowledge<'_> {
     pub(super) fn unanswered(&self, doubt: Doubt) -> Unanswered {
         let (text, names) = self.doubt_words(&doubt);
@@ -284,6 +296,11 @@ impl Knowledge<'_> {
         if let Some(own) = support(thing)
             && candidates.iter().any(|t| support(*t) != Some(own))
         {
+            // Where the rooms differ too, people go by them.
+            let area = self.area_of(thing);
+            if candidates.iter().any(|t| self.area_of(*t) != area) {
+                return Some(self.short_place(thing, &mut Vec::new()));
+            }
             let own = Thing::Entity(Entity::Replica(own));
             return Some(self.place(self.on_or_in(thing, own), &[own]));
         }

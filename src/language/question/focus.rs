@@ -122,7 +122,7 @@ impl Knowledge<'_> {
 
     /// Those of some things that a word names outright: "the box" is no tissue box where there is a box. None where
     /// that leaves all or nothing.
-    fn exactly(&self, noun: &Noun, found: &[Thing]) -> Option<Vec<Thing>> {
+    pub(super) fn exactly(&self, noun: &Noun, found: &[Thing]) -> Option<Vec<Thing>> {
         let kinds = self.lexicon().proper(&noun.head.kinds, self.language);
         let own: HashSet<Thing> =
             self.base(&Head { kinds, ..Head::default() }).into_iter().collect();
@@ -133,6 +133,7 @@ impl Knowledge<'_> {
     /// Puts for each place of a query that several things are, the one of them that was just spoken of.
     pub(super) fn focus(&self, query: &mut Query) {
         if self.memory.exchanges.is_empty() {
+            query.each_noun(&mut |noun| self.this_room(&mut noun.restrictions));
             self.put_together(query);
             return;
         }
@@ -145,6 +146,7 @@ impl Knowledge<'_> {
         }
         query.each_noun(&mut |noun| {
             self.focus_places(&mut noun.restrictions);
+            self.this_room(&mut noun.restrictions);
             // "the bigger one" of several that were told
             let one = word_keys(&noun.text).last().is_some_and(|word| word == "one");
             if one && noun.head.anything && self.memory.listed.len() > 1 {
@@ -226,6 +228,20 @@ impl Knowledge<'_> {
         self.lexicon().kind_of(&Extension::ObjectType(object.object_type?))
     }
 
+    /// "In this room", where no room was spoken of: the robot's.
+    fn this_room(&self, restrictions: &mut [Restriction]) {
+        let Some(own) = self.area_of(Thing::Robot) else { return };
+        let own = Thing::Entity(Entity::Area(own));
+        for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
+            let this = word_keys(&anchor.text).first().is_some_and(|word| {
+                ["this", "этой", "эта", "эту", "этом", "этот"].contains(&word.as_str())
+            });
+            if this && is_one(anchor) && self.base(&anchor.head).contains(&own) {
+                *anchor = Noun { text: std::mem::take(&mut anchor.text), ..Noun::of(vec![own]) };
+            }
+        }
+    }
+
     fn focus_places(&self, restrictions: &mut [Restriction]) {
         for anchor in restrictions.iter_mut().flat_map(|r| &mut r.anchors) {
             let found = is_one(anchor).then(|| self.find(anchor, false).ok()).flatten();
@@ -244,6 +260,7 @@ impl Knowledge<'_> {
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),
             _ if self.memory.is_lost => Vec::new(),
+            _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
             // "What can I write with and where is it?": each of them.
             Pronoun::Any
                 if matches!(self.memory.query, Some(Query::Find(_)))
@@ -254,6 +271,16 @@ impl Knowledge<'_> {
             }
             _ => self.taken_up(pronoun, rel).into_iter().collect(),
         }
+    }
+
+    /// "Are there phones in the bedroom?" – "No." – "Where are they?": what was looked for in vain, wherever it is.
+    fn sought_in_vain(&self, pronoun: Pronoun) -> Option<Vec<Thing>> {
+        let sought =
+            self.memory.query.as_ref()?.sought().filter(|_| self.memory.last.is_empty())?;
+        let named = !sought.head.anything && !sought.restrictions.is_empty();
+        let anywhere = Noun { restrictions: Vec::new(), ..sought.clone() };
+        let found = self.find(&anywhere, true).ok().filter(|_| named)?;
+        found.iter().all(|t| self.agrees(pronoun, *t)).then_some(found).filter(|f| !f.is_empty())
     }
 
     /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.

@@ -19,6 +19,9 @@ impl Asker<'_> {
         if let Some(query) = self.of_the_way(text, last).or_else(|| by_how_much(&key, last)) {
             return Some(query);
         }
+        if let Some(query) = self.of_the_rest(text, memory) {
+            return Some(query);
+        }
         if let Some(query) = self.other_side(text, memory) {
             return Some(query);
         }

@@ -92,7 +92,7 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (
         Extension::Building,
         "дом|здание|квартира|карта|жильё|модель|план|строение|клиника|больница|школа|гостиница|музей",
-        "house|building|flat|apartment|home|map|this place|premises|clinic|hospital|school|hotel|museum",
+        "house|building|flat|apartment|home|map|this place|the whole place|whole place|entire place|premises|clinic|hospital|school|hotel|museum",
     ),
     (
         Extension::Exits,
@@ -239,7 +239,7 @@ impl Lexicon {
             "" => english::name_of(phrase.name()).unwrap_or_else(|| phrase.name().to_owned()),
             _ => english.to_owned(),
         };
-        self.kinds.push(Kind { extension, phrase, english: english.to_lowercase() });
+        self.kinds.push(Kind { extension, phrase, english: lower_words(&english) });
         id
     }
 
@@ -547,6 +547,13 @@ pub(super) fn lower_first(text: &str) -> String {
         return text.to_owned();
     }
     first.to_lowercase().chain(rest.chars()).collect()
+}
+
+/// "dining table", but "TV"
+fn lower_words(name: &str) -> String {
+    let is_acronym = |w: &str| w.len() > 1 && w.chars().all(|c| c.is_ascii_uppercase());
+    let lower = |w: &str| if is_acronym(w) { w.to_owned() } else { w.to_lowercase() };
+    name.split(' ').map(lower).collect::<Vec<_>>().join(" ")
 }
 
 /// A type as a key that both lists share.

@@ -17,6 +17,7 @@ mod everyday;
 mod focus;
 mod follow;
 mod grammar;
+mod here;
 mod knowledge;
 mod level_words;
 mod lexicon;
@@ -27,6 +28,7 @@ mod orders;
 mod purposes;
 mod query;
 mod rephrase;
+mod rest;
 mod sentences;
 mod settle;
 mod several;
@@ -56,7 +58,7 @@ use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
 
 use grammar::{Item, Sentence};
 use knowledge::Knowledge;
-use mark::Pronoun;
+use mark::{Mark, Pronoun};
 
 /// What the map alone cannot know: where the robot is, ways over the floor, what was seen when.
 pub trait Senses {
@@ -411,9 +413,21 @@ impl Asker<'_> {
                     }),
                     _ => None,
                 };
-                Err(self.knowledge(language, memory).unanswered(doubt))
+                let unanswered = self.knowledge(language, memory).unanswered(doubt);
+                Err(if self.asks_whether_there_is(text) { unanswered.denied() } else { unanswered })
             }
         }
+    }
+
+    /// "Is there a bathtub?", which no answers too.
+    fn asks_whether_there_is(&self, text: &str) -> bool {
+        let text = self.plain(text);
+        let items = Sentence::new(&text, &self.mind.lexicon).items();
+        let other = [Mark::What, Mark::Which, Mark::HowMany, Mark::Where];
+        let compares = |item: &Item| matches!(item, Item::Mark(Mark::More(_) | Mark::Than));
+        items.contains(&Item::Mark(Mark::Exists))
+            && !items.iter().any(compares)
+            && !other.into_iter().any(|mark| items.contains(&Item::Mark(mark)))
     }
 
     fn has_pronoun(&self, text: &str) -> bool {
@@ -491,7 +505,14 @@ impl Asker<'_> {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
         let named = storeys::named(&text, self.world, here);
-        everyday::plain(&named, &self.mind.lexicon).into_owned()
+        let room = self.own_room(&named);
+        everyday::plain(&here::named(&named, room.as_deref()), &self.mind.lexicon).into_owned()
+    }
+
+    /// «в Гостиной», in the language of a text: the room where the robot is.
+    fn own_room(&self, text: &str) -> Option<String> {
+        let memory = Memory::default();
+        self.knowledge(Language::of(text), &memory).in_room(Thing::Robot)
     }
 
     /// Whether a text speaks of a storey that is not there, the one above (true) or below.

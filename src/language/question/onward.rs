@@ -21,6 +21,10 @@ struct Asked {
     opens: bool,
     /// Doors or rooms.
     of: Option<Passing>,
+    /// Rooms and doors that it is to lead through.
+    through: Vec<Noun>,
+    may: bool,
+    not: bool,
 }
 
 impl Asker<'_> {
@@ -49,6 +53,16 @@ impl Asker<'_> {
                 asks,
             });
         }
+        if !asked.through.is_empty() {
+            // "And not through the hall?" asks for another way, "Why not through the hall?" for this one.
+            let (named, none, asks) = (asked.through, Vec::new(), Passing::Whether);
+            let (through, avoiding) =
+                if asked.not && !asked.may { (none, named) } else { (named, none) };
+            return Some(Query::Passing { from, to, through, avoiding, asks });
+        }
+        if asked.may || asked.not {
+            return None;
+        }
         let asks = match (asked.in_time, asked.counts, asked.passes) {
             (Some(true), false, _) => return Some(Query::Duration { from, to }),
             (Some(false), false, _) => return Some(Query::Distance { from, to }),
@@ -71,6 +85,14 @@ impl Asker<'_> {
                 Item::Mark(Mark::HowFar | Mark::HowBig(Dimension::Length)) => {
                     asked.in_time = asked.in_time.or(Some(false));
                 }
+                // "Why can't I go through the kitchen?"
+                Item::Place { rel: Rel::Through, nouns, .. }
+                    if nouns.iter().all(|phrase| phrase.pronoun.is_none()) =>
+                {
+                    asked.through = nouns.into_iter().map(|phrase| phrase.noun).collect();
+                }
+                Item::Mark(Mark::Why | Mark::WhyNot | Mark::Can | Mark::Cannot) => asked.may = true,
+                Item::Mark(Mark::Not) => asked.not = true,
                 Item::Mark(Mark::MustOpen) => asked.opens = true,
                 Item::Mark(Mark::HowMany) => asked.counts = true,
                 Item::Mark(Mark::What | Mark::Which) => asked.asks = true,

@@ -40,6 +40,8 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         seen_from_there,
         leads_outside,
         put_it_down,
+        doors_to_open,
+        on_its_walls,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -80,6 +82,39 @@ impl<'t> Words<'t> {
         }
         text
     }
+}
+
+/// «А двери открывать придётся?», "Will I need to open a door?": in the words of the vocabulary.
+fn doors_to_open(words: &Words<'_>) -> Option<String> {
+    const MUST: &[&str] = &["must", "have", "need", "придется", "нужно", "надо", "понадобится"];
+    let must = words.find(MUST)?;
+    let open = words.find(&["open", "открывать"])?;
+    let door = words.find(&["door", "doors", "дверь", "двери", "дверей"])?;
+    let russian = Language::of(words.text) == Language::Russian;
+    // "Do I have to", "will we need to"
+    let asked = must.checked_sub(2).filter(|n| words.is(*n, &["do", "does", "will", "would"]));
+    let ends = [must, open, door];
+    let (first, last) = (ends.into_iter().min()?, ends.into_iter().max()?);
+    let asks_which = words.find(&["какую", "какие", "сколько", "which", "many"]).is_some();
+    if asks_which || last - first > 5 || !(russian || must < open && open < door) {
+        return None;
+    }
+    let plain = if russian {
+        "придётся открывать двери"
+    } else {
+        "have to open any doors"
+    };
+    Some(words.replaced(vec![(asked.unwrap_or(first)..last + 1, plain.to_owned())]))
+}
+
+/// "Which room has the most pictures on its walls?": pictures in a room hang on its walls.
+fn on_its_walls(words: &Words<'_>) -> Option<String> {
+    let walls = words.find(&["walls", "wall", "стенах", "стене"])?;
+    let its = walls.checked_sub(2).filter(|_| words.is(walls - 1, &["its", "своих", "its"]))?;
+    let which = words.find(&["which", "what", "какой", "какая"]).is_some();
+    let room = words.find(&["room", "комната", "комнате"]).is_some();
+    let on = words.is(its, &["on", "на"]);
+    (on && which && room).then(|| words.replaced(vec![(its..walls + 1, String::new())]))
 }
 
 /// «Закрыта ли дверь на ключ?» asks whether it is locked.

@@ -1,12 +1,12 @@
 //! «Почему?»: the proof of a fact in words, down to what was measured; «Почему нет?»: what it lacks.
 
 use crate::facts::{Because, Premise, Proof, Value, WhyNot};
-use crate::language::words::{Case, Language, enumerate};
+use crate::language::words::{Case, Gender, Language, Number, enumerate};
 
 use super::answer::Draft;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
-use super::query::{Noun, Query, Thing};
+use super::query::{Noun, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::language::words::length;
 
@@ -48,8 +48,12 @@ impl Knowledge<'_> {
         let text = match (fact.holds, self.is_russian()) {
             (true, true) => format!("{what}, потому что {because}"),
             (true, false) => format!("{what}, because {because}"),
-            (false, true) => format!("неверно, что {what}: {because}"),
-            (false, false) => format!("it is not so that {what}: {because}"),
+            (false, russian) => match (self.fact_denied(fact), russian) {
+                (Some(denied), true) => format!("{denied}, потому что {because}"),
+                (Some(denied), false) => format!("{denied}, because {because}"),
+                (None, true) => format!("неверно, что {what}: {because}"),
+                (None, false) => format!("it is not so that {what}: {because}"),
+            },
         };
         let mut draft = Draft::plain(Said::Found, text);
         draft.rest_on(fact.clone());
@@ -93,7 +97,7 @@ impl Knowledge<'_> {
             let Ok(Some(proof)) = self.relations.why(&fact.relation, &args) else {
                 return Vec::new();
             };
-            let mut lines = self.measured(&proof);
+            let mut lines = self.measured(&proof, fact.relation == "INSIDE");
             lines.truncate(SAID);
             return lines;
         }
@@ -117,7 +121,7 @@ impl Knowledge<'_> {
         let (a, b) = (self.thing(fact.args.first()?)?, self.thing(fact.args.get(1)?)?);
         if matches!(fact.relation.as_str(), "ON_TOP_OF" | "INSIDE") {
             let place = self.short_place(a, &mut Vec::new());
-            return Some(format!("{} {} {place}", self.name(a), self.is(&[a])));
+            return Some(format!("{} {} {place}", self.pronoun(a), self.is(&[a])));
         }
         let apart = length(self.distance(a, b)?, self.language);
         Some(match self.is_russian() {
@@ -158,10 +162,11 @@ impl Knowledge<'_> {
         self.relations.display_name(relation, self.language)
     }
 
-    fn measured(&self, proof: &Proof) -> Vec<String> {
+    /// What was measured; where a thing stands in its room says something of that alone.
+    fn measured(&self, proof: &Proof, of_rooms: bool) -> Vec<String> {
         let mut lines: Vec<String> = Vec::new();
         for step in &proof.steps {
-            if step.because != Because::Told {
+            if step.because != Because::Told || (step.fact.name == "standing_in" && !of_rooms) {
                 continue;
             }
             if let Some(line) = self.measurement(&step.fact.name, &step.fact.values)
@@ -209,28 +214,47 @@ impl Knowledge<'_> {
         };
         let russian = self.is_russian();
         Some(match (name, russian) {
-            ("over", true) => format!(
-                "низ {a} отстоит от верха {b} на {} и лежит над ним на {:.0} %",
-                cm(4),
-                percent(5)
-            ),
-            ("over", false) => format!(
-                "the foot of {a} is {} from the top of {b} and {:.0} % of it is over that",
-                cm(4),
-                percent(5)
-            ),
+            ("over", russian) => {
+                let touches = number(4).abs() < 0.05;
+                let all = percent(5) >= 99.5;
+                match russian {
+                    true => {
+                        let gap = match touches {
+                            true => format!("касается верха {b}"),
+                            false => format!("в {} от верха {b}", cm(4)),
+                        };
+                        let share = if all {
+                            "целиком".to_owned()
+                        } else {
+                            format!("на {:.0} %", percent(5))
+                        };
+                        format!("низ {a} {gap} и {share} над ним")
+                    }
+                    false => {
+                        let gap = match touches {
+                            true => format!("touches the top of {b}"),
+                            false => format!("is {} from the top of {b}", cm(4)),
+                        };
+                        let share =
+                            if all { "all".to_owned() } else { format!("{:.0} %", percent(5)) };
+                        format!("the foot of {a} {gap} and {share} of it is over that")
+                    }
+                }
+            }
             ("below", true) => {
                 format!("верх {a} ниже {b} на {} и перекрыт сверху на {:.0} %", cm(4), percent(5))
             }
             ("below", false) => {
                 format!("{a} is {} below {b} and {:.0} % of it is covered", cm(4), percent(5))
             }
-            ("within", true) => format!("объём {a} на {:.0} % лежит внутри {b}", percent(8)),
-            ("within", false) => format!(
-                "{a} sticks out of {b} by {} at most, and {:.0} % of it is inside",
-                cm(4),
-                percent(8)
-            ),
+            ("within", true) => match percent(8) >= 99.5 {
+                true => format!("{} целиком внутри {b}", word(0)),
+                false => format!("{} на {:.0} % внутри {b}", word(0), percent(8)),
+            },
+            ("within", false) => match percent(8) >= 99.5 {
+                true => format!("{a} is wholly inside {b}"),
+                false => format!("{:.0} % of {a} is inside {b}", percent(8)),
+            },
             ("distance" | "beside", true) => format!("от {a} до {b} {}", cm(2)),
             ("distance" | "beside", false) => format!("{a} and {b} are {} apart", cm(2)),
             ("sector", true) => format!(
@@ -303,24 +327,34 @@ impl Knowledge<'_> {
         }
     }
 
+    /// «Книга-4 не находится на Столе-1»
+    fn fact_denied(&self, fact: &Fact) -> Option<String> {
+        let thing = |n: usize| fact.args.get(n).and_then(|symbol| self.thing(symbol));
+        let (rel, a, b) = (relation_word(&fact.relation)?, thing(0)?, thing(1)?);
+        let (name, is, place) = (self.name(a), self.is(&[a]), self.place(rel, &[b]));
+        Some(match self.is_russian() {
+            true => format!("{name} не {is} {place}"),
+            false => format!("{name} {is} not {place}"),
+        })
+    }
+
+    /// «она», "it"
+    fn pronoun(&self, thing: Thing) -> &'static str {
+        let (gender, number) = self.gender(thing);
+        match (self.is_russian(), number, gender) {
+            (false, ..) if self.is(&[thing]) == "are" => "they",
+            (false, ..) => "it",
+            (true, Number::Plural, _) => "они",
+            (true, _, Gender::Masculine) => "он",
+            (true, _, Gender::Feminine) => "она",
+            (true, _, Gender::Neuter) => "оно",
+        }
+    }
+
     /// A fact as a clause: «Чашка-1 находится на Столе-1».
     fn fact_words(&self, relation: &str, args: &[String]) -> String {
-        use super::query::Rel;
         let thing = |n: usize| args.get(n).and_then(|symbol| self.thing(symbol));
-        let rel = match relation {
-            "ON_TOP_OF" => Some(Rel::On),
-            "INSIDE" => Some(Rel::In),
-            "UNDER" => Some(Rel::Under),
-            "ABOVE" => Some(Rel::Above),
-            "NEXT_TO" => Some(Rel::NextTo),
-            "CLOSE_TO" => Some(Rel::Near),
-            "LEFT_OF" => Some(Rel::LeftOf),
-            "RIGHT_OF" => Some(Rel::RightOf),
-            "BEHIND" => Some(Rel::Behind),
-            "IN_FRONT_OF" => Some(Rel::InFrontOf),
-            "LEANING_AGAINST" => Some(Rel::Leaning),
-            _ => None,
-        };
+        let rel = relation_word(relation);
         if let (Some(rel), Some(a), Some(b)) = (rel, thing(0), thing(1)) {
             return format!("{} {} {}", self.name(a), self.is(&[a]), self.place(rel, &[b]));
         }
@@ -345,6 +379,24 @@ impl Knowledge<'_> {
             ("PART_OF", false, [part, whole]) => format!("{part} is part of {whole}"),
             _ => format!("{relation}({})", words.join(", ")),
         }
+    }
+}
+
+/// The preposition that tells a relation.
+fn relation_word(relation: &str) -> Option<Rel> {
+    match relation {
+        "ON_TOP_OF" => Some(Rel::On),
+        "INSIDE" => Some(Rel::In),
+        "UNDER" => Some(Rel::Under),
+        "ABOVE" => Some(Rel::Above),
+        "NEXT_TO" => Some(Rel::NextTo),
+        "CLOSE_TO" => Some(Rel::Near),
+        "LEFT_OF" => Some(Rel::LeftOf),
+        "RIGHT_OF" => Some(Rel::RightOf),
+        "BEHIND" => Some(Rel::Behind),
+        "IN_FRONT_OF" => Some(Rel::InFrontOf),
+        "LEANING_AGAINST" => Some(Rel::Leaning),
+        _ => None,
     }
 }
 

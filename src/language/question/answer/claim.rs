@@ -129,7 +129,9 @@ impl Knowledge<'_> {
         let places = claims.iter().all(|c| matches!(c, Claim::Related(r) if !r.negated));
         let bare = subject.head.named.is_empty() && subject.head.things.is_none();
         let mut found = match self.subject(subject) {
-            Err(Doubt::Ambiguous { .. }) if self.is_russian() && bare && places && !negated => {
+            Err(Doubt::Ambiguous { candidates, .. })
+                if bare && places && !negated && self.is_any(subject, &candidates, claims)? =>
+            {
                 let mut any = Noun { indefinite: true, plural: true, ..subject.clone() };
                 any.restrictions.extend(claims.iter().filter_map(|claim| match claim {
                     Claim::Related(restriction) => Some(restriction.clone()),
@@ -225,6 +227,38 @@ impl Knowledge<'_> {
         }
     }
 
+    /// Whether a claim of place is about any of several things: in Russian, and where one of them fits.
+    fn is_any(
+        &self,
+        subject: &Noun,
+        candidates: &[Thing],
+        claims: &[Claim],
+    ) -> Result<bool, Doubt> {
+        if self.is_russian() {
+            return Ok(true);
+        }
+        let kind = self.base(&subject.head);
+        let mut fits = false;
+        for thing in candidates.iter().filter(|t| kind.contains(t)) {
+            let mut all = true;
+            for claim in claims {
+                all &= self.judge(*thing, claim)?.0;
+            }
+            fits |= all;
+        }
+        Ok(fits)
+    }
+
+    /// «ни Пульт-1, ни Пульт-2»
+    fn none_of_these(&self, found: &[Thing]) -> String {
+        match (found, self.is_russian()) {
+            ([a, b], true) => format!("ни {}, ни {}", self.name(*a), self.name(*b)),
+            ([a, b], false) => format!("neither {} nor {}", self.name(*a), self.name(*b)),
+            (_, true) => format!("ни одно из них ({})", self.list(found)),
+            (_, false) => format!("none of them ({})", self.list(found)),
+        }
+    }
+
     fn several_hold(&self, found: &[Thing], failed: &[Thing], claims: &[Claim]) -> String {
         let fit: Vec<Thing> = found.iter().copied().filter(|t| !failed.contains(t)).collect();
         let words = |things: &[Thing]| -> String {
@@ -257,8 +291,7 @@ impl Knowledge<'_> {
         match (fit.is_empty(), failed.is_empty(), self.is_russian()) {
             (_, true, true) => format!("все {}: {}", words(found), self.list(found)),
             (_, true, false) => format!("all of them: {}", self.list(found)),
-            (true, _, true) => format!("ни одно из них: {}", self.list(found)),
-            (true, _, false) => format!("none of them: {}", self.list(found)),
+            (true, _, _) => self.none_of_these(found),
             (false, false, true) => {
                 format!(
                     "не все: {} {}, а {} – нет",

@@ -3,7 +3,7 @@
 //! Invariant: the things of the answer are those that the description finds, whatever the sentence leaves out.
 
 use super::Draft;
-use crate::language::question::knowledge::{Frame, Knowledge};
+use crate::language::question::knowledge::{Frame, Held, Knowledge};
 use crate::language::question::lexicon::{Extension, KindId};
 use crate::language::question::query::{Extreme, Head, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Said};
@@ -61,6 +61,7 @@ impl Knowledge<'_> {
             let general = noun.head.anything || noun.head.kinds.is_empty();
             match (self.is_russian(), place.is_empty()) {
                 // «Какие лампы включены?»
+                (_, _) if self.is_only(noun, &found) && self.is_having(noun) => list,
                 (true, _) if self.is_only(noun, &found) => format!("только {list}"),
                 (false, _) if self.is_only(noun, &found) => format!("only {list}"),
                 (true, true) => {
@@ -303,7 +304,9 @@ impl Knowledge<'_> {
         let near = self.related(Rel::Near, anchor).into_iter();
         let near = near.filter(|t| self.area_of(*t) == self.area_of(anchor));
         let near = near.filter_map(|t| Some((self.distance(t, anchor)?, t)));
-        let nearest = near.filter(|(away, _)| *away >= APART);
+        // A picture hangs over what stands under it, rather than beside it.
+        let hangs = |t: Thing| self.held_by_room(t) == Some(Held::OnWall);
+        let nearest = near.filter(|(away, t)| *away >= APART && (!hangs(*t) || hangs(anchor)));
         let Some((away, thing)) = nearest.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
         else {
             return String::new();
@@ -474,7 +477,8 @@ impl Knowledge<'_> {
         let blank = if place.is_empty() { String::new() } else { format!("{place} ") };
         if things.is_empty() {
             // «Есть ли ещё книги?»: those that were spoken of are there.
-            let other = if noun.other { self.pick("других ", "other ") } else { "" };
+            let but = noun.other || !noun.except.is_empty();
+            let other = if but { self.pick("других ", "other ") } else { "" };
             let none = format!("{other}{}", self.none_of(noun));
             return match (self.is_russian(), noun.head.anything && noun.filters.is_empty()) {
                 (true, true) => format!("{blank}ничего нет"),
@@ -492,11 +496,12 @@ impl Knowledge<'_> {
             return format!("есть {} {place}: {list}", self.counted(noun, things.len()));
         }
         let unplaced = place.is_empty() && things.len() == 1;
-        let room = things.first().filter(|_| unplaced).and_then(|t| self.in_room(*t));
-        let room = room
-            .filter(|_| things[0].area().is_none())
-            .map(|r| format!(" {r}"))
-            .unwrap_or_default();
+        let only = things.first().filter(|t| unplaced && t.area().is_none());
+        let room = only.and_then(|t| match t.replica() {
+            Some(_) => Some(format!(" {}", self.short_place(*t, &mut Vec::new()))),
+            None => self.in_room(*t).map(|room| format!(" {room}")),
+        });
+        let room = room.unwrap_or_default();
         match (self.is_russian(), general || things.len() == 1) {
             (true, true) => format!("{blank}есть {list}{room}"),
             (true, false) => format!("{blank}есть {}: {list}", self.counted(noun, things.len())),

@@ -89,7 +89,9 @@ impl Knowledge<'_> {
             Query::Count(noun) => self.count(noun)?,
             // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not".
             Query::Exists { what, either, negated } => {
-                self.exists(what, *either, *negated && self.is_russian())?
+                // "Is that all?" denies that there are others.
+                let others = what.iter().any(|noun| !noun.except.is_empty());
+                self.exists(what, *either, *negated && (self.is_russian() || others))?
             }
             Query::Holds { subject, claims, negated } => {
                 self.say_holds(subject, claims, *negated && self.is_russian())?

@@ -3,7 +3,7 @@
 //! Invariant: every place that is said rests on a fact that is handed out with it.
 
 use super::Draft;
-use crate::language::question::knowledge::Knowledge;
+use crate::language::question::knowledge::{Held, Knowledge};
 use crate::language::question::query::{Extreme, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::report::{Detail, Named};
@@ -78,6 +78,14 @@ impl Knowledge<'_> {
             parts.push(self.place(rel, &[support]));
             facts.extend(self.fact(rel, thing, support));
         }
+        // A picture on its wall, a ball on the floor; that furniture stands there goes without saying.
+        parts.extend(match self.held_by_room(thing) {
+            Some(Held::OnWall) => Some(self.pick("на стене", "on the wall").to_owned()),
+            Some(_) if self.is_portable(thing) => {
+                Some(self.pick("на полу", "on the floor").to_owned())
+            }
+            _ => None,
+        });
         if let Some(area) = self.area_of(thing) {
             let area = Thing::Entity(Entity::Area(area));
             parts.push(self.place(Rel::In, &[area]));
@@ -149,12 +157,19 @@ impl Knowledge<'_> {
         }
     }
 
+    fn is_portable(&self, thing: Thing) -> bool {
+        thing.replica().is_some_and(|id| self.world.has_trait(id, "portable"))
+    }
+
     /// «, в 12 см перед Письменным столом»: where a thing stands on the floor, told by what is nearest.
     pub(super) fn beside(&self, thing: Thing, facts: &mut Vec<Fact>) -> String {
         let Some(id) = thing.replica() else { return String::new() };
         let russian = self.is_russian();
         let over = self.related_of(Rel::Under, thing);
         if self.relations.support_of(id).is_some() {
+            return String::new();
+        }
+        if self.held_by_room(thing) == Some(Held::OnWall) {
             return String::new();
         }
         if let Some(&above) = over
@@ -164,14 +179,25 @@ impl Knowledge<'_> {
             facts.extend(self.fact(Rel::Under, thing, above));
             return format!(", {}", self.place(Rel::Under, &[above]));
         }
+        // By what is no smaller: nobody tells of a table that it is before a chair.
+        let base = |t: Thing| self.relations.extent(t.replica()?).map(|extent| extent.base);
         let mut near: Vec<(f64, Thing)> = self
             .related(Rel::NextTo, thing)
             .into_iter()
-            .filter(|t| t.replica().is_some_and(|r| !self.world.has_trait(r, "portable")))
+            .filter(|t| {
+                !self.is_portable(*t) && base(*t).zip(base(thing)).is_some_and(|(a, b)| a >= b)
+            })
             .filter_map(|t| Some((self.distance(thing, t)?, t)))
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let Some(&(distance, anchor)) = near.first() else { return String::new() };
+        let Some(&(distance, anchor)) = near.first() else {
+            let held = self.held_by_room(thing).filter(|_| self.is_portable(thing));
+            return match held {
+                Some(Held::InCorner) => self.pick(", в углу", ", in the corner").to_owned(),
+                Some(Held::AtWall) => self.pick(", у стены", ", by the wall").to_owned(),
+                _ => String::new(),
+            };
+        };
         facts.extend(self.fact(Rel::NextTo, thing, anchor));
         let side = [Rel::LeftOf, Rel::RightOf, Rel::InFrontOf, Rel::Behind]
             .into_iter()
@@ -272,13 +298,13 @@ impl Knowledge<'_> {
             ([_, _, ..], false) => format!("{name} is {}", self.place(Rel::Between, &areas)),
             ([only], true) => {
                 format!(
-                    "{name} {} {} и ведёт за пределы карты",
+                    "{name} {} {} и ведёт наружу",
                     self.find_is(thing),
                     self.place(Rel::In, &[*only])
                 )
             }
             ([only], false) => {
-                format!("{name} is {} and leads out of the map", self.place(Rel::In, &[*only]))
+                format!("{name} is {} and leads outside", self.place(Rel::In, &[*only]))
             }
             ([], true) => format!("{name}: помещение неизвестно"),
             ([], false) => format!("{name}: its room is unknown"),

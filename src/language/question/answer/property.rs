@@ -43,6 +43,13 @@ impl Knowledge<'_> {
         if let Some(draft) = self.property_of_part(property, of)? {
             return Ok(draft);
         }
+        if self.is_floor(of) || self.is_walls(of) {
+            let text = self.pick(
+                "о полах и стенах карта этого не говорит",
+                "the map does not tell that of floors and walls",
+            );
+            return Ok(Draft::new(Said::Unknown, text.to_owned()));
+        }
         let found = self.definite(of)?;
         let mut parts: Vec<String> = Vec::new();
         let mut facts = Vec::new();

@@ -38,9 +38,9 @@ impl Knowledge<'_> {
             ),
             ([a, b, ..], false) => format!("{name} joins {} and {}", self.name(*a), self.name(*b)),
             ([a], true) => {
-                format!("{name} ведёт {} за пределы карты", self.place(Rel::From, &[*a]))
+                format!("{name} ведёт {} наружу", self.place(Rel::From, &[*a]))
             }
-            ([a], false) => format!("{name} leads from {} out of the map", self.name(*a)),
+            ([a], false) => format!("{name} leads from {} outside", self.name(*a)),
             ([], true) => format!("{name}: куда ведёт, на карте не указано"),
             ([], false) => format!("the map does not tell where {name} leads"),
         };

@@ -30,6 +30,12 @@ impl Knowledge<'_> {
         found.into_iter().collect()
     }
 
+    /// "Things" in general.
+    fn is_anything(&self, head: &Head) -> bool {
+        head.anything
+            || head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Things)
+    }
+
     pub(in crate::language::question) fn is_floor(&self, noun: &Noun) -> bool {
         let kinds = &noun.head.kinds;
         kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Floor)
@@ -159,6 +165,17 @@ impl Knowledge<'_> {
         match (&noun.best, noun.rank) {
             (Some(best), rank) => {
                 let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
+                // "The nearest thing to the egg" is not the counter under it.
+                if best.extreme == Extreme::Nearest
+                    && self.is_anything(&noun.head)
+                    && let Some(anchor) = &best.anchor
+                    && let Ok([anchor]) = self.find(anchor, loose).as_deref()
+                {
+                    let below = self.support_chain(*anchor);
+                    let apart =
+                        |t: &Thing| !below.contains(t) && !self.support_chain(*t).contains(anchor);
+                    found.retain(apart);
+                }
                 self.best(best, found, places, loose)
             }
             (None, Some(rank)) if !found.is_empty() && found.iter().all(|t| is_map(*t)) => {
@@ -197,8 +214,10 @@ impl Knowledge<'_> {
             return None;
         }
         let related = self.related_to(restriction, true).ok()?;
-        let mut fitting = found.iter().filter(|t| related.contains(t));
-        (fitting.next().is_some() && fitting.next().is_none()).then_some(related)
+        let fitting: Vec<Thing> = found.iter().filter(|t| related.contains(t)).copied().collect();
+        // "The box on the side table" is no tissue box there.
+        let fitting = self.exactly(noun, &fitting).unwrap_or(fitting);
+        (fitting.len() == 1).then_some(related)
     }
 
     /// Those of some things that stand at the furniture that a restriction names.

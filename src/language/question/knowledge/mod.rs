@@ -13,6 +13,7 @@ mod walls;
 pub(super) use levels::Level;
 pub(super) use members::FURNITURE;
 pub(super) use passages::{Limits, Passage};
+pub(super) use walls::Held;
 
 use super::lexicon::Lexicon;
 use super::query::{Rel, Thing};

@@ -18,6 +18,17 @@ const IN_CORNER: f64 = 50.0;
 /// What hangs on a wall is this near to it, cm.
 const HANGING: f64 = 8.0;
 
+/// How a room holds a thing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::language::question) enum Held {
+    OnWall,
+    /// On the floor, and there near two walls that meet.
+    InCorner,
+    /// On the floor at a wall.
+    AtWall,
+    OnFloor,
+}
+
 impl Knowledge<'_> {
     /// Whether a noun means walls or corners, which have no names of their own.
     pub(in crate::language::question) fn is_walls(&self, noun: &Noun) -> bool {
@@ -99,6 +110,26 @@ impl Knowledge<'_> {
         let near = all.filter_map(|wall| self.relations.before_wall(id, wall));
         let near = near.filter(|(away, _)| *away <= BEFORE_WALL);
         near.flat_map(|(_, found)| found).map(|id| Thing::Entity(Entity::Replica(id))).collect()
+    }
+
+    /// How a thing that nothing bears is held by its room: on the floor, on a wall, or in no way that is known.
+    pub(in crate::language::question) fn held_by_room(&self, thing: Thing) -> Option<Held> {
+        let id = thing.replica().filter(|id| self.relations.support_of(*id).is_none())?;
+        let near = |reach: f64| {
+            let sides = self.walls_about(thing).into_iter();
+            let within = |side: &_| {
+                self.relations.distance_to_segment(id, *side).is_some_and(|d| d <= reach)
+            };
+            sides.filter(within).collect::<Vec<_>>()
+        };
+        if !self.on_floor().contains(&id) {
+            return (!near(HANGING).is_empty()).then_some(Held::OnWall);
+        }
+        Some(match (meet(&near(IN_CORNER)), near(AT_WALL).is_empty()) {
+            (true, _) => Held::InCorner,
+            (false, false) => Held::AtWall,
+            (false, true) => Held::OnFloor,
+        })
     }
 
     /// The walls at which a thing stands, each by what opens in it: doors, passages and windows. None where it stands
