@@ -32,6 +32,7 @@ mod settle;
 mod several;
 mod speech;
 mod storeys;
+mod uses;
 mod values;
 mod vocabulary;
 mod why;

@@ -336,6 +336,14 @@ pub enum Query {
         use_for: Use,
         what: Option<Noun>,
         within: Vec<Restriction>,
+        /// Whether there is one at all, rather than which.
+        whether: bool,
+    },
+    /// What serves for a deed: things of a sort, as it was asked for.
+    Serving {
+        sort: u16,
+        of: Noun,
+        asked: Asked,
     },
     LastSeen(Noun),
     Before(Noun),
@@ -388,6 +396,15 @@ pub enum Passing {
     Doors,
     /// How many rooms lie between its ends.
     Rooms,
+}
+
+/// What is asked of things that serve for a deed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Asked {
+    What,
+    Where,
+    Whether,
+    HowMany,
 }
 
 /// What a place is to be good for.
@@ -447,7 +464,7 @@ impl Query {
     /// The one description of what is looked for, counted, or said to exist.
     pub(super) fn sought(&self) -> Option<&Noun> {
         match self {
-            Self::Find(noun) | Self::Count(noun) => Some(noun),
+            Self::Find(noun) | Self::Count(noun) | Self::Serving { of: noun, .. } => Some(noun),
             Self::Exists { what, .. } => match &what[..] {
                 [noun] => Some(noun),
                 _ => None,
@@ -469,6 +486,7 @@ impl Query {
             | Self::LastSeen(noun)
             | Self::Before(noun)
             | Self::Sees(noun)
+            | Self::Serving { of: noun, .. }
             | Self::Describe(noun) => noun.each(act),
             Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
@@ -571,6 +589,7 @@ impl Query {
             Self::Differ { .. } => "differ",
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
+            Self::Serving { .. } => "serving",
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
             Self::WhereAreYou(_) => "where_are_you",

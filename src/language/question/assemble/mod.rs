@@ -7,6 +7,7 @@ mod about;
 mod attach;
 mod claim;
 mod compare;
+mod deed;
 mod frame;
 mod passing;
 mod together;
@@ -234,6 +235,9 @@ struct Frame<'s, 't> {
     negated: bool,
     /// «кроме лампы»
     except: Vec<Noun>,
+    /// What a deed is done to where nothing knows the word, and a number that nothing counts.
+    undone: Option<String>,
+    idle: Option<String>,
 }
 
 fn things(things: Vec<Thing>, text: &str) -> Noun {

@@ -31,6 +31,7 @@ impl<'t> Sentence<'t> {
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
         sentence.drop_asking_particle();
+        sentence.drop_stranded();
         sentence.tell_heights();
         for token in &sentence.tokens {
             if let Tok::Value(value) = token.kind {
@@ -199,6 +200,25 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// "something to cut an apple with": a preposition of a deed whose noun is what is asked for.
+    fn drop_stranded(&mut self) {
+        let deed = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Deed(_)));
+        let Some(first) = self.tokens.iter().position(deed) else { return };
+        let link = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Link(_)));
+        let stranded: Vec<usize> = (0..self.tokens.len())
+            .filter(|n| link(&self.tokens[*n]))
+            .filter(|n| {
+                let next = self.tokens.get(n + 1);
+                // "for cutting bread"
+                let before_deed = next.is_some_and(deed);
+                before_deed || (*n > first && next.is_none_or(link))
+            })
+            .collect();
+        for n in stranded.into_iter().rev() {
+            self.tokens.remove(n);
+        }
+    }
+
     /// «нечёрные»: the value that is denied.
     fn joined_negation(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
         let rest =
@@ -241,10 +261,8 @@ impl<'t> Sentence<'t> {
         let next = self.keys.get(at + 1).map(String::as_str);
         // "something to sit on"
         let before = self.tokens.last().map(|t| t.kind);
-        let used = matches!(
-            before,
-            Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown | Mark::Deed(_)))
-        );
+        let used = matches!(before, Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown)))
+            || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Deed(_))));
         let ends =
             !used && matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);
