@@ -28,6 +28,13 @@ pub(super) struct Sort {
     pub(super) members: &'static str,
 }
 
+impl Sort {
+    /// Whether people call such things so: tools and places are told by what is done with them.
+    pub(super) fn is_spoken(&self) -> bool {
+        matches!(self.role, Patient | Theme)
+    }
+}
+
 const fn sort(
     russian: &'static str,
     english: &'static str,
@@ -203,6 +210,13 @@ pub(super) const SORTS: &[Sort] = &[
         "fork|spoon|table knife|chopsticks|вилка|ложка",
     ),
     sort("ёмкость для еды", "thing to eat from", Source, "plate|bowl|тарелка|миска"),
+    sort("вещь для супа", "thing to eat soup with", Instrument, "spoon|ложка"),
+    sort(
+        "место для купания",
+        "place to bathe",
+        Location,
+        "shower|bathtub|bath|shower cabin|shower head|душ|ванна|душевая кабина",
+    ),
     sort(
         "вещь для мытья рук",
         "thing to wash hands with",

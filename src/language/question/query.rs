@@ -345,6 +345,8 @@ pub enum Query {
         of: Noun,
         asked: Asked,
     },
+    /// What such things are used for.
+    Purpose(Noun),
     LastSeen(Noun),
     Before(Noun),
     WhereAreYou(Detail),
@@ -405,6 +407,8 @@ pub enum Asked {
     Where,
     Whether,
     HowMany,
+    /// Whether those that are named will do.
+    Suits,
 }
 
 /// What a place is to be good for.
@@ -487,6 +491,7 @@ impl Query {
             | Self::Before(noun)
             | Self::Sees(noun)
             | Self::Serving { of: noun, .. }
+            | Self::Purpose(noun)
             | Self::Describe(noun) => noun.each(act),
             Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
@@ -590,6 +595,7 @@ impl Query {
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
             Self::Serving { .. } => "serving",
+            Self::Purpose(_) => "purpose",
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
             Self::WhereAreYou(_) => "where_are_you",

@@ -3,7 +3,7 @@
 //! Which things serve is told by the sorts of `purposes`. Invariant: of the sorts of a deed each has another role or
 //! other words; a deed that has a sort of things is never told of another sort's.
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 use std::sync::OnceLock;
 
@@ -70,7 +70,7 @@ const FORMS: &[&str] = &[
     "sweep|sweeping|sweep up",
     "mop|mopping",
     "vacuum|vacuuming|hoover",
-    "unclog|unclogging|unblock|unblocking|clear",
+    "unclog|unclogging|unblock|unblocking",
     "brush|brushing|clean",
     "eat|eating",
     "drink|drinking",
@@ -81,7 +81,7 @@ const FORMS: &[&str] = &[
     "bake|baking|roast|roasting",
     "toast|toasting",
     "make|making|brew|brewing|prepare|preparing",
-    "heat up|heating up|heat|heating|warm up|warming up|reheat|reheating|warm",
+    "heat up|heating up|heat|heating|warm up|warming up|reheat|reheating",
     "food|dinner|lunch|soup|leftovers|milk|a meal",
     "throw away|throwing away|throw out|throwing out|dispose of|disposing of|get rid of",
     "hang|hanging|hang up|hanging up",
@@ -89,7 +89,7 @@ const FORMS: &[&str] = &[
     "call|calling|phone|ring up",
     "season|seasoning|flavour|flavor",
     "salt|salting",
-    "spray|spraying|mist",
+    "spray|spraying",
     "water|watering",
     "hit|hitting|strike|striking",
     "play|playing",
@@ -115,8 +115,12 @@ const DETERMINERS: [&str; 17] = [
 /// is done to, which need not be on the map.
 const DEEDS: &[(&str, &str)] = &[
     (
-        "есть съестное|поесть|едят|обедают|обедать|ужинать|завтракать|пообедать|поужинать|позавтракать|съесть|покушать|кушать|скушать|перекусить|закусить|есть суп|есть кашу|едят суп|едят кашу|eat lunch|have lunch|have dinner|have breakfast|eat …|have a snack|have a bite|snack on",
+        "есть съестное|поесть|едят|обедают|обедать|ужинать|завтракать|пообедать|поужинать|позавтракать|съесть|покушать|кушать|скушать|перекусить|закусить|eat lunch|have lunch|have dinner|have breakfast|eat …|have a snack|have a bite|snack on",
         "food item|place to eat at|thing to eat with|thing to eat from",
+    ),
+    (
+        "есть суп|едят суп|есть кашу|едят кашу|поесть суп|хлебать суп|eat soup|eat cereal|eat porridge",
+        "place to eat at|thing to eat soup with|thing to eat from",
     ),
     (
         "попить|выпить|пить|пьют|пить чай|пить чаю|пить кофе|попить чаю|выпить чаю|попить кофе|выпить кофе|попить чай|drink …|drink tea|drink coffee|drink water",
@@ -133,10 +137,14 @@ const DEEDS: &[(&str, &str)] = &[
     ),
     ("стирать|стирать бельё|wash clothes|do laundry|wash laundry", "place to wash clothes"),
     (
-        "мыться|умыться|умываться|принять душ|принять ванну|помыть лицо|take a shower|have a shower|take a bath|have a bath|bathe|wash myself|wash oneself|wash face|wash",
+        "мыться|принять душ|принять ванну|take a shower|have a shower|take a bath|have a bath|bathe",
+        "place to bathe|thing to wash with",
+    ),
+    (
+        "умыться|умываться|помыть лицо|wash myself|wash oneself|wash face|wash",
         "place to wash|thing to wash with",
     ),
-    ("мыть голову|мыть волосы|wash hair", "place to wash|thing to wash hair with"),
+    ("мыть голову|мыть волосы|wash hair", "place to bathe|thing to wash hair with"),
     ("резать …|cut …", "thing to cut with"),
     (
         "готовить …|готовить еду|cook …|prepare food|make dinner|make lunch|prepare a meal",
@@ -146,7 +154,7 @@ const DEEDS: &[(&str, &str)] = &[
     ("жарить …|fry …", "thing to fry with|thing to cook with"),
     ("печь пирог|испечь …|пекут …|выпекать …|bake …", "thing to bake in"),
     (
-        "поджарить хлеб|поджарить тосты|жарить хлеб|жарить тосты|делать тосты|заваривать тосты|toast bread|toast …|make toast",
+        "поджарить хлеб|поджарить тосты|жарить хлеб|жарить тосты|делать тосты|заваривать тосты|toast bread|make toast",
         "thing to toast bread with",
     ),
     ("греть …|греть еду|heat up …|heat up food", "thing to warm food with"),
@@ -177,16 +185,19 @@ const DEEDS: &[(&str, &str)] = &[
         "звонить|звонить маме|звонить домой|звонить другу|make a call|make a phone call|phone home|call somebody|call someone|call home|call a friend|call my mother|call mom|call people",
         "thing to call with",
     ),
-    ("убраться|убираться|убираются|прибраться|навести порядок|clean …", "thing to clean with"),
+    (
+        "убраться|убираться|убираются|прибраться|навести порядок|clean with|clean the room|clean the house|clean the floor|clean up",
+        "thing to clean with",
+    ),
     ("вытирать …|вытирать стол|wipe …", "thing to wipe with"),
     (
-        "вытирать руки|вытираться|вытирать лицо|вытирать посуду|высушить руки|вытирать тарелки|dry …|dry myself|dry oneself|wipe hands|dry off",
+        "вытирать руки|вытираться|вытирать лицо|вытирать посуду|высушить руки|вытирать тарелки|dry hands|dry dishes|dry plates|dry hair|dry myself|dry oneself|wipe hands|dry off",
         "thing to dry with",
     ),
     ("подметать …|подметать пол|sweep …|sweep the floor", "thing to sweep with"),
-    ("мыть пол|мыть полы|mop …|mop the floor|wash the floor", "thing to mop with"),
+    ("мыть пол|мыть полы|mop the floor|wash the floor", "thing to mop with"),
     (
-        "пылесосить …|пропылесосить …|пылесосят …|почистить ковёр|чистить ковёр|vacuum …|vacuum the carpet|vacuum the floor|clean the carpet|clean the rug",
+        "пылесосить …|пропылесосить …|пылесосят …|почистить ковёр|чистить ковёр|vacuum the carpet|vacuum the floor|clean the carpet|clean the rug",
         "thing to vacuum with",
     ),
     (
@@ -221,7 +232,7 @@ const DEEDS: &[(&str, &str)] = &[
     ),
     ("играть|play", "toy|thing to play with"),
     (
-        "тренироваться|потренироваться|качать мышцы|заняться спортом|заниматься спортом|exercise|work out|train",
+        "тренироваться|потренироваться|качать мышцы|заняться спортом|заниматься спортом|exercise|work out",
         "thing to exercise with",
     ),
     (
@@ -250,7 +261,7 @@ const DEEDS: &[(&str, &str)] = &[
         "place for a dog to sleep",
     ),
     (
-        "хранить продукты|хранить еду|хранить молоко|охладить …|охладить напитки|охлаждать напитки|держать холодным|заморозить …|cool …|cool drinks|chill …|chill drinks|freeze …|keep food cold|keep food fresh|keep milk cold|keep milk|store food|keep things cold|store milk|store cold things|keep food|keep drinks cold|store cold food",
+        "хранить продукты|хранить еду|хранить молоко|охладить …|охладить напитки|охлаждать напитки|держать холодным|заморозить …|cool drinks|chill …|chill drinks|freeze …|keep food cold|keep food fresh|keep milk cold|keep milk|store food|keep things cold|store milk|store cold things|keep food|keep drinks cold|store cold food",
         "place to keep food cold",
     ),
     ("гладить …|iron clothes|iron a shirt|iron shirts", "thing to iron with"),
@@ -267,7 +278,7 @@ const DEEDS: &[(&str, &str)] = &[
         "зарядить телефон|зарядить ноутбук|charge a phone|charge a laptop|charge the laptop|plug in",
         "thing to charge a phone with",
     ),
-    ("печатать текст|печатать|type a letter|type a text|type text|type", "thing to type with"),
+    ("печатать текст|печатать|type a letter|type a text|type text", "thing to type with"),
     (
         "выйти в интернет|посмотреть в интернете|go online|surf the internet|browse the internet|check email|write an email",
         "thing to go online with",
@@ -390,6 +401,13 @@ fn fits(phrase: &[String], words: &[String]) -> Option<usize> {
 pub(super) fn sorts(deed: u16) -> impl Iterator<Item = u16> {
     let named = DEEDS.get(usize::from(deed)).map_or("", |(_, sorts)| sorts);
     named.split('|').filter_map(purposes::sort_called)
+}
+
+/// The sorts that serve for some deed, what is merely moved or switched left out.
+pub(super) fn all_sorts() -> impl Iterator<Item = u16> {
+    let deeds = 0..u16::try_from(DEEDS.len()).unwrap_or(u16::MAX);
+    let all: BTreeSet<u16> = deeds.flat_map(sorts).collect();
+    all.into_iter().filter(|sort| !matches!(purposes::role(*sort), Theme))
 }
 
 /// Whether a deed is done to something that its phrase does not name: «чем порезать хлеб».

@@ -127,6 +127,7 @@ impl Knowledge<'_> {
                 if *whether { self.as_yes_or_no(draft) } else { draft }
             }
             Query::Serving { sort, of, asked } => self.serving(*sort, of, *asked)?,
+            Query::Purpose(noun) => self.purpose(noun)?,
             Query::LastSeen(noun) => self.last_seen(noun)?,
             Query::Before(noun) => self.before(noun)?,
             Query::WhereAreYou(detail) => self.where_are_you(*detail),

@@ -2,13 +2,14 @@
 //!
 //! Invariant: who asks for something to use is told where it is: a few things by their places, more by their rooms.
 
-use std::collections::BTreeMap;
+use std::collections::BTreeSet;
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::lower_first;
 use crate::language::question::purposes::{self, Role};
-use crate::language::question::query::{Asked, Noun, Query, Thing};
+use crate::language::question::query::{Asked, Head, Noun, Query, Thing};
+use crate::language::question::uses;
 use crate::language::question::{Doubt, Said};
 use crate::language::words::{
     Case, NounPhrase, Number, WordHints, alternatives, english, enumerate,
@@ -17,6 +18,8 @@ use crate::map::Entity;
 
 /// So many things are told each with its own place.
 const FEW: usize = 4;
+/// So many where only their places are asked for.
+const SEVERAL: usize = 12;
 
 impl Knowledge<'_> {
     pub(super) fn serving(&self, sort: u16, of: &Noun, asked: Asked) -> Result<Draft, Doubt> {
@@ -25,6 +28,11 @@ impl Knowledge<'_> {
             return Ok(self.nothing_serves(sort, of));
         }
         let mut facts = self.facts_of(of, &found);
+        if asked == Asked::Suits {
+            let text =
+                format!("{}{}", self.pick("да, ", "yes, "), self.told_of_kinds(&found, &[sort]));
+            return Ok(Draft::new(Said::Yes, text).with(found));
+        }
         if asked == Asked::Where {
             return match found[..] {
                 [_] => self.say_where(of),
@@ -33,9 +41,13 @@ impl Knowledge<'_> {
         }
         let place = self.restrictions(of);
         let blank = if place.is_empty() { "" } else { " " };
-        let few = found.len() <= FEW;
+        let few = found.len() <= FEW || (place.is_empty() && self.in_each_room(&found).len() == 1);
         let listed = |either: bool| match (few, place.is_empty()) {
-            (true, _) => self.told_with_places(&found, place.is_empty(), either),
+            (true, _) if found.len() > FEW => {
+                let room = self.in_room(found[0]).unwrap_or_default();
+                format!("{} ({room})", self.list(&found))
+            }
+            (true, _) => self.told_with_places(of, &found, either),
             (false, true) => self.told_by_room(&found),
             (false, false) => self.list(&found),
         };
@@ -73,7 +85,14 @@ impl Knowledge<'_> {
     }
 
     /// «Нож-1 и Нож-2 (на Столе-1 на Кухне)»; where the room was said, without it.
-    fn told_with_places(&self, found: &[Thing], room: bool, either: bool) -> String {
+    fn told_with_places(&self, of: &Noun, found: &[Thing], either: bool) -> String {
+        let room = of.restrictions.is_empty();
+        // "on the counter": nothing is left to be told.
+        let whole = |anchor: &Noun| {
+            let found = self.find(anchor, true).unwrap_or_default();
+            found.iter().all(|t| t.area().is_some())
+        };
+        let in_room = of.restrictions.iter().flat_map(|r| &r.anchors).all(whole);
         let joined = |names: &[String]| match either {
             true => alternatives(names, self.language),
             false => enumerate(names, self.language),
@@ -84,8 +103,8 @@ impl Knowledge<'_> {
             let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
             let place = match (room, support) {
                 (true, _) => self.short_place(thing, &mut Vec::new()),
-                (false, Some(on)) => self.place(self.on_or_in(thing, on), &[on]),
-                (false, None) => String::new(),
+                (false, Some(on)) if in_room => self.place(self.on_or_in(thing, on), &[on]),
+                (false, _) => String::new(),
             };
             match places.iter_mut().find(|(said, _)| *said == place) {
                 Some((_, names)) => names.push(self.name(thing)),
@@ -127,7 +146,7 @@ impl Knowledge<'_> {
     fn where_serving(&self, found: Vec<Thing>) -> Draft {
         let mut facts = Vec::new();
         let mut places = self.in_each_room(&found);
-        if found.len() <= FEW {
+        if found.len() <= SEVERAL {
             places.clear();
             for &thing in &found {
                 let place = self.short_place(thing, &mut facts);
@@ -178,7 +197,7 @@ impl Knowledge<'_> {
         if of.restrictions.is_empty() || elsewhere.is_empty() || elsewhere.len() > FEW {
             return Draft::new(Said::Nothing, text);
         }
-        let told = self.told_with_places(&elsewhere, true, false);
+        let told = self.told_with_places(&anywhere, &elsewhere, false);
         let text = match self.is_russian() {
             true => format!("{text}, но есть {told}"),
             false => format!("{text}, but there {} {told}", self.is(&elsewhere)),
@@ -190,26 +209,59 @@ impl Knowledge<'_> {
     pub(in crate::language::question) fn why_serving(&self, query: &Query) -> Option<Draft> {
         let Query::Serving { sort, of, .. } = query else { return None };
         let found = self.find(of, true).ok().filter(|found| !found.is_empty())?;
-        let mut kinds: BTreeMap<String, usize> = BTreeMap::new();
-        for thing in &found {
-            *kinds.entry(self.kind_name(*thing)?.to_lowercase()).or_default() += 1;
+        let text = self.told_of_kinds(&found, &[*sort]);
+        let text = format!("{}{text}", self.pick("потому что ", "because "));
+        Some(Draft::plain(Said::Found, text).with(found))
+    }
+
+    /// «вантузы – вещи для прочистки»: what such things are used for.
+    pub(super) fn purpose(&self, of: &Noun) -> Result<Draft, Doubt> {
+        let found = self.find(of, false)?;
+        if found.is_empty() {
+            return Ok(Draft::new(Said::Nothing, self.nothing_found(of, &self.restrictions(of))));
         }
-        let own = self.lexicon().kinds_of_sort(*sort);
-        let sort = self.lexicon().kind(*own.first()?);
+        let serves = |sort: &u16| {
+            let kinds = self.lexicon().kinds_of_sort(*sort);
+            let things = self.base(&Head { kinds, ..Head::default() });
+            found.iter().all(|t| things.contains(t))
+        };
+        let sorts: Vec<u16> = uses::all_sorts().filter(serves).collect();
+        if sorts.is_empty() {
+            let text = self
+                .pick("на карте не указано, для чего это", "the map does not say what it is for");
+            return Ok(Draft::new(Said::Unknown, text.to_owned()).about(&found));
+        }
+        let text = self.told_of_kinds(&found, &sorts);
+        Ok(Draft::new(Said::Found, text).with(found))
+    }
+
+    /// «чашки и кружки – вещи для питья», "cups and mugs are things to drink from"
+    fn told_of_kinds(&self, found: &[Thing], sorts: &[u16]) -> String {
         let russian = |name: &str| {
             let phrase = NounPhrase::parse(name, &WordHints::default());
             lower_first(&phrase.form(Case::Nominative, Number::Plural))
         };
         let plural = |kind: &String| match self.is_russian() {
             true => russian(kind),
+            false if english::is_plural(kind) => kind.clone(),
             false => english::plural(kind),
         };
-        let kinds: Vec<String> = kinds.keys().map(plural).collect();
-        let kinds = enumerate(&kinds, self.language);
-        let text = match self.is_russian() {
-            true => format!("потому что {kinds} – {}", russian(sort.phrase.name())),
-            false => format!("because {kinds} are {}", english::plural(&sort.english)),
-        };
-        Some(Draft::plain(Said::Found, text).with(found))
+        let kind = |t: &Thing| self.kind_name(*t).unwrap_or_else(|| self.name(*t)).to_lowercase();
+        let kinds: BTreeSet<String> = found.iter().map(kind).collect();
+        let kinds: Vec<String> = kinds.iter().map(plural).collect();
+        let own =
+            sorts.iter().filter_map(|sort| self.lexicon().kinds_of_sort(*sort).first().copied());
+        let own: Vec<String> = own
+            .map(|id| self.lexicon().kind(id))
+            .map(|sort| match self.is_russian() {
+                true => russian(sort.phrase.name()),
+                false => english::plural(&sort.english),
+            })
+            .collect();
+        let (kinds, own) = (enumerate(&kinds, self.language), enumerate(&own, self.language));
+        match self.is_russian() {
+            true => format!("{kinds} – {own}"),
+            false => format!("{kinds} are {own}"),
+        }
     }
 }

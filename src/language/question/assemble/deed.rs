@@ -9,6 +9,7 @@ use crate::language::question::mark::Mark;
 use crate::language::question::purposes::{self, Role};
 use crate::language::question::query::{Asked, Head, Noun, Query, Rel, Restriction};
 use crate::language::question::uses;
+use crate::language::words::Language;
 
 impl Frame<'_, '_> {
     /// The deed that a sentence speaks of, and its place there.
@@ -32,12 +33,18 @@ impl Frame<'_, '_> {
                 |s: &&Subject| s.at == place && !self.is_area(&s.noun) && !self.is_things(&s.noun);
             self.nouns.iter().find(free).filter(|_| uses::takes_object(deed))
         };
-        beside(at + 1).or_else(|| beside(at.checked_sub(1)?))
+        // «хлеб порезать»; in English what stands before is no object.
+        let russian = self.sentence.language == Language::Russian;
+        let before = || at.checked_sub(1).filter(|_| russian && self.undone.is_none());
+        beside(at + 1).or_else(|| beside(before()?))
     }
 
     /// «Что можно почитать?», "Where can I wash my hands?": the things of a sort, or where they are.
     pub(super) fn deed(&self) -> Option<Query> {
         let (deed, _) = self.deed_said()?;
+        if let Some(query) = self.deed_with(deed) {
+            return Some(query);
+        }
         let sort = self.sort_for(deed)?;
         let role = purposes::role(sort);
         let asks = self.has(Mark::Where)
@@ -103,6 +110,54 @@ impl Frame<'_, '_> {
         })
     }
 
+    /// "Can I drink from the mug?": whether such things serve for it.
+    fn deed_with(&self, deed: u16) -> Option<Query> {
+        let [spot] = &self.spots[..] else { return None };
+        let role = match spot.rel {
+            Rel::From => Role::Source,
+            Rel::Has => Role::Instrument,
+            Rel::On | Rel::In => Role::Location,
+            _ => return None,
+        };
+        let noun = &spot.nouns[0];
+        let fits = |sort: &u16| purposes::role(*sort) == role && self.covers(*sort, noun);
+        let sort = uses::sorts(deed).find(fits)?;
+        let others = self.nouns.iter().any(|s| self.object_of_deed().is_none_or(|o| o.at != s.at));
+        let of = Noun { plural: true, indefinite: true, ..noun.clone() };
+        let whether = self.asks_whether() && !others && spot.nouns.len() == 1;
+        whether.then_some(Query::Serving { sort, of, asked: Asked::Suits })
+    }
+
+    /// "Why can I drink from the mug?": of what is used, where a sentence names it; none where no deed is spoken of.
+    pub(super) fn deed_done_with(&self) -> Option<Option<Query>> {
+        let (deed, _) = self.deed_said()?;
+        let served = |sort: &u16| purposes::role(*sort) != Role::Theme;
+        let sorts: Vec<u16> = uses::sorts(deed).filter(served).collect();
+        sorts.first()?;
+        let nouns = self.nouns.iter().map(|s| &s.noun);
+        let nouns = nouns.chain(self.spots.iter().flat_map(|s| &s.nouns));
+        let about = nouns.into_iter().find_map(|noun| {
+            let sort = sorts.iter().copied().find(|sort| self.covers(*sort, noun))?;
+            let of = Noun { plural: true, indefinite: true, ..noun.clone() };
+            Some(Query::Serving { sort, of, asked: Asked::Suits })
+        });
+        let negated = self.negated;
+        Some(about.map(|about| Query::Why { negated, about: Some(Box::new(about)) }))
+    }
+
+    /// «Для чего нужен вантуз?», "What is a plunger used for?"
+    pub(super) fn purpose(&self) -> Option<Query> {
+        let keys = &self.sentence.keys;
+        let english = keys.first().is_some_and(|key| key == "what")
+            && keys.last().is_some_and(|key| key == "for");
+        let russian =
+            matches!(&keys[..], [first, second, ..] if first == "для" && second == "чего");
+        let [only] = &self.nouns[..] else { return None };
+        let asked = (english || russian) && self.spots.is_empty() && !self.is_area(&only.noun);
+        let of = Noun { plural: true, indefinite: true, ..only.noun.clone() };
+        asked.then(|| Query::Purpose(self.with_rest(of, &[])))
+    }
+
     /// Places that tell of the deed and not of what serves for it: «с полки», «в тарелку».
     pub(super) fn beside_deed(&self) -> impl Iterator<Item = &super::Spot> {
         let takes = self.deed_said().is_some_and(|(deed, _)| uses::takes_object(deed));
@@ -148,6 +203,11 @@ impl Frame<'_, '_> {
         self.roles_asked().into_iter().find_map(of_role)
     }
 
+    /// The role of what the deed of the sentence asks for.
+    pub(super) fn role_said(&self) -> Option<Role> {
+        Some(purposes::role(self.sort_for(self.deed_said()?.0)?))
+    }
+
     /// Which part in the deed is asked for, the likeliest first.
     fn roles_asked(&self) -> Vec<Role> {
         use Role::{Instrument, Location, Patient, Source, Theme};
@@ -182,7 +242,7 @@ impl Frame<'_, '_> {
         match () {
             () if with => vec![Instrument, Location, Source, Patient],
             () if source => vec![Source, Instrument, Location],
-            () if placed || self.has(Mark::Where) || self.has(Mark::Whither) => {
+            () if placed || self.asks_where() => {
                 vec![Location, Instrument, Source, Patient, Theme]
             }
             () if self.has(Mark::Anything) => vec![Patient, Theme, Instrument, Location, Source],
@@ -191,6 +251,11 @@ impl Frame<'_, '_> {
             () if self.asks() => vec![Patient, Theme],
             () => vec![Patient, Theme, Location, Instrument, Source],
         }
+    }
+
+    /// «где», «куда», «в какой комнате»
+    fn asks_where(&self) -> bool {
+        self.has(Mark::Where) || self.has(Mark::Whither) || self.rooms_asked().is_some()
     }
 
     /// «в каких комнатах», "how many rooms": rooms that are asked for.

@@ -55,7 +55,7 @@ impl<'s, 't> Frame<'s, 't> {
             negated: false,
             except: Vec::new(),
             undone: None,
-            idle: None,
+            idle: false,
         };
         let items = &sides_shared(items)[..];
         let mut not = false;
@@ -233,9 +233,7 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Number(number) => {
                     if !frame.counts(*number, at) && !frame.counts_last(*number, items.len() - at) {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
-                        if *number > 1 {
-                            frame.idle = Some(number.to_string());
-                        }
+                        frame.idle |= *number > 1;
                     }
                 }
                 Item::Size(size) => frame.sizes.push(*size),

@@ -108,11 +108,18 @@ impl Frame<'_, '_> {
         if self.deed_said().is_some() && matches!(query, Query::Find(noun) if rooms(noun)) {
             return Some(self.sentence.text.to_owned());
         }
-        let serving =
-            matches!(query, Query::Serving { sort, .. } if purposes::role(*sort) != Role::Patient);
+        // «Каким ножом порезать хлеб?», «Чем порезать хлеб?»
+        let role = match query {
+            Query::Serving { sort, .. } => Some(purposes::role(*sort)),
+            Query::Find(noun) if !noun.also.is_empty() => self.role_said(),
+            _ => None,
+        };
+        let serving = role.is_some_and(|role| !matches!(role, Role::Patient | Role::Theme));
         // "Where could three people sit?": no number is passed over.
-        if matches!(query, Query::Serving { .. } | Query::Place { .. }) && self.idle.is_some() {
-            return self.idle.clone();
+        if matches!(query, Query::Serving { .. } | Query::Place { .. } | Query::Free(_))
+            && self.idle
+        {
+            return Some(self.sentence.text.to_owned());
         }
         if !serving && self.undone.is_some() {
             return self.undone.clone();

@@ -62,6 +62,9 @@ impl<'t> Sentence<'t> {
             Some((_, Mark::Filler)) if at == 0 && keys[0] == "which" => Some((1, Mark::Which)),
             mark => mark,
         };
+        // "for cutting bread", but "a cutting board"
+        let noun_like = keys[0].ends_with("ing") && (at == 0 || self.keys[at - 1] != "for");
+        let mark = mark.filter(|(_, mark)| !(noun_like && matches!(mark, Mark::Deed(_))));
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
         // «Где можно сесть?» asks for no property, though a map may call one so.
