@@ -410,6 +410,11 @@ pub(super) fn all_sorts() -> impl Iterator<Item = u16> {
     all.into_iter().filter(|sort| !matches!(purposes::role(*sort), Theme))
 }
 
+/// Whether a deed is to move or switch something: then nothing serves for it.
+pub(super) fn moves(deed: u16) -> bool {
+    sorts(deed).any(|sort| purposes::role(sort) == Theme)
+}
+
 /// Whether a deed is done to something that its phrase does not name: «чем порезать хлеб».
 pub(super) fn takes_object(deed: u16) -> bool {
     DEEDS.get(usize::from(deed)).is_some_and(|(said, _)| said.contains('…'))

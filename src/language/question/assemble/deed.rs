@@ -21,8 +21,7 @@ impl Frame<'_, '_> {
             })
         };
         // "Bring me something to write with": it is to be brought because one writes with it.
-        let theme = |deed: u16| uses::sorts(deed).any(|sort| purposes::role(sort) == Role::Theme);
-        said().find(|(deed, _)| !theme(*deed)).or_else(|| said().next())
+        said().find(|(deed, _)| !uses::moves(*deed)).or_else(|| said().next())
     }
 
     /// What the deed is done to, which need not be on the map: «порезать хлеб».
@@ -131,9 +130,10 @@ impl Frame<'_, '_> {
     /// "Why can I drink from the mug?": of what is used, where a sentence names it; none where no deed is spoken of.
     pub(super) fn deed_done_with(&self) -> Option<Option<Query>> {
         let (deed, _) = self.deed_said()?;
-        let served = |sort: &u16| purposes::role(*sort) != Role::Theme;
-        let sorts: Vec<u16> = uses::sorts(deed).filter(served).collect();
-        sorts.first()?;
+        if uses::moves(deed) {
+            return None;
+        }
+        let sorts: Vec<u16> = uses::sorts(deed).collect();
         let nouns = self.nouns.iter().map(|s| &s.noun);
         let nouns = nouns.chain(self.spots.iter().flat_map(|s| &s.nouns));
         let about = nouns.into_iter().find_map(|noun| {

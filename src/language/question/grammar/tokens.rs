@@ -5,6 +5,7 @@ use crate::language::question::compared::quantity;
 use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Extreme, Quantity, Rel};
+use crate::language::question::uses;
 use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary;
 use crate::language::words::{Language, word_ranges};
@@ -64,7 +65,9 @@ impl<'t> Sentence<'t> {
         };
         // "for cutting bread", but "a cutting board"
         let noun_like = keys[0].ends_with("ing") && (at == 0 || self.keys[at - 1] != "for");
-        let mark = mark.filter(|(_, mark)| !(noun_like && matches!(mark, Mark::Deed(_))));
+        let mark = mark.filter(
+            |(_, mark)| !matches!(mark, Mark::Deed(deed) if noun_like && !uses::moves(*deed)),
+        );
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
         // «Где можно сесть?» asks for no property, though a map may call one so.
