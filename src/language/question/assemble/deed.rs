@@ -101,7 +101,7 @@ impl Frame<'_, '_> {
             () if self.asks_whether() => Asked::Whether,
             () => Asked::What,
         };
-        asks.then(|| match (plain, asked) {
+        asks.then_some(match (plain, asked) {
             (true, Asked::Where) => Query::Where(noun),
             (true, Asked::HowMany) => Query::Count(noun),
             (true, _) => Query::Find(noun),
