@@ -82,7 +82,7 @@ impl Rule<'_, '_> {
     fn read(&mut self, query: &Query) -> (String, String) {
         let pick = |r: &'static str, e: &'static str| self.knowledge.pick(r, e).to_owned();
         match query {
-            Query::Find(noun) => {
+            Query::Find(noun) | Query::Purpose(noun) | Query::Serving { of: noun, .. } => {
                 let remark =
                     noun.best.as_ref().map(|b| format!("{:?}", b.extreme)).unwrap_or_default();
                 (self.noun(noun), remark)

@@ -219,7 +219,10 @@ impl Asker<'_> {
         }
         let mut query = last.clone();
         let asked = match &mut query {
-            Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
+            Query::Find(asked)
+            | Query::Count(asked)
+            | Query::Where(asked)
+            | Query::Serving { of: asked, .. } => asked,
             Query::Exists { what, .. } => what.first_mut()?,
             _ => return None,
         };
@@ -335,7 +338,10 @@ impl Asker<'_> {
     /// «А на полу?», «А красные?»: the last question about another place, or with other properties.
     fn elsewhere(&self, mut query: Query, noun: Noun) -> Option<Query> {
         let asked = match &mut query {
-            Query::Find(asked) | Query::Count(asked) | Query::Where(asked) => asked,
+            Query::Find(asked)
+            | Query::Count(asked)
+            | Query::Where(asked)
+            | Query::Serving { of: asked, .. } => asked,
             Query::Exists { what, .. } => what.first_mut()?,
             Query::Place { within, .. } if !noun.restrictions.is_empty() => {
                 *within = noun.restrictions;

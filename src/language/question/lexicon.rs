@@ -382,13 +382,15 @@ impl Lexicon {
                 .map(|word| NounPhrase::parse(word, &WordHints::default()))
                 .collect();
             let own = self.push(extension, russian[0].clone(), english[0]);
-            for phrase in russian {
+            // "thing to tell the time by" is what such things are counted by, and makes no word of it known.
+            let spoken = sort.is_spoken();
+            for phrase in russian.into_iter().filter(|_| spoken) {
                 if self.nouns.find(phrase.name()).is_empty() {
                     let id = self.push(extension, phrase.clone(), english[0]);
                     self.nouns.insert(&phrase, Meaning::Kind(id));
                 }
             }
-            for word in english {
+            for word in english.into_iter().filter(|_| spoken) {
                 if self.nouns.find(word).is_empty() {
                     let first = self.kind(own).phrase.clone();
                     let id = self.push(extension, first, word);

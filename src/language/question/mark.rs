@@ -67,7 +67,7 @@ pub(super) enum Mark {
     LieDown,
     /// «положить», "put": where can one
     PutDown,
-    /// «почитать», "drink from": what is done with a sort of things
+    /// «почитать», "drink from": what is done with things, by its number in `uses`
     Deed(u16),
     /// "can I", «можно»
     Can,

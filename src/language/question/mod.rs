@@ -34,6 +34,7 @@ mod settle;
 mod several;
 mod speech;
 mod storeys;
+mod uses;
 mod values;
 mod vocabulary;
 mod why;

@@ -336,7 +336,17 @@ pub enum Query {
         use_for: Use,
         what: Option<Noun>,
         within: Vec<Restriction>,
+        /// Whether there is one at all, rather than which.
+        whether: bool,
     },
+    /// What serves for a deed: things of a sort, as it was asked for.
+    Serving {
+        sort: u16,
+        of: Noun,
+        asked: Asked,
+    },
+    /// What such things are used for.
+    Purpose(Noun),
     LastSeen(Noun),
     Before(Noun),
     WhereAreYou(Detail),
@@ -388,6 +398,17 @@ pub enum Passing {
     Doors,
     /// How many rooms lie between its ends.
     Rooms,
+}
+
+/// What is asked of things that serve for a deed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Asked {
+    What,
+    Where,
+    Whether,
+    HowMany,
+    /// Whether those that are named will do.
+    Suits,
 }
 
 /// What a place is to be good for.
@@ -447,7 +468,7 @@ impl Query {
     /// The one description of what is looked for, counted, or said to exist.
     pub(super) fn sought(&self) -> Option<&Noun> {
         match self {
-            Self::Find(noun) | Self::Count(noun) => Some(noun),
+            Self::Find(noun) | Self::Count(noun) | Self::Serving { of: noun, .. } => Some(noun),
             Self::Exists { what, .. } => match &what[..] {
                 [noun] => Some(noun),
                 _ => None,
@@ -469,6 +490,8 @@ impl Query {
             | Self::LastSeen(noun)
             | Self::Before(noun)
             | Self::Sees(noun)
+            | Self::Serving { of: noun, .. }
+            | Self::Purpose(noun)
             | Self::Describe(noun) => noun.each(act),
             Self::Exists { what, .. } | Self::Differ { of: what, .. } => {
                 what.iter_mut().for_each(|n| n.each(act));
@@ -571,6 +594,8 @@ impl Query {
             Self::Differ { .. } => "differ",
             Self::Free(_) => "free",
             Self::Place { .. } => "place",
+            Self::Serving { .. } => "serving",
+            Self::Purpose(_) => "purpose",
             Self::LastSeen(_) => "last_seen",
             Self::Before(_) => "before",
             Self::WhereAreYou(_) => "where_are_you",

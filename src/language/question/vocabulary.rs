@@ -4,15 +4,15 @@ use std::collections::HashMap;
 use std::sync::OnceLock;
 
 use super::mark::{Mark, Pronoun};
-use super::purposes;
 use super::query::{Closeness, Dimension, Extreme, Rel};
+use super::uses;
 use crate::language::report::Detail;
 use crate::units::name_key;
 
 const WORDS: &[(Mark, &str)] = &[
     (
         Mark::Where,
-        "где бы мне найти|где мне найти|где бы найти|где бы взять|где бы мне взять|где мне взять|куда я мог положить|куда я могла положить|куда я мог деть|куда я положил|куда я положила|куда я дел|куда я дела|куда подевался|куда подевалась|куда пропал|куда пропала|куда запропастился|куда запропастилась|where could i have put|where could i have left|where might i have left|where have i put|where have i left|помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|where can i watch|where could i watch|where can we watch|где можно посмотреть|где посмотреть|где мне посмотреть|где можно смотреть|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
+        "where would you look for|where would you look|where should i look|where would one look|where would i look|где бы мне найти|где мне найти|где бы найти|где бы взять|где бы мне взять|где мне взять|куда я мог положить|куда я могла положить|куда я мог деть|куда я положил|куда я положила|куда я дел|куда я дела|куда подевался|куда подевалась|куда пропал|куда пропала|куда запропастился|куда запропастилась|where could i have put|where could i have left|where might i have left|where have i put|where have i left|помоги найти|помоги мне найти|помогите найти|помогите мне найти|help me find|не могу найти|никак не найду|не нахожу|потерял|потеряла|потеряли|ищу|я не могу найти|i can t find|i cannot find|i can not find|can t find|cannot find|i lost|i have lost|any idea where|do you happen to know where|где|где же|где именно|в каком месте|куда делся|куда делась|куда делось|куда делись|куда пропал|куда пропала|куда пропали|где мне найти|\
         где найти|где можно найти|где взять|покажи где|скажи где|не знаешь где|подскажи где|where|where s|whereabouts|where abouts|\
         where can i find|where do i find|where should i look for|where do i look for|where can i look for|where must i look for|where to look for|where should we look for|where could i find|where to find|where can we find|where would i find|\
         do you know where|can you tell me where|tell me where|show me where|in what place|what is the location of|\
@@ -540,7 +540,7 @@ const WORDS: &[(Mark, &str)] = &[
     ),
     (
         Mark::Filler,
-        "сам|сама|сами|roughly|approximately|about how|примерно|приблизительно|но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|дай знать|дайте знать|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
+        "people use|people use to|do people use|one uses|used for|used to|use|used|using|needed|need|i need|we need|используют|использовать|используется|использую|пользуются|воспользоваться|применяют|понадобится|сам|сама|сами|roughly|approximately|about how|примерно|приблизительно|но|but|тоже|также|нужен|нужна|нужны|чтобы|for a bit|for a while|for a moment|разных|разные|различных|различные|different|various|distinct|then|so then|но тогда|хотел бы узнать|хотела бы узнать|хотел узнать|хотела узнать|хотелось узнать|хочется знать|хочется узнать|хочу узнать|любопытно|расскажи мне|объясни мне|напомни|напомни мне|напомните|дай знать|дайте знать|допустим|если выйти|если пойти|если пройти|если войти|если зайти|если я выйду|если я пройду|если я пойду|if i go|if you go|if one goes|if i leave|if i walk|if we go|i was wondering|was wondering|i am curious|i m curious|remind me|i d love to know|would love to know|would like to know|like to know|wanted to know|i wanted to ask|wanted to ask|may i ask|can i ask|any chance you know|would you know|you know|have you any idea|do you have any idea|by any chance|всё ещё|все ещё|по прежнему|до сих пор|всё так же|still|у вас тут|у нас тут|тут у вас|тут у нас|у вас|у нас|у вас дома|у нас дома|сколько то|might|ужe|случаем|in centimetres|in centimeters|in metres|in meters|in cm|в сантиметрах|в метрах|куда то|однако|кстати говоря|may|got to|currently still|at present|nowadays|just now|прямо|друг от друга|друг с другом|друг к другу|друг другу|from each other|each other|to each other|with each other|one another|from where you are|from where you stand|from your place|from your position|from here|отсюда|с твоего места|с твоей позиции|с этого места|somewhere|anywhere|где нибудь|где то|где либо|what about|how about|а что насчёт|что насчёт|а как насчёт|а как же|пожалуйста|плиз|скажи|скажите|скажи пожалуйста|подскажи|подскажите|покажи|покажите|ответь|ответьте|сообщи|уточни|будь добр|будь добра|будьте добры|не подскажешь|не подскажете|не скажешь|не скажете|не знаешь|ты не знаешь|ты не знаешь случайно|случайно|вы не знаете|\
         не могли бы вы сказать|не мог бы ты сказать|можешь сказать|можете сказать|можешь подсказать|мне нужно знать|мне надо знать|я хочу знать|хочу знать|хотелось бы знать|интересно|меня интересует|\
         же|бы|ведь|вообще|а|ну|вот|так|то|тут|здесь|сейчас|теперь|в данный момент|на данный момент|прямо сейчас|всего|в общем|в целом|ровно|привет|здравствуй|здравствуйте|эй|слушай|послушай|спасибо|хорошо|ладно|нужно|надо|ка|том числе|именно|штук|штуки|правда|правда ли|правда ли что|верно ли|верно ли что|верно|действительно|точно|\
         по отношению к|относительно|относится|знаешь|думаешь|как ты думаешь|как думаешь|наверное|разве|неужели|имеющиеся|имеющийся|\
@@ -568,21 +568,26 @@ fn table() -> &'static HashMap<String, Phrases> {
 }
 
 fn phrases() -> impl Iterator<Item = (Mark, &'static str)> {
-    let listed = WORDS.iter().flat_map(|(mark, list)| {
+    WORDS.iter().flat_map(|(mark, list)| {
         list.split('|')
             .map(|phrase| (*mark, phrase.trim()))
             .filter(|(_, phrase)| !phrase.is_empty())
-    });
-    listed.chain(purposes::deeds().map(|(sort, deed)| (Mark::Deed(sort), deed)))
+    })
 }
 
 /// The mark of the longest phrase at the beginning of these words (in [`name_key`] form), with the number of words it
-/// takes. Where a phrase is listed twice, the first list wins.
+/// takes. Where a phrase is listed twice, the first list wins, and all go before a deed's.
 pub(super) fn longest(words: &[String]) -> Option<(usize, Mark)> {
-    let first = words.first()?;
-    let phrases = table().get(first)?;
     let fits = |phrase: &[String]| words.get(..phrase.len()) == Some(phrase);
-    phrases.iter().find(|(phrase, _)| fits(phrase)).map(|(phrase, mark)| (phrase.len(), *mark))
+    let listed = table().get(words.first()?).and_then(|phrases| {
+        let phrase = phrases.iter().find(|(phrase, _)| fits(phrase));
+        phrase.map(|(phrase, mark)| (phrase.len(), *mark))
+    });
+    let deed = uses::longest(words).map(|(taken, deed)| (taken, Mark::Deed(deed)));
+    match (listed, deed) {
+        (Some(listed), Some(deed)) if deed.0 > listed.0 => Some(deed),
+        (listed, deed) => listed.or(deed),
+    }
 }
 
 #[cfg(test)]

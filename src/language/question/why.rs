@@ -15,6 +15,10 @@ const SAID: usize = 4;
 
 impl Knowledge<'_> {
     pub(super) fn why(&self, negated: bool, about: Option<&Query>) -> Result<Draft, Doubt> {
+        let asked = about.or(self.memory.query.as_ref()).filter(|_| !negated);
+        if let Some(draft) = asked.and_then(|query| self.why_serving(query)) {
+            return Ok(draft);
+        }
         let facts = match (about, &self.memory.said, &self.memory.query) {
             (Some(query), ..) => {
                 let answer = self.answer(query)?;

@@ -11,6 +11,7 @@ mod passing;
 mod place;
 mod property;
 mod senses;
+mod serving;
 mod size;
 mod state;
 mod together;
@@ -123,9 +124,12 @@ impl Knowledge<'_> {
             Query::Together { of, rel, place } => self.together(of, *rel, place)?,
             Query::Differ { of, alike } => self.differ(of, *alike)?,
             Query::Free(noun) => self.free(noun)?,
-            Query::Place { use_for, what, within } => {
-                self.usable(*use_for, what.as_ref(), within)?
+            Query::Place { use_for, what, within, whether } => {
+                let draft = self.usable(*use_for, what.as_ref(), within)?;
+                if *whether { self.as_yes_or_no(draft) } else { draft }
             }
+            Query::Serving { sort, of, asked } => self.serving(*sort, of, *asked)?,
+            Query::Purpose(noun) => self.purpose(noun)?,
             Query::LastSeen(noun) => self.last_seen(noun)?,
             Query::Before(noun) => self.before(noun)?,
             Query::WhereAreYou(detail) => self.where_are_you(*detail),

@@ -4,7 +4,8 @@
 
 use super::Draft;
 use crate::language::question::knowledge::Knowledge;
-use crate::language::question::query::{Noun, Rel, Restriction, Thing, Use};
+use crate::language::question::purposes;
+use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing, Use};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::Case;
 use crate::language::words::area;
@@ -95,7 +96,10 @@ impl Knowledge<'_> {
                 }
             }
         };
-        let found: Vec<Thing> = all.into_iter().filter(fits).collect();
+        let mut found: Vec<Thing> = all.into_iter().filter(fits).collect();
+        if use_for == Use::Sit {
+            self.leave_toilets(&mut found);
+        }
         let all = found.clone();
         /// One sits beside what lies on a seat where so much of it is free, cm² and of 1.
         const ROOM_TO_SIT: (f64, f64) = (1600.0, 0.6);
@@ -135,10 +139,10 @@ impl Knowledge<'_> {
             }
             (_, true, true) => format!("{place} такого места на карте нет"),
             (_, true, false) => format!("the map has no such place {place}"),
-            (Use::Sit, _, true) => format!("сесть можно {}", self.seats(&found)),
-            (Use::Sit, _, false) => format!("one can sit on {}", self.list(&found)),
-            (Use::Lie, _, true) => format!("лечь можно {}", self.seats(&found)),
-            (Use::Lie, _, false) => format!("one can lie down on {}", self.list(&found)),
+            (Use::Sit, _, true) => format!("сесть можно {}", self.seats(&found, &place)),
+            (Use::Sit, _, false) => format!("one can sit on {}", self.seats(&found, &place)),
+            (Use::Lie, _, true) => format!("лечь можно {}", self.seats(&found, &place)),
+            (Use::Lie, _, false) => format!("one can lie down on {}", self.seats(&found, &place)),
             (Use::Put, _, true) => format!("свободное место есть {}", self.place(Rel::On, &found)),
             (Use::Put, _, false) => format!("there is free space {}", self.place(Rel::On, &found)),
         };
@@ -186,7 +190,7 @@ impl Knowledge<'_> {
         let (good, bad): (Vec<Thing>, Vec<Thing>) =
             found.iter().copied().partition(|t| fits(t) && !bears(t));
         let text = match (good.is_empty(), self.is_russian()) {
-            (false, true) => format!("да, {russian} можно {}", self.seats(&good)),
+            (false, true) => format!("да, {russian} можно {}", self.seats(&good, "-")),
             (false, false) => format!("yes, one can {english} {}", self.list(&good)),
             (true, is_russian) if bad.iter().all(fits) => {
                 let on_it = self.related(Rel::On, bad[0]);
@@ -216,8 +220,46 @@ impl Knowledge<'_> {
         Ok(Some(Draft { facts, ..Draft::new(said, text).with(found) }))
     }
 
-    /// «на Диван-1, на Кресло-1 или на Стул-2»
-    fn seats(&self, found: &[Thing]) -> String {
-        format!("на {}", self.names(found, Case::Accusative))
+    /// «в Гостиной – на Диван-1 и Кресло-1; в Спальне – на Кровать-1»; where the place was said, without the rooms.
+    fn seats(&self, found: &[Thing], place: &str) -> String {
+        let on = |things: &[Thing]| match self.is_russian() {
+            true => format!("на {}", self.names(things, Case::Accusative)),
+            false => self.list(things),
+        };
+        if !place.is_empty() {
+            return on(found);
+        }
+        let told = |(room, things): &(String, Vec<Thing>)| match self.is_russian() {
+            true => format!("{room} – {}", on(things)),
+            false => format!("{} {room}", on(things)),
+        };
+        self.in_each_room(found).iter().map(told).collect::<Vec<_>>().join("; ")
+    }
+
+    /// A toilet is a seat only where there is no other.
+    fn leave_toilets(&self, seats: &mut Vec<Thing>) {
+        let sort = purposes::sort_called("place to relieve yourself");
+        let kinds = sort.map(|sort| self.lexicon().kinds_of_sort(sort)).unwrap_or_default();
+        let toilets = self.base(&Head { kinds, ..Head::default() });
+        if seats.iter().any(|seat| !toilets.contains(seat)) {
+            seats.retain(|seat| !toilets.contains(seat));
+        }
+    }
+
+    /// «да, …», "no, …" before what there is or is not.
+    pub(super) fn as_yes_or_no(&self, draft: Draft) -> Draft {
+        let found = !draft.things.is_empty();
+        let heads = [("да, ", "yes, "), ("нет, ", "no, ")];
+        if heads.iter().any(|(russian, english)| {
+            draft.text.starts_with(russian) || draft.text.starts_with(english)
+        }) {
+            return draft;
+        }
+        let (said, (russian, english)) = match found {
+            true => (Said::Yes, heads[0]),
+            false => (Said::No, heads[1]),
+        };
+        let text = format!("{}{}", self.pick(russian, english), draft.text.trim_start());
+        Draft { said: Some(said), text, ..draft }
     }
 }

@@ -4,10 +4,8 @@
 
 use super::Frame;
 use super::Spot;
-use super::Subject;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
-use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Query, Rel, Restriction, Thing, Use};
 use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
@@ -17,8 +15,11 @@ impl Frame<'_, '_> {
         if self.has(Mark::Hold) && self.nouns.is_empty() {
             return Some(Query::WhatDoYouHold);
         }
-        let deed = self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
-        if self.has(Mark::Help) && !deed && self.nouns.is_empty() && self.spots.is_empty() {
+        if self.has(Mark::Help)
+            && self.deed_said().is_none()
+            && self.nouns.is_empty()
+            && self.spots.is_empty()
+        {
             return Some(Query::Help);
         }
         if self.has(Mark::Did) && self.nouns.is_empty() && self.spots.is_empty() {
@@ -32,7 +33,13 @@ impl Frame<'_, '_> {
         let nowhere =
             self.nouns.iter().all(|s| self.is_area(&s.noun) && s.noun.head.named.is_empty());
         let asks = self.has(Mark::Where) || (self.asks() && !self.nouns.is_empty());
-        if me && asks && nowhere && !self.has(Mark::HowGet) && !self.has(Mark::Move) {
+        if me
+            && asks
+            && nowhere
+            && self.deed_said().is_none()
+            && !self.has(Mark::HowGet)
+            && !self.has(Mark::Move)
+        {
             return Some(Query::WhereAmI);
         }
         let storey = self.nouns.iter().any(|s| self.is_storeys(&s.noun));
@@ -168,6 +175,10 @@ impl Frame<'_, '_> {
             || self.has(Mark::Can)
             || self.has(Mark::Whither)
             || self.has(Mark::Exists);
+        let whether = !self.has(Mark::Where)
+            && !self.has(Mark::Whither)
+            && !self.asks()
+            && self.links.is_empty();
         let use_for = match () {
             () if self.has(Mark::Sit) => Some(Use::Sit),
             () if self.has(Mark::LieDown) => Some(Use::Lie),
@@ -201,7 +212,8 @@ impl Frame<'_, '_> {
             return Some(self.rooms_having(&rooms, head));
         }
         if let (Some(use_for), true) = (use_for, asks && !nearest) {
-            return Some(Query::Place { use_for, what: self.first(), within: within() });
+            let (what, within) = (self.first(), within());
+            return Some(Query::Place { use_for, what, within, whether });
         }
         if !self.has(Mark::Free) {
             return None;
@@ -232,13 +244,14 @@ impl Frame<'_, '_> {
         let within: Vec<Restriction> = on.flat_map(with).collect();
         let what = what.filter(|noun| !self.is_area(noun));
         if let (Some(what), false) = (&what, within.is_empty()) {
-            return Some(Query::Place { use_for: Use::Put, what: Some(what.clone()), within });
+            let what = Some(what.clone());
+            return Some(Query::Place { use_for: Use::Put, what, within, whether });
         }
         // «Где есть место для вазы?»
         let places = self.spots.iter().filter(|s| self.is_area(&s.nouns[0]));
         if self.spot(&[Rel::To]).is_some() && self.has(Mark::Where) && what.is_some() {
             let within = places.flat_map(Spot::restrictions).collect();
-            return Some(Query::Place { use_for: Use::Put, what, within });
+            return Some(Query::Place { use_for: Use::Put, what, within, whether });
         }
         let place = self.spots.first().map(|s| s.nouns[0].clone()).or_else(|| self.first())?;
         if self.is_area(&place) && self.spots.len() < 2 {
@@ -254,99 +267,6 @@ impl Frame<'_, '_> {
             self.attach(&mut place, spot);
         }
         Some(Query::Free(place))
-    }
-
-    /// «в каких комнатах», "how many rooms": rooms that are asked for.
-    fn rooms_asked(&self) -> Option<Noun> {
-        let asked = self.nouns.iter().find(|s| {
-            let counted = self.place_of(Mark::HowMany).is_some_and(|at| at < s.at);
-            self.is_rooms(&s.noun)
-                && !self.is_storeys(&s.noun)
-                && (self.follows_which(s.at) || counted)
-        })?;
-        let others = self.nouns.iter().all(|s| s.at == asked.at);
-        others.then(|| asked.noun.clone())
-    }
-
-    /// The rooms that have something of a sort, or how many these are.
-    fn rooms_having(&self, rooms: &Noun, head: Head) -> Query {
-        let mut rooms = Noun { plural: true, indefinite: true, ..rooms.clone() };
-        rooms.head.named.clear();
-        let anchors = vec![Noun { head, indefinite: true, plural: true, ..Noun::default() }];
-        rooms.restrictions.push(Restriction { rel: Rel::Has, anchors, negated: self.negated });
-        let rooms = self.with_rest(rooms, &[]);
-        if self.has(Mark::HowMany) { Query::Count(rooms) } else { Query::Find(rooms) }
-    }
-
-    /// «Что можно почитать?», "Where can I wash my hands?": the things of a sort, or where they are.
-    fn deed(&self) -> Option<Query> {
-        let sort = self.marks.iter().find_map(|(mark, _)| match mark {
-            Mark::Deed(sort) => Some(*sort),
-            _ => None,
-        })?;
-        let sort = match () {
-            () if self.has(Mark::MadeOf) => purposes::done_out_of(sort),
-            () if self.has(Mark::Where) && self.nouns.is_empty() => purposes::done_at(sort),
-            () => sort,
-        };
-        // «Что можно порезать?» asks what is cut, not with what.
-        if purposes::is_tool(sort) && !self.with_what() && !self.has(Mark::Where) {
-            return None;
-        }
-        let asks = self.has(Mark::Where)
-            || self.asks()
-            || self.has(Mark::Anything)
-            || self.has(Mark::Help)
-            || self.has(Mark::MadeOf)
-            || self.has(Mark::Than)
-            || self.has(Mark::Can)
-            || self.has(Mark::Exists);
-        // «Какие книги можно почитать?» asks for books that are such things.
-        let own = self.lexicon.kinds_of_sort(sort);
-        if let Some(rooms) = self.rooms_asked() {
-            return Some(self.rooms_having(&rooms, Head { kinds: own, ..Head::default() }));
-        }
-        // «Что из мебели можно передвинуть?», "Which chairs can be moved?": what belongs to both.
-        let of = |s: &&Spot| matches!(s.rel, Rel::From | Rel::Of) && !self.is_area(&s.nouns[0]);
-        let of = self.spots.iter().find(of).map(|s| (s.nouns[0].clone(), s.at));
-        let which = |s: &&Subject| s.noun.head.named.is_empty() && self.follows_which(s.at);
-        let both = of.or_else(|| match &self.nouns[..] {
-            [only] if which(&only) && !self.is_things(&only.noun) => {
-                Some((only.noun.clone(), usize::MAX))
-            }
-            _ => None,
-        });
-        if let (Some((mut noun, at)), true) = (both, asks) {
-            noun.also.push(Head { kinds: own, ..Head::default() });
-            let noun = self.with_rest(noun, &[at]);
-            return Some(Query::Find(Noun { plural: true, indefinite: true, ..noun }));
-        }
-        let covered = |noun: &Noun| {
-            let kinds = &noun.head.kinds;
-            !kinds.is_empty() && kinds.iter().all(|kind| own.contains(kind))
-        };
-        let noun = match &self.nouns[..] {
-            [] => {
-                let head = Head { kinds: own, ..Head::default() };
-                Noun { head, ..Noun::default() }
-            }
-            [only] if only.noun.head.anything || covered(&only.noun) => only.noun.clone(),
-            // «Чем порезать хлеб?»: what the deed is done to limits nothing.
-            [only] if self.with_what() && !self.is_things(&only.noun) => {
-                let head = Head { kinds: own, ..Head::default() };
-                Noun { head, ..Noun::default() }
-            }
-            [only] if self.is_things(&only.noun) => {
-                let head = Head { kinds: own, ..Head::default() };
-                Noun { head, ..only.noun.clone() }
-            }
-            _ => return None,
-        };
-        let noun = Noun { plural: true, indefinite: true, ..self.with_rest(noun, &[]) };
-        asks.then(|| match self.has(Mark::Where) || self.has(Mark::Whither) {
-            true => Query::Where(noun),
-            false => Query::Find(noun),
-        })
     }
 
     /// «Что можно открыть в спальне?», "Which doors can be opened?": doors.
@@ -373,14 +293,6 @@ impl Frame<'_, '_> {
     fn with_what(&self) -> bool {
         const WITH: [&str; 6] = ["чем", "with", "use", "used", "на", "on"];
         self.sentence.keys.iter().any(|key| WITH.contains(&key.as_str()))
-    }
-
-    /// "things", «предметы»: anything at all.
-    fn is_things(&self, noun: &Noun) -> bool {
-        let things = |k: &_| self.lexicon.kind(*k).extension == Extension::Things;
-        noun.head.named.is_empty()
-            && !noun.head.kinds.is_empty()
-            && noun.head.kinds.iter().all(things)
     }
 
     /// «Какой стул свободен?», "Is any chair free?": which have nothing on them.

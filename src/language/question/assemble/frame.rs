@@ -11,8 +11,8 @@ use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase, Sentence};
 use crate::language::question::lexicon::{Extension, Lexicon};
 use crate::language::question::mark::{Mark, Pronoun};
-use crate::language::question::purposes;
 use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Side, Thing};
+use crate::language::question::uses;
 use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
 
@@ -23,6 +23,13 @@ fn is_only_from(items: &[Item]) -> bool {
         _ => None,
     });
     places.next() == Some(Rel::From) && places.next().is_none()
+}
+
+/// Whether an item stands where a deed names what it is done to: «порезать хлеб», "cut the bread".
+fn done_to(items: &[Item], at: usize) -> bool {
+    let article = |item: &Item| matches!(item, Item::Mark(Mark::The | Mark::A));
+    let before = items[..at].iter().rev().find(|item| !article(item));
+    matches!(before, Some(Item::Mark(Mark::Deed(deed))) if uses::takes_object(*deed))
 }
 
 impl<'s, 't> Frame<'s, 't> {
@@ -47,6 +54,8 @@ impl<'s, 't> Frame<'s, 't> {
             there: None,
             negated: false,
             except: Vec::new(),
+            undone: None,
+            idle: false,
         };
         let items = &sides_shared(items)[..];
         let mut not = false;
@@ -224,14 +233,14 @@ impl<'s, 't> Frame<'s, 't> {
                 Item::Number(number) => {
                     if !frame.counts(*number, at) && !frame.counts_last(*number, items.len() - at) {
                         frame.marks.push((if *number == 1 { Mark::A } else { Mark::Filler }, at));
+                        frame.idle |= *number > 1;
                     }
                 }
                 Item::Size(size) => frame.sizes.push(*size),
                 // «Чем порезать хлеб?»: what is cut need not be on the map.
-                Item::Unknown(_)
-                    if at > 0
-                        && matches!(items[at - 1], Item::Mark(Mark::Deed(sort)) if purposes::is_tool(sort)) =>
-                    {}
+                Item::Unknown(words) if done_to(items, at) => {
+                    frame.undone = Some(sentence.said(words).to_owned());
+                }
                 Item::Unknown(words) => return Err(frame.unknown(words, items.get(at + 1))),
             }
         }

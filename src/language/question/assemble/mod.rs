@@ -7,6 +7,7 @@ mod about;
 mod attach;
 mod claim;
 mod compare;
+mod deed;
 mod frame;
 mod passing;
 mod together;
@@ -234,6 +235,10 @@ struct Frame<'s, 't> {
     negated: bool,
     /// «кроме лампы»
     except: Vec<Noun>,
+    /// What a deed is done to, where nothing knows the word.
+    undone: Option<String>,
+    /// A number that counts nothing was said.
+    idle: bool,
 }
 
 fn things(things: Vec<Thing>, text: &str) -> Noun {
@@ -245,7 +250,10 @@ fn things(things: Vec<Thing>, text: &str) -> Noun {
 impl Frame<'_, '_> {
     fn read(&self) -> Option<Query> {
         if self.has(Mark::Why) || self.has(Mark::WhyNot) {
-            return Some(self.why());
+            return match self.deed_done_with() {
+                Some(query) => query,
+                None => Some(self.why()),
+            };
         }
         // «Какой стул посередине?»: of what is not said.
         if self.links.iter().any(|(rel, _)| *rel == Rel::Middle) {
@@ -288,7 +296,8 @@ impl Frame<'_, '_> {
         if fit && self.spot(&[Rel::In]).is_some_and(|s| self.is_area(&s.nouns[0])) {
             return None;
         }
-        self.of_robot()
+        self.purpose()
+            .or_else(|| self.of_robot())
             .or_else(|| self.people())
             .or_else(|| self.kinds())
             .or_else(|| self.keys())

@@ -5,8 +5,9 @@
 use super::Frame;
 use crate::language::question::lexicon::{Extension, KindId};
 use crate::language::question::mark::Mark;
-use crate::language::question::purposes;
+use crate::language::question::purposes::{self, Role};
 use crate::language::question::query::{Claim, Head, Noun, Query, Rel, Sized};
+use crate::language::question::uses;
 use crate::language::question::values::{Property, ValueId};
 
 /// What the nouns and claims of a query speak of.
@@ -103,22 +104,48 @@ impl Frame<'_, '_> {
             return Some(self.sentence.text.to_owned());
         }
         // "Which room would you go to to cook?": no room is told by what is done there.
-        let deed = self.marks.iter().any(|(mark, _)| matches!(mark, Mark::Deed(_)));
-        if deed && matches!(query, Query::Find(noun) if self.is_area(noun) && self.asks_only(noun))
+        let rooms = |noun: &Noun| self.is_area(noun) && self.asks_only(noun);
+        if self.deed_said().is_some() && matches!(query, Query::Find(noun) if rooms(noun)) {
+            return Some(self.sentence.text.to_owned());
+        }
+        // «Каким ножом порезать хлеб?», «Чем порезать хлеб?»
+        let role = match query {
+            Query::Serving { sort, .. } => Some(purposes::role(*sort)),
+            Query::Find(noun) if !noun.also.is_empty() => self.role_said(),
+            _ => None,
+        };
+        let serving = role.is_some_and(|role| !matches!(role, Role::Patient | Role::Theme));
+        // "Where could three people sit?": no number is passed over.
+        if matches!(query, Query::Serving { .. } | Query::Place { .. } | Query::Free(_))
+            && self.idle
         {
             return Some(self.sentence.text.to_owned());
         }
+        if !serving && self.undone.is_some() {
+            return self.undone.clone();
+        }
         let used = Used::of(query);
+        // "On what do cats fry eggs?" is not asked of eggs alone.
+        let own = |deed: u16| uses::sorts(deed).flat_map(|sort| self.lexicon.kinds_of_sort(sort));
+        let done =
+            |deed: u16| own(deed).any(|kind| used.heads.iter().any(|h| h.kinds.contains(&kind)));
+        let served = matches!(query, Query::Serving { .. } | Query::Place { .. });
+        if let Some((deed, _)) = self.deed_said()
+            && !served
+            && !done(deed)
+        {
+            return Some(self.sentence.text.to_owned());
+        }
         // Where a door leads is told with all its rooms.
         let leads = matches!(query, Query::Leads(_));
-        let nouns = self.nouns.iter().map(|s| &s.noun);
-        let places = self.spots.iter().flat_map(|s| &s.nouns);
         // «Чем порезать хлеб?»: what is cut limits nothing.
-        let is_tool = |mark: &Mark| matches!(mark, Mark::Deed(sort) if purposes::is_tool(*sort));
-        let tool = self.marks.iter().any(|(mark, _)| is_tool(mark));
+        let object = self.object_of_deed().filter(|_| serving).map(|s| s.at);
+        let apart: Vec<usize> = self.beside_deed().filter(|_| serving).map(|s| s.at).collect();
+        let nouns = self.nouns.iter().filter(|s| Some(s.at) != object).map(|s| &s.noun);
+        let places = self.spots.iter().filter(|s| !apart.contains(&s.at)).flat_map(|s| &s.nouns);
         let tells = |noun: &&Noun| {
             let general = noun.head.anything || noun.head.things.is_some();
-            !(general || tool || self.asks_only(noun) || (leads && self.is_area(noun)))
+            !(general || self.asks_only(noun) || (leads && self.is_area(noun)))
         };
         let mut said = nouns.chain(places).chain(&self.except).filter(tells);
         if let Some(noun) = said.find(|noun| !used.has(&noun.head)) {

@@ -5,6 +5,7 @@ use crate::language::question::compared::quantity;
 use crate::language::question::lexicon::{Extension, Lexicon, Meaning};
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Extreme, Quantity, Rel};
+use crate::language::question::uses;
 use crate::language::question::values::ValueId;
 use crate::language::question::vocabulary;
 use crate::language::words::{Language, word_ranges};
@@ -31,6 +32,7 @@ impl<'t> Sentence<'t> {
         }
         sentence.tokens.retain(|t| t.kind != Tok::Mark(Mark::Filler));
         sentence.drop_asking_particle();
+        sentence.drop_stranded();
         sentence.tell_heights();
         for token in &sentence.tokens {
             if let Tok::Value(value) = token.kind {
@@ -61,6 +63,11 @@ impl<'t> Sentence<'t> {
             Some((_, Mark::Filler)) if at == 0 && keys[0] == "which" => Some((1, Mark::Which)),
             mark => mark,
         };
+        // "for cutting bread", but "a cutting board"
+        let noun_like = keys[0].ends_with("ing") && (at == 0 || self.keys[at - 1] != "for");
+        let mark = mark.filter(
+            |(_, mark)| !matches!(mark, Mark::Deed(deed) if noun_like && !uses::moves(*deed)),
+        );
         let value = lexicon.values.longest(keys);
         let named = self.name_length(at, lexicon);
         // «Где можно сесть?» asks for no property, though a map may call one so.
@@ -199,6 +206,25 @@ impl<'t> Sentence<'t> {
         }
     }
 
+    /// "something to cut an apple with": a preposition of a deed whose noun is what is asked for.
+    fn drop_stranded(&mut self) {
+        let deed = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Deed(_)));
+        let Some(first) = self.tokens.iter().position(deed) else { return };
+        let link = |t: &Token| matches!(t.kind, Tok::Mark(Mark::Link(_)));
+        let stranded: Vec<usize> = (0..self.tokens.len())
+            .filter(|n| link(&self.tokens[*n]))
+            .filter(|n| {
+                let next = self.tokens.get(n + 1);
+                // "for cutting bread"
+                let before_deed = next.is_some_and(deed);
+                before_deed || (*n > first && next.is_none_or(link))
+            })
+            .collect();
+        for n in stranded.into_iter().rev() {
+            self.tokens.remove(n);
+        }
+    }
+
     /// «нечёрные»: the value that is denied.
     fn joined_negation(&self, at: usize, lexicon: &Lexicon) -> Option<ValueId> {
         let rest =
@@ -241,10 +267,8 @@ impl<'t> Sentence<'t> {
         let next = self.keys.get(at + 1).map(String::as_str);
         // "something to sit on"
         let before = self.tokens.last().map(|t| t.kind);
-        let used = matches!(
-            before,
-            Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown | Mark::Deed(_)))
-        );
+        let used = matches!(before, Some(Tok::Mark(Mark::Sit | Mark::LieDown | Mark::PutDown)))
+            || self.tokens.iter().any(|t| matches!(t.kind, Tok::Mark(Mark::Deed(_))));
         let ends =
             !used && matches!(next, None | Some("or" | "and" | "now" | "right" | "currently"));
         let said = |word: &str| self.keys[..at].iter().any(|k| k == word);

@@ -23,13 +23,11 @@ pub(super) use reply::{Ordered, Waiting};
 use super::grammar::{Item, Phrase, Sentence};
 use super::knowledge::Knowledge;
 use super::mark::{Mark, Pronoun};
-use super::purposes;
 use super::query::{Best, Extreme, Head, Noun, Rel, Restriction, Thing};
+use super::uses;
 use super::{Asker, Doubt, Memory, Misread, Unanswered};
 use crate::language::command::{self, Sort};
-use crate::language::words::{
-    Case, Language, NounPhrase, enumerate, phrase_at, word_keys, word_ranges,
-};
+use crate::language::words::{Case, Language, NounPhrase, enumerate, word_keys, word_ranges};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -144,40 +142,37 @@ impl Asker<'_> {
         }
     }
 
-    /// «Дай что-нибудь почитать», "something to drink from": with the nearest portable thing of that sort.
+    /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
     fn with_deed(&self, text: String, language: Language) -> Result<String, Doubt> {
-        const ANY: [&str; 7] =
-            ["something", "anything", "что нибудь", "чего нибудь", "что либо", "что то", "чего то"];
         let (words, keys) = (word_ranges(&text), word_keys(&text));
-        let any = (0..keys.len()).find_map(|at| {
-            let taken = ANY.iter().find_map(|any| phrase_at(&keys, at, any))?;
-            Some((at, at + taken))
-        });
-        let Some((at, mut next)) = any else { return Ok(text) };
-        next += usize::from(keys.get(next).is_some_and(|key| key == "to"));
-        let deeds = purposes::deeds()
-            .filter_map(|(sort, deed)| Some((sort, phrase_at(&keys, next, deed)?)));
-        let Some((sort, taken)) = deeds.max_by_key(|(_, taken)| *taken) else { return Ok(text) };
-        let kinds = self.mind.lexicon.kinds_of_sort(sort);
-        let noun = Noun {
-            head: Head { kinds, ..Head::default() },
+        let Some(wanted) = uses::wanted(&keys) else { return Ok(text) };
+        let memory = Memory::default();
+        let knowledge = self.knowledge(language, &memory);
+        // What is only looked for need not be carried.
+        let found = keys.iter().any(|key| ["find", "найди", "найти", "поищи"].contains(&&**key));
+        let portable =
+            |t: &Thing| found || t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
+        let of_sort = |sort: &u16| {
+            let kinds = self.mind.lexicon.kinds_of_sort(*sort);
+            let noun = Noun { head: Head { kinds, ..Head::default() }, ..Noun::default() };
+            let mut things = knowledge.base(&noun.head);
+            things.retain(portable);
+            (noun, things)
+        };
+        let all: Vec<(Noun, Vec<Thing>)> = wanted.sorts.iter().map(of_sort).collect();
+        let Some((_, carried)) = all.iter().find(|(_, things)| !things.is_empty()) else {
+            let Some((noun, _)) = all.into_iter().next() else { return Ok(text) };
+            return Err(Doubt::NoneSuch { noun: Box::new(noun) });
+        };
+        let nearest = Noun {
+            head: Head { things: Some(carried.clone()), ..Head::default() },
             best: Some(Best { extreme: Extreme::Nearest, anchor: None }),
             ..Noun::default()
         };
-        let memory = Memory::default();
-        let knowledge = self.knowledge(language, &memory);
-        let portable =
-            |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "portable"));
-        let all = knowledge.base(&noun.head);
-        let carried: Vec<Thing> = all.into_iter().filter(portable).collect();
-        if carried.is_empty() {
-            return Err(Doubt::NoneSuch { noun: Box::new(Noun { best: None, ..noun }) });
-        }
-        let nearest = Noun { head: Head { things: Some(carried), ..Head::default() }, ..noun };
         let Some(thing) = knowledge.find(&nearest, true)?.first().copied() else { return Ok(text) };
         let mut text = text;
         let name = knowledge.form(thing, Case::Accusative);
-        text.replace_range(words[at].start..words[next + taken - 1].end, &name);
+        text.replace_range(words[wanted.words.start].start..words[wanted.words.end - 1].end, &name);
         Ok(text)
     }
 
