@@ -88,6 +88,26 @@ pub(super) fn of_text(text: &str) -> Option<&'static str> {
     Some(of_rgb([channel(0)?, channel(2)?, channel(4)?]))
 }
 
+/// The colour that a material's name tells of, as one of its words: "Glass_Detailed_Green_Mat". None where it tells of
+/// several.
+pub(super) fn of_name(name: &str) -> Option<&'static str> {
+    let mut words: Vec<String> = Vec::new();
+    let mut was_lower = false;
+    for c in name.chars() {
+        if !c.is_alphabetic() || (c.is_uppercase() && was_lower) || words.is_empty() {
+            words.push(String::new());
+        }
+        was_lower = c.is_lowercase();
+        if c.is_alphabetic() {
+            words.last_mut().expect("one was pushed").extend(c.to_lowercase());
+        }
+    }
+    let told = words.iter().filter_map(|w| ENGLISH.iter().find(|(english, _)| english == w));
+    let mut colours = told.map(|(_, colour)| *colour);
+    let first = colours.next()?;
+    colours.all(|other| other == first).then_some(first)
+}
+
 /// The material that an asset's or texture's name tells of.
 pub(super) fn material(name: &str) -> Option<&'static str> {
     let name = name.to_lowercase();
@@ -108,6 +128,13 @@ mod tests {
         assert_eq!(of_text("light blue"), Some("Голубой"));
         assert_eq!(of_text("#FF0000"), Some("Красный"));
         assert_eq!(of_text("#ЖЖЖ"), None);
+        assert_eq!(of_name("Glass_Detailed_Green_Mat"), Some("Зелёный"));
+        assert_eq!(of_name("PureBlack_Wood"), Some("Чёрный"));
+        assert_eq!(of_name("GreyFloor 3"), Some("Серый"));
+        assert_eq!(of_name("bathroomTilesBlue"), Some("Синий"));
+        assert_eq!(of_name("WoodFineDarkFloorsRedNRM2"), Some("Красный"));
+        assert_eq!(of_name("BlackWhiteTiles"), None);
+        assert_eq!(of_name("Bowl_Mat4 (Glass)"), None);
         assert_eq!(material("TexturesCom_WoodFine0050_1_seamless_S_white"), Some("Дерево"));
     }
 }

@@ -43,6 +43,7 @@ struct Asset {
     opens: bool,
     switches: bool,
     material: Option<&'static str>,
+    colour: Option<&'static str>,
 }
 
 impl Assets {
@@ -67,12 +68,21 @@ impl Assets {
                     Value::Array(names) => names.first().and_then(Value::as_str),
                     other => other.as_str(),
                 });
+                let names: Vec<&str> = list(asset, "materials")
+                    .iter()
+                    .filter_map(|m| m.as_array()?.get(1)?.as_str())
+                    .collect();
                 let asset = Asset {
                     word: text(asset, "objectType").unwrap_or(word).to_owned(),
                     half: size.map(|s| s.abs() / 2.0),
                     opens: can("CanOpen"),
                     switches: can("CanToggleOnOff"),
                     material: materials.into_iter().find_map(colour::material),
+                    // What is made of several materials has no one colour.
+                    colour: names
+                        .first()
+                        .filter(|_| names.len() == 1)
+                        .and_then(|n| colour::of_name(n)),
                 };
                 known.insert(id.to_owned(), asset);
             }
@@ -233,6 +243,8 @@ fn surface(material: Option<&Value>, suffix: &str) -> Properties {
     let channel = |c: &str| material.get("color")?.get(c)?.as_f64();
     if let (Some(r), Some(g), Some(b)) = (channel("r"), channel("g"), channel("b")) {
         found.insert(format!("ЦВЕТ{suffix}"), colour::of_rgb([r, g, b]).to_owned());
+    } else if let Some(colour) = text(material, "name").and_then(colour::of_name) {
+        found.insert(format!("ЦВЕТ{suffix}"), colour.to_owned());
     }
     found
 }
@@ -404,6 +416,9 @@ impl Reader<'_> {
         let mut kind_properties = Properties::new();
         if let Some(material) = asset.material {
             kind_properties.insert("МАТЕРИАЛ".to_owned(), material.to_owned());
+        }
+        if let Some(colour) = asset.colour {
+            kind_properties.insert("ЦВЕТ".to_owned(), colour.to_owned());
         }
         let kind = if upright {
             asset_id.to_owned()

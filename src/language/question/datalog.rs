@@ -3,7 +3,7 @@
 use crate::language::words::Language;
 use crate::map::{DoorStatus, Entity};
 
-use super::knowledge::{FURNITURE, Knowledge, bases};
+use super::knowledge::{FURNITURE, Knowledge, NO_FURNITURE, bases};
 use super::lexicon::Extension;
 use super::query::{Claim, Filter, Noun, Query, Rel, Restriction, Thing};
 use super::values::Property;
@@ -347,7 +347,9 @@ impl Rule<'_, '_> {
                 Extension::Things => add(format!("replica({term}, _, _, _, _)")),
                 Extension::Furniture => {
                     let used = FURNITURE.map(|t| format!("{has_trait}({term}, \"{t}\")"));
-                    let used = used.join(" ; ");
+                    let none = NO_FURNITURE.map(|t| format!("!{has_trait}({term}, \"{t}\")"));
+                    let holds = format!("{has_trait}({term}, \"container\"), {}", none.join(", "));
+                    let used = format!("{} ; {holds}", used.join(" ; "));
                     add(format!("({used}), !{has_trait}({term}, \"portable\")"));
                 }
                 Extension::Rooms => add(format!("area({term}, _)")),
@@ -563,7 +565,7 @@ impl Rule<'_, '_> {
             let name = self.relation(basis.relation);
             let (a, b) = if basis.swapped { (other, term) } else { (term, other) };
             let shelves = match basis.of_support {
-                true => format!(", {}({other}, \"support\")", self.relation("HAS_TRAIT")),
+                true => format!(", {}({other}, \"shelves\")", self.relation("HAS_TRAIT")),
                 false => String::new(),
             };
             format!("{name}({a}, {b}){shelves}")

@@ -8,7 +8,7 @@ use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
 use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Case, alternatives, enumerate};
+use crate::language::words::{Case, alternatives, enumerate, everyday};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -151,6 +151,8 @@ impl Knowledge<'_> {
                     .map(|n| if russian { format!("«{n}»") } else { format!("\"{n}\"") })
                     .collect();
                 let reference = tidy(reference);
+                let named = everyday::nominative(&crate::units::name_key(&reference));
+                let reference = named.unwrap_or(reference);
                 let offer = match (offered.is_empty(), russian) {
                     (true, _) => String::new(),
                     (false, true) => {

@@ -43,6 +43,11 @@ impl Exchange {
         }
     }
 
+    /// What was asked of.
+    pub(super) fn topics(&self) -> &[Thing] {
+        &self.topics[..self.topics.len().min(1)]
+    }
+
     fn is_empty(&self) -> bool {
         self.topics.is_empty() && self.listed.is_empty()
     }
@@ -259,6 +264,7 @@ impl Knowledge<'_> {
         match pronoun {
             Pronoun::There => self.place_spoken_of().into_iter().collect(),
             Pronoun::They if last.len() > 1 => self.several_meant(rel),
+            Pronoun::They if let Some(pair) = self.last_pair() => pair,
             _ if self.memory.is_lost => Vec::new(),
             _ if let Some(sought) = self.sought_in_vain(pronoun) => sought,
             // "What can I write with and where is it?": each of them.
@@ -281,6 +287,16 @@ impl Knowledge<'_> {
         let anywhere = Noun { restrictions: Vec::new(), ..sought.clone() };
         let found = self.find(&anywhere, true).ok().filter(|_| named)?;
         found.iter().all(|t| self.agrees(pronoun, *t)).then_some(found).filter(|f| !f.is_empty())
+    }
+
+    /// «Где бита? А ракетка? Они на одной кровати?»: the things of the last two exchanges, one each.
+    fn last_pair(&self) -> Option<Vec<Thing>> {
+        let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
+        let one = |e: &Exchange| e.topics.first().copied().filter(|_| e.listed.is_empty());
+        let pair = [one(earlier)?, one(later)?];
+        let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
+        let differ = self.alike(&pair).is_none();
+        (differ && pair.iter().all(singular)).then(|| pair.to_vec())
     }
 
     /// What "them" means: the things of the last answer, else what was spoken of before, that may stand in the relation.

@@ -31,8 +31,26 @@ impl Asker<'_> {
         if let Some(query) = self.another_asked(&key, last, memory) {
             return Some(query);
         }
+        // «Сколько телевизоров? А на кухне есть?»
+        if let Some(placed) = text.trim_end_matches(['?', ' ']).strip_suffix(" есть")
+            && begins.iter().any(|b| key.starts_with(b))
+            && let Some(query) = self.continued(placed, memory)
+            && last
+                .sought()
+                .is_some_and(|old| query.sought().is_some_and(|noun| noun.head == old.head))
+        {
+            return Some(match query {
+                Query::Count(noun) | Query::Find(noun) if !noun.head.anything => {
+                    Query::Exists { what: vec![noun], either: false, negated: false }
+                }
+                query => query,
+            });
+        }
         let query = self.altogether(&key, last).or_else(|| self.counted_of_listed(text, memory));
         if let Some(query) = query {
+            return Some(query);
+        }
+        if let Some(query) = self.placed_there(text, last, memory) {
             return Some(query);
         }
         let of_those = self.asks_of_those(text);
@@ -101,6 +119,7 @@ impl Asker<'_> {
         query.each_noun(&mut |old| rooms |= self.is_room(old));
         // A room may narrow several nouns of the question: all that mean what is replaced.
         let mut replaced: Option<Noun> = None;
+        let stays = query.sought().is_some() && noun.restrictions.is_empty();
         query.each_noun(&mut |old| {
             let fits = match &replaced {
                 Some(first) => is_room && rooms && old == first,
@@ -108,10 +127,47 @@ impl Asker<'_> {
             };
             if fits {
                 replaced.get_or_insert_with(|| old.clone());
+                // «Сколько на кухне лопаток? А вилок?» stays in the kitchen.
+                let place = old.restrictions.iter().filter(|r| stays && self.is_of_rooms(r));
+                let place: Vec<Restriction> = place.cloned().collect();
                 *old = Noun { plural: noun.plural || old.plural, ..noun.clone() };
+                old.restrictions.extend(place);
             }
         });
         replaced.map(|_| query)
+    }
+
+    /// «Где бита? – … – Рядом с подушкой?»: whether it is at a place that is named alone.
+    fn placed_there(&self, text: &str, last: &Query, memory: &Memory) -> Option<Query> {
+        let asked = matches!(
+            last,
+            Query::Where(_) | Query::RoomOf(_) | Query::Anchor { .. } | Query::Holds { .. }
+        );
+        let [only] = memory.exchanges.first().filter(|_| asked)?.topics() else { return None };
+        let plain = self.plain(text);
+        let sentence = Sentence::new(&plain, &self.mind.lexicon);
+        let place = |item: &Item| match item {
+            Item::Place { nouns, .. } => nouns.iter().all(|phrase| phrase.pronoun.is_none()),
+            _ => false,
+        };
+        // «На чём стоит лампа? А на полу?» asks what is there.
+        let goes_on = ["а", "и", "and"].contains(&word_keys(text).first()?.as_str());
+        if goes_on
+            || !text.trim_end().ends_with('?')
+            || !matches!(&sentence.items()[..], [item] if place(item))
+        {
+            return None;
+        }
+        let knowledge = self.knowledge(sentence.language, memory);
+        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
+        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
+        let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
+        let subject = Noun::of(vec![*only]);
+        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
+    }
+
+    fn is_of_rooms(&self, place: &Restriction) -> bool {
+        matches!(place.rel, Rel::In | Rel::On) && place.anchors.iter().all(|a| self.is_room(a))
     }
 
     /// "Which one is bigger?", «Какой из них тяжелее?»: of the several things that the last answer told, or of those that
@@ -259,8 +315,10 @@ impl Asker<'_> {
 
     /// «А где вторая?», "And the other one?": the last question about what else there is of that kind.
     fn another_asked(&self, key: &str, last: &Query, memory: &Memory) -> Option<Query> {
-        const SMALL: [&str; 12] =
-            ["а", "и", "and", "what", "about", "how", "the", "one", "is", "s", "ones", "же"];
+        const SMALL: [&str; 14] = [
+            "а", "и", "and", "what", "about", "how", "the", "one", "is", "are", "s", "ones", "же",
+            "then",
+        ];
         const OTHER: [&str; 14] = [
             "другая",
             "другой",
@@ -287,7 +345,11 @@ impl Asker<'_> {
         if !OTHER.contains(only) {
             return None;
         }
-        let noun = self.others_of_last(memory)?;
+        let noun = match ["others", "остальные", "rest", "остальное", "другие"].contains(only)
+        {
+            true => self.rest_of_kind(memory).or_else(|| self.others_of_last(memory))?,
+            false => self.others_of_last(memory)?,
+        };
         if asks_where {
             return Some(Query::Where(noun));
         }

@@ -107,7 +107,11 @@ const CONCEPTS: &[(Extension, &str, &str)] = &[
     (Extension::Trait("container"), "ёмкость|контейнер|хранилище", "container|receptacle"),
     (Extension::Trait("light"), "светильник", "light fixture|luminaire"),
     (Extension::Lighting, "свет|освещение", "light|lighting"),
-    (Extension::Trait("device"), "прибор|устройство|техника", "device|appliance|gadget"),
+    (
+        Extension::Trait("device"),
+        "прибор|устройство|техника|бытовая техника|бытовой прибор|электроприбор",
+        "device|appliance|gadget",
+    ),
     (Extension::Trait("support"), "поверхность", "surface"),
     (Extension::Trait("movable"), "передвижная вещь", "movable object"),
     (Extension::Trait("portable"), "ноша", "portable thing|small object|small thing"),

@@ -10,6 +10,7 @@
 mod answer;
 mod assemble;
 mod compared;
+mod constructions;
 mod courtesy;
 mod datalog;
 mod doubts;
@@ -424,7 +425,7 @@ impl Asker<'_> {
     fn asks_whether_there_is(&self, text: &str) -> bool {
         let text = self.plain(text);
         let items = Sentence::new(&text, &self.mind.lexicon).items();
-        let other = [Mark::What, Mark::Which, Mark::HowMany, Mark::Where];
+        let other = [Mark::What, Mark::Which, Mark::HowMany, Mark::Where, Mark::Not];
         let compares = |item: &Item| matches!(item, Item::Mark(Mark::More(_) | Mark::Than));
         items.contains(&Item::Mark(Mark::Exists))
             && !items.iter().any(compares)
@@ -486,7 +487,15 @@ impl Asker<'_> {
             let had = || knowledge.had_by_rooms().filter(|_| pronoun == Pronoun::They && rooms);
             had().unwrap_or_else(|| knowledge.referent(pronoun, rel))
         };
-        assemble::query(&sentence, &self.mind.lexicon, &referent)
+        let mut query = assemble::query(&sentence, &self.mind.lexicon, &referent)?;
+        // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not"; the truth of a denial is not.
+        if sentence.language == Language::English
+            && !["true that", "correct that", "the case that"].iter().any(|w| text.contains(w))
+            && let Query::Holds { negated, .. } | Query::Exists { negated, .. } = &mut query
+        {
+            *negated = false;
+        }
+        Ok(query)
     }
 
     /// The query as a rule of the relations' Datalog.

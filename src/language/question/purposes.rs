@@ -195,7 +195,13 @@ pub(super) const SORTS: &[Sort] = &[
         "предмет электроники|электроника",
         "electronic device|electronics",
         Patient,
-        "television|computer|laptop|telephone|cell phone|phone|radio|printer|tablet|monitor|телевизор|компьютер|ноутбук|телефон|радио|принтер|монитор",
+        "television|computer|laptop|telephone|cell phone|phone|radio|printer|tablet|monitor|remote control|alarm clock|телевизор|компьютер|ноутбук|телефон|радио|принтер|монитор",
+    ),
+    sort(
+        "спортивный предмет|спортинвентарь|спортивный инвентарь|спорттовар",
+        "sports item|sports equipment|sports gear|sporting goods",
+        Patient,
+        "basketball|ball|baseball bat|bat|tennis racket|racket|dumbbell|мяч|бита|ракетка|гантель",
     ),
     sort(
         "игрушка",

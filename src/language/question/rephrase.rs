@@ -5,12 +5,13 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
+use super::constructions;
 use crate::language::words::{Language, word_ranges};
 use crate::units::name_key;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let mut plain = Cow::Borrowed(text);
+    let mut plain = constructions::plain(text).map_or(Cow::Borrowed(text), Cow::Owned);
     let rules = [
         locked,
         neither,
@@ -42,6 +43,8 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         put_it_down,
         doors_to_open,
         on_its_walls,
+        made_bed,
+        is_free,
     ];
     for rule in rules {
         if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
@@ -105,6 +108,53 @@ fn doors_to_open(words: &Words<'_>) -> Option<String> {
         "have to open any doors"
     };
     Some(words.replaced(vec![(asked.unwrap_or(first)..last + 1, plain.to_owned())]))
+}
+
+/// «Кровать застелена?», "Are all the beds made?": a made bed is kept as a clean one.
+fn made_bed(words: &Words<'_>) -> Option<String> {
+    const BEDS: &[&str] = &["bed", "beds", "кровать", "кровати", "постель", "постели"];
+    const MADE: &[(&str, &str)] = &[
+        ("застелен", "чист"),
+        ("заправлен", "чист"),
+        ("убран", "чист"),
+        ("незастелен", "грязн"),
+        ("незаправлен", "грязн"),
+        ("неубран", "грязн"),
+        ("расстелен", "грязн"),
+    ];
+    words.find(BEDS)?;
+    let last = words.keys.len() - 1;
+    match words.keys[last].as_str() {
+        "made" => return Some(words.replaced(vec![(last..last + 1, "clean".to_owned())])),
+        "unmade" => return Some(words.replaced(vec![(last..last + 1, "dirty".to_owned())])),
+        _ => {}
+    }
+    words.keys.iter().enumerate().find_map(|(n, key)| {
+        let (stem, plain) = MADE.iter().find(|(stem, _)| key.starts_with(stem))?;
+        let ending = key[stem.len()..].trim_start_matches('н');
+        Some(words.replaced(vec![(n..n + 1, format!("{plain}{ending}"))]))
+    })
+}
+
+/// «Он свободен?», «Правда ли, что в холодильнике пусто?»: whether nothing is there.
+fn is_free(words: &Words<'_>) -> Option<String> {
+    const OTHER: &[&str] = &["сколько", "что", "где", "место", "мест", "места", "какой", "какие"];
+    let last = words.keys.len() - 1;
+    let begins = if words.is(0, &["правда", "верно"]) { 3 } else { 0 };
+    if (begins..last).any(|n| words.is(n, OTHER)) || last == 0 {
+        return None;
+    }
+    let plain = match words.keys[last].as_str() {
+        "свободен" => "пуст",
+        "свободна" => "пуста",
+        "свободно" => "пусто",
+        "свободны" => "пусты",
+        "пусто" if (begins..last).any(|n| words.is(n, &["в", "во", "на"])) => {
+            "ничего нет"
+        }
+        _ => return None,
+    };
+    Some(words.replaced(vec![(last..last + 1, plain.to_owned())]))
 }
 
 /// "Which room has the most pictures on its walls?": pictures in a room hang on its walls.

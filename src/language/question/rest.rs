@@ -74,6 +74,15 @@ impl Asker<'_> {
         self.knowledge(memory.language, memory).alike(&told)
     }
 
+    /// What there is of that kind besides what was told.
+    pub(super) fn rest_of_kind(&self, memory: &Memory) -> Option<Noun> {
+        let kind = self.kind_told(memory).filter(|_| memory.last.len() > 1)?;
+        let noun = Noun { head: Head { kinds: vec![kind], ..Head::default() }, ..Noun::default() };
+        let rest = self.but(noun, &memory.last);
+        let left = self.knowledge(memory.language, memory).find(&rest, true).ok()?;
+        (!left.is_empty()).then_some(rest)
+    }
+
     /// What the last question sought, in its own words.
     fn as_asked(&self, memory: &Memory) -> Option<Noun> {
         let sought = memory.query.as_ref()?.sought().filter(|noun| !noun.head.anything)?;

@@ -16,7 +16,7 @@ use super::query::{Filter, Noun, Rel, Restriction, Thing};
 use super::values::{Property, ValueId};
 
 /// More than this is not listed one by one.
-const LISTED: usize = 12;
+const LISTED: usize = 20;
 
 impl Knowledge<'_> {
     pub(super) fn is_russian(&self) -> bool {
@@ -345,7 +345,7 @@ impl Knowledge<'_> {
         }
     }
 
-    /// «чёрных стульев», "black chairs": of which there are none.
+    /// «чёрных стульев», "black chairs", «мыла»: of which there are none.
     pub(super) fn none_of(&self, noun: &Noun) -> String {
         if noun.head.named.is_empty() && noun.head.things.is_some() {
             return self.names(&self.base(&noun.head), Case::Genitive);
@@ -357,10 +357,18 @@ impl Knowledge<'_> {
             return self.pick("ничего", "nothing").to_owned();
         }
         match self.language {
-            Language::Russian => lower_first(
-                &self.declined(noun, &|phrase| phrase.form(Case::Genitive, Number::Plural)),
-            ),
-            Language::English => english::plural(&self.kind_phrase(noun).1),
+            Language::Russian => {
+                let number = |phrase: &NounPhrase| match is_mass(phrase) {
+                    true => Number::Singular,
+                    false => Number::Plural,
+                };
+                let form = |phrase: &NounPhrase| phrase.form(Case::Genitive, number(phrase));
+                lower_first(&self.declined(noun, &form))
+            }
+            Language::English => {
+                let (_, name) = self.kind_phrase(noun);
+                if is_mass_in_english(&name) { name } else { english::plural(&name) }
+            }
         }
     }
 
@@ -595,4 +603,18 @@ pub(super) fn sentence(text: &str) -> String {
     let text = text.trim();
     let stop = if text.is_empty() || text.ends_with(['.', '?', '!', '…']) { "" } else { "." };
     format!("{}{stop}", capitalized(text))
+}
+
+/// Whether people do not count what a Russian phrase names: «нет мыла».
+fn is_mass(phrase: &NounPhrase) -> bool {
+    const MASS: [&str; 9] =
+        ["мыло", "хлеб", "соль", "вино", "салат", "бумага", "еда", "посуда", "обувь"];
+    let head = phrase.head().unwrap_or(phrase.name()).to_lowercase();
+    MASS.contains(&head.as_str())
+}
+
+/// "no bread"
+fn is_mass_in_english(name: &str) -> bool {
+    const MASS: [&str; 7] = ["bread", "lettuce", "soap", "paper", "food", "wine", "salt"];
+    name.rsplit(' ').next().is_some_and(|head| MASS.contains(&head))
 }

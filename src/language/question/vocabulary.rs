@@ -129,7 +129,7 @@ const WORDS: &[(Mark, &str)] = &[
         "keep|keeps|kept|живёт|живут|обитает|lives|live|living in|является|являются|осталось|остался|осталась|остались|остаётся|ли|is|are|was|were|be|been|being|s|находится|находятся|находилась|находился|находилось|находились|располагается|располагаются|находишься|находитесь|стоишь|расположен|расположена|расположено|расположены|стоит|стоят|стоящий|стоящая|стоящее|стоящие|\
         стоял|стояла|стояло|стояли|лежит|лежат|лежал|лежала|лежало|лежали|лежащая|лежащий|лежащее|лежащие|висящий|висящая|хранится|хранятся|был|была|было|были|размещается|размещён|размещена|поставлен|\
         поставлена|сейчас находится|находящийся|находящаяся|находящееся|находящиеся|содержится|содержатся|положен|положена|положили|прячется|\
-        stand|stands|standing|lie|lies|lying|sits|sitting|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
+        stand|stands|standing|lie|lies|lying|sits|sitting|located|situated|placed|kept|stored|found|positioned|currently|rest|rests|resting|stay|stays|been placed|laying|find|can i find|can we find|would i find|will i find|i can find|i could find|one can find|did i leave|did someone leave|did somebody leave|did anyone leave|did they leave|did he leave|did she leave|did someone put|did somebody put|did they put|was left|were left|did i put|did i keep|have i left|have i put|did we leave|did you put|did you leave|\
         я оставил|я оставила|я положил|я положила|я поставил|оставил|оставила|мы оставили|делся|девался|девалась",
     ),
     (

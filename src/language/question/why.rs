@@ -4,11 +4,13 @@ use crate::facts::{Because, Premise, Proof, Value, WhyNot};
 use crate::language::words::{Case, Gender, Language, Number, enumerate};
 
 use super::answer::Draft;
+use super::compared::Extreme;
 use super::knowledge::Knowledge;
 use super::lexicon::lower_first;
-use super::query::{Noun, Query, Rel, Thing};
+use super::query::{Noun, Passing, Query, Rel, Thing};
 use super::{Doubt, Fact, Said};
 use crate::language::words::length;
+use crate::map::Entity;
 
 /// Measurements said in one sentence, at most.
 const SAID: usize = 4;
@@ -27,6 +29,12 @@ impl Knowledge<'_> {
                     return Ok(self.absent(query).unwrap_or_else(plain));
                 }
                 answer.facts
+            }
+            (None, _, Some(Query::Passing { from, to, asks: Passing::Directly, .. })) => {
+                return self.not_joined(from.as_ref(), to);
+            }
+            (None, _, Some(Query::Find(noun))) if let Some(order) = self.order(noun) => {
+                return Ok(order);
             }
             (None, Some(said), Some(query)) if self.memory.facts.is_empty() => {
                 let plain = || self.why_plain(said, &self.memory.spoken);
@@ -62,6 +70,53 @@ impl Knowledge<'_> {
         let mut draft = Draft::plain(Said::Found, text);
         draft.rest_on(fact.clone());
         Ok(draft)
+    }
+
+    /// "Why can't I go there directly?": no door joins the two.
+    fn not_joined(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
+        let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
+        let room = |t: Thing| {
+            let area = t.area().or_else(|| self.area_of(t));
+            area.map(|id| Thing::Entity(Entity::Area(id)))
+        };
+        let ends = [room(start), room(self.one(to)?)].into_iter().flatten().collect::<Vec<_>>();
+        let place = self.place(Rel::Between, &ends);
+        let joined = |g: &&super::knowledge::Gate| {
+            ends.iter().filter_map(|t| t.area()).all(|area| g.areas.contains(&area))
+        };
+        let text = match (self.gates().iter().find(joined), self.is_russian()) {
+            (Some(gate), true) => format!("{place} – {}", self.name(gate.thing)),
+            (Some(gate), false) => format!("{} is {place}", self.name(gate.thing)),
+            (None, true) => format!("{place} нет ни двери, ни прохода"),
+            (None, false) => format!("there is no door or passage {place}"),
+        };
+        Ok(Draft::plain(Said::Found, text))
+    }
+
+    /// «Что ближе всего к холодильнику? Почему?»: how near it is, and the next one.
+    fn order(&self, noun: &Noun) -> Option<Draft> {
+        let best = noun.best.as_ref()?;
+        let anchor = match (&best.anchor, best.extreme) {
+            (Some(anchor), Extreme::Nearest | Extreme::Farthest) => self.one(anchor).ok()?,
+            _ => return None,
+        };
+        let first = *self.memory.last.first()?;
+        let others =
+            Noun { best: None, rank: None, except: vec![Noun::of(vec![first])], ..noun.clone() };
+        let mut next = Noun { best: Some(best.clone()), ..others };
+        next.indefinite = true;
+        let next = *self.find(&next, true).ok()?.first()?;
+        let away = |t: Thing| self.distance(t, anchor).map(|away| length(away, self.language));
+        let (near, far) = (away(first)?, away(next)?);
+        let (name, other) = (self.name(first), self.name(next));
+        let text = match self.is_russian() {
+            true => format!(
+                "до {} {near}, а до следующего, {other}, {far}",
+                self.form(first, Case::Genitive)
+            ),
+            false => format!("{name} is {near} away, and the next one, {other}, {far}"),
+        };
+        Some(Draft::plain(Said::Found, text).with(vec![first]))
     }
 
     /// «В гостиной нет стульев. Почему?»: where they are instead.
@@ -241,7 +296,7 @@ impl Knowledge<'_> {
                         };
                         let share =
                             if all { "all".to_owned() } else { format!("{:.0} %", percent(5)) };
-                        format!("the foot of {a} {gap} and {share} of it is over that")
+                        format!("the bottom of {a} {gap} and {share} of it lies over that")
                     }
                 }
             }
@@ -269,11 +324,18 @@ impl Knowledge<'_> {
             ("sector", false) => {
                 format!("{a} is at {:.0}° from the front of {b}, {} away", number(2), cm(3))
             }
-            ("standing_in", true) => {
-                format!("середина {a} лежит в границах {b}, на высоте {} от пола", cm(2))
-            }
-            ("standing_in", false) => {
-                format!("{a} stands within the bounds of {b}, {} above its floor", cm(2))
+            ("standing_in", russian) => {
+                let above = number(2).abs() >= 0.05;
+                match (russian, above) {
+                    (true, true) => {
+                        format!("место {a} – в границах {b}, на высоте {} от пола", cm(2))
+                    }
+                    (true, false) => format!("место {a} – в границах {b}"),
+                    (false, true) => {
+                        format!("{a} stands within the bounds of {b}, {} above its floor", cm(2))
+                    }
+                    (false, false) => format!("{a} stands within the bounds of {b}"),
+                }
             }
             ("off_area", true) => format!("от {a} до стены {b} {}", cm(2)),
             ("off_area", false) => format!("{a} is in the wall, {} from {b}", cm(2)),
@@ -340,6 +402,15 @@ impl Knowledge<'_> {
             true => format!("{name} не {is} {place}"),
             false => format!("{name} {is} not {place}"),
         })
+    }
+
+    /// «её», of what is not seen
+    pub(super) fn pronoun_of(&self, thing: Thing) -> &'static str {
+        match self.pronoun(thing) {
+            "она" => "её",
+            "они" => "их",
+            _ => "его",
+        }
     }
 
     /// «она», "it"

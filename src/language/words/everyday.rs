@@ -26,7 +26,7 @@ const SAME: &[&str] = &[
     "мешок для мусора|мусорный мешок|мусорный пакет|пакет для мусора|пакет с мусором|мешок с мусором|garbage bag|trash bag|rubbish bag|bin bag|bin liner",
     "распылитель|пульверизатор|опрыскиватель|спрей|spray bottle|sprayer bottle|spray|sprayer|cleaning spray|бутылка с распылителем",
     "будильник|alarm clock|alarm",
-    "жидкое мыло|флакон мыла|флакон с мылом|дозатор мыла|soap bottle|liquid soap|hand soap|soap dispenser|дозатор|дозатор для мыла",
+    "жидкое мыло|флакон мыла|флакон с мылом|дозатор мыла|soap bottle|liquid soap|hand soap|soap dispenser|дозатор|дозатор для мыла|бутылка мыла|бутылка с мылом|бутылочка мыла|бутылка жидкого мыла|мыльница",
     "туалет|санузел|уборная|wc|toilet|lavatory|restroom|washroom|loo|bathroom",
     "унитаз|toilet|loo|wc|туалет",
     "ванная|ванная комната|санузел|bathroom|washroom",
@@ -70,7 +70,7 @@ const SAME: &[&str] = &[
     "табурет|табуретка|stool",
     "губка|губка для посуды|губка для мытья посуды|sponge|dish sponge",
     "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet|tennis racquet",
-    "нож|столовый нож|knife|butter knife|table knife",
+    "нож|столовый нож|knife|butter knife|table knife|нож для масла|кухонный нож|kitchen knife",
     "офисное кресло|офисный стул|рабочее кресло|office chair|desk chair|swivel chair",
     "кредитная карта|кредитная карточка|кредитка|банковская карта|credit card|bank card",
     "ключи|связка ключей|брелок|keys|keychain|key chain|key ring|bunch of keys",
@@ -151,6 +151,22 @@ pub(crate) fn same_things(key: &str) -> Vec<String> {
         }
     }
     found
+}
+
+/// Whether a word is a name of things in this list, in any form; the text in [`name_key`] form.
+pub(crate) fn is_a_thing(key: &str) -> bool {
+    forms().contains_key(key)
+}
+
+/// «нож» for «ножа»: the name of this list of which a Russian word is a form; the text in [`name_key`] form.
+pub(crate) fn nominative(key: &str) -> Option<String> {
+    let &(group, number, case) = forms().get(key)?.first()?;
+    let of = |word: &&str| Language::of(word) == Language::Russian;
+    let names = SAME[group].split('|').filter(of);
+    names
+        .filter(|word| name_key(&in_form(word, number, case)) == key)
+        .map(|word| in_form(word, number, Case::Nominative))
+        .next()
 }
 
 /// So many words make the longest of them.

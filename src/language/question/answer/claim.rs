@@ -8,6 +8,7 @@ use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
 use crate::language::question::values::Property;
+use crate::language::question::values::ValueId;
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Number, enumerate};
 use crate::map::{DoorStatus, Entity};
@@ -124,6 +125,9 @@ impl Knowledge<'_> {
             if subject.head.kinds.iter().any(lit) {
                 return self.say_lighting(subject, filter.value, negated);
             }
+        }
+        if let Some((subject, claims)) = self.room_of_claims(subject, claims) {
+            return self.say_holds(&subject, &claims, negated);
         }
         // «Комод в ванной?» where there are several: whether one of them is.
         let places = claims.iter().all(|c| matches!(c, Claim::Related(r) if !r.negated));
@@ -247,6 +251,42 @@ impl Knowledge<'_> {
             fits |= all;
         }
         Ok(fits)
+    }
+
+    /// "Is the watch on the dresser in the bedroom?" where no watch is in the bedroom: the room tells of the dresser.
+    fn room_of_claims(&self, subject: &Noun, claims: &[Claim]) -> Option<(Noun, Vec<Claim>)> {
+        let rooms = |r: &Restriction| {
+            let area = |t: &Thing| t.area().is_some();
+            let named = |a: &Noun| self.find(a, true).is_ok_and(|all| all.iter().all(area));
+            r.rel == Rel::In && !r.negated && r.anchors.iter().all(named)
+        };
+        let told = !subject.restrictions.is_empty() && subject.restrictions.iter().all(rooms);
+        let none = told && self.find(subject, true).is_ok_and(|found| found.is_empty());
+        if !none || claims.is_empty() {
+            return None;
+        }
+        let anywhere = Noun { restrictions: Vec::new(), ..subject.clone() };
+        let mut placed = claims.to_vec();
+        for claim in &mut placed {
+            let Claim::Related(restriction) = claim else { return None };
+            for anchor in &mut restriction.anchors {
+                anchor.restrictions.retain(|r| !subject.restrictions.contains(r));
+                anchor.restrictions.extend(subject.restrictions.iter().cloned());
+            }
+        }
+        self.find(&anywhere, true)
+            .is_ok_and(|found| !found.is_empty())
+            .then_some((anywhere, placed))
+    }
+
+    /// «закрыта (заперта)»: where the map says more than was asked.
+    fn as_asked(&self, thing: Thing, value: ValueId) -> Option<String> {
+        let values = &self.lexicon().values;
+        let locked = self.value(values.meaning("запертый")?, thing);
+        let stronger = values.entry(value).russian == "закрытый"
+            && self.own_value(thing, value).is_some_and(|own| own == locked);
+        let is = if self.is_russian() { "" } else { "is " };
+        stronger.then(|| format!("{is}{} ({locked})", self.value(value, thing)))
     }
 
     /// «ни Пульт-1, ни Пульт-2»
@@ -483,7 +523,7 @@ impl Knowledge<'_> {
     pub(in crate::language::question) fn own_value(
         &self,
         thing: Thing,
-        asked: crate::language::question::values::ValueId,
+        asked: ValueId,
     ) -> Option<String> {
         let values = &self.lexicon().values;
         let all = self.values(thing);
@@ -529,7 +569,14 @@ impl Knowledge<'_> {
                 if holds && (why.is_empty() || why.iter().any(|fact| !own.contains(fact))) {
                     own.extend(why);
                     let words = self.claim_words(thing, claim)?;
-                    // What is locked is closed too: once is enough.
+                    // What is locked is closed too: once is enough, in the word that was asked with.
+                    let words = match claim {
+                        Claim::Value(filter) if !filter.negated => {
+                            self.as_asked(thing, filter.value)
+                        }
+                        _ => None,
+                    }
+                    .unwrap_or(words);
                     if !fits.contains(&words) {
                         fits.push(words);
                     }

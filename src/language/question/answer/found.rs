@@ -491,6 +491,10 @@ impl Knowledge<'_> {
         }
         let list = self.list(things);
         let general = noun.head.anything || noun.head.kinds.is_empty();
+        // "Is there a room without windows?"
+        if self.is_having(noun) && things.iter().all(|t| t.area().is_some()) {
+            return list;
+        }
         // «есть 6 стульев без вещей»
         if self.is_russian() && self.is_having(noun) && !general {
             return format!("есть {} {place}: {list}", self.counted(noun, things.len()));

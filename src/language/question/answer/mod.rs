@@ -88,14 +88,9 @@ impl Knowledge<'_> {
             Query::RoomOf(noun) => self.room_of(noun)?,
             Query::Find(noun) => self.say_found(noun)?,
             Query::Count(noun) => self.count(noun)?,
-            // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not".
-            Query::Exists { what, either, negated } => {
-                // "Is that all?" denies that there are others.
-                let others = what.iter().any(|noun| !noun.except.is_empty());
-                self.exists(what, *either, *negated && (self.is_russian() || others))?
-            }
+            Query::Exists { what, either, negated } => self.exists(what, *either, *negated)?,
             Query::Holds { subject, claims, negated } => {
-                self.say_holds(subject, claims, *negated && self.is_russian())?
+                self.say_holds(subject, claims, *negated)?
             }
             Query::Choice { subject, claims } => self.choose(subject, claims)?,
             Query::Anchor { rel, of, what } => self.anchor(*rel, of, what.as_ref())?,

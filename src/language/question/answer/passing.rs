@@ -65,16 +65,17 @@ impl Knowledge<'_> {
         };
         let yes = self.pick("да", "yes");
         let no = self.pick("нет", "no");
+        let leads = self.pick("путь ведёт", "the way leads");
         let (said, text) = match (asks, way) {
             (Passing::Doors | Passing::Rooms, Some(way)) => {
                 return Ok(self.passed(&way, asks).about(&[goal]));
             }
             (Passing::How, Some(way)) => (Said::Found, self.told(&way)),
             (Passing::Directly, _) if any.crossings.len() <= 1 => {
-                (Said::Yes, format!("{yes}, {}", self.told(&any)))
+                (Said::Yes, format!("{yes}, {leads} {}", self.told(&any)))
             }
-            (Passing::Directly, _) => (Said::No, format!("{no}, {}", self.told(&any))),
-            (Passing::Must, Some(way)) => (Said::No, format!("{no}, {}", self.told(&way))),
+            (Passing::Directly, _) => (Said::No, format!("{no}, {leads} {}", self.told(&any))),
+            (Passing::Must, Some(way)) => (Said::No, format!("{no}, {leads} {}", self.told(&way))),
             (Passing::Must, None) => {
                 let text = self.pick("да, другого пути нет", "yes, there is no other way");
                 (Said::Yes, format!("{text}: {}", self.told(&any)))
@@ -87,7 +88,7 @@ impl Knowledge<'_> {
             (Passing::Whether | Passing::Unopened, Some(way)) => {
                 match self.blocked(start, goal, &way) {
                     Some(why) => (Said::No, format!("{no}: {why}")),
-                    None => (Said::Yes, format!("{yes}, {}", self.told(&way))),
+                    None => (Said::Yes, format!("{yes}, {leads} {}", self.told(&way))),
                 }
             }
             (_, None) => {

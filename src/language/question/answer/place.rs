@@ -345,6 +345,7 @@ impl Knowledge<'_> {
         let found = self.definite(noun)?;
         let mut rooms: Vec<Thing> = Vec::new();
         let mut parts: Vec<String> = Vec::new();
+        let mut by_room: Vec<(Thing, Vec<Thing>)> = Vec::new();
         let mut facts = Vec::new();
         let several = self.world.maps.len() > 1;
         for &thing in &found {
@@ -377,6 +378,14 @@ impl Knowledge<'_> {
             } else {
                 self.place(Rel::In, &areas)
             };
+            if self.gate(thing).is_none() && thing.area().is_none() {
+                match by_room.iter_mut().find(|(room, _)| *room == first) {
+                    Some((_, things)) => things.push(thing),
+                    None => by_room.push((first, vec![thing])),
+                }
+                rooms.extend(Some(first).filter(|room| !rooms.contains(room)));
+                continue;
+            }
             let mut part = format!("{name} {} {place}", self.is(&[thing]));
             if several && let Some((map, _)) = first.area().and_then(|a| self.world.placement(a)) {
                 let map = Thing::Entity(Entity::Map(map));
@@ -391,6 +400,13 @@ impl Knowledge<'_> {
                     rooms.push(area);
                 }
             }
+        }
+        for (room, things) in &by_room {
+            let place = self.place(Rel::In, &[*room]);
+            let storey = room.area().and_then(|a| self.world.placement(a)).filter(|_| several);
+            let storey = storey.map(|(map, _)| self.name(Thing::Entity(Entity::Map(map))));
+            let storey = storey.map(|name| format!(" ({name})")).unwrap_or_default();
+            parts.push(format!("{} {} {place}{storey}", self.list(things), self.is(things)));
         }
         let text = parts.join("; ");
         let said = if rooms.is_empty() { Said::Unknown } else { Said::Found };

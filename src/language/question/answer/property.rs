@@ -44,11 +44,7 @@ impl Knowledge<'_> {
             return Ok(draft);
         }
         if self.is_floor(of) || self.is_walls(of) {
-            let text = self.pick(
-                "о полах и стенах карта этого не говорит",
-                "the map does not tell that of floors and walls",
-            );
-            return Ok(Draft::new(Said::Unknown, text.to_owned()));
+            return self.property_of_surface(property, of);
         }
         let found = self.definite(of)?;
         let mut parts: Vec<String> = Vec::new();
@@ -104,6 +100,55 @@ impl Knowledge<'_> {
     }
 
     /// «Чашка-1 белая», "Cup 1 is made of glass": what a thing has of a property, of which the words are given.
+    /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.
+    fn property_of_surface(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
+        let mut rooms: Vec<Thing> = Vec::new();
+        for anchor in of.restrictions.iter().flat_map(|place| &place.anchors) {
+            rooms.extend(self.definite(anchor)?.into_iter().filter(|t| t.area().is_some()));
+        }
+        if of.restrictions.is_empty() {
+            rooms.extend(self.area_of(Thing::Robot).map(|id| Thing::Entity(Entity::Area(id))));
+        }
+        if rooms.is_empty() {
+            return Err(Doubt::NotUnderstood { words: of.text.clone() });
+        }
+        let (surface, russian, english) = match self.is_floor(of) {
+            true => ("ПОЛА", "пола", "the floor"),
+            false => ("СТЕН", "стен", "the walls"),
+        };
+        let own = property.noun(Language::Russian);
+        let key = Property::of(&format!("{own} {surface}"));
+        let mut known = false;
+        let mut parts = Vec::new();
+        for &room in &rooms {
+            let place = self.place(Rel::In, &[room]);
+            let value = self.values(room).into_iter().find(|(p, _, _)| *p == key);
+            let english_own = property.noun(Language::English);
+            let Some((_, _, text)) = value else {
+                parts.push(match self.is_russian() {
+                    true => format!("{own} {russian} {place} на карте не указан"),
+                    false => {
+                        format!("the map does not give the {english_own} of {english} {place}")
+                    }
+                });
+                continue;
+            };
+            known = true;
+            let value = text.to_lowercase();
+            parts.push(match self.is_russian() {
+                true => format!("{own} {russian} {place} – {value}"),
+                false => {
+                    let entry = self.lexicon().values.meaning(&value);
+                    let value = entry.map(|id| self.lexicon().values.entry(id).english.clone());
+                    let value = value.unwrap_or_else(|| text.to_lowercase());
+                    format!("the {english_own} of {english} {place} is {value}")
+                }
+            });
+        }
+        let said = if known { Said::Found } else { Said::Unknown };
+        Ok(Draft::new(said, enumerate(&parts, self.language)).about(&rooms))
+    }
+
     fn property_words(&self, thing: Thing, property: &Property, words: &str) -> String {
         let name = self.name(thing);
         match (self.is_russian(), property) {
@@ -215,6 +260,10 @@ impl Knowledge<'_> {
                 let id = text.contains('|') || text.chars().all(|c| c.is_ascii_digit());
                 value.is_some() && !id
             })
+            // The colour of its floor is none of the room.
+            .filter(|(property, _, _)| {
+                !matches!(property, Property::Other(name) if is_of_surface(name))
+            })
             .map(|(property, value, text)| {
                 let of_language = |value: &ValueId| {
                     let sort = &self.lexicon().values.entry(*value).property;
@@ -325,4 +374,9 @@ pub(super) fn status_word(status: DoorStatus) -> &'static str {
         DoorStatus::Closed => "closed",
         DoorStatus::Locked => "locked",
     }
+}
+
+/// «цвет пола», "colour of the walls": what a map keeps of a room's surfaces.
+fn is_of_surface(name: &str) -> bool {
+    name.ends_with(" пола") || name.ends_with(" стен")
 }

@@ -21,10 +21,14 @@ impl Knowledge<'_> {
             let place = self.short_place(thing, &mut Vec::new());
             let text = match self.is_russian() {
                 true => {
-                    let seen = self.form(thing, Case::Genitive);
-                    format!("сам я {seen} не видел; по карте {name} {} {place}", self.is(&[thing]))
+                    let it = self.pronoun_of(thing);
+                    format!("по карте {name} {} {place}; сам я {it} не видел", self.is(&[thing]))
                 }
-                false => format!("I have not seen {name} myself; by the map it is {place}"),
+                false => {
+                    let it = if self.is(&[thing]) == "are" { "them" } else { "it" };
+                    let is = self.is(&[thing]);
+                    format!("by the map {name} {is} {place}; I have not seen {it} myself")
+                }
             };
             return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
         };

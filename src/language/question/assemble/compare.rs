@@ -85,8 +85,14 @@ impl Frame<'_, '_> {
         let rooms = self.nouns.iter().filter(|s| self.is_area(&s.noun) && !self.is_rooms(&s.noun));
         let rooms: Vec<(Rel, &Noun)> = rooms.map(|s| (Rel::In, &s.noun)).collect();
         let either = self.spots.iter().any(|s| s.either);
+        // «Стульев больше, чем столов?» asks nothing with its «чем».
+        let than = self.sentence.keys.iter().any(|key| key == "чем");
+        let asked = self
+            .marks
+            .iter()
+            .any(|(mark, n)| matches!(mark, Mark::What | Mark::Which) && !(than && *n > at));
         let asks = self.has(Mark::Where)
-            || self.asks()
+            || asked
             || self.has(Mark::Or)
             || self.has(Mark::HowMany)
             || either;

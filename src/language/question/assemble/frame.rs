@@ -15,6 +15,7 @@ use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Sid
 use crate::language::question::uses;
 use crate::language::question::values::{Property, ValueId};
 use crate::language::report::Detail;
+use crate::language::words::everyday;
 
 /// Whether a sentence names one place only, from which something is told.
 fn is_only_from(items: &[Item]) -> bool {
@@ -310,6 +311,16 @@ impl<'s, 't> Frame<'s, 't> {
         counted
     }
 
+    /// "pepper shaker": the name of things that people have, of which the map has none.
+    fn thing_unknown(&self, words: &std::ops::Range<usize>) -> Option<String> {
+        let last = self.sentence.words.len().min(words.start + everyday::LONGEST);
+        let longest = (words.start + 1..=last).rev().find_map(|end| {
+            let said = self.sentence.said(&(words.start..end));
+            everyday::is_a_thing(&crate::units::name_key(said)).then_some(said)
+        });
+        longest.map(str::to_owned)
+    }
+
     /// Words that nothing knows: a name that the map lacks, or no word at all.
     fn unknown(&self, words: &std::ops::Range<usize>, next: Option<&Item>) -> Doubt {
         // «Комната-X»: the noun before the hyphen belongs to the name that is not there.
@@ -325,6 +336,11 @@ impl<'s, 't> Frame<'s, 't> {
         let said = self.sentence.said(&words);
         // Letters that look alike make «тен» of "teh": a word is like those of its own alphabet.
         let latin = |text: &str| text.starts_with(|c: char| c.is_ascii());
+        // "Sofa" is no slip for "soft".
+        let thing = self.thing_unknown(&words);
+        if let Some(reference) = thing {
+            return Doubt::Unknown { reference, near: Vec::new() };
+        }
         let alike = self.lexicon.nouns.near(said, 3).into_iter();
         let mut near: Vec<String> = Vec::new();
         // A word within a word is not like it: "table" in "comfortable".

@@ -22,8 +22,21 @@ impl Frame<'_, '_> {
         let partners: Vec<Noun> = with.flat_map(|s| s.nouns.iter().cloned()).collect();
         let asked = self.nouns.iter().find(|s| s.at < spot.at && self.follows_which(s.at));
         if self.asks() && (asked.is_some() || self.nouns.iter().all(|s| s.at > spot.at)) {
-            let later = self.nouns.iter().filter(|s| s.at > spot.at).map(|s| s.noun.clone());
-            let partner = later.chain(partners).next()?;
+            let later =
+                self.nouns.iter().filter(|s| s.at > spot.at).map(|s| (s.at, s.noun.clone()));
+            let partners = partners.into_iter().map(|noun| (spot.at, noun));
+            let (at, mut partner) = later.chain(partners).next()?;
+            // "as the laptop in the bedroom"
+            let rooms = self.spots.iter().filter(|s| {
+                s.at > at
+                    && matches!(s.rel, Rel::In | Rel::On)
+                    && s.nouns.iter().all(|noun| self.is_area(noun))
+            });
+            partner.restrictions.extend(rooms.map(|s| Restriction {
+                rel: s.rel,
+                anchors: s.nouns.clone(),
+                negated: s.negated,
+            }));
             return Some(self.sharing(asked.map(|s| s.noun.clone()), place, spot.rel, partner));
         }
         let mut of: Vec<Noun> = self.nouns.iter().map(|s| s.noun.clone()).collect();

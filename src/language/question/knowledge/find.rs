@@ -129,6 +129,13 @@ impl Knowledge<'_> {
                 Rel::NextTo if !noun.head.kinds.is_empty() => {
                     self.standing_at(restriction, &found, loose)?
                 }
+                // «Что стоит рядом со столом?»: chairs too that are pushed under it.
+                Rel::NextTo if noun.head.anything => {
+                    let seat =
+                        |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "seat"));
+                    let seats: Vec<Thing> = found.iter().copied().filter(seat).collect();
+                    self.standing_at(restriction, &seats, loose)?
+                }
                 _ => Vec::new(),
             };
             found.retain(|t| (related.contains(t) || at.contains(t)) != restriction.negated);

@@ -9,8 +9,9 @@ use crate::map::Entity;
 use crate::units::{ObjectId, ReplicaId};
 
 /// What furniture is for; a picture or a television set is none.
-pub(in crate::language::question) const FURNITURE: [&str; 4] =
-    ["support", "container", "seat", "bed"];
+pub(in crate::language::question) const FURNITURE: [&str; 3] = ["support", "seat", "bed"];
+/// What only holds things is furniture unless it is one of these: a bin, a microwave.
+pub(in crate::language::question) const NO_FURNITURE: [&str; 2] = ["movable", "device"];
 
 impl Knowledge<'_> {
     /// Everything of a kind.
@@ -49,7 +50,9 @@ impl Knowledge<'_> {
             }
             Extension::Things => self.world.replicas.keys().map(replica).collect(),
             Extension::Furniture => {
-                let used = |id| FURNITURE.iter().any(|wanted| self.world.has_trait(id, wanted));
+                let has_any = |id, of: &[&str]| of.iter().any(|t| self.world.has_trait(id, t));
+                let holds = |id| has_any(id, &["container"]) && !has_any(id, &NO_FURNITURE);
+                let used = |id| has_any(id, &FURNITURE) || holds(id);
                 let furniture = |id: &&_| used(**id) && !self.world.has_trait(**id, "portable");
                 self.world.replicas.keys().filter(furniture).map(replica).collect()
             }

@@ -11,7 +11,7 @@ mod values;
 mod walls;
 
 pub(super) use levels::Level;
-pub(super) use members::FURNITURE;
+pub(super) use members::{FURNITURE, NO_FURNITURE};
 pub(super) use passages::{Limits, Passage};
 pub(super) use walls::Held;
 

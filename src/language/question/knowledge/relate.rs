@@ -170,7 +170,7 @@ impl Knowledge<'_> {
         let mut found: Vec<Thing> = Vec::new();
         for basis in bases(rel) {
             if basis.of_support
-                && anchor.replica().is_none_or(|id| !self.world.has_trait(id, "support"))
+                && anchor.replica().is_none_or(|id| !self.world.has_trait(id, "shelves"))
             {
                 continue;
             }
@@ -326,7 +326,11 @@ impl Knowledge<'_> {
         if self.related(rel, y).contains(&x) {
             return true;
         }
-        matches!(rel, Rel::On | Rel::In) && self.support_chain(x).contains(&y)
+        // What is in a dresser is not on it.
+        let within = rel == Rel::On
+            && y.replica().is_some_and(|id| !self.world.has_trait(id, "shelves"))
+            && self.on_or_in(x, y) == Rel::In;
+        matches!(rel, Rel::On | Rel::In) && !within && self.support_chain(x).contains(&y)
     }
 
     /// What a thing stands on or lies in, what that stands on, and so on.
