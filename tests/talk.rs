@@ -296,7 +296,7 @@ fn templates(engine: &Engine, score: &mut Score) {
                 }
             }
             // What stands in a bookcase is on its shelves.
-            if phrase == "on" && has_trait(world, thing, "support") {
+            if phrase == "on" && has_trait(world, thing, "shelves") {
                 let held = facts(engine, "INSIDE").into_iter().filter(|(_, y)| y == thing);
                 expected.extend(held.map(|(x, _)| x));
             }

@@ -130,7 +130,7 @@ impl Knowledge<'_> {
                     self.standing_at(restriction, &found, loose)?
                 }
                 // «Что стоит рядом со столом?»: chairs too that are pushed under it.
-                Rel::NextTo if noun.head.anything => {
+                Rel::NextTo if noun.head.anything && self.is_at_a_table(restriction) => {
                     let seat =
                         |t: &Thing| t.replica().is_some_and(|id| self.world.has_trait(id, "seat"));
                     let seats: Vec<Thing> = found.iter().copied().filter(seat).collect();
@@ -206,6 +206,20 @@ impl Knowledge<'_> {
             }),
             (None, None) => Ok(found),
         }
+    }
+
+    /// Whether a place is told by a table: what bears things and holds none, and stands on the floor.
+    fn is_at_a_table(&self, restriction: &Restriction) -> bool {
+        let table = |t: &Thing| {
+            t.replica().is_some_and(|id| {
+                self.world.has_trait(id, "support")
+                    && ["container", "seat", "device"].iter().all(|t| !self.world.has_trait(id, t))
+                    && self.relations.support_of(id).is_none()
+            })
+        };
+        restriction.anchors.iter().any(|noun| {
+            self.find(noun, true).is_ok_and(|all| !all.is_empty() && all.iter().all(table))
+        })
     }
 
     /// «Стул у окна»: of several windows the one is meant that has a chair, where only one chair is at any. None
