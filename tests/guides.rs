@@ -43,7 +43,9 @@ fn the_relation_of_the_guide_to_rules_is_derived() {
         let facts = engine.facts(Some(name), None).unwrap();
         let told: Vec<Vec<String>> =
             facts.iter().map(|(_, fact)| fact.iter().map(ToString::to_string).collect()).collect();
-        assert_eq!(told, [["Лекарство", "Кровать-1"]]);
+        // The medicine on the bedside table, and what stands on the dining table by its chairs.
+        assert!(told.contains(&vec!["Лекарство".to_owned(), "Кровать-1".to_owned()]), "{told:?}");
+        assert_eq!(told.len(), 9);
     }
     // The standard relations are there as before.
     assert!(!engine.facts(Some("ON_TOP_OF"), Some("Стол-1")).unwrap().is_empty());

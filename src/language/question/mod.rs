@@ -368,6 +368,8 @@ impl Asker<'_> {
             memory.language = Language::of(text);
         }
         let language = memory.language;
+        let from_there = constructions::from_where_i_am(text);
+        let text = from_there.as_deref().unwrap_or(text);
         let parts = self.each_part(text, language, memory);
         if let Some(Ok(answer)) = parts {
             return Ok(answer);

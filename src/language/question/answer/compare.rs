@@ -422,6 +422,8 @@ impl Knowledge<'_> {
             let place = self.restrictions(&of[n]);
             if place.is_empty() { place } else { format!(" {place}") }
         };
+        // A place of its own.
+        let elsewhere = |n: usize| if place(0) == place(1) { String::new() } else { place(n) };
         let (a, b) = (numbers[best], numbers[other]);
         let more = match fewer {
             true => self.pick("меньше", "fewer"),
@@ -455,14 +457,23 @@ impl Knowledge<'_> {
             }
             (false, false, true) => {
                 let (own, than) = (&kinds[best], &kinds[other]);
-                format!("{own}{} ({a}) на {apart} {more}, чем {than} ({b})", place(best))
+                let there = elsewhere(other);
+                format!("{own}{} ({a}) на {apart} {more}, чем {than}{there} ({b})", place(best))
             }
             (true, false, false) => {
                 format!("{}{} ({a}) than{} ({b})", by_so_many(0), place(best), place(other))
             }
             (false, false, false) => {
                 let than = &kinds[other];
-                format!("{} ({a}) than {than} ({b}){}", by_so_many(best), place(best))
+                match elsewhere(other) {
+                    there if there.is_empty() => {
+                        format!("{} ({a}) than {than} ({b}){}", by_so_many(best), place(best))
+                    }
+                    there => {
+                        let so_many = by_so_many(best);
+                        format!("{so_many}{} ({a}) than {than}{there} ({b})", place(best))
+                    }
+                }
             }
         };
         let (said, head) = match (asks, first && !equal) {

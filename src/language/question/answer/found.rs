@@ -413,8 +413,14 @@ impl Knowledge<'_> {
         for (noun, things) in what.iter().zip(&found) {
             parts.push(self.existing(noun, things));
         }
+        if let [noun] = what
+            && !any
+            && let Some(within) = self.within_instead(noun)
+        {
+            parts.push(within);
+        }
         let join = self.pick(", но ", ", but ");
-        let join = if all || !any { self.pick(", и ", " and ") } else { join };
+        let join = if all || (!any && what.len() > 1) { self.pick(", и ", " and ") } else { join };
         let text = parts.join(join);
         // «В комнате нет стула?» is answered by «Да, нет» only in words that cannot mislead.
         let yes = holds != negated;
@@ -425,6 +431,15 @@ impl Knowledge<'_> {
         let said = if holds { Said::Yes } else { Said::No };
         Ok(Draft { facts, ..Draft::new(said, format!("{head}{text}")).with(things) }
             .about(&anchors))
+    }
+
+    /// «Пульт на комоде?» where it is in it.
+    fn within_instead(&self, noun: &Noun) -> Option<String> {
+        let [place] = &noun.restrictions[..] else { return None };
+        let mut within = noun.clone();
+        within.restrictions[0].rel = Rel::In;
+        let found = self.find(&within, true).ok().filter(|_| place.rel == Rel::On)?;
+        (!found.is_empty()).then(|| self.existing(&within, &found))
     }
 
     /// A description with the place where the things are, for one of several that would do: "on the tables" is on one.

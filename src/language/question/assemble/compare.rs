@@ -126,6 +126,10 @@ impl Frame<'_, '_> {
             ([what], [first, second], _) | ([what], [], [first, second]) => {
                 [within(&what.noun, Some(first)), within(&what.noun, Some(second))]
             }
+            // "more books in the bedroom than pens in the kitchen"
+            ([first, second], [one, other], _) if self.nouns.len() == 2 => {
+                [within(&first.noun, Some(one)), within(&second.noun, Some(other))]
+            }
             // «Стулья больше, чем столы?» compares sizes: what is counted follows its word.
             ([first, second], place @ ([] | [_]), []) if first.at > at || self.has(Mark::What) => {
                 [within(&first.noun, place.first()), within(&second.noun, place.first())]
