@@ -119,8 +119,9 @@ impl Knowledge<'_> {
             return true;
         }
         let same = |own: ValueId| values.answer_one_question(own, filter.value);
+        // Cleanliness stands under a name of its own and is a state all the same.
         let told = |(property, own, _): &(Property, Option<ValueId>, String)| {
-            *property == entry.property && own.is_none_or(same)
+            own.map_or(*property == entry.property, same)
         };
         self.values(thing).iter().any(told)
     }
