@@ -2,11 +2,12 @@
 //!
 //! Invariant: a passage is told beside doors, never as one.
 
-use crate::language::question::knowledge::Knowledge;
+use crate::language::question::knowledge::{Gate, Knowledge};
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::words::enumerate;
 use crate::map::Entity;
+use crate::units::AreaId;
 
 impl Knowledge<'_> {
     /// «В Коридор можно попасть из Комнаты-В и из Комнаты-Y.»
@@ -38,6 +39,9 @@ impl Knowledge<'_> {
     pub(super) fn also(&self, noun: &Noun, found: &[Thing]) -> String {
         let doors =
             noun.head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Doors);
+        if doors && found.is_empty() && noun.filters.is_empty() {
+            return self.joined_by_passage(noun);
+        }
         let of_area =
             noun.restrictions.iter().find(|r| matches!(r.rel, Rel::From | Rel::To | Rel::Of));
         let Some(restriction) =
@@ -65,6 +69,31 @@ impl Knowledge<'_> {
             (_, true) => format!("; кроме того, есть {list}"),
             (1, false) => format!("; besides, there is {list}"),
             (_, false) => format!("; besides, there are {list}"),
+        }
+    }
+
+    /// «Какая дверь соединяет кухню и гостиную?» where there is none, but an open passage.
+    fn joined_by_passage(&self, noun: &Noun) -> String {
+        let places = noun
+            .restrictions
+            .iter()
+            .filter(|r| matches!(r.rel, Rel::Between | Rel::From | Rel::To) && !r.negated);
+        let ends: Vec<AreaId> = places
+            .flat_map(|place| &place.anchors)
+            .filter_map(|anchor| match self.find(anchor, true).ok()?[..] {
+                [only] => only.area(),
+                _ => None,
+            })
+            .collect();
+        let [a, b] = ends[..] else { return String::new() };
+        let joins = |area: AreaId| move |g: &&Gate| g.areas.contains(&area);
+        let open = self.gates().iter().filter(|g| g.is_passage).filter(joins(a)).filter(joins(b));
+        let passages: Vec<Thing> = open.map(|gate| gate.thing).collect();
+        match (passages.len(), self.is_russian()) {
+            (0, _) => String::new(),
+            (_, true) => format!(", но есть {}", self.list(&passages)),
+            (1, false) => format!(", but there is {}", self.list(&passages)),
+            (_, false) => format!(", but there are {}", self.list(&passages)),
         }
     }
 
