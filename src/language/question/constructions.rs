@@ -175,10 +175,24 @@ fn but_no(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<
     Some(format!("Комнаты с {with} без {without}"))
 }
 
+/// «На каких стульях что-нибудь лежит?»: things lie.
+fn something_there(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
+    let which = ["каком", "какой", "каких"].contains(&keys.get(1)?.as_str());
+    let thing = |n: &usize| {
+        keys[*n] == "что"
+            && keys.get(n + 1).is_some_and(|k| ["нибудь", "то", "либо"].contains(&k.as_str()))
+    };
+    let thing = (2..keys.len()).find(thing).filter(|_| which && keys[0] == "на")?;
+    let verb =
+        (2..keys.len()).find(|n| ["лежит", "стоит", "есть", "находится"].contains(&&*keys[*n]));
+    let end = thing.min(verb?);
+    (end > 2 && keys.len() <= end + 3).then(|| format!("{} есть вещи?", &text[..at[end - 1].end]))
+}
+
 /// Words that say nothing more: "How many rooms have paintings in them?", "both a bed and a desk".
 fn filler(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
     if Language::of(text) != Language::English {
-        return None;
+        return something_there(text, keys, at);
     }
     let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&key.as_str()));
     let last = keys.len().checked_sub(1)?;

@@ -51,7 +51,12 @@ impl Knowledge<'_> {
             open_only: matches!(asks, Passing::Unopened | Passing::Opens),
         };
         let through = if must { &[][..] } else { &through[..] };
-        let way = self.passage_through(&ends, &goals, through, &limits);
+        // What stands in a room that is to be avoided is not come to.
+        let reached = |area: &AreaId| {
+            goal.area().is_some() || !avoided.contains(&Thing::Entity(Entity::Area(*area)))
+        };
+        let goals_left: Vec<AreaId> = goals.iter().copied().filter(reached).collect();
+        let way = self.passage_through(&ends, &goals_left, through, &limits);
         // Who comes through a room twice on the way does not need to pass where he turns round.
         let way = way.filter(|way| asks == Passing::How || way.is_straight());
         let any = self.passage(&ends, &goals, &free);

@@ -4,7 +4,7 @@
 
 use super::Draft;
 use crate::language::question::knowledge::{Held, Knowledge};
-use crate::language::question::query::{Extreme, Noun, Rel, Thing};
+use crate::language::question::query::{Extreme, Filter, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::report::{Detail, Named};
 use crate::language::words::length;
@@ -415,6 +415,17 @@ impl Knowledge<'_> {
 
     /// What a thing stands on, lies in, is beside: the other end of a relation.
     pub(super) fn anchor(&self, rel: Rel, of: &Noun, what: Option<&Noun>) -> Result<Draft, Doubt> {
+        // «На каких стульях лежат вещи?»: those that are not empty.
+        if let (Some(what), Some(taken)) = (what, self.lexicon().values.meaning("занятый"))
+            && matches!(rel, Rel::On | Rel::In)
+            && self.is_anything(&of.head)
+            && of.restrictions.is_empty()
+            && of.filters.is_empty()
+        {
+            let mut bearing = Noun { plural: true, indefinite: true, ..what.clone() };
+            bearing.filters.push(Filter::new(taken, false));
+            return self.say_found(&bearing);
+        }
         // «На каком столе ваза?»: of several vases, each by itself.
         const EACH: usize = 6;
         let all = match self.definite(of) {

@@ -51,7 +51,13 @@ impl Frame<'_, '_> {
             return;
         }
         // «ключ от лаборатории»
-        if matches!(spot.rel, Rel::From | Rel::To | Rel::Of) && self.is_key(noun) {
+        let nearest = |mark: &Mark| {
+            matches!(mark, Mark::Nearer(_) | Mark::Best(Extreme::Nearest | Extreme::Farthest))
+        };
+        if matches!(spot.rel, Rel::From | Rel::To | Rel::Of)
+            && self.is_key(noun)
+            && !self.marks.iter().any(|(mark, _)| nearest(mark))
+        {
             let opens = Spot { rel: Rel::Opens, ..spot.clone() };
             noun.restrictions.extend(opens.restrictions());
             return;

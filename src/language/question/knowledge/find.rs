@@ -31,7 +31,7 @@ impl Knowledge<'_> {
     }
 
     /// "Things" in general.
-    fn is_anything(&self, head: &Head) -> bool {
+    pub(in crate::language::question) fn is_anything(&self, head: &Head) -> bool {
         head.anything
             || head.kinds.iter().any(|k| self.lexicon().kind(*k).extension == Extension::Things)
     }
