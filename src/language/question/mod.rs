@@ -368,6 +368,12 @@ impl Asker<'_> {
             memory.language = Language::of(text);
         }
         let language = memory.language;
+        // What is too long is not even read.
+        if is_too_long(text) {
+            let length = text.chars().take(1_000_000).count();
+            memory.miss(&Doubt::TooLong { length }, false);
+            return Err(self.knowledge(language, memory).unanswered(Doubt::TooLong { length }));
+        }
         let from_there = constructions::from_where_i_am(text);
         let text = from_there.as_deref().unwrap_or(text);
         let parts = self.each_part(text, language, memory);
