@@ -21,6 +21,7 @@ mod formats;
 mod generated_worlds;
 mod guides;
 mod hostile;
+mod ifc;
 mod imports;
 mod lifts;
 mod map_editing;

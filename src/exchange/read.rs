@@ -285,6 +285,12 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         let why = Why::Other { text: remark.text.clone() };
         report.mended(What::Record, &remark.source, why);
     }
+    for told in &survey.told {
+        let why = Why::Other { text: told.text.clone() };
+        report.note(told.deed, told.what, &told.source, why);
+        report.found(told.what, told.count.found);
+        report.taken(told.what, told.count.taken);
+    }
     let world = assemble(&survey, &synonyms, &mut report)?;
     Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })
 }

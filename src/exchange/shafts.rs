@@ -24,7 +24,8 @@ const VERTICAL: [(&str, &str); 14] = [
 /// Shafts of one storey that are compared with one another.
 const MOST_SHAFTS: usize = 2000;
 
-fn vertical(room: &Room) -> Option<&'static str> {
+/// What a room has in common with others that lead to other storeys: `stairs`.
+pub(super) fn vertical(room: &Room) -> Option<&'static str> {
     let kind = room.kind.to_lowercase();
     kind.split(|c: char| !c.is_alphanumeric())
         .find_map(|word| VERTICAL.iter().find(|(v, _)| word == *v).map(|(_, what)| *what))

@@ -11,6 +11,8 @@
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, OpensTo, Permeability, Properties};
 use crate::units::{Cm, Deg, Point};
 
+use super::report::{Count, Deed, What};
+
 /// A building as a foreign file describes it.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Survey {
@@ -22,6 +24,22 @@ pub struct Survey {
     pub lifts: Vec<Lift>,
     /// What the reader left out or had to assume, for the report.
     pub remarks: Vec<Remark>,
+    /// What became of records of the file that stand in none of the lists above, or stand there otherwise than in the
+    /// file: with them the report counts what the file has.
+    pub told: Vec<Told>,
+}
+
+/// What a reader tells of records of its file.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Told {
+    pub deed: Deed,
+    pub what: What,
+    /// The file's id of the record, or the name of a whole class of records.
+    pub source: String,
+    /// For the person who imports, in Russian.
+    pub text: String,
+    /// Records that the lists of the survey do not hold; none where they do.
+    pub count: Count,
 }
 
 /// What a reader left out, mended or had to assume.

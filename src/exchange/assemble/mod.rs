@@ -267,6 +267,7 @@ mod tests {
                 stops: vec![(0, 1), (1, 0)],
             }],
             remarks: Vec::new(),
+            told: Vec::new(),
         };
         let mut report = Report::default();
         let world = assemble(&survey, &Synonyms::built_in(), &mut report).expect("a world");

@@ -1,43 +1,45 @@
-//! Storeys, spaces and furniture of a model.
+//! The reader as a whole: units, storeys, and what is told of the elements that do not arrive.
 
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 use nalgebra::Vector3;
 
-use crate::exchange::{Kind, Level, Part, ReadError, Remark, Room, Survey, Thing, outline, shafts};
-use crate::geometry::convex_hull;
-use crate::map::{Permeability, Properties};
-use crate::units::{Cm, Deg, Point};
+use crate::exchange::{Count, Deed, Level, ReadError, Remark, Survey, Told, What, outline, shafts};
+use crate::units::{Cm, Point};
 
+use super::classes::{self, Becomes};
 use super::place::Place;
-use super::shape::{Prism, Shapes};
+use super::shape::Shapes;
 use super::step::{FORMAT, Instance, Instances, Value};
 
-const MOST_ROOMS: usize = 200_000;
-const MOST_THINGS: usize = 200_000;
 /// Sites are placed in a country's grid; beyond this, in cm, the plan is brought to the first storey's origin.
 const FAR: f64 = 1e6;
 /// Storeys in storeys, spaces in spaces: deeper is a ring.
 const DEEPEST: usize = 16;
-/// A thing flatter than this, in cm, is a mark on the floor.
-const FLATTEST: f64 = 0.5;
+/// Rooms that are looked at for what is beside openings, in one file.
+const MOST_LOOKS: usize = 400_000_000;
 
 pub(super) struct Reader<'a> {
     pub all: &'a Instances,
     pub shapes: Shapes<'a>,
-    /// cm in one of the file's units of length.
-    pub scale: f64,
-    /// What is taken off every world coordinate, in cm.
-    pub shift: Vector3<f64>,
+    /// The file's world on the plan, in cm.
+    world: Place,
     pub survey: Survey,
     /// The level of a storey.
     pub levels: HashMap<u32, usize>,
-    /// Where an element is contained or of what it is a part.
-    parents: HashMap<u32, u32>,
+    /// Of what an element is a part.
+    pub wholes: HashMap<u32, u32>,
+    /// Where an element is contained, else of what it is a part.
+    pub parents: HashMap<u32, u32>,
     types: HashMap<u32, u32>,
     /// `(level, room)` of a space.
     pub rooms: HashMap<u32, (usize, usize)>,
+    /// The boxes of rooms that were asked for, by level.
+    boxes: Vec<Vec<(Point, Point)>>,
+    looks: usize,
+    /// Flights within one storey: things in the way.
+    pub steps: Vec<u32>,
 }
 
 pub(super) fn survey(
@@ -45,55 +47,74 @@ pub(super) fn survey(
     all: &Instances,
     mut remarks: Vec<Remark>,
 ) -> Result<Survey, ReadError> {
-    let scale = length_unit(all).unwrap_or_else(|| {
+    let unit = length_unit(all).unwrap_or_else(|| {
         let text = "единица длины не указана, принят метр".to_owned();
         remarks.push(Remark { source: String::new(), text });
         100.0
     });
+    let wholes = related(all, &[("IFCRELAGGREGATES", 4, 5), ("IFCRELNESTS", 4, 5)]);
+    let mut parents = wholes.clone();
+    parents.extend(related(all, &[("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5, 4)]));
     let mut reader = Reader {
         all,
-        shapes: Shapes::new(all),
-        scale,
-        shift: Vector3::zeros(),
+        shapes: Shapes::new(all, angle_unit(all)),
+        world: Place::of_world(unit, Vector3::zeros()),
         survey: Survey { name: name(file, all), remarks, ..Survey::default() },
         levels: HashMap::new(),
-        parents: parents(all),
+        wholes,
+        parents,
         types: types(all),
         rooms: HashMap::new(),
+        boxes: Vec::new(),
+        looks: 0,
+        steps: Vec::new(),
     };
-    reader.storeys();
+    reader.storeys(unit);
     reader.spaces()?;
     reader.doors();
-    reader.furniture();
+    reader.passages();
+    reader.stairs();
+    reader.things();
     shafts::join(&mut reader.survey);
     reader.finish()
 }
 
 /// cm in the project's unit of length.
 fn length_unit(all: &Instances) -> Option<f64> {
-    let project = all.all("IFCPROJECT").next()?.1;
-    let units = all.get(project.at(8).reference()?)?;
-    let unit = units.at(0).list().iter().filter_map(|u| all.get(u.reference()?));
-    let unit =
-        unit.filter(|u| u.at(1).word() == Some("LENGTHUNIT")).find_map(|u| cm_in(all, u, 0))?;
+    let unit = unit(all, "LENGTHUNIT")?;
+    let unit = in_si(all, unit, 0)? * 100.0;
     (1e-4..1e6).contains(&unit).then_some(unit)
 }
 
-fn cm_in(all: &Instances, unit: &Instance, depth: usize) -> Option<f64> {
+/// Radians in the project's unit of angle.
+fn angle_unit(all: &Instances) -> f64 {
+    let told = unit(all, "PLANEANGLEUNIT").and_then(|unit| in_si(all, unit, 0));
+    told.filter(|u| (1e-6..10.0).contains(u)).unwrap_or(1.0)
+}
+
+fn unit<'a>(all: &'a Instances, kind: &str) -> Option<&'a Instance> {
+    let project = all.all("IFCPROJECT").next()?.1;
+    let units = all.get(project.at(8).reference()?)?;
+    let mut units = units.at(0).list().iter().filter_map(|u| all.get(u.reference()?));
+    units.find(|u| u.at(1).word() == Some(kind))
+}
+
+/// Metres or radians in a unit.
+fn in_si(all: &Instances, unit: &Instance, depth: usize) -> Option<f64> {
     match unit.kind {
         "IFCSIUNIT" => Some(match unit.at(2).word() {
-            None => 100.0,
-            Some("MILLI") => 0.1,
-            Some("CENTI") => 1.0,
-            Some("DECI") => 10.0,
-            Some("MICRO") => 1e-4,
-            Some("KILO") => 1e5,
+            None => 1.0,
+            Some("MILLI") => 1e-3,
+            Some("CENTI") => 1e-2,
+            Some("DECI") => 0.1,
+            Some("MICRO") => 1e-6,
+            Some("KILO") => 1e3,
             Some(_) => return None,
         }),
-        "IFCCONVERSIONBASEDUNIT" if depth < DEEPEST => {
+        kind if kind.starts_with("IFCCONVERSIONBASEDUNIT") && depth < DEEPEST => {
             let measure = all.get(unit.at(3).reference()?)?;
             let base = all.get(measure.at(1).reference()?)?;
-            Some(measure.at(0).number()? * cm_in(all, base, depth + 1)?)
+            Some(measure.at(0).number()? * in_si(all, base, depth + 1)?)
         }
         _ => None,
     }
@@ -108,15 +129,13 @@ fn name(file: &str, all: &Instances) -> String {
     of("IFCBUILDING", &[7, 2]).or_else(|| of("IFCPROJECT", &[5, 2])).unwrap_or_else(stem)
 }
 
-/// Part → whole: aggregation, containment.
-fn parents(all: &Instances) -> HashMap<u32, u32> {
+/// Part → whole, by relations of these kinds with the whole and the parts at these places.
+fn related(all: &Instances, kinds: &[(&str, usize, usize)]) -> HashMap<u32, u32> {
     let mut parents = HashMap::new();
-    for (kind, whole, parts) in
-        [("IFCRELAGGREGATES", 4, 5), ("IFCRELCONTAINEDINSPATIALSTRUCTURE", 5, 4)]
-    {
+    for (kind, whole, parts) in kinds {
         for (_, relation) in all.all(kind) {
-            let Some(whole) = relation.at(whole).reference() else { continue };
-            let parts = relation.at(parts).list().iter().filter_map(Value::reference);
+            let Some(whole) = relation.at(*whole).reference() else { continue };
+            let parts = relation.at(*parts).list().iter().filter_map(Value::reference);
             parents.extend(parts.map(|part| (part, whole)));
         }
     }
@@ -132,51 +151,69 @@ fn types(all: &Instances) -> HashMap<u32, u32> {
         .collect()
 }
 
-impl Reader<'_> {
+impl<'a> Reader<'a> {
     pub(super) fn remark(&mut self, source: &str, text: impl Into<String>) {
         self.survey.remarks.push(Remark { source: source.to_owned(), text: text.into() });
     }
 
+    /// Tells of a record: `found` of them are in the file and in no list of the survey, `taken` of those arrived all
+    /// the same.
+    pub(super) fn tell(
+        &mut self,
+        (deed, what): (Deed, What),
+        (found, taken): (usize, usize),
+        source: &str,
+        text: impl Into<String>,
+    ) {
+        let (source, text) = (source.to_owned(), text.into());
+        self.survey.told.push(Told { deed, what, source, text, count: Count { found, taken } });
+    }
+
+    /// A record that does not arrive.
+    pub(super) fn lose(&mut self, what: What, source: &str, text: impl Into<String>) {
+        self.tell((Deed::Skipped, what), (1, 0), source, text);
+    }
+
+    /// Elements that become what is asked for, by class, in the order of the file.
+    pub(super) fn elements(&self, wanted: Becomes) -> Vec<(u32, &'a Instance)> {
+        let all = self.all;
+        classes::that(wanted).flat_map(|kind| all.all(kind)).collect()
+    }
+
     /// The type record of an element.
-    pub(super) fn type_of(&self, id: u32) -> Option<&Instance> {
+    pub(super) fn type_of(&self, id: u32) -> Option<&'a Instance> {
         self.all.get(*self.types.get(&id)?)
     }
 
+    /// Where a product stands on the plan, in cm.
     pub(super) fn place_of(&self, record: &Instance) -> Place {
-        Place::of_object(self.all, record.at(5).reference())
+        self.world.compose(&Place::of_object(self.all, record.at(5).reference()))
     }
 
-    /// A point of the file's world on the plan, in cm.
-    pub(super) fn plan(&self, p: Point) -> Point {
-        Point::new(p.x * self.scale - self.shift.x, p.y * self.scale - self.shift.y)
-    }
-
-    pub(super) fn height(&self, z: f64) -> f64 {
-        z * self.scale - self.shift.z
-    }
-
-    fn storeys(&mut self) {
+    fn storeys(&mut self, unit: f64) {
         let mut storeys: Vec<(u32, f64, &Instance)> = self
             .all
             .all("IFCBUILDINGSTOREY")
             .map(|(id, storey)| {
                 let placed = self.place_of(storey).origin.z;
                 // Some exporters leave the placement at 0 and tell the elevation alone.
-                let told = storey.at(9).number().filter(|_| placed.abs() * self.scale < 1.0);
-                (id, told.unwrap_or(placed) * self.scale, storey)
+                let told = storey.at(9).number().filter(|_| placed.abs() < 1.0).map(|z| z * unit);
+                (id, told.unwrap_or(placed), storey)
             })
             .collect();
+        let mut shift = Vector3::zeros();
         if let Some((_, z, first)) = storeys.first() {
-            let origin = self.place_of(first).origin.coords * self.scale;
+            let origin = self.place_of(first).origin.coords;
             if origin.xy().amax() > FAR || z.abs() > FAR {
-                self.shift = origin.map(f64::floor);
+                shift = origin.map(f64::floor);
                 let text = format!(
                     "план сдвинут к началу координат: {}, {}, {} см",
-                    self.shift.x, self.shift.y, self.shift.z
+                    shift.x, shift.y, shift.z
                 );
                 self.remark("", text);
             }
         }
+        self.world = Place::of_world(unit, shift);
         storeys.sort_by(|a, b| a.1.total_cmp(&b.1));
         let buildings: HashSet<_> = storeys.iter().map(|s| self.parents.get(&s.0)).collect();
         for (no, (id, z, storey)) in storeys.into_iter().enumerate() {
@@ -192,7 +229,7 @@ impl Reader<'_> {
             self.survey.levels.push(Level {
                 source: source(storey, id),
                 name,
-                elevation: Cm::new(z - self.shift.z).unwrap_or(Cm::ZERO),
+                elevation: Cm::new(z - shift.z).unwrap_or(Cm::ZERO),
                 ..Level::default()
             });
         }
@@ -212,181 +249,57 @@ impl Reader<'_> {
             let name = "Этаж 1".to_owned();
             self.survey.levels.push(Level { source: "0".to_owned(), name, ..Level::default() });
         }
-        // Half a metre below a floor still belongs to it.
-        let below = self.survey.levels.iter().rposition(|l| l.elevation.get() <= bottom + 50.0);
-        below.unwrap_or(0)
+        self.level_at(bottom)
     }
 
-    fn spaces(&mut self) -> Result<(), ReadError> {
-        let spaces: Vec<(u32, &Instance)> = self.all.all("IFCSPACE").collect();
-        if spaces.len() > MOST_ROOMS {
-            return Err(ReadError::TooMany {
-                format: FORMAT,
-                what: "помещений",
-                limit: MOST_ROOMS,
-            });
-        }
-        let wholes: HashSet<u32> =
-            spaces.iter().filter_map(|(id, _)| self.parents.get(id)).copied().collect();
-        for (id, space) in spaces {
-            let source = source(space, id);
-            if wholes.contains(&id) {
-                self.remark(&source, "помещение состоит из других, взяты они");
-                continue;
-            }
-            let place = self.place_of(space);
-            let prisms = self.shapes.of_product(space.at(6), &place);
-            let largest = prisms.iter().max_by(|a, b| a.area().total_cmp(&b.area()));
-            let Some(prism) = largest else {
-                self.remark(&source, "у помещения нет контура, пропущено");
-                continue;
-            };
-            if prisms.iter().any(|p| p != prism && p.area() > 0.1 * prism.area()) {
-                self.remark(&source, "помещение из нескольких тел, взято наибольшее");
-            }
-            self.space(id, space, prism);
-        }
-        Ok(())
+    /// The storey whose floor is at this height or below; half a metre below a floor still belongs to it.
+    pub(super) fn level_at(&self, z: f64) -> usize {
+        let levels = &self.survey.levels;
+        levels.iter().rposition(|l| l.elevation.get() <= z + 50.0).unwrap_or(0)
     }
 
-    fn space(&mut self, id: u32, space: &Instance, prism: &Prism) {
-        let source = source(space, id);
-        let ring = |ring: &[Point]| {
-            let ring = outline::ring(ring.iter().map(|p| self.plan(*p)))?;
-            (ring.len() <= outline::MOST_CORNERS).then_some(ring)
-        };
-        let Some(outline) = ring(&prism.outline) else {
-            return self.remark(&source, "контур вырожден или слишком подробен, пропущен");
-        };
-        let holes = prism.holes.iter().filter_map(|h| ring(h)).collect();
-        let level = self.level_of(id, self.height(prism.bottom));
-        let (number, long) = (space.at(2).text(), space.at(7).text());
-        let name = match (long, number) {
-            (Some(long), Some(number)) if long != number => format!("{long} {number}"),
-            (long, number) => long.or(number).unwrap_or_default().to_owned(),
-        };
-        let kind = long.or(space.at(4).text()).or(number).unwrap_or_default().to_owned();
-        let height = (prism.top - prism.bottom) * self.scale;
-        let mut properties = Properties::new();
-        for (key, value) in [("ifc:Name", number), ("ifc:ObjectType", space.at(4).text())] {
-            properties.extend(value.map(|v| (key.to_owned(), v.to_owned())));
+    /// The rooms of a level whose boxes meet a box, in their order.
+    pub(super) fn rooms_near(&mut self, level: usize, (low, high): (Point, Point)) -> Vec<usize> {
+        let rooms = &self.survey.levels[level].rooms;
+        self.boxes.resize(self.survey.levels.len(), Vec::new());
+        let boxes = &mut self.boxes[level];
+        for room in rooms.iter().skip(boxes.len()) {
+            boxes.push(outline::bounds(&room.outline));
         }
-        let rooms = &mut self.survey.levels[level].rooms;
-        self.rooms.insert(id, (level, rooms.len()));
-        rooms.push(Room {
-            source,
-            name,
-            kind,
-            outline,
-            holes,
-            height: Cm::new(height).ok().filter(|h| h.get() >= 50.0),
-            properties,
-        });
+        self.looks = self.looks.saturating_add(rooms.len());
+        if self.looks > MOST_LOOKS {
+            return Vec::new();
+        }
+        let meets = |(from, to): &(Point, Point)| {
+            from.x <= high.x && to.x >= low.x && from.y <= high.y && to.y >= low.y
+        };
+        (0..rooms.len()).filter(|i| meets(&boxes[*i])).collect()
     }
 
-    fn furniture(&mut self) {
-        let mut known = HashMap::<String, usize>::new();
-        let things = ["IFCFURNISHINGELEMENT", "IFCFURNITURE", "IFCSYSTEMFURNITUREELEMENT"]
-            .iter()
-            .flat_map(|kind| self.all.all(kind));
-        let things: Vec<(u32, &Instance)> = things.take(MOST_THINGS).collect();
-        for (id, thing) in things {
-            let place = self.place_of(thing);
-            let prisms = self.shapes.of_product(thing.at(6), &place);
-            if self.thing(id, thing, &place, &prisms, &mut known).is_none() {
-                self.remark(&source(thing, id), "у вещи нет тела, пропущена");
-            }
-        }
-    }
-
-    fn thing(
-        &mut self,
-        id: u32,
-        thing: &Instance,
-        place: &Place,
-        prisms: &[Prism],
-        known: &mut HashMap<String, usize>,
-    ) -> Option<()> {
-        let bottom = prisms.iter().map(|p| p.bottom).min_by(f64::total_cmp)?;
-        let angle = Deg::from_radians(place.x.y.atan2(place.x.x));
-        let at = self.plan(Point::new(place.origin.x, place.origin.y));
-        let frame = crate::units::Frame {
-            x: Cm::new(at.x).ok()?,
-            y: Cm::new(at.y).ok()?,
-            z: Cm::ZERO,
-            angle,
+    /// The rooms of a level whose floor has this place.
+    pub(super) fn rooms_at(&mut self, level: usize, p: Point) -> Vec<usize> {
+        let near = self.rooms_near(level, (p, p));
+        let rooms = &self.survey.levels[level].rooms;
+        self.looks += near.iter().map(|r| rooms[*r].outline.len()).sum::<usize>();
+        let holds = |room: &usize| {
+            let room = &rooms[*room];
+            outline::contains(&room.outline, p)
+                && !room.holes.iter().any(|h| outline::contains(h, p))
         };
-        let local = |p: &Point| {
-            let p = frame.invert(self.plan(*p));
-            Point::from(p.coords.map(|x| (x * 100.0).round() / 100.0))
-        };
-        let hundredth = |x: f64| (x * 100.0).round() / 100.0;
-        let mut parts: Vec<Part> = prisms
-            .iter()
-            .filter_map(|prism| {
-                let outline = outline::ring(prism.outline.iter().map(local))?;
-                let height = hundredth((prism.top - prism.bottom) * self.scale);
-                (outline.len() <= outline::MOST_CORNERS && height > FLATTEST).then(|| Part {
-                    word: String::new(),
-                    outline,
-                    bottom: Cm::of(hundredth((prism.bottom - bottom) * self.scale)),
-                    height: Cm::of(height),
-                    permeability: Permeability::Impermeable,
-                })
-            })
-            .collect();
-        if parts.len() > 1 {
-            // Bodies of one thing run into one another; the solid parts of an Object may not. Its hull stands for it.
-            let corners: Vec<Point> =
-                parts.iter().flat_map(|p| p.outline.iter().copied()).collect();
-            let top = parts.iter().map(|p| p.bottom.get() + p.height.get()).fold(0.0, f64::max);
-            let outline = convex_hull(corners);
-            parts.truncate(1);
-            parts[0] = Part { outline, bottom: Cm::ZERO, height: Cm::of(top), ..parts[0].clone() };
-        }
-        parts.first()?;
-        let word = self.word(id, thing);
-        let key = format!("{word} {parts:?}");
-        let kinds = &mut self.survey.kinds;
-        let kind = *known.entry(key).or_insert_with(|| {
-            let source = format!("{word} {}", kinds.len() + 1);
-            kinds.push(Kind { source, word, parts, ..Kind::default() });
-            kinds.len() - 1
-        });
-        let z = self.height(bottom);
-        let level = self.level_of(id, z);
-        // Contained in a space, it is in that room.
-        let room = self.parents.get(&id).and_then(|s| self.rooms.get(s)).filter(|r| r.0 == level);
-        let raised = z - self.survey.levels[level].elevation.get();
-        let room = room.map(|r| r.1);
-        self.survey.levels[level].things.push(Thing {
-            source: source(thing, id),
-            name: String::new(),
-            kind,
-            at,
-            // What a modeller set a hair into the floor stands on it.
-            z: Cm::new(raised).ok().filter(|z| z.get().abs() > 1.0).unwrap_or(Cm::ZERO),
-            angle,
-            room,
-            move_prob: None,
-            properties: Properties::new(),
-        });
-        Some(())
-    }
-
-    /// What a thing is: `M_Desk:1525 x 762mm:123456` is a Desk.
-    fn word(&self, id: u32, thing: &Instance) -> String {
-        let of_type = self.type_of(id).and_then(|t| t.at(2).text().or(t.at(8).text()));
-        let predefined = thing.at(8).word().filter(|w| !["NOTDEFINED", "USERDEFINED"].contains(w));
-        let told = predefined.or(of_type).or(thing.at(4).text()).or(thing.at(2).text());
-        let family = told.unwrap_or("furniture").split(':').next().unwrap_or_default().trim();
-        let word = family.strip_prefix("M_").unwrap_or(family);
-        word.chars().take(100).collect()
+        near.into_iter().filter(holds).collect()
     }
 
     fn finish(mut self) -> Result<Survey, ReadError> {
         if self.shapes.is_exhausted() {
             self.remark("", "тел слишком много, часть пропущена");
+        }
+        if self.looks > MOST_LOOKS {
+            self.remark("", "проёмов и помещений слишком много: не у всех найдены стороны");
+        }
+        if self.shapes.effort.hulls > 0 {
+            let text =
+                format!("слишком подробные контуры взяты выпуклыми: {}", self.shapes.effort.hulls);
+            self.remark("", text);
         }
         if self.survey.levels.iter().all(|l| l.rooms.is_empty()) {
             let what = if self.all.all("IFCSPACE").next().is_none() {
@@ -396,24 +309,53 @@ impl Reader<'_> {
             };
             return Err(ReadError::NoBuilding { format: FORMAT, what });
         }
-        // A storey without spaces, the foundation for one, is no floor to drive on.
-        let is_empty = |l: &Level| l.rooms.is_empty();
-        let empty = self.survey.levels.iter().filter(|l| is_empty(l)).map(|l| l.name.clone());
-        let empty: Vec<String> = empty.collect();
-        if !empty.is_empty() {
-            self.remark("", format!("этажи без помещений пропущены: {}", empty.join(", ")));
-            let mut place = Vec::new();
-            let mut next = 0;
-            for level in &self.survey.levels {
-                place.push(next);
-                next += usize::from(!is_empty(level));
-            }
-            for stop in self.survey.lifts.iter_mut().flat_map(|l| &mut l.stops) {
-                stop.0 = place[stop.0];
-            }
-            self.survey.levels.retain(|l| !is_empty(l));
-        }
+        self.count_others();
+        self.drop_empty();
         Ok(self.survey)
+    }
+
+    /// Elements of which nothing is made, by class.
+    fn count_others(&mut self) {
+        let all = self.all;
+        for (kind, becomes) in classes::ELEMENTS {
+            let Becomes::Nothing(why) = becomes else { continue };
+            let count = all.count(kind);
+            if count > 0 {
+                let text = format!("{count} шт.: {why}");
+                self.tell((Deed::Noted, What::Record), (count, 0), kind, text);
+            }
+        }
+    }
+
+    /// A storey without spaces, the foundation for one, is no floor to drive on; what stands on it is in no room.
+    fn drop_empty(&mut self) {
+        let mut place = Vec::new();
+        let mut kept = Vec::new();
+        for level in std::mem::take(&mut self.survey.levels) {
+            place.push(kept.len());
+            if !level.rooms.is_empty() {
+                kept.push(level);
+                continue;
+            }
+            let text = format!("этаж «{}» без помещений пропущен", level.name);
+            self.lose(What::Level, &level.source, text);
+            let text = "на этаже без помещений";
+            for thing in &level.things {
+                self.lose(What::Thing, &thing.source, text);
+            }
+            for opening in &level.openings {
+                let what = match opening.what {
+                    crate::exchange::OpeningKind::Door { .. } => What::Door,
+                    crate::exchange::OpeningKind::Window => What::Window,
+                    crate::exchange::OpeningKind::Passage => What::Passage,
+                };
+                self.lose(what, &opening.source, text);
+            }
+        }
+        for stop in self.survey.lifts.iter_mut().flat_map(|l| &mut l.stops) {
+            stop.0 = place[stop.0];
+        }
+        self.survey.levels = kept;
     }
 }
 

@@ -10,27 +10,28 @@
 
 use std::collections::{HashMap, HashSet};
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
-use crate::exchange::{Opening, OpeningKind, Remark, outline};
+use crate::exchange::{Deed, Opening, OpeningKind, What};
 use crate::map::{DoorKind, DoorLeaf, DoorStatus, HingeSide, OpensTo, Properties};
 use crate::units::{Cm, Point, Vector};
 
+use super::body::Body;
 use super::building::{Reader, source};
+use super::classes::Becomes;
 use super::place::Place;
-use super::shape::Prism;
+use super::shape::Else;
 use super::step::Instance;
 
 /// Widths that a door or window may have, in cm.
 const WIDTHS: std::ops::RangeInclusive<f64> = 20.0..=2000.0;
 /// How far from a door's middle, in cm, the rooms are looked for: past thick walls.
-const STEPS: [f64; 5] = [15.0, 30.0, 45.0, 60.0, 90.0];
+const STEPS: [f64; 6] = [5.0, 15.0, 30.0, 45.0, 60.0, 90.0];
 /// An opening without a door lets people through when it is as high, as wide and as low as this, in cm.
-const PASSAGE: (f64, f64, f64) = (180.0, 55.0, 10.0);
+pub(super) const PASSAGE: (f64, f64, f64) = (180.0, 55.0, 10.0);
 const LEAF_THICKNESS: f64 = 4.0;
-/// Openings of one file, and openings times rooms looked through for their sides.
+/// Openings of one file.
 const MOST_OPENINGS: usize = 200_000;
-const MOST_PAIRS: usize = 2_000_000_000;
 
 /// Where an opening is in its wall.
 struct Hole {
@@ -46,53 +47,74 @@ struct Hole {
 impl Reader<'_> {
     pub(super) fn doors(&mut self) {
         let boundaries = self.boundaries();
-        let filled: HashSet<u32> =
-            self.all.all("IFCRELFILLSELEMENT").filter_map(|(_, r)| r.at(4).reference()).collect();
-        let doors = ["IFCDOOR", "IFCDOORSTANDARDCASE"].iter().flat_map(|k| self.all.all(k));
-        let windows = ["IFCWINDOW", "IFCWINDOWSTANDARDCASE"].iter().flat_map(|k| self.all.all(k));
-        let holes = self.all.all("IFCOPENINGELEMENT").filter(|(id, _)| !filled.contains(id));
-        let every: Vec<(u32, &Instance)> =
-            doors.chain(windows).chain(holes).take(MOST_OPENINGS).collect();
-        let rooms = self.survey.levels.iter().map(|l| l.rooms.len()).max().unwrap_or(0);
-        let look = every.len().saturating_mul(rooms) <= MOST_PAIRS;
+        let all = self.all;
+        let fillings = || all.all("IFCRELFILLSELEMENT").map(|(_, r)| (r.at(4), r.at(5)));
+        let filled: HashSet<u32> = fillings().filter_map(|(hole, _)| hole.reference()).collect();
+        let holes: HashMap<u32, u32> = fillings()
+            .filter_map(|(hole, by)| Some((by.reference()?, hole.reference()?)))
+            .collect();
+        let mut every: Vec<(u32, &Instance, What)> = Vec::new();
+        for (becomes, what) in [(Becomes::Door, What::Door), (Becomes::Window, What::Window)] {
+            every.extend(self.elements(becomes).into_iter().map(|(id, r)| (id, r, what)));
+        }
+        let empty = self.elements(Becomes::Opening).into_iter();
+        let empty = empty.filter(|(id, _)| !filled.contains(id));
+        every.extend(empty.map(|(id, r)| (id, r, What::Passage)));
         let none = HashSet::new();
-        for (id, record) in every {
-            let kind = record.kind.trim_start_matches("IFC").trim_end_matches("STANDARDCASE");
-            let Some(hole) = self.hole(record, kind) else {
-                if kind != "OPENINGELEMENT" {
-                    let text = "место или ширина не указаны, пропущено".to_owned();
-                    self.survey.remarks.push(Remark { source: source(record, id), text });
+        let (mut others, mut passed) = (0_usize, 0_usize);
+        for (no, (id, record, what)) in every.into_iter().enumerate() {
+            let is_hole = what == What::Passage;
+            if no >= MOST_OPENINGS {
+                passed += 1;
+                continue;
+            }
+            // A door that tells neither body nor width is as large as the hole that it fills.
+            let filled = holes.get(&id).and_then(|hole| all.get(*hole));
+            let found = self.hole(record, is_hole).or_else(|| self.hole(filled?, true));
+            let Some(hole) = found else {
+                if is_hole {
+                    others += 1;
+                } else {
+                    let text = "место или ширина не указаны, пропущено";
+                    self.lose(what, &source(record, id), text);
                 }
                 continue;
             };
             let level = self.level_of(id, hole.bottom);
             let floor = self.survey.levels[level].elevation.get();
-            if kind == "OPENINGELEMENT" && !is_passage(&hole, floor) {
+            if is_hole && !is_passage(&hole, floor) {
+                others += 1;
                 continue;
             }
             let near = boundaries.get(&id).unwrap_or(&none);
-            let sides = if look { self.sides(&hole, level, near) } else { [None, None] };
-            let opening = self.opening(id, record, kind, &hole, floor, sides);
+            let sides = self.sides(&hole, level, near);
+            let opening = self.opening(id, record, what, &hole, floor, sides);
             // A hole in a wall that joins nothing is for pipes.
             let joins = sides.iter().all(Option::is_some) && sides[0] != sides[1];
-            if kind != "OPENINGELEMENT" || joins {
+            if is_hole && !joins {
+                others += 1;
+            } else {
                 self.survey.levels[level].openings.push(opening);
             }
+        }
+        if others > 0 {
+            let text = format!(
+                "{others} шт.: пустые отверстия, сквозь которые не пройти или которые не соединяют помещений"
+            );
+            self.tell((Deed::Noted, What::Record), (others, 0), "IFCOPENINGELEMENT", text);
+        }
+        if passed > 0 {
+            let text = format!("{passed} шт. сверх {MOST_OPENINGS}, пропущены");
+            self.tell((Deed::Skipped, What::Record), (passed, 0), "IFCDOOR", text);
         }
     }
 
     /// Element → the spaces whose boundary it is.
     fn boundaries(&self) -> HashMap<u32, HashSet<u32>> {
         let mut found = HashMap::<u32, HashSet<u32>>::new();
-        for kind in
-            ["IFCRELSPACEBOUNDARY", "IFCRELSPACEBOUNDARY1STLEVEL", "IFCRELSPACEBOUNDARY2NDLEVEL"]
-        {
-            for (_, relation) in self.all.all(kind) {
-                if let (Some(space), Some(element)) =
-                    (relation.at(4).reference(), relation.at(5).reference())
-                {
-                    found.entry(element).or_default().insert(space);
-                }
+        for (space, element, _) in self.space_boundaries() {
+            if let Some(element) = element {
+                found.entry(element).or_default().insert(space);
             }
         }
         found
@@ -100,19 +122,19 @@ impl Reader<'_> {
 
     /// The hole that a door, window or opening makes: its overall width at the middle of its body, else the body's,
     /// else from its placement's origin along X.
-    fn hole(&mut self, record: &Instance, kind: &str) -> Option<Hole> {
+    fn hole(&mut self, record: &Instance, is_opening: bool) -> Option<Hole> {
         let mut place = self.place_of(record);
-        let prisms = self.shapes.of_product(record.at(6), &place);
-        let mut body = Extent::of(&prisms, &place);
-        let is_opening = kind == "OPENINGELEMENT";
+        let (bodies, _) = self.shapes.of_product(record.at(6), &place, Else::Box);
+        let mut body = Extent::of(&bodies, &place);
         // An opening's placement may have either axis along the wall; it is cut where it is wider.
         if is_opening && body.as_ref().is_some_and(|b| b.y.1 - b.y.0 > b.x.1 - b.x.0) {
             place = Place { x: place.y, y: -place.x, ..place };
-            body = Extent::of(&prisms, &place);
+            body = Extent::of(&bodies, &place);
         }
+        let unit = place.z.norm();
         let measure = |index: usize| {
-            let told = record.at(index).number().filter(|_| !is_opening)?;
-            Some(told).filter(|w| WIDTHS.contains(&(w * self.scale)))
+            let told = record.at(index).number().filter(|_| !is_opening)? * unit;
+            Some(told).filter(|w| WIDTHS.contains(w))
         };
         let (told_height, told_width) = (measure(8), measure(9));
         let (low, high) = match (&body, told_width) {
@@ -125,43 +147,34 @@ impl Reader<'_> {
             (None, None) => return None,
         };
         let y = body.as_ref().map_or(0.0, |b| b.y.0.midpoint(b.y.1));
-        let end = |x: f64| {
-            let p = place.apply(Point3::new(x, y, 0.0));
-            self.plan(Point::new(p.x, p.y))
-        };
-        let ends = [end(low), end(high)];
-        let across = Vector::new(place.y.x, place.y.y).try_normalize(1e-9)?;
+        let (along, across) = (flat(place.x)?, flat(place.y)?);
+        let origin = Point::new(place.origin.x, place.origin.y);
+        let ends = [low, high].map(|x| origin + along * x + across * y);
         let sound = ends.iter().all(|p| Cm::new(p.x).is_ok() && Cm::new(p.y).is_ok());
         let bottom = body.as_ref().map_or(place.origin.z, |b| b.z.0);
         let height = told_height.or(body.as_ref().map(|b| b.z.1 - b.z.0));
-        (sound && WIDTHS.contains(&(ends[1] - ends[0]).norm())).then(|| Hole {
+        (sound && WIDTHS.contains(&(ends[1] - ends[0]).norm())).then_some(Hole {
             ends,
             across,
-            bottom: self.height(bottom),
-            height: height.map(|h| h * self.scale),
+            bottom,
+            height,
         })
     }
 
     /// The rooms on the near side (against Y) and on the far side.
-    fn sides(&self, hole: &Hole, level: usize, near: &HashSet<u32>) -> [Option<usize>; 2] {
-        let known: Vec<usize> = near
+    fn sides(&mut self, hole: &Hole, level: usize, near: &HashSet<u32>) -> [Option<usize>; 2] {
+        let known: HashSet<usize> = near
             .iter()
             .filter_map(|space| self.rooms.get(space))
             .filter(|(l, _)| *l == level)
             .map(|(_, room)| *room)
             .collect();
-        let rooms = &self.survey.levels[level].rooms;
         let middle = hole.ends[0] + (hole.ends[1] - hole.ends[0]) / 2.0;
-        let holds = |room: usize, p: Point| {
-            let room = &rooms[room];
-            outline::contains(&room.outline, p)
-                && !room.holes.iter().any(|h| outline::contains(h, p))
-        };
         [-1.0, 1.0].map(|way| {
             STEPS.iter().find_map(|step| {
-                let p = middle + hole.across * (way * step);
-                let bounded = known.iter().copied().find(|r| holds(*r, p));
-                bounded.or_else(|| (0..rooms.len()).find(|r| holds(*r, p)))
+                let rooms = self.rooms_at(level, middle + hole.across * (way * step));
+                let bounded = rooms.iter().find(|r| known.contains(r));
+                bounded.or(rooms.first()).copied()
             })
         })
     }
@@ -170,19 +183,20 @@ impl Reader<'_> {
         &self,
         id: u32,
         record: &Instance,
-        kind: &str,
+        what: What,
         hole: &Hole,
         floor: f64,
         [near, far]: [Option<usize>; 2],
     ) -> Opening {
-        let operation = (kind == "DOOR").then(|| self.operation(id, record)).flatten();
+        let operation = (what == What::Door).then(|| self.operation(id, record)).flatten();
         let mut properties = Properties::new();
         properties.extend(operation.clone().map(|o| ("ifc:OperationType".to_owned(), o)));
         // Seen from the near side, looking along Y, the end with the larger X is on the right.
         let (mut jambs, mut rooms) = ([hole.ends[1], hole.ends[0]], [near, far]);
-        let mut what = match kind {
-            "DOOR" => door(operation.as_deref()),
-            "WINDOW" => OpeningKind::Window,
+        let is_window = what == What::Window;
+        let mut what = match what {
+            What::Door => door(operation.as_deref()),
+            What::Window => OpeningKind::Window,
             _ => OpeningKind::Passage,
         };
         if near.is_none() && far.is_some() {
@@ -205,7 +219,7 @@ impl Reader<'_> {
             height: hole.height.and_then(|h| Cm::new(h).ok()),
             sill: Cm::new(hole.bottom - floor)
                 .ok()
-                .filter(|s| kind == "WINDOW" && s.get() > 0.0)
+                .filter(|s| is_window && s.get() > 0.0)
                 .unwrap_or(Cm::ZERO),
             properties,
         }
@@ -261,10 +275,16 @@ fn door(operation: Option<&str>) -> OpeningKind {
         _ => Vec::new(),
     };
     let opens = (!leaves.is_empty()).then_some(OpensTo::Outside);
-    OpeningKind::Door { kind, leaves, opens, status: DoorStatus::Closed, opening: 0.0 }
+    // A model of a building tells how a door is hung, never how it stands.
+    OpeningKind::Door { kind, leaves, opens, status: DoorStatus::Open, opening: 100.0 }
 }
 
-/// What some prisms take up along the axes of a frame, in the file's unit.
+/// A direction on the plan.
+fn flat(axis: Vector3<f64>) -> Option<Vector> {
+    Vector::new(axis.x, axis.y).try_normalize(1e-9)
+}
+
+/// What some bodies take up along the axes of a frame, in cm.
 struct Extent {
     x: (f64, f64),
     y: (f64, f64),
@@ -272,17 +292,16 @@ struct Extent {
 }
 
 impl Extent {
-    fn of(prisms: &[Prism], place: &Place) -> Option<Self> {
-        let wide = |axis: nalgebra::Vector3<f64>| {
-            let axis = Vector::new(axis.x, axis.y);
-            let origin = Point::new(place.origin.x, place.origin.y);
-            let along = prisms.iter().flat_map(|p| &p.outline).map(|p| (p - origin).dot(&axis));
-            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
+    fn of(bodies: &[Body], place: &Place) -> Option<Self> {
+        let wide = |axis: Vector3<f64>| {
+            let axis = axis.try_normalize(1e-12).unwrap_or_else(Vector3::x);
+            let along = |p: &Point3<f64>| (p - place.origin).dot(&axis);
+            let corners = bodies.iter().flat_map(Body::corners).map(along);
+            corners.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), x| (l.min(x), h.max(x)))
         };
-        let low = prisms.iter().map(|p| p.bottom).fold(f64::INFINITY, f64::min);
-        let high = prisms.iter().map(|p| p.top).fold(f64::NEG_INFINITY, f64::max);
-        prisms.first()?;
-        Some(Self { x: wide(place.x), y: wide(place.y), z: (low, high) })
+        let z = bodies.iter().filter_map(Body::heights);
+        let z = z.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
+        Some(Self { x: wide(place.x), y: wide(place.y), z })
     }
 }
 

@@ -1,90 +1,28 @@
-//! IFC models (IFC2x3, IFC4) as STEP text → [`Survey`]: storeys, spaces, doors, windows, openings without doors,
-//! furniture. Walls are not read: they are what is between the spaces.
+//! IFC models (IFC2x3, IFC4, IFC4.3) as STEP text → [`Survey`]: storeys, spaces, doors, windows, openings without
+//! doors, boundaries without walls, stairs and lifts, furniture and equipment. Walls are not read: they are what is
+//! between the spaces.
 //!
-//! Only the types of `WANTED` are taken apart; the rest of the file is passed over. A door is set where its
-//! placement and its body say; the spaces that it joins are looked for on both sides of it, and where the model has
-//! space boundaries they narrow the search.
+//! Only the types of [`classes`] are taken apart; the rest of the file is passed over, and elements of which nothing
+//! is made are counted. A door is set where its placement and its body say; the spaces that it joins are looked for on
+//! both sides of it, and where the model has space boundaries they narrow the search. Every element is accounted for:
+//! it is in the survey's lists, or in what the survey tells of the file.
 
+mod body;
 mod building;
+mod classes;
+mod curve;
 mod doors;
+mod passages;
 mod place;
 mod shape;
+mod solid;
+mod spaces;
+mod stairs;
 mod step;
+mod things;
 
 use super::{ReadError, Survey};
 use crate::units::Source;
-
-/// The types that are read.
-const WANTED: [&str; 68] = [
-    "IFCPROJECT",
-    "IFCUNITASSIGNMENT",
-    "IFCSIUNIT",
-    "IFCCONVERSIONBASEDUNIT",
-    "IFCMEASUREWITHUNIT",
-    "IFCSITE",
-    "IFCBUILDING",
-    "IFCBUILDINGSTOREY",
-    "IFCSPACE",
-    "IFCDOOR",
-    "IFCDOORSTANDARDCASE",
-    "IFCDOORSTYLE",
-    "IFCDOORTYPE",
-    "IFCWINDOW",
-    "IFCWINDOWSTANDARDCASE",
-    "IFCOPENINGELEMENT",
-    "IFCFURNISHINGELEMENT",
-    "IFCFURNITURE",
-    "IFCSYSTEMFURNITUREELEMENT",
-    "IFCFURNITURETYPE",
-    "IFCFURNISHINGELEMENTTYPE",
-    "IFCRELAGGREGATES",
-    "IFCRELCONTAINEDINSPATIALSTRUCTURE",
-    "IFCRELDEFINESBYTYPE",
-    "IFCRELFILLSELEMENT",
-    "IFCRELSPACEBOUNDARY",
-    "IFCRELSPACEBOUNDARY1STLEVEL",
-    "IFCRELSPACEBOUNDARY2NDLEVEL",
-    "IFCLOCALPLACEMENT",
-    "IFCAXIS2PLACEMENT3D",
-    "IFCAXIS2PLACEMENT2D",
-    "IFCCARTESIANPOINT",
-    "IFCDIRECTION",
-    "IFCCARTESIANTRANSFORMATIONOPERATOR3D",
-    "IFCPRODUCTDEFINITIONSHAPE",
-    "IFCSHAPEREPRESENTATION",
-    "IFCREPRESENTATIONMAP",
-    "IFCMAPPEDITEM",
-    "IFCEXTRUDEDAREASOLID",
-    "IFCARBITRARYCLOSEDPROFILEDEF",
-    "IFCARBITRARYPROFILEDEFWITHVOIDS",
-    "IFCRECTANGLEPROFILEDEF",
-    "IFCRECTANGLEHOLLOWPROFILEDEF",
-    "IFCROUNDEDRECTANGLEPROFILEDEF",
-    "IFCCIRCLEPROFILEDEF",
-    "IFCCIRCLEHOLLOWPROFILEDEF",
-    "IFCPOLYLINE",
-    "IFCINDEXEDPOLYCURVE",
-    "IFCCARTESIANPOINTLIST2D",
-    "IFCCARTESIANPOINTLIST3D",
-    "IFCCOMPOSITECURVE",
-    "IFCCOMPOSITECURVESEGMENT",
-    "IFCTRIMMEDCURVE",
-    "IFCBOUNDINGBOX",
-    "IFCFACETEDBREP",
-    "IFCFACETEDBREPWITHVOIDS",
-    "IFCCLOSEDSHELL",
-    "IFCOPENSHELL",
-    "IFCCONNECTEDFACESET",
-    "IFCFACE",
-    "IFCFACEOUTERBOUND",
-    "IFCFACEBOUND",
-    "IFCPOLYLOOP",
-    "IFCPOLYGONALFACESET",
-    "IFCINDEXEDPOLYGONALFACE",
-    "IFCTRIANGULATEDFACESET",
-    "IFCBOOLEANCLIPPINGRESULT",
-    "IFCBOOLEANRESULT",
-];
 
 /// Reads an IFC model.
 ///
@@ -93,7 +31,8 @@ const WANTED: [&str; 68] = [
 /// an outline, [`ReadError::TooMany`] when it has more than any building.
 pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let mut remarks = Vec::new();
-    let all = step::instances(source, &WANTED, &mut remarks)?;
+    let counted: Vec<&str> = classes::counted().collect();
+    let all = step::instances(source, &classes::wanted(), &counted, &mut remarks)?;
     building::survey(source.name(), &all, remarks)
 }
 

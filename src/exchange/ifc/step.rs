@@ -76,6 +76,8 @@ pub(super) struct Instances {
     by_id: HashMap<u32, Instance>,
     /// In the order of the file.
     order: HashMap<&'static str, Vec<u32>>,
+    /// How many there are of the types that were only to be counted.
+    counts: HashMap<&'static str, usize>,
 }
 
 impl Instances {
@@ -87,6 +89,12 @@ impl Instances {
     pub(super) fn all(&self, kind: &str) -> impl Iterator<Item = (u32, &Instance)> + '_ {
         let ids = self.order.get(kind).map(Vec::as_slice).unwrap_or_default();
         ids.iter().filter_map(|id| Some((*id, self.by_id.get(id)?)))
+    }
+
+    /// How many there are of a type that is kept or counted.
+    pub(super) fn count(&self, kind: &str) -> usize {
+        let kept = self.order.get(kind).map(Vec::len);
+        kept.or(self.counts.get(kind).copied()).unwrap_or(0)
     }
 }
 
@@ -102,10 +110,11 @@ pub(super) fn is_step(text: &str) -> bool {
     matches!(space(text), Ok((rest, ())) if rest.starts_with("ISO-10303-21"))
 }
 
-/// Reads the DATA section.
+/// Reads the DATA section: takes apart the instances of the types that are wanted, and counts others.
 pub(super) fn instances(
     source: &Source,
     wanted: &[&'static str],
+    counted: &[&'static str],
     remarks: &mut Vec<Remark>,
 ) -> Result<Instances, ReadError> {
     let text = source.text();
@@ -117,7 +126,9 @@ pub(super) fn instances(
     let Some(mut rest) = data_section(text) else {
         return Err(fault("текст оборван: нет раздела DATA", &text[text.len()..]));
     };
-    let wanted: HashMap<&str, &'static str> = wanted.iter().map(|w| (*w, *w)).collect();
+    let wanted: HashMap<&'static str, &'static str> = wanted.iter().map(|w| (*w, *w)).collect();
+    let counted: HashMap<&'static str, &'static str> = counted.iter().map(|w| (*w, *w)).collect();
+    let known = Known { wanted, counted };
     let mut found = Instances::default();
     let mut faulty = 0_usize;
     loop {
@@ -136,8 +147,8 @@ pub(super) fn instances(
             }
             continue;
         }
-        match instance(rest, &wanted) {
-            Ok((after, Some((id, instance)))) => {
+        match instance(rest, &known) {
+            Ok((after, Found::Kept(id, instance))) => {
                 rest = after;
                 if found.by_id.len() >= MOST {
                     return Err(ReadError::TooMany {
@@ -153,7 +164,12 @@ pub(super) fn instances(
                     found.order.entry(kind).or_default().push(id);
                 }
             }
-            Ok((after, None)) => rest = after,
+            Ok((after, Found::Passed(kind))) => {
+                if let Some(kind) = kind {
+                    *found.counts.entry(kind).or_default() += 1;
+                }
+                rest = after;
+            }
             Err(e) => {
                 let at = match &e {
                     nom::Err::Error(e) | nom::Err::Failure(e) => e.input,
@@ -229,23 +245,35 @@ fn skip(input: &str) -> Read<'_, ()> {
     }
 }
 
-/// `#12=IFCDOOR(…);` None when nobody asks for its type.
-fn instance<'a>(
-    input: &'a str,
-    wanted: &HashMap<&str, &'static str>,
-) -> Read<'a, Option<(u32, Instance)>> {
+/// The types that are taken apart, and those that are only counted.
+struct Known {
+    wanted: HashMap<&'static str, &'static str>,
+    counted: HashMap<&'static str, &'static str>,
+}
+
+enum Found {
+    Kept(u32, Instance),
+    /// Passed over; its type, where that is counted.
+    Passed(Option<&'static str>),
+}
+
+/// `#12=IFCDOOR(…);`
+fn instance<'a>(input: &'a str, known: &Known) -> Read<'a, Found> {
     let (rest, id) = reference(input)?;
     let (rest, _) = (space, char('='), space).parse(rest)?;
     if rest.starts_with('(') {
         // Several types at once: units and colours are written so; none of them is needed.
-        return map(skip, |()| None).parse(rest);
+        return map(skip, |()| Found::Passed(None)).parse(rest);
     }
     let (rest, name) = word(rest)?;
     let upper = name.to_ascii_uppercase();
-    let Some(&kind) = wanted.get(upper.as_str()) else { return map(skip, |()| None).parse(rest) };
+    let Some(&kind) = known.wanted.get(upper.as_str()) else {
+        let counted = known.counted.get(upper.as_str()).copied();
+        return map(skip, |()| Found::Passed(counted)).parse(rest);
+    };
     let (rest, values) = preceded(space, |i| list(i, 0)).parse(rest)?;
     let (rest, _) = (space, char(';')).parse(rest)?;
-    Ok((rest, Some((id, Instance { kind, values }))))
+    Ok((rest, Found::Kept(id, Instance { kind, values })))
 }
 
 fn reference(input: &str) -> Read<'_, u32> {
@@ -281,7 +309,7 @@ fn any_value(input: &str, depth: usize) -> Read<'_, Value> {
         map(delimited(char('.'), word, char('.')), |w| Value::Word(w.to_ascii_uppercase().into())),
         map(number, Value::Number),
         map(|i| list(i, depth + 1), Value::List),
-        // `IFCLABEL('x')`: the type adds nothing that the place does not say.
+        // `IFCLABEL('x')`: but for arcs the type adds nothing that the place does not say.
         |i| typed(i, depth + 1),
         map(delimited(char('"'), take_while(|c: char| c.is_ascii_hexdigit()), char('"')), |_| {
             Value::Nothing
@@ -292,9 +320,13 @@ fn any_value(input: &str, depth: usize) -> Read<'_, Value> {
 
 /// A typed value: the value alone, or the list when there are several.
 fn typed(input: &str, depth: usize) -> Read<'_, Value> {
-    let (rest, _) = (word, space).parse(input)?;
+    let (rest, (name, ())) = (word, space).parse(input)?;
     let (rest, values) = list(rest, depth)?;
     let mut values = values.into_vec();
+    if name.eq_ignore_ascii_case("IFCARCINDEX") {
+        values.insert(0, Value::Word("ARC".into()));
+        return Ok((rest, Value::List(values.into())));
+    }
     let value = if values.len() == 1 { values.remove(0) } else { Value::List(values.into()) };
     Ok((rest, value))
 }
@@ -410,8 +442,11 @@ mod tests {
         let text = "ISO-10303-21;HEADER;FILE_NAME('DATA;','x');ENDSEC;\n/* DATA; */DATA;\n\
                     #1=IFCWALL('a;b',$);#2=(A(1)B(2)); #3 = ifcdoor ( 'Д' ) ;\n#4=IFCDOOR(oops;ENDSEC;\nEND-ISO-10303-21;";
         let mut remarks = Vec::new();
-        let found = instances(&Source::new("x.ifc", text), &["IFCDOOR"], &mut remarks).unwrap();
+        let found =
+            instances(&Source::new("x.ifc", text), &["IFCDOOR"], &["IFCWALL"], &mut remarks)
+                .unwrap();
         assert_eq!(found.all("IFCDOOR").map(|(id, _)| id).collect::<Vec<_>>(), [3]);
+        assert_eq!((found.count("IFCWALL"), found.count("IFCDOOR")), (1, 1));
         assert_eq!(remarks.len(), 1);
         assert!(remarks[0].text.contains("строка 4, столбец 12"), "{remarks:?}");
     }

@@ -152,6 +152,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
         kinds,
         lifts: Vec::new(),
         remarks: reader.remarks,
+        told: Vec::new(),
     })
 }
 

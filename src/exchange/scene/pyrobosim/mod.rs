@@ -72,6 +72,7 @@ pub fn read_pyrobosim(
         kinds: reader.kinds,
         lifts: Vec::new(),
         remarks: reader.remarks,
+        told: Vec::new(),
     })
 }
 
