@@ -185,11 +185,6 @@ pub enum RequestError {
     #[diagnostic(code(engine::which_map), help("назовите одну из них"))]
     WhichMap { candidates: String },
 
-    /// A command that no goal of the rules stands for.
-    #[error("«{command}»: у этой команды нет цели, которую знают правила робота")]
-    #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
-    NoGoal { command: String },
-
     /// A side of a thing on which the robot has no place to stand.
     #[error("«{name}»: с той стороны роботу негде встать")]
     #[diagnostic(
@@ -423,9 +418,6 @@ impl RequestError {
     /// `called` gives the English name of what the map calls so.
     fn english(&self, called: &dyn Fn(&str) -> String) -> Option<String> {
         Some(match self {
-            Self::NoGoal { command } => {
-                format!("The robot's rules have no goal for this: {}.", called(command))
-            }
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
                 called(name)

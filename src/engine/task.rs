@@ -89,6 +89,8 @@ pub struct TaskAnswer {
     pub left: Vec<(GoalFact, TaskEnding)>,
     /// Whether it was told to tidy: «Убери со стола».
     pub tidies: bool,
+    /// Whether it was only told to stop: each task runs to its end before the next is heard, so nothing was under way.
+    pub stops: bool,
     /// Where the robot stands, when it was told to report and no directive ends with a report.
     pub reported: Option<Position>,
     /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
@@ -264,6 +266,7 @@ impl Engine {
             ending,
             left,
             tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
+            stops: matches!(commands, [Command::Stop]),
             reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
         })

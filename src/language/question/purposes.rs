@@ -487,16 +487,6 @@ pub(super) fn sort_called(english: &str) -> Option<u16> {
     found.and_then(|n| u16::try_from(n).ok())
 }
 
-/// The sorts of what holds drink and food.
-pub(super) fn vessels() -> impl Iterator<Item = u16> {
-    let holds = |sort: &Sort| sort.members.split('|').any(|kind| matches!(kind, "cup" | "bowl"));
-    SORTS
-        .iter()
-        .enumerate()
-        .filter(move |(_, sort)| holds(sort))
-        .filter_map(|(n, _)| u16::try_from(n).ok())
-}
-
 /// The part of a sort's things in what is done with them.
 pub(super) fn role(sort: u16) -> Role {
     SORTS.get(usize::from(sort)).map_or(Patient, |sort| sort.role)
