@@ -144,6 +144,11 @@ pub enum RequestError {
         help: Option<String>,
     },
 
+    /// A thing is not where an order says that it is.
+    #[error("«{thing}» сейчас не там, где сказано: «{place}»")]
+    #[diagnostic(code(engine::not_there), help("спросите «Где …?» и скажите, что имелось в виду"))]
+    NotThere { thing: String, place: String },
+
     /// Something that is no place to go to, or from.
     #[error("«{name}» – не место, до которого можно доехать")]
     #[diagnostic(code(engine::not_a_place), help("назовите точку, помещение, дверь или вещь"))]
@@ -421,6 +426,11 @@ impl RequestError {
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
                 called(name)
+            ),
+            Self::NotThere { thing, place } => format!(
+                "{} is not where you say: {}.",
+                capitalized(&called(thing)),
+                called(place)
             ),
             Self::NoCharger => "The map has no place to charge.".to_owned(),
             Self::NoStart => "The map does not tell where the robot belongs.".to_owned(),

@@ -153,6 +153,8 @@ pub(super) struct Reader<'r, 't, T> {
 struct Roles<T> {
     objects: Vec<T>,
     at: Option<Placement<T>>,
+    /// Whether that is where something comes from: «из кухни».
+    whence: bool,
     to: Option<Placement<T>>,
     via: Option<T>,
     facing: Option<Facing<T>>,
@@ -376,6 +378,13 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                 return Err(self.not_understood(words, hint.into()));
             }
             Verb::GoTo => {
+                // "Stand in the corridor between the doors": the first place tells where the second is.
+                if !roles.whence
+                    && let Some(outer) = roles.at.take_if(|_| roles.to.is_some())
+                {
+                    let anchor = outer.anchor;
+                    within(&mut roles.to, anchor).ok_or_else(|| self.apart(&roles.said.at))?;
+                }
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
                 let bare = |anchor: T| Placement::new(Relation::At, anchor);
                 let to = roles.to.take().or_else(|| roles.at.take());
@@ -491,6 +500,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         let mut roles = Roles {
             objects: vec![],
             at: None,
+            whence: false,
             to: None,
             via: None,
             facing: None,
@@ -567,6 +577,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                         return Err(again());
                     }
                     roles.said.at = argument.words.clone();
+                    roles.whence = role == Role::Whence;
                     latest_is_to = Some(false);
                 }
                 (Role::Whither, _) => {

@@ -168,6 +168,38 @@ pub enum Command<T> {
     Stop,
 }
 
+impl<T> Command<T> {
+    /// What is carried, opened, switched or sought, with what was said of where it is.
+    #[must_use]
+    pub fn what(&self) -> Option<&Thing<T>> {
+        match self {
+            Self::Bring { what, .. }
+            | Self::Take { what }
+            | Self::Put { what, .. }
+            | Self::SetDown { what, .. }
+            | Self::PutBack(what)
+            | Self::Open(what)
+            | Self::Close(what)
+            | Self::Lock(what)
+            | Self::Unlock(what)
+            | Self::SwitchOn(what)
+            | Self::SwitchOff(what)
+            | Self::Find(what) => Some(what),
+            _ => None,
+        }
+    }
+
+    /// Whither the robot goes, or something is put.
+    #[must_use]
+    pub fn place(&self) -> Option<&Placement<T>> {
+        match self {
+            Self::GoTo { to, .. } | Self::Put { to, .. } => Some(to),
+            Self::Bring { to, .. } => to.as_ref(),
+            _ => None,
+        }
+    }
+}
+
 /// Understands commands about the things of one index.
 pub struct Listener<'i, T> {
     index: &'i FormIndex<T>,
