@@ -22,6 +22,10 @@ use super::fault::Failure;
 use super::text::decimal;
 use super::{Answer, json, say, text};
 
+/// What is said to "Stop" where nothing is under way, in both languages.
+pub(super) const NOTHING_TO_STOP: [&str; 2] =
+    ["Стою: ничего не выполняется.", "I stand still: nothing is under way."];
+
 /// The map of the papers, for a program that was installed without its files.
 const RB2: (&str, &str) = ("maps/rb2.toml", include_str!("../../maps/rb2.toml"));
 
@@ -248,12 +252,14 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
         }
     }
     let mut told = vec![ending(engine.world()?, answer, lang)];
+    let places = places_found(engine, answer, lang)?;
     // That a thing is found already says nothing more than where it is.
     let finds = answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND);
-    if matches!(answer.ending, TaskEnding::AlreadyTrue) && finds && answer.left.is_empty() {
+    let is_so = matches!(answer.ending, TaskEnding::AlreadyTrue) && answer.left.is_empty();
+    if is_so && finds && !places.is_empty() {
         told.clear();
     }
-    told.extend(places_found(engine, answer, lang)?);
+    told.extend(places);
     say(&told.join(" ")).map(|_| ())
 }
 
@@ -300,6 +306,7 @@ fn unfinished(world: &World, ending: &TaskEnding, answer: &TaskAnswer, lang: Lan
     match ending {
         TaskEnding::Done | TaskEnding::AlreadyTrue => match &answer.reported {
             Some(position) => position.say(lang.language()),
+            None if answer.stops => lang.pick(NOTHING_TO_STOP[0], NOTHING_TO_STOP[1]).to_owned(),
             None if answer.tidies => {
                 let kept = "Всё уже на своих местах: там, где хранится или было на карте.";
                 let english =

@@ -35,6 +35,7 @@ pub(super) fn run(common: &Common) -> Result<Answer, Failure> {
         engine,
         memory: Memory::speaking(common.lang.language()),
         offered: None,
+        awaited: false,
         refusal: None,
         json: common.json,
         keeps,
@@ -105,6 +106,8 @@ struct Dialogue {
     memory: Memory,
     /// A line with its verb put right, until the person says that it was meant.
     offered: Option<String>,
+    /// Whether such a line waited for the person when this one was said.
+    awaited: bool,
     /// Why the last line was not carried out, until another one is answered.
     refusal: Option<String>,
     json: bool,
@@ -128,6 +131,7 @@ impl Dialogue {
             return self.answer(line, shows).map(|()| true);
         }
         let offered = self.offered.take();
+        self.awaited = offered.is_some();
         if let Some(reason) = self.refusal.take().filter(|_| is_why(line)) {
             let text = match Language::of(line) {
                 Language::Russian => format!("Вот причина: {reason}"),
@@ -274,6 +278,7 @@ impl Dialogue {
     fn command(&mut self, line: &str) -> Result<(), Failure> {
         let language = Language::of(line);
         let lang = if language == Language::Russian { Lang::Ru } else { Lang::En };
+        let waited = self.memory.awaits_reply() || self.awaited;
         let commands = match self.engine.understand_in(line, &mut self.memory) {
             Ok(commands) => commands,
             Err(Error::Misheard(misheard)) => {
@@ -284,7 +289,7 @@ impl Dialogue {
             Err(other) => return self.refuse(&other, language),
         };
         match &commands[..] {
-            [Command::Stop] => return self.put("stopped", lang.pick("Стою.", "I have stopped.")),
+            [Command::Stop] => return self.stop(waited, lang),
             [Command::Wait] => return self.put("waiting", lang.pick("Жду.", "I am waiting.")),
             [Command::ComeBack] => {
                 let text = lang.pick(
@@ -318,6 +323,16 @@ impl Dialogue {
             Err(Failure::Engine(error)) => self.refuse(&error, language),
             Err(failure) => Err(failure),
         }
+    }
+
+    /// Nothing is under way between two lines; what waited for an answer is dropped.
+    fn stop(&mut self, waited: bool, lang: Lang) -> Result<(), Failure> {
+        self.memory.forget_reply();
+        let text = match waited {
+            true => lang.pick("Хорошо, отменено.", "All right, that is cancelled."),
+            false => lang.pick(demo::NOTHING_TO_STOP[0], demo::NOTHING_TO_STOP[1]),
+        };
+        self.put("stopped", text)
     }
 
     fn refuse(&mut self, error: &Error, language: Language) -> Result<(), Failure> {

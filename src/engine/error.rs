@@ -144,6 +144,11 @@ pub enum RequestError {
         help: Option<String>,
     },
 
+    /// A thing is not where an order says that it is.
+    #[error("«{thing}» сейчас не там, где сказано: «{place}»")]
+    #[diagnostic(code(engine::not_there), help("спросите «Где …?» и скажите, что имелось в виду"))]
+    NotThere { thing: String, place: String },
+
     /// Something that is no place to go to, or from.
     #[error("«{name}» – не место, до которого можно доехать")]
     #[diagnostic(code(engine::not_a_place), help("назовите точку, помещение, дверь или вещь"))]
@@ -184,11 +189,6 @@ pub enum RequestError {
     #[error("в домейне несколько карт: {candidates}")]
     #[diagnostic(code(engine::which_map), help("назовите одну из них"))]
     WhichMap { candidates: String },
-
-    /// A command that no goal of the rules stands for.
-    #[error("«{command}»: у этой команды нет цели, которую знают правила робота")]
-    #[diagnostic(code(engine::no_goal), help("опишите цель сценарием: ortho plan СЦЕНАРИЙ.strips"))]
-    NoGoal { command: String },
 
     /// A side of a thing on which the robot has no place to stand.
     #[error("«{name}»: с той стороны роботу негде встать")]
@@ -423,12 +423,14 @@ impl RequestError {
     /// `called` gives the English name of what the map calls so.
     fn english(&self, called: &dyn Fn(&str) -> String) -> Option<String> {
         Some(match self {
-            Self::NoGoal { command } => {
-                format!("The robot's rules have no goal for this: {}.", called(command))
-            }
             Self::NotPutThere { name } => format!(
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
                 called(name)
+            ),
+            Self::NotThere { thing, place } => format!(
+                "{} is not where you say: {}.",
+                capitalized(&called(thing)),
+                called(place)
             ),
             Self::NoCharger => "The map has no place to charge.".to_owned(),
             Self::NoStart => "The map does not tell where the robot belongs.".to_owned(),

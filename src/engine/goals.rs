@@ -48,13 +48,16 @@ impl Engine {
             {
                 wanted = self.put_back(what.id, belief)?;
             }
-            // What is not locked is unlocked already; to close it would be something else.
-            if let Command::Unlock(what) = command {
-                let locks =
-                    |c: &Command<Entity>| matches!(c, Command::Lock(other) if other.id == what.id);
-                if !commands[..n].iter().any(locks) && !self.is_locked(what.id, now)? {
-                    wanted.clear();
-                }
+            // What is not locked is unlocked already, and what is locked is closed: each order asks for its own part only.
+            let locked = |what: Entity| self.is_locked_by(&commands[..n], what, now);
+            match command {
+                Command::Unlock(what) if !locked(what.id)? => wanted.clear(),
+                Command::Close(what) if !wanted.is_empty() && locked(what.id)? => wanted.clear(),
+                _ => {}
+            }
+            // What is so already joins nothing, and nothing is joined to it.
+            if wanted.is_empty() {
+                continue;
             }
             let is_alike = joined.last().is_some_and(|last| are_done_together(last, command));
             match (is_alike && joined.len() < TOGETHER, &wanted[..]) {
@@ -176,11 +179,8 @@ impl Engine {
             Command::Tidy(within) | Command::Clean(within) => {
                 self.tidied(*within, now, relations, belief)?
             }
-            // Each action ends with a report as it is.
-            Command::Wait | Command::Report => Vec::new(),
-            Command::Stop => {
-                return Err(RequestError::NoGoal { command: "это".to_owned() }.into());
-            }
+            // Each action ends with a report as it is; nothing is under way that could be stopped.
+            Command::Wait | Command::Report | Command::Stop => Vec::new(),
         })
     }
 
@@ -443,8 +443,24 @@ impl Engine {
         is_open(&self.world().ok()?.replicas.get(&id)?.properties)
     }
 
-    fn is_locked(&self, entity: Entity, now: &Now) -> Result<bool, Error> {
+    /// Whether a door is locked once the commands before have been carried out.
+    fn is_locked_by(
+        &self,
+        before: &[Command<Entity>],
+        entity: Entity,
+        now: &Now,
+    ) -> Result<bool, Error> {
         let door = self.door_of(entity)?;
+        for command in before.iter().rev() {
+            let (what, locks) = match command {
+                Command::Lock(what) => (what, true),
+                Command::Unlock(what) | Command::Open(what) => (what, false),
+                _ => continue,
+            };
+            if self.door_of(what.id).is_ok_and(|other| other == door) {
+                return Ok(locks);
+            }
+        }
         Ok(now.world.doors.get(&door).is_some_and(|door| door.state.status == DoorStatus::Locked))
     }
 

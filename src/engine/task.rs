@@ -89,6 +89,8 @@ pub struct TaskAnswer {
     pub left: Vec<(GoalFact, TaskEnding)>,
     /// Whether it was told to tidy: «Убери со стола».
     pub tidies: bool,
+    /// Whether it was only told to stop: each task runs to its end before the next is heard, so nothing was under way.
+    pub stops: bool,
     /// Where the robot stands, when it was told to report and no directive ends with a report.
     pub reported: Option<Position>,
     /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
@@ -264,6 +266,7 @@ impl Engine {
             ending,
             left,
             tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
+            stops: matches!(commands, [Command::Stop]),
             reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
         })
@@ -392,6 +395,7 @@ impl Engine {
                 return Err(misheard.into());
             }
         };
+        self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
         if let [Command::ComeBack] = commands[..]
             && let Some(Thing::Entity(anchor)) = memory.place_left()
@@ -407,6 +411,63 @@ impl Engine {
             memory.mention(&named);
         }
         Ok(commands)
+    }
+
+    /// Where a thing or a place is said to be, there it must be: what no other part of a command has used is compared
+    /// with the world as it is now, unless the sentence has moved the thing before.
+    fn check_places(&self, commands: &[Command<Entity>]) -> Result<(), Error> {
+        for (n, command) in commands.iter().enumerate() {
+            let mut said: Vec<(Entity, Entity)> = Vec::new();
+            if let Some(what) = command.what() {
+                let moved = |c: &Command<Entity>| c.what().is_some_and(|w| w.id == what.id);
+                let places = what.at.iter().chain(&what.toward);
+                if !commands[..n].iter().any(moved) {
+                    said.extend(places.map(|place| (what.id, place.anchor)));
+                }
+            }
+            let place = command.place();
+            said.extend(place.and_then(|place| Some((place.anchor, place.within?))));
+            for (thing, place) in said {
+                if !self.is_there(thing, place)? {
+                    let world = self.world()?;
+                    let name = |entity| world.name(entity).to_owned();
+                    let (thing, place) = (name(thing), name(place));
+                    return Err(RequestError::NotThere { thing, place }.into());
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether a thing or a place is in a room, or on or in another thing; a door is in the rooms that it joins.
+    fn is_there(&self, thing: Entity, place: Entity) -> Result<bool, Error> {
+        let around = self.around()?;
+        let (world, relations) = (around.world()?, around.relations()?);
+        let on_map = |area| world.placement(area).map(|(map, _)| Entity::Map(map));
+        let area = match thing {
+            Entity::Replica(id) => {
+                let mut below = relations.support_of(id);
+                while let Some(support) = below {
+                    if Entity::Replica(support) == place {
+                        return Ok(true);
+                    }
+                    below = relations.support_of(support);
+                }
+                relations.area_of(id)
+            }
+            Entity::Place(id) => world.places.get(&id).map(|place| place.area),
+            Entity::Area(area) => Some(area),
+            Entity::Door(door) => {
+                let joins = relations.joins();
+                let joined = joins.iter().filter(|join| join.door == Some(door));
+                let sides = joined.flat_map(|join| [join.from, join.to]);
+                return Ok(sides.into_iter().any(|side| {
+                    Entity::Area(side) == place || on_map(side) == Some(place)
+                }));
+            }
+            Entity::Map(_) => None,
+        };
+        Ok(area.is_some_and(|area| Entity::Area(area) == place || on_map(area) == Some(place)))
     }
 
     /// Of what a command means, a room, or the room of a window with the window's number.
@@ -514,19 +575,7 @@ fn place_windows(commands: &mut [Command<Entity>], meant: &[(Entity, Option<u32>
 /// What a command is about.
 pub(super) fn thing_of(command: &Command<Entity>) -> Option<Entity> {
     match command {
-        Command::Bring { what, .. } | Command::Take { what } | Command::Put { what, .. } => {
-            Some(what.id)
-        }
-        Command::SetDown { what, .. }
-        | Command::PutBack(what)
-        | Command::Open(what)
-        | Command::Close(what)
-        | Command::Lock(what)
-        | Command::Unlock(what)
-        | Command::SwitchOn(what)
-        | Command::SwitchOff(what)
-        | Command::Find(what) => Some(what.id),
         Command::GoTo { to, .. } => Some(to.anchor),
-        _ => None,
+        _ => command.what().map(|what| what.id),
     }
 }

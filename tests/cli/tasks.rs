@@ -275,3 +275,41 @@ fn words_lead_to_where_a_thing_is_now() {
     assert_eq!(gone["outcome"], "done");
     assert_eq!(place.json(&["where"], 0)["area"], "Комната-Y");
 }
+
+/// Nothing ends with an empty line: an order that leaves nothing to do says so, and "Stop" is one.
+#[test]
+fn every_order_is_answered() {
+    let place = Place::with_rb2();
+    for (lang, order) in [
+        ("ru", "Прибери"),
+        ("ru", "Приберись на кухне"),
+        ("en", "Tidy up"),
+        ("ru", "Стоп"),
+        ("ru", "Стой!"),
+        ("en", "Stop"),
+        ("en", "Halt"),
+        ("ru", "Жди"),
+        ("ru", "Закрой Дверь-КY"),
+    ] {
+        let told = place.run(&["do", order, "--lang", lang]).is(0).out;
+        let last = told.trim_end().lines().last().unwrap_or_default();
+        assert!(told.ends_with(&format!("{last}\n")) && !last.contains(order), "{order}: {told}");
+        assert!(last.split_whitespace().count() >= 2, "{order}: {told}");
+    }
+}
+
+/// Of what does not exist nothing is true: that is said, and not that a measure fails.
+#[test]
+fn why_of_a_name_that_does_not_exist_says_so() {
+    let place = Place::with_rb2();
+    for fact in ["ON_TOP_OF(Чашка-99, Стол-1)", "НАХОДИТСЯ_ВНУТРИ(Стол-1, Комната-Ю)"] {
+        for extra in [&[][..], &["--not"]] {
+            let told = place.run(&[&["why", fact], extra].concat()).is(2);
+            assert!(told.err.contains("на карте нет имени"), "{fact}: {}", told.err);
+        }
+    }
+    // By its English name a thing is the same thing.
+    let russian = place.run(&["why", "ON_TOP_OF(Чашка-1, Стол-1)"]);
+    let english = place.run(&["why", "ON_TOP_OF(Cup 1, Стол-1)"]);
+    assert_eq!(russian.out, english.out);
+}

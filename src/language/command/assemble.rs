@@ -28,31 +28,41 @@ pub(super) fn commands<T: Clone + Eq + Hash>(
         has_named: false,
         open: RefCell::new(listener.meant.clone()),
     };
-    // «Стоп, не едь!» must stop, whatever else is in the sentence; «подъедь к двери и остановись» only ends so.
+    // «Стоп, не едь!» must stop, whatever else is in the sentence; «подъедь к двери и остановись» only ends so, and what
+    // is ordered behind it is an order of its own.
     let is_stop = |item: &Item<'_, T>| matches!(item, Item::Verb(Verb::Stop, _));
     let ends_so =
         matches!(&items[..], [first, .., Item::And, last] if is_stop(last) && !is_stop(first));
-    if items.iter().any(is_stop) && !ends_so {
-        return Ok(vec![Command::Stop]);
+    if let Some(stop) = items.iter().rposition(is_stop).filter(|_| !ends_so) {
+        let mut commands = vec![Command::Stop];
+        commands.extend(reader.read(&items[stop + 1..]).unwrap_or_default());
+        return Ok(commands);
     }
     let items = if ends_so { &items[..items.len() - 2] } else { &items[..] };
-    if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
-        let (_, at) = reader.shown(words);
-        return Err(Misheard::Forbidden { text: reader.source(), at });
-    }
-    let mut commands = Vec::new();
-    for clause in clauses(items) {
-        for command in reader.clause(&clause)? {
-            match (commands.last_mut(), command) {
-                // "Drive into the kitchen and face the window"
-                (Some(Command::GoTo { facing: facing @ None, .. }), Command::Face(seen)) => {
-                    *facing = Some(seen);
+    reader.read(items)
+}
+
+impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
+    /// What items order, clause by clause.
+    fn read(&mut self, items: &[Item<'_, T>]) -> Result<Vec<Command<T>>, Misheard> {
+        if let Some(Item::Not(words)) = items.iter().find(|item| matches!(item, Item::Not(_))) {
+            let (_, at) = self.shown(words);
+            return Err(Misheard::Forbidden { text: self.source(), at });
+        }
+        let mut commands = Vec::new();
+        for clause in clauses(items) {
+            for command in self.clause(&clause)? {
+                match (commands.last_mut(), command) {
+                    // "Drive into the kitchen and face the window"
+                    (Some(Command::GoTo { facing: facing @ None, .. }), Command::Face(seen)) => {
+                        *facing = Some(seen);
+                    }
+                    (_, command) => commands.push(command),
                 }
-                (_, command) => commands.push(command),
             }
         }
+        Ok(commands)
     }
-    Ok(commands)
 }
 
 /// One verb and what belongs to it.
@@ -139,16 +149,47 @@ pub(super) struct Reader<'r, 't, T> {
     open: RefCell<Vec<T>>,
 }
 
-/// Arguments by the part that they play. Objects keep their case for [`Reader::resolve`].
+/// Arguments by the part that they play. A command takes out what it uses: what is left was said for nothing.
 struct Roles<T> {
     objects: Vec<T>,
     at: Option<Placement<T>>,
+    /// Whether that is where something comes from: «из кухни».
+    whence: bool,
     to: Option<Placement<T>>,
     via: Option<T>,
     facing: Option<Facing<T>>,
     to_me: bool,
     on_floor: bool,
+    with_key: bool,
+    haunt: Option<Haunt>,
     listed: bool,
+    /// The words of the last argument of each part.
+    said: Spans,
+}
+
+#[derive(Default)]
+struct Spans {
+    object: Range<usize>,
+    at: Range<usize>,
+    to: Range<usize>,
+    via: Range<usize>,
+    facing: Range<usize>,
+}
+
+impl<T> Roles<T> {
+    /// The words of what no command has used; empty where only the verb can be blamed.
+    fn left(&self) -> Option<Range<usize>> {
+        let said = &self.said;
+        let parts = [
+            (!self.objects.is_empty(), &said.object),
+            (self.at.is_some(), &said.at),
+            (self.to.is_some(), &said.to),
+            (self.via.is_some(), &said.via),
+            (self.facing.is_some(), &said.facing),
+            (self.on_floor || self.with_key || self.haunt.is_some(), &(0..0)),
+        ];
+        parts.into_iter().find(|(is_left, _)| *is_left).map(|(_, words)| words.clone())
+    }
 }
 
 impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
@@ -175,24 +216,38 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         }
         let verb = if clause.with_key && verb == Verb::Close { Verb::Lock } else { verb };
         // «Вернись домой», "go to your charger"; «отнеси чашку домой» says no place that a thing is put.
-        match (verb, clause.haunt) {
-            (Verb::Charge, _) => return Ok(vec![Command::Charge]),
-            (Verb::GoTo | Verb::Return | Verb::Move | Verb::Get | Verb::Leave, Some(haunt)) => {
-                if let Some(commands) = self.to_haunt(haunt, clause)? {
-                    return Ok(commands);
-                }
-            }
-            _ => {}
+        if let (Verb::GoTo | Verb::Return | Verb::Move | Verb::Get | Verb::Leave, Some(haunt)) =
+            (verb, clause.haunt)
+            && let Some(commands) = self.to_haunt(haunt, clause)?
+        {
+            return Ok(commands);
         }
         let arguments: Vec<&Argument<'_, T>> =
             clause.before.iter().chain(&clause.after).copied().collect();
         let mut roles = self.roles(verb, &arguments)?;
         roles.on_floor = clause.on_floor;
+        let locks = matches!(verb, Verb::Lock | Verb::Unlock | Verb::Open);
+        roles.with_key = clause.with_key && !locks;
+        roles.haunt = clause.haunt;
         roles.listed = clause.listed;
         if clause.to_wall {
+            if roles.facing.is_some() {
+                return Err(self.apart(&roles.said.facing));
+            }
             roles.facing = Some(Facing::Wall);
+            roles.said.facing = words.clone();
         }
-        self.command(verb, words, roles)
+        let commands = self.command(verb, words, &mut roles)?;
+        match roles.left() {
+            None => Ok(commands),
+            Some(left) if left.is_empty() => Err(self.apart(words)),
+            Some(left) => Err(self.apart(&left)),
+        }
+    }
+
+    /// A part of a sentence that its command has no use for: it is not passed over.
+    fn apart(&self, words: &Range<usize>) -> Misheard {
+        self.not_understood(words, "скажите это отдельно".into())
     }
 
     /// To a place of the robot's own, through what is named; none where another place is named.
@@ -210,7 +265,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
                     commands.push(Command::GoThrough(place));
                 }
                 (Some(link), _) if link.role != Role::Whither => {
-                    return Err(self.not_understood(&argument.words, "скажите это отдельно".into()));
+                    return Err(self.apart(&argument.words));
                 }
                 _ => return Ok(None),
             }
@@ -226,37 +281,40 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         &mut self,
         verb: Verb,
         words: &Range<usize>,
-        roles: Roles<T>,
+        roles: &mut Roles<T>,
     ) -> Result<Vec<Command<T>>, Misheard> {
-        let Roles { mut objects, mut at, mut to, via, facing, to_me, on_floor, listed } = roles;
-        let on_floor = on_floor
+        let to_me = roles.to_me;
+        let placed = roles.to.is_some() || roles.at.is_some();
+        let on_floor = roles.on_floor
             && matches!(verb, Verb::Put | Verb::Move | Verb::Clear | Verb::Leave | Verb::SetDown);
+        roles.on_floor &= !on_floor;
+        let named = !roles.objects.is_empty();
         let verb = match verb {
             Verb::Put | Verb::Move | Verb::Clear | Verb::Leave if on_floor => Verb::SetDown,
             // «Подожди в коридоре»
-            Verb::Wait if to.is_some() || at.is_some() => Verb::GoTo,
-            Verb::SetDown if !on_floor && (to.is_some() || at.is_some()) => Verb::Put,
-            Verb::Move | Verb::Get if objects.is_empty() => Verb::GoTo,
+            Verb::Wait if placed => Verb::GoTo,
+            Verb::SetDown if !on_floor && placed => Verb::Put,
+            Verb::Move | Verb::Get if !named => Verb::GoTo,
             Verb::Move => Verb::Put,
             Verb::Get => Verb::Bring,
             // "Return the book to the shelf", «верни книгу»; "return to the kitchen", «вернись».
-            Verb::Return if objects.is_empty() && (to.is_some() || at.is_some()) => Verb::GoTo,
-            Verb::Return if to_me && !objects.is_empty() => Verb::Bring,
-            Verb::Return | Verb::PutBack if to.is_some() && !objects.is_empty() => Verb::Put,
-            Verb::Return if !objects.is_empty() => Verb::PutBack,
+            Verb::Return if !named && placed => Verb::GoTo,
+            Verb::Return if to_me && named => Verb::Bring,
+            Verb::Return | Verb::PutBack if roles.to.is_some() && named => Verb::Put,
+            Verb::Return if named => Verb::PutBack,
             Verb::Return if to_me => return Ok(vec![Command::ComeHere]),
             Verb::Return => return Ok(vec![Command::ComeBack]),
             // «Выйди в коридор»; "leave the book on the table"
-            Verb::Leave if to.is_some() && objects.is_empty() => Verb::GoTo,
-            Verb::Leave if (to.is_some() || at.is_some()) && !objects.is_empty() => Verb::Put,
+            Verb::Leave if roles.to.is_some() && !named => Verb::GoTo,
+            Verb::Leave if placed && named => Verb::Put,
             // What is put away without a place goes to where it is kept.
-            Verb::Clear if to.is_none() && !objects.is_empty() => Verb::PutBack,
+            Verb::Clear if roles.to.is_none() && named => Verb::PutBack,
             verb => verb,
         };
         // "Take me to the kitchen": a person is nothing to be carried.
         if to_me
-            && objects.is_empty()
-            && to.is_some()
+            && !named
+            && roles.to.is_some()
             && matches!(verb, Verb::Bring | Verb::Take | Verb::Put)
         {
             return Err(self.unable(words));
@@ -269,50 +327,69 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             _ => None,
         };
         if let Some(command) = alone {
-            if !objects.is_empty() || (verb == Verb::CallLift && (to.is_some() || at.is_some())) {
-                return Err(self.not_understood(words, "скажите это отдельно".into()));
-            }
-            let there = to.or(at).map(|to| Command::GoTo { to, via, facing });
+            let there = match verb {
+                Verb::CallLift => None,
+                _ => roles.to.take().or_else(|| roles.at.take()),
+            };
+            let there = there.map(|to| Command::GoTo {
+                to,
+                via: roles.via.take(),
+                facing: roles.facing.take(),
+            });
             return Ok(there.into_iter().chain([command]).collect());
         }
         match verb {
             Verb::Stop => return Ok(vec![Command::Stop]),
             Verb::Face => {
+                let facing = roles.facing.take();
                 let facing = facing.ok_or_else(|| self.incomplete(words, question(verb)))?;
                 return Ok(vec![Command::Face(facing)]);
             }
             Verb::Charge => return Ok(vec![Command::Charge]),
             Verb::Leave => {
-                let place = at.map(|place| place.anchor).or_else(|| objects.pop());
-                return Ok(vec![Command::Leave(place)]);
+                let place = roles.at.take().map(|place| place.anchor);
+                return Ok(vec![Command::Leave(place.or_else(|| roles.objects.pop()))]);
             }
             Verb::Wait => return Ok(vec![Command::Wait]),
             Verb::Tidy | Verb::Clean | Verb::Clear
-                if to.is_none() && (verb != Verb::Clear || objects.is_empty()) =>
+                if roles.to.is_none() && (verb != Verb::Clear || !named) =>
             {
                 let done = if verb == Verb::Clean { Command::Clean } else { Command::Tidy };
                 // "Tidy the table in the kitchen": the place tells which.
-                let at = at.map(|place| place.anchor).filter(|_| objects.is_empty());
+                let at = if named { None } else { roles.at.take() };
+                let at = at.map(|place| place.anchor);
+                let objects = std::mem::take(&mut roles.objects);
                 let places: Vec<_> = at.into_iter().chain(objects).map(Some).map(done).collect();
                 return Ok(if places.is_empty() { vec![done(None)] } else { places });
             }
             // «Съезди на кухню и в спальню» is two verbs; «на кухню и спальню» has one preposition.
-            Verb::GoTo if to.is_some() && !objects.is_empty() && listed && via.is_none() => {
-                let to = to.into_iter().chain(objects.into_iter().map(|anchor| {
+            Verb::GoTo if roles.to.is_some() && named && roles.listed && roles.via.is_none() => {
+                let facing = roles.facing.take();
+                let objects = std::mem::take(&mut roles.objects).into_iter();
+                let to = roles.to.take().into_iter().chain(objects.map(|anchor| {
                     let relation = Relation::At;
                     Placement::new(relation, anchor)
                 }));
                 let to = to.map(|to| Command::GoTo { to, via: None, facing: facing.clone() });
                 return Ok(to.collect());
             }
-            Verb::GoTo if to.is_some() && !objects.is_empty() => {
+            Verb::GoTo if roles.to.is_some() && named => {
                 let hint = "эта команда ничего с собой не везёт; может быть, «отвези … в …»?";
                 return Err(self.not_understood(words, hint.into()));
             }
             Verb::GoTo => {
+                // "Stand in the corridor between the doors": the first place tells where the second is.
+                if !roles.whence
+                    && let Some(outer) = roles.at.take_if(|_| roles.to.is_some())
+                {
+                    let anchor = outer.anchor;
+                    within(&mut roles.to, anchor).ok_or_else(|| self.apart(&roles.said.at))?;
+                }
                 // "Go Room-Y", «Езжай Комната-Y», «Поезжай в Комнате-Y»: no other reading, so it is no guess.
                 let bare = |anchor: T| Placement::new(Relation::At, anchor);
-                let to = to.or(at).or_else(|| objects.pop().map(bare));
+                let to = roles.to.take().or_else(|| roles.at.take());
+                let to = to.or_else(|| roles.objects.pop().map(bare));
+                let (via, facing) = (roles.via.take(), roles.facing.take());
                 let seen = match &facing {
                     Some(Facing::Thing(thing)) => Some(bare(thing.clone())),
                     _ => None,
@@ -336,6 +413,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             }
             _ => {}
         }
+        let mut objects = std::mem::take(&mut roles.objects);
         if objects.is_empty() {
             let spoken = if self.has_named { 0 } else { self.last.len().saturating_sub(1) };
             objects.extend(self.last[spoken..].iter().cloned());
@@ -346,17 +424,18 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         self.last.clone_from(&objects);
         self.has_named = true;
         if verb == Verb::SetDown {
-            let within = to.or(at).map(|place| place.anchor);
+            let within = roles.to.take().or_else(|| roles.at.take()).map(|place| place.anchor);
             let down = |id| Command::SetDown {
                 what: Thing { id, at: None, toward: None },
                 within: within.clone(),
             };
             return Ok(objects.into_iter().map(down).collect());
         }
-        if matches!(verb, Verb::Put | Verb::Clear) && to.is_none() {
+        if matches!(verb, Verb::Put | Verb::Clear) && roles.to.is_none() {
             // "Put the book on the table": on and in are whither here.
-            to = at.take();
+            roles.to = roles.at.take();
         }
+        let (at, to) = (roles.at.take(), roles.to.take());
         objects
             .into_iter()
             .map(|id| {
@@ -421,12 +500,16 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
         let mut roles = Roles {
             objects: vec![],
             at: None,
+            whence: false,
             to: None,
             via: None,
             facing: None,
             to_me: false,
             on_floor: false,
+            with_key: false,
+            haunt: None,
             listed: true,
+            said: Spans::default(),
         };
         let mut latest_is_to = None;
         let mut seconds: Vec<usize> = Vec::new();
@@ -441,13 +524,22 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             }
             let anchor = match self.resolve(argument, cases_after(link)) {
                 // «Выйди из комнаты»: whichever it is, the robot is in it.
-                Err(_) if verb == Verb::Leave && link.role == Role::Whence => continue,
+                Err(Misheard::Ambiguous { .. })
+                    if verb == Verb::Leave && link.role == Role::Whence =>
+                {
+                    continue;
+                }
                 resolved => resolved?,
             };
+            // Of two of one part the first would be forgotten.
+            let again = || self.apart(&argument.words);
             let mut place = Placement::new(link.relation, anchor);
             match link.relation {
                 Relation::Facing => {
-                    roles.facing = Some(Facing::Thing(place.anchor));
+                    if roles.facing.replace(Facing::Thing(place.anchor)).is_some() {
+                        return Err(again());
+                    }
+                    roles.said.facing = argument.words.clone();
                     continue;
                 }
                 // «между столом и диваном»: the second has no preposition of its own.
@@ -467,19 +559,32 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             let role = direction(verb, link, argument);
             match (role, latest_is_to) {
                 (Role::Via, _) => {
-                    roles.via = Some(place.anchor);
+                    if roles.via.replace(place.anchor).is_some() {
+                        return Err(again());
+                    }
+                    roles.said.via = argument.words.clone();
                     continue;
                 }
                 // «со стола в кухне»: a place said after a place is where that place is.
-                (Role::Where, Some(true)) => within(&mut roles.to, place.anchor),
-                (Role::Where | Role::Whence, Some(false)) => within(&mut roles.at, place.anchor),
-                (Role::Whither, Some(true)) => within(&mut roles.to, place.anchor),
+                (Role::Where | Role::Whither, Some(true)) => {
+                    within(&mut roles.to, place.anchor).ok_or_else(again)?;
+                }
+                (Role::Where | Role::Whence, Some(false)) => {
+                    within(&mut roles.at, place.anchor).ok_or_else(again)?;
+                }
                 (Role::Where | Role::Whence | Role::WhereOrWhither, _) => {
-                    roles.at = Some(place);
+                    if roles.at.replace(place).is_some() {
+                        return Err(again());
+                    }
+                    roles.said.at = argument.words.clone();
+                    roles.whence = role == Role::Whence;
                     latest_is_to = Some(false);
                 }
                 (Role::Whither, _) => {
-                    roles.to = Some(place);
+                    if roles.to.replace(place).is_some() {
+                        return Err(again());
+                    }
+                    roles.said.to = argument.words.clone();
                     latest_is_to = Some(true);
                 }
             }
@@ -489,6 +594,7 @@ impl<T: Clone + Eq + Hash> Reader<'_, '_, T> {
             a.link.is_none() && !second && !matches!(a.reference, Reference::Me)
         };
         for argument in arguments.iter().filter(named) {
+            roles.said.object = argument.words.clone();
             let cases = [Case::Accusative, Case::Genitive, Case::Nominative];
             let objects = match &argument.reference {
                 Reference::Known(hits) if argument.all => choose(hits, &cases),

@@ -25,11 +25,6 @@ pub(in crate::language) fn is_of_another(word: &str) -> bool {
     time::is_of_another(word)
 }
 
-/// Whether a word without its noun is an adjective, by its ending.
-pub(in crate::language) fn is_adjective(word: &str) -> bool {
-    spoken::is_adjective(word)
-}
-
 /// What a text waits for, behind "wait until": the words before it, and those that begin the claim.
 pub(in crate::language) fn awaited(keys: &[String]) -> Option<(usize, usize)> {
     let phrase = |n: usize| {

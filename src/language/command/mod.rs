@@ -32,12 +32,13 @@ mod verbs;
 mod vocabulary;
 
 pub(in crate::language) use hints::{
-    awaited, has_haunt, is_adjective, is_of_another, says_whither,
+    awaited, has_haunt, is_of_another, says_whither,
 };
 pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
 pub use misheard::Misheard;
+pub(in crate::language) use spoken::lost;
 pub(in crate::language) use verbs::{
-    Sort, clauses, gathered, is_known, link_at, link_before, small_words, without_verbs,
+    Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words, without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 
@@ -165,6 +166,38 @@ pub enum Command<T> {
     Report,
     /// Whatever the robot does now, it is to leave off.
     Stop,
+}
+
+impl<T> Command<T> {
+    /// What is carried, opened, switched or sought, with what was said of where it is.
+    #[must_use]
+    pub fn what(&self) -> Option<&Thing<T>> {
+        match self {
+            Self::Bring { what, .. }
+            | Self::Take { what }
+            | Self::Put { what, .. }
+            | Self::SetDown { what, .. }
+            | Self::PutBack(what)
+            | Self::Open(what)
+            | Self::Close(what)
+            | Self::Lock(what)
+            | Self::Unlock(what)
+            | Self::SwitchOn(what)
+            | Self::SwitchOff(what)
+            | Self::Find(what) => Some(what),
+            _ => None,
+        }
+    }
+
+    /// Whither the robot goes, or something is put.
+    #[must_use]
+    pub fn place(&self) -> Option<&Placement<T>> {
+        match self {
+            Self::GoTo { to, .. } | Self::Put { to, .. } => Some(to),
+            Self::Bring { to, .. } => to.as_ref(),
+            _ => None,
+        }
+    }
 }
 
 /// Understands commands about the things of one index.

@@ -11,10 +11,11 @@ pub(super) fn choose<T: Clone>(hits: &[Hit<'_, T>], cases: &[Case]) -> Vec<T> {
     in_case(hits, cases).iter().map(|hit| hit.id.clone()).collect()
 }
 
-pub(super) fn within<T>(place: &mut Option<Placement<T>>, outer: T) {
-    if let Some(place) = place {
-        place.within = Some(outer);
-    }
+/// Says of a place where that is; none where it is said already, or there is no place.
+pub(super) fn within<T>(place: &mut Option<Placement<T>>, outer: T) -> Option<()> {
+    let place = place.as_mut().filter(|place| place.within.is_none())?;
+    place.within = Some(outer);
+    Some(())
 }
 
 /// Hits whose form may stand in one of these cases; all of them when none does, for people slip in endings.

@@ -91,59 +91,91 @@ impl Said {
     }
 }
 
-/// The text as plain orders.
-pub(super) fn plain(text: &str) -> String {
+/// What a rewriting may leave out.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Loss {
+    /// Small words and the words of its own phrases, no name, number or description.
+    Small,
+    /// What is said not to be meant, or is told by its phrase: «не красную», "the house".
+    NotMeant,
+}
+
+type Rewriting = fn(&Said) -> Option<String>;
+
+/// The text as plain orders, and the words that were left out because they are not meant.
+pub(super) fn plain(text: &str) -> (String, Vec<String>) {
+    use Loss::{NotMeant, Small};
     /// No sentence has more of one construction.
     const MOST: usize = 4;
-    let rewritings: [fn(&Said) -> Option<String>; 37] = [
-        time::until_called,
-        time::at_the_end,
-        time::told_when,
-        time::in_time,
-        going::faced,
-        going::by_lift,
-        going::corrected,
-        quantity::except_one,
-        without_forbidden,
-        contrasted,
-        instead,
-        excluded,
-        ellipsis::verb_first,
-        ellipsis::verb_again,
-        ellipsis::object_again,
-        ellipsis::object_shared,
-        ellipsis::noun_again,
-        ensured,
-        quantity::in_state,
-        quantity::everything,
-        switched,
-        going::gone,
-        going::stopping_at,
-        going::homeward,
-        going::out_of_the_house,
-        gapped,
-        going::searched,
-        going::where_it_was,
-        going::where_it_is,
-        going::there_and_back,
-        going::without_spot,
-        quantity::all_at_the_end,
-        left_alone,
-        dashed,
-        going::fetched,
-        going::without_where,
-        quantity::any_at_the_end,
+    const REWRITINGS: [(Rewriting, Loss); 37] = [
+        (time::until_called, Small),
+        (time::at_the_end, Small),
+        (time::told_when, Small),
+        (time::in_time, Small),
+        (going::faced, Small),
+        (going::by_lift, NotMeant),
+        (going::corrected, NotMeant),
+        (quantity::except_one, Small),
+        (without_forbidden, NotMeant),
+        (contrasted, NotMeant),
+        (instead, NotMeant),
+        (excluded, NotMeant),
+        (ellipsis::verb_first, Small),
+        (ellipsis::verb_again, Small),
+        (ellipsis::object_again, Small),
+        (ellipsis::object_shared, Small),
+        (ellipsis::noun_again, Small),
+        (ensured, Small),
+        (quantity::in_state, Small),
+        (quantity::everything, Small),
+        (switched, Small),
+        (going::gone, Small),
+        (going::stopping_at, Small),
+        (going::homeward, NotMeant),
+        (going::out_of_the_house, NotMeant),
+        (gapped, Small),
+        (going::searched, Small),
+        (going::where_it_was, NotMeant),
+        (going::where_it_is, Small),
+        (going::there_and_back, Small),
+        (going::without_spot, NotMeant),
+        (quantity::all_at_the_end, Small),
+        (left_alone, NotMeant),
+        (dashed, Small),
+        (going::fetched, Small),
+        (going::without_where, Small),
+        (quantity::any_at_the_end, Small),
     ];
     let mut said = Said::new(text.to_owned());
-    for rewrite in rewritings {
+    let mut not_meant = Vec::new();
+    for (rewrite, loss) in REWRITINGS {
         for _ in 0..MOST {
             match rewrite(&said) {
-                Some(text) if text != said.text => said = Said::new(text),
+                Some(text) if text != said.text => {
+                    let after = Said::new(text);
+                    if loss == Loss::NotMeant {
+                        not_meant.extend(lost(&said.keys, &after.keys));
+                    }
+                    said = after;
+                }
                 _ => break,
             }
         }
     }
-    said.text
+    (said.text, not_meant)
+}
+
+/// The words that stand in the first of two texts more often than in the second.
+pub(in crate::language) fn lost(before: &[String], after: &[String]) -> Vec<String> {
+    let mut left: Vec<&String> = after.iter().collect();
+    let mut is_lost = |key: &&String| match left.iter().position(|other| other == key) {
+        Some(at) => {
+            left.swap_remove(at);
+            false
+        }
+        None => true,
+    };
+    before.iter().filter(|key| is_lost(key)).cloned().collect()
 }
 
 /// See [`super::in_time`].
@@ -573,8 +605,8 @@ mod tests {
             ("Встань за диваном", "Встань за диваном"),
             ("Put the cup on the table", "Put the cup on the table"),
         ] {
-            assert_eq!(plain(said), order, "{said}");
-            assert_eq!(plain(order), order);
+            assert_eq!(plain(said).0, order, "{said}");
+            assert_eq!(plain(order).0, order);
         }
     }
 }

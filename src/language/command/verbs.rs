@@ -105,13 +105,19 @@ fn ends_clause(text: &str, words: &[Range<usize>], keys: &[String], at: usize) -
 /// столе»), what is left out said again («к столу, потом к окну»), the halves of verbs together.
 #[must_use]
 pub(in crate::language) fn gathered(text: &str) -> Cow<'_, str> {
+    gathered_of(text).0
+}
+
+/// The text as [`gathered`] has it, and the words that it left out because they are not meant: «не красную».
+#[must_use]
+pub(in crate::language) fn gathered_of(text: &str) -> (Cow<'_, str>, Vec<String>) {
     if is_too_long(text) {
-        return Cow::Borrowed(text);
+        return (Cow::Borrowed(text), Vec::new());
     }
-    let text = spoken::plain(&joined(text));
+    let (text, not_meant) = spoken::plain(&joined(text));
     let text = without_relatives(&text).into_owned();
     let text = repeated(&text).into_owned();
-    Cow::Owned(joined(&text).into_owned())
+    (Cow::Owned(joined(&text).into_owned()), not_meant)
 }
 
 /// Words of a relative clause that say no more than the preposition after them.

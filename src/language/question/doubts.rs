@@ -8,7 +8,7 @@ use super::query::{Noun, Rel, Thing};
 use super::speech;
 use super::values::Property;
 use crate::language::words::russian::{self, Preposition};
-use crate::language::words::{Case, alternatives, enumerate, everyday};
+use crate::language::words::{Case, Language, alternatives, enumerate, everyday};
 use crate::map::Entity;
 use crate::units::AreaId;
 
@@ -82,14 +82,28 @@ impl Doubt {
 }
 
 impl super::Unanswered {
-    /// "No, the map has nothing called that": of what is like no name, there is none.
-    pub(super) fn denied(self) -> Self {
-        if !matches!(&self.doubt, Doubt::Unknown { near, .. } if near.is_empty()) {
+    /// "No, the map has nothing called that": of what is like no name, there is none. A word that `known` does not say to
+    /// be one is denied nothing: there may be such a thing under another name.
+    pub(super) fn denied(self, known: impl Fn(&str) -> bool) -> Self {
+        let Doubt::Unknown { reference, near } = &self.doubt else { return self };
+        if !near.is_empty() {
             return self;
         }
-        let no = self.language.pick("нет, ", "no, ");
-        let told = super::lexicon::lower_first(&self.text);
-        Self { text: speech::sentence(&format!("{no}{told}")), ..self }
+        let text = if known(reference) {
+            let no = self.language.pick("нет, ", "no, ");
+            format!("{no}{}", super::lexicon::lower_first(&self.text))
+        } else {
+            let word = tidy(reference);
+            match self.language {
+                Language::Russian => format!(
+                    "слова «{word}» я не знаю: под таким названием на карте ничего нет, а есть ли это под другим, не скажу"
+                ),
+                Language::English => format!(
+                    "I do not know the word \"{word}\": nothing on the map is called so, and whether it is there under another name I cannot tell"
+                ),
+            }
+        };
+        Self { text: speech::sentence(&text), ..self }
     }
 }
 

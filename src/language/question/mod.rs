@@ -53,7 +53,7 @@ pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::command::is_too_long;
 use crate::language::report::Detail;
-use crate::language::words::{Language, word_keys};
+use crate::language::words::{Language, everyday as everyday_words, word_keys};
 use crate::map::World;
 use crate::semantics::Relations;
 use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
@@ -424,7 +424,10 @@ impl Asker<'_> {
                     _ => None,
                 };
                 let unanswered = self.knowledge(language, memory).unanswered(doubt);
-                Err(if self.asks_whether_there_is(text) { unanswered.denied() } else { unanswered })
+                Err(match self.asks_whether_there_is(text) {
+                    true => unanswered.denied(|word| self.is_word(word)),
+                    false => unanswered,
+                })
             }
         }
     }
@@ -438,6 +441,22 @@ impl Asker<'_> {
         items.contains(&Item::Mark(Mark::Exists))
             && !items.iter().any(compares)
             && !other.into_iter().any(|mark| items.contains(&Item::Mark(mark)))
+    }
+
+    /// Whether something here knows what a name means, whatever the map has: a sort of things, the word list, or the map
+    /// itself for a name with a number of its own ("cup 5").
+    fn is_word(&self, name: &str) -> bool {
+        let keys = word_keys(name);
+        let small = |key: &&String| matches!(key.as_str(), "the" | "a" | "an" | "any");
+        let keys: Vec<String> = keys.iter().skip_while(small).cloned().collect();
+        let numbered = keys.split_last().filter(|(last, _)| last.chars().all(char::is_numeric));
+        if let Some((_, rest)) = numbered {
+            return !rest.is_empty() && !self.mind.lexicon.nouns.find(&rest.join(" ")).is_empty();
+        }
+        let key = keys.join(" ");
+        everyday_words::is_a_thing(&key)
+            || everyday_words::is_in_list(&key)
+            || purposes::is_a_word(&key)
     }
 
     fn has_pronoun(&self, text: &str) -> bool {

@@ -3,6 +3,13 @@
 //! After the hypernyms of everyday nouns. Invariant: a sort consists of kinds that the map has; a word that the map
 //! itself uses is never taken from it. What is done with the things of a sort is listed in `uses`.
 
+use std::collections::HashSet;
+use std::sync::OnceLock;
+
+use crate::language::words::english::plural;
+use crate::language::words::{Language, NounPhrase, WordHints};
+use crate::units::name_key;
+
 /// What part things of a sort have in what is done, after the thematic roles of verbs.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Role {
@@ -481,20 +488,30 @@ pub(super) const SORTS: &[Sort] = &[
     sort("вещь для заворачивания", "thing to wrap food in", Instrument, "aluminum foil|фольга"),
 ];
 
+/// Whether a word is a sort or the kind of one, in either language; the text in [`name_key`](crate::units::name_key) form.
+pub(super) fn is_a_word(key: &str) -> bool {
+    static WORDS: OnceLock<HashSet<String>> = OnceLock::new();
+    let words = WORDS.get_or_init(|| {
+        let lists = SORTS.iter().flat_map(|sort| [sort.russian, sort.english, sort.members]);
+        let mut words = HashSet::new();
+        for word in lists.flat_map(|list| list.split('|')) {
+            match Language::of(word) {
+                Language::English => words.extend([name_key(word), name_key(&plural(word))]),
+                Language::Russian => {
+                    let phrase = NounPhrase::parse(word, &WordHints::default());
+                    words.extend(phrase.all_forms().iter().map(|(_, _, form)| name_key(form)));
+                }
+            }
+        }
+        words
+    });
+    words.contains(key)
+}
+
 /// A sort by its English name.
 pub(super) fn sort_called(english: &str) -> Option<u16> {
     let found = SORTS.iter().position(|sort| sort.english.split('|').next() == Some(english));
     found.and_then(|n| u16::try_from(n).ok())
-}
-
-/// The sorts of what holds drink and food.
-pub(super) fn vessels() -> impl Iterator<Item = u16> {
-    let holds = |sort: &Sort| sort.members.split('|').any(|kind| matches!(kind, "cup" | "bowl"));
-    SORTS
-        .iter()
-        .enumerate()
-        .filter(move |(_, sort)| holds(sort))
-        .filter_map(|(n, _)| u16::try_from(n).ok())
 }
 
 /// The part of a sort's things in what is done with them.

@@ -4,11 +4,12 @@
 //! Invariant: a word is only ever replaced by one that means the same thing; whether the map knows that one is asked
 //! by the caller.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::OnceLock;
 
 use super::english;
 use super::grammar::{Case, Number, WordHints};
+use super::lexicon;
 use super::list::Language;
 use super::phrase::NounPhrase;
 use crate::units::name_key;
@@ -98,7 +99,44 @@ const SAME: &[&str] = &[
     "кофеварка|кофемашина|кофе машина|coffee machine|coffee maker|espresso machine|coffee pot",
 ];
 
-/// Forms of the words of [`SAME`] with the sort they name and their number and case.
+/// The sorts of [`SAME`], and those words of the word list that have one and the same English: «скамья», «скамейка»,
+/// "bench".
+fn sorts() -> &'static [Vec<String>] {
+    static SORTS: OnceLock<Vec<Vec<String>>> = OnceLock::new();
+    SORTS.get_or_init(|| {
+        let mut sorts: Vec<Vec<String>> =
+            SAME.iter().map(|words| words.split('|').map(str::to_owned).collect()).collect();
+        let mut of_english: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for (word, entry) in lexicon::all().filter(|(_, entry)| !entry.animate) {
+            if let [english] = &entry.english[..] {
+                of_english.entry(english.clone()).or_default().push(word.to_owned());
+            }
+        }
+        for (english, mut words) in of_english.into_iter().filter(|(_, words)| words.len() > 1) {
+            words.push(english);
+            sorts.push(words);
+        }
+        sorts
+    })
+}
+
+/// Whether a word is one of the word list, in any form or in English; the text in [`name_key`] form.
+pub(crate) fn is_in_list(key: &str) -> bool {
+    static FORMS: OnceLock<HashSet<String>> = OnceLock::new();
+    let forms = FORMS.get_or_init(|| {
+        let mut forms = HashSet::new();
+        for (word, entry) in lexicon::all() {
+            forms.extend(phrase(word).all_forms().iter().map(|(_, _, form)| name_key(form)));
+            for english in &entry.english {
+                forms.extend([name_key(english), name_key(&english::plural(english))]);
+            }
+        }
+        forms
+    });
+    forms.contains(key)
+}
+
+/// Forms of the words of [`sorts`] with the sort they name and their number and case.
 type Forms = HashMap<String, Vec<(usize, Number, Case)>>;
 
 fn forms() -> &'static Forms {
@@ -111,8 +149,8 @@ fn forms() -> &'static Forms {
                 known.push((group, number, case));
             }
         };
-        for (group, words) in SAME.iter().enumerate() {
-            for word in words.split('|') {
+        for (group, words) in sorts().iter().enumerate() {
+            for word in words {
                 if Language::of(word) == Language::English {
                     add(word, group, Number::Singular, Case::Nominative);
                     add(&english::plural(word), group, Number::Plural, Case::Nominative);
@@ -143,7 +181,7 @@ fn in_form(word: &str, number: Number, case: Case) -> String {
 pub(crate) fn same_things(key: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for &(group, number, case) in forms().get(key).into_iter().flatten() {
-        for word in SAME[group].split('|') {
+        for word in &sorts()[group] {
             let form = in_form(word, number, case);
             if name_key(&form) != key && !found.contains(&form) {
                 found.push(form);
@@ -161,8 +199,8 @@ pub(crate) fn is_a_thing(key: &str) -> bool {
 /// «нож» for «ножа»: the name of this list of which a Russian word is a form; the text in [`name_key`] form.
 pub(crate) fn nominative(key: &str) -> Option<String> {
     let &(group, number, case) = forms().get(key)?.first()?;
-    let of = |word: &&str| Language::of(word) == Language::Russian;
-    let names = SAME[group].split('|').filter(of);
+    let of = |word: &&String| Language::of(word) == Language::Russian;
+    let names = sorts()[group].iter().filter(of);
     names
         .filter(|word| name_key(&in_form(word, number, case)) == key)
         .map(|word| in_form(word, number, Case::Nominative))

@@ -77,6 +77,17 @@ impl Relations {
         self.derived().contains(name, &tuple).unwrap_or(false)
     }
 
+    /// Whether anything is called so: a subject of the facts, in any spelling, or a word that some fact has.
+    #[must_use]
+    pub fn knows(&self, name: &str) -> bool {
+        let wanted = Value::from(name);
+        let says = |(id, _)| {
+            let tuples = self.derived().sorted(id).unwrap_or_default();
+            tuples.iter().any(|tuple| tuple.contains(&wanted))
+        };
+        self.symbols.find(name).is_some() || self.derived().relations().any(says)
+    }
+
     /// Why a tuple holds: its rules and premises, down to what was measured. None when it does not hold.
     ///
     /// # Errors

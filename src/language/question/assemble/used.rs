@@ -83,6 +83,10 @@ impl Frame<'_, '_> {
 
     /// The words of the first description or value that a query does without.
     pub(super) fn left_out(&self, query: &mut Query) -> Option<String> {
+        // "Where could three people sit?", "How many cups 3 are there?": no number is passed over.
+        if self.idle {
+            return Some(self.sentence.text.to_owned());
+        }
         let whole = matches!(
             query,
             Query::Several(_)
@@ -115,12 +119,6 @@ impl Frame<'_, '_> {
             _ => None,
         };
         let serving = role.is_some_and(|role| !matches!(role, Role::Patient | Role::Theme));
-        // "Where could three people sit?": no number is passed over.
-        if matches!(query, Query::Serving { .. } | Query::Place { .. } | Query::Free(_))
-            && self.idle
-        {
-            return Some(self.sentence.text.to_owned());
-        }
         if !serving && self.undone.is_some() {
             return self.undone.clone();
         }

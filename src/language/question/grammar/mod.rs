@@ -29,7 +29,7 @@ use nom::{IResult, Input, Needed, Parser};
 
 use modifier::Modifier;
 
-use super::lexicon::KindId;
+use super::lexicon::{KindId, Lexicon};
 use super::mark::{Mark, Pronoun};
 use super::query::{Best, Filter, Head, Noun, Rel, Restriction, Sized};
 use super::values::{Property, ValueId};
@@ -196,6 +196,18 @@ impl<'t> Sentence<'t> {
             }
             _ => false,
         }
+    }
+
+    /// The words that tell one thing from another: names, numbers, values other than states, each in the place where it
+    /// was said. No reading may do without them.
+    pub(super) fn content(&self, lexicon: &Lexicon) -> Vec<Range<usize>> {
+        let tells = |token: &&Token| match token.kind {
+            Tok::Noun(_) | Tok::Number(_) | Tok::Size(_) => true,
+            Tok::Value(value) => lexicon.values.entry(value).property != Property::State,
+            Tok::Mark(_) | Tok::Property(_) | Tok::Unknown => false,
+        };
+        let words = |token: &Token| token.from as usize..token.to as usize;
+        self.tokens.iter().filter(tells).map(words).collect()
     }
 
     /// All items of the sentence.

@@ -104,7 +104,7 @@ impl Knowledge<'_> {
         }
         let told = own.iter().any(|(_, v, _)| v.is_some_and(|v| values.entry(v).is_emptiness()));
         match values.entry(wanted).russian.as_str() {
-            _ if told || thing.replica().is_none() => false,
+            _ if told || !self.may_bear(thing) => false,
             "пустой" => !self.bears_anything(thing),
             "занятый" => self.bears_anything(thing),
             _ => false,
@@ -132,6 +132,13 @@ impl Knowledge<'_> {
             return false;
         }
         filter.values().any(|value| self.has_value(thing, value)) != filter.negated
+    }
+
+    /// Whether things of its kind take others: of a battery, that nothing lies on it does not say that it is empty.
+    fn may_bear(&self, thing: Thing) -> bool {
+        const TAKE: [&str; 4] = ["support", "container", "shelves", "seat"];
+        let takes = |id| TAKE.iter().any(|wanted| self.world.has_trait(id, wanted));
+        thing.replica().is_some_and(takes) || self.bears_anything(thing)
     }
 
     /// Whether something is on or in a thing.

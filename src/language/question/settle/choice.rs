@@ -4,7 +4,8 @@ use std::ops::Range;
 
 use super::Settler;
 use crate::language::question::Doubt;
-use crate::language::question::query::{Filter, Noun, Rel, Restriction, Thing};
+use crate::language::question::grammar::{Item, Phrase};
+use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
 use crate::units::AreaId;
 
 impl Settler<'_, '_> {
@@ -68,15 +69,50 @@ impl Settler<'_, '_> {
         Ok(found)
     }
 
-    /// «комнату 2»: of several, the one whose name ends so.
-    pub(super) fn tagged(&self, words: &Range<usize>, found: Vec<Thing>) -> Vec<Thing> {
-        let Some(number) = self.number_after(words) else { return found };
+    /// «комнату 2»: what is named with a number behind it is the one whose name ends so, and no other.
+    ///
+    /// # Errors
+    /// No name ends so: the number is a part of what was said, and is not passed over.
+    pub(super) fn numbered(&self, items: Vec<Item>) -> Result<Vec<Item>, (Doubt, Range<usize>)> {
+        let mut numbered: Vec<Item> = Vec::with_capacity(items.len());
+        for item in items {
+            let phrase = match (&item, numbered.last_mut()) {
+                (Item::Number(_), Some(Item::Noun(phrase))) => Some(phrase),
+                (Item::Number(_), Some(Item::Place { nouns, .. })) => nouns.last_mut(),
+                _ => None,
+            };
+            let Some(phrase) = phrase else {
+                numbered.push(item);
+                continue;
+            };
+            let named = phrase.pronoun.is_none() && phrase.person.is_none();
+            match self.number_after(&phrase.words).filter(|_| named) {
+                Some(number) => {
+                    phrase.words.end += 1;
+                    self.tag(phrase, number)?;
+                }
+                None => numbered.push(item),
+            }
+        }
+        Ok(numbered)
+    }
+
+    /// Leaves of what a noun may mean what is called by a number.
+    fn tag(&self, phrase: &mut Phrase, number: &str) -> Result<(), (Doubt, Range<usize>)> {
         let ends = |t: &Thing| {
             let name = crate::units::name_key(&self.knowledge.name(*t));
             name.rsplit([' ', '-']).next() == Some(number)
         };
-        let tagged: Vec<Thing> = found.iter().copied().filter(ends).collect();
-        if tagged.is_empty() { found } else { tagged }
+        let head = &mut phrase.noun.head;
+        let mut tagged = self.knowledge.base(head);
+        tagged.retain(ends);
+        if tagged.is_empty() {
+            let reference = self.sentence.said(&phrase.words).to_owned();
+            let unknown = Doubt::Unknown { reference, near: Vec::new() };
+            return Err((unknown, self.bytes(&phrase.words)));
+        }
+        *head = Head { things: Some(tagged), ..Head::default() };
+        Ok(())
     }
 
     pub(super) fn one(

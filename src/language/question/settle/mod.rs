@@ -75,7 +75,7 @@ impl Asker<'_> {
         if command::is_too_long(text) {
             return Ok(Settled { text: text.to_owned(), meant: Vec::new(), last: Vec::new() });
         }
-        let gathered = command::gathered(text);
+        let (gathered, not_meant) = command::gathered_of(text);
         let language = crate::language::words::Language::of(text);
         let misread = |doubt: Doubt| {
             Misread(Box::new(self.knowledge(language, &Memory::default()).unanswered(doubt)))
@@ -83,10 +83,18 @@ impl Asker<'_> {
         if let Some(above) = self.lacks_storey(&gathered) {
             return Err(misread(Doubt::NoStorey { above }));
         }
+        if let Some(words) = self.dropped(text, &gathered, &not_meant) {
+            return Err(misread(Doubt::not_understood(&words)));
+        }
+        let said = word_keys(&gathered);
         let text = self.with_kind(self.plain(&gathered), memory);
-        let text = self.with_noun(self.without_contents(text), memory);
+        let text = self.with_noun(text, memory);
         let text = self.with_object(self.with_verb(text, memory), memory);
         let text = self.with_deed(text, language).map_err(misread)?;
+        let numbers = command::lost(&said, &word_keys(&text)).into_iter();
+        if let Some(number) = numbers.into_iter().find(|key| key.chars().all(char::is_numeric)) {
+            return Err(misread(Doubt::not_understood(&number)));
+        }
         // "Open the lab door" orders; it does not speak of the open one.
         let described = command::without_verbs(&text);
         let sentence = Sentence::new(&described, &self.mind.lexicon);
@@ -140,6 +148,22 @@ impl Asker<'_> {
                 Err(Misread(Box::new(unanswered)))
             }
         }
+    }
+
+    /// A name, number or description of a text that its rewriting has lost, and not because it is not meant. What a state
+    /// is called may have become a verb: "make sure that it is closed".
+    fn dropped(&self, text: &str, gathered: &str, not_meant: &[String]) -> Option<String> {
+        let said = word_keys(text);
+        let lost = command::lost(&said, &word_keys(gathered));
+        let lost = command::lost(&lost, not_meant);
+        if lost.is_empty() {
+            return None;
+        }
+        let sentence = Sentence::new(text, &self.mind.lexicon);
+        let told = sentence.content(&self.mind.lexicon);
+        told.into_iter().find(|words| words.clone().any(|n| lost.contains(&sentence.keys[n]))).map(
+            |words| sentence.said(&words).to_owned(),
+        )
     }
 
     /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
@@ -262,7 +286,7 @@ impl Settler<'_, '_> {
         let Some(thing) = self.place(spot, &within)? else { return Ok(None) };
         edits.extend(aside.iter().map(Edit::deletion));
         let name = self.knowledge.form(self.told_by(thing), case_of(spot.rel, true));
-        let at = self.said(&spot.phrase.words);
+        let at = self.bytes(&spot.phrase.words);
         edits.push(Edit {
             at,
             name,
@@ -299,21 +323,13 @@ impl Settler<'_, '_> {
         Ok(last)
     }
 
-    /// The bytes of a description, with the number after it.
-    fn said(&self, words: &Range<usize>) -> Range<usize> {
-        let mut said = self.bytes(words);
-        if self.number_after(words).is_some() {
-            said.end = self.sentence.words[words.end].end;
-        }
-        said
-    }
-
     fn settle(&self, text: &str) -> Result<Vec<Edit>, (Doubt, Range<usize>)> {
         let clauses = command::clauses(text);
         let clause_at =
             |byte: usize| clauses.iter().rposition(|(start, _)| *start <= byte).unwrap_or(0);
         let sort = |clause: usize| clauses.get(clause).map_or(Sort::Other, |(_, sort)| *sort);
-        let items = self.freed(self.sentence.items(), |byte| sort(clause_at(byte)));
+        let items = self.numbered(self.sentence.items())?;
+        let items = self.freed(items, |byte| sort(clause_at(byte)));
         let spots = self.spots(&items, clause_at, &sort);
         let mut edits = Vec::new();
         let place = self.knowledge.memory.last_thing();
@@ -442,7 +458,7 @@ impl Settler<'_, '_> {
                 continue;
             };
             let name = self.knowledge.listed(&things, Case::Accusative);
-            let mut said = self.said(&phrase.words);
+            let mut said = self.bytes(&phrase.words);
             if let Some((_, words)) = value {
                 said.end = self.bytes(&words).end;
             }

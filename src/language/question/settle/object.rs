@@ -11,11 +11,12 @@ use crate::language::question::grammar::{Item, Phrase};
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::mark::Mark;
-use crate::language::question::query::{Filter, Head, Noun, Rel, Restriction, Thing};
+use crate::language::question::query::{Filter, Head, Noun, Quantity, Rel, Restriction, Thing};
 use crate::language::question::values::ValueId;
 use crate::language::words::{Language, Number};
 use crate::map::Entity;
-use crate::units::AreaId;
+use crate::semantics::lifts;
+use crate::units::{AreaId, DoorId};
 
 /// The thing that is taken of several that were named, and the words that named them.
 pub(super) type Chosen = (Thing, Range<usize>);
@@ -69,7 +70,8 @@ impl Settler<'_, '_> {
         } else if noun.head.anything && !self.spoken.is_empty() {
             noun.head = Head { things: Some(self.spoken.clone()), ..Head::default() };
             // "the second one", in the order in which they were told
-            if let (Some(rank), None) = (noun.rank, &noun.best) {
+            let bare = noun.filters.is_empty() && spots.is_empty();
+            if let (Some(rank), None, true) = (noun.rank, &noun.best, bare) {
                 let at = usize::try_from(rank).unwrap_or(usize::MAX).saturating_sub(1);
                 let listed = &self.knowledge.memory.listed;
                 let told = if listed.is_empty() { &self.spoken } else { listed };
@@ -86,6 +88,7 @@ impl Settler<'_, '_> {
         let mut within: Vec<Restriction> = rooms.into_iter().map(out).collect();
         let doors = sort == Sort::Door && self.are_doors(noun);
         for spot in spots {
+            self.counts_nothing(spot)?;
             let mut anchor = with(&spot.phrase.noun, &spot.within);
             if let (Some(place), true) = (more.place, spot.phrase.pronoun.is_some()) {
                 anchor.head = Head { things: Some(vec![place]), ..Head::default() };
@@ -120,8 +123,7 @@ impl Settler<'_, '_> {
         if sort == Sort::Door && noun.head.kinds.iter().any(|k| is_window(*k)) {
             return Err((Doubt::Windows, at));
         }
-        let found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
-        let mut found = self.tagged(&phrase.words, found);
+        let mut found = self.candidates(noun, &within).map_err(|doubt| (doubt, at.clone()))?;
         if let Some(there) = more.there {
             found.retain(|t| self.knowledge.area_of(*t) == Some(there));
         }
@@ -146,6 +148,9 @@ impl Settler<'_, '_> {
         }
         let lights = |kind| self.knowledge.lexicon().kind(kind).extension == Extension::Lighting;
         let of_light = noun.head.named.is_empty() && noun.head.kinds.iter().any(|k| lights(*k));
+        if noun.quantity != Quantity::Exactly {
+            return Err((Doubt::not_understood(&noun.text), at));
+        }
         if let Some(wanted) = noun.count.filter(|_| noun.best.is_none()) {
             let wanted = usize::try_from(wanted).unwrap_or(usize::MAX);
             return match found.len() {
@@ -157,6 +162,9 @@ impl Settler<'_, '_> {
         let one_of = noun.plural && self.is_one_of(&phrase.words);
         let plural = noun.plural && !one_of && !self.has_no_singular(noun);
         let several = plural || noun.all || (sort == Sort::Switch && of_light);
+        if several && sort == Sort::Door {
+            self.without_lifts(&mut found);
+        }
         if several && !found.is_empty() {
             return Ok(Some(found));
         }
@@ -189,6 +197,17 @@ impl Settler<'_, '_> {
         Ok(self.one(noun, &within, &found, at)?.map(|thing| vec![thing]))
     }
 
+    /// «Закрой все двери»: a lift sees to its own, unless they alone are meant.
+    fn without_lifts(&self, found: &mut Vec<Thing>) {
+        let lifts = lifts(self.knowledge.world, self.knowledge.relations);
+        let joins = lifts.iter().flat_map(|lift| &lift.doors);
+        let own: Vec<DoorId> = joins.filter_map(|join| join.door).collect();
+        let of_lift = |t: &Thing| matches!(t, Thing::Entity(Entity::Door(id)) if own.contains(id));
+        if !found.iter().all(of_lift) {
+            found.retain(|t| !of_lift(t));
+        }
+    }
+
     /// Whether a noun means doors.
     fn are_doors(&self, noun: &Noun) -> bool {
         let base = self.knowledge.base(&noun.head);
@@ -204,9 +223,10 @@ impl Settler<'_, '_> {
         objects: &[(usize, &Phrase)],
         items: &[Item],
     ) -> Result<Option<Chosen>, (Doubt, Range<usize>)> {
+        // A place between them tells of the first alone, and then they are no list.
         let or = |pair: &&[(usize, &Phrase)]| {
             let between = &items[pair[0].0 + 1..pair[1].0];
-            between.iter().any(|item| matches!(item, Item::Mark(Mark::Or)))
+            matches!(between, [Item::Mark(Mark::Or)])
         };
         let others = objects.windows(2).take_while(or).count();
         if others == 0 {

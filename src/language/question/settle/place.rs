@@ -7,7 +7,7 @@ use super::{Edit, Settler};
 use crate::language::command::{self, Sort};
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing};
+use crate::language::question::query::{Head, Noun, Quantity, Rel, Restriction, Thing};
 use crate::language::words::{Case, Language};
 use crate::map::Entity;
 use crate::units::AreaId;
@@ -287,6 +287,7 @@ impl Settler<'_, '_> {
         if self.is_strange(&spot.phrase.words) {
             return Ok(None);
         }
+        self.counts_nothing(spot)?;
         let described = with(noun, within);
         if let Some(window) = self.window(&described) {
             return Ok(Some(window));
@@ -301,8 +302,25 @@ impl Settler<'_, '_> {
         {
             return Ok(Some(nearest));
         }
-        let found = self.tagged(&spot.phrase.words, found);
         self.one(noun, within, &found, at)
+    }
+
+    /// One place is meant by a place: «на два стола» is none.
+    pub(super) fn counts_nothing(&self, spot: &Spot<'_>) -> Result<(), (Doubt, Range<usize>)> {
+        let anchors = spot.within.iter().flat_map(|r| &r.anchors);
+        let mut nouns = spot.nouns.iter().map(|p| &p.noun).chain(anchors);
+        let between = spot.rel == Rel::Between;
+        let several = |noun: &&Noun| {
+            let count = noun.count.unwrap_or(1);
+            count != 1 && !(between && count == 2) && noun.best.is_none()
+                || noun.quantity != Quantity::Exactly
+        };
+        match nouns.find(several) {
+            Some(noun) => {
+                Err((Doubt::not_understood(&noun.text), self.bytes(&spot.phrase.words)))
+            }
+            None => Ok(()),
+        }
     }
 }
 

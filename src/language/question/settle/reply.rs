@@ -58,6 +58,18 @@ impl Memory {
     ) {
         self.waiting = Some(Waiting { text: text.to_owned(), at, candidates, language });
     }
+
+    /// Whether a command or a question waits for the person to say which thing was meant.
+    #[must_use]
+    pub fn awaits_reply(&self) -> bool {
+        self.waiting.is_some() || self.pending.is_some()
+    }
+
+    /// Drops what waits for a reply.
+    pub fn forget_reply(&mut self) {
+        self.waiting = None;
+        self.pending = None;
+    }
 }
 
 impl Asker<'_> {

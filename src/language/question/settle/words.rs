@@ -6,62 +6,10 @@ use super::Settler;
 use super::choice::with;
 use super::place::Spot;
 use crate::language::command::{self, Sort};
-use crate::language::question::grammar::Sentence;
 use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::lexicon::KindId;
 use crate::language::question::mark::Mark;
 use crate::language::question::query::{Noun, Rel, Restriction};
 use crate::language::question::values::ValueId;
-use crate::language::question::{Asker, purposes};
-use crate::language::words::Language;
-
-impl Asker<'_> {
-    /// "A cup of coffee", «стакан воды»: the thing is the cup, of what is in it the map knows nothing.
-    pub(super) fn without_contents(&self, text: String) -> String {
-        let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let vessels: Vec<KindId> =
-            purposes::vessels().flat_map(|sort| self.mind.lexicon.kinds_of_sort(sort)).collect();
-        let contents = sentence.items().iter().find_map(|item| {
-            let phrase = match item {
-                Item::Noun(phrase) => phrase,
-                Item::Place { nouns, .. } => nouns.last()?,
-                _ => return None,
-            };
-            let kinds = &phrase.noun.head.kinds;
-            let is_vessel = !kinds.is_empty() && kinds.iter().all(|k| vessels.contains(k));
-            let end = phrase.words.end;
-            let of = usize::from(sentence.keys.get(end).is_some_and(|key| key == "of"));
-            let word = end + of;
-            let said = &text[sentence.words.get(word)?.clone()];
-            let russian = sentence.language == Language::Russian
-                && !command::is_adjective(&sentence.keys[word])
-                && said.starts_with(char::is_lowercase);
-            let gap = &text[sentence.words[end - 1].end..sentence.words[word].start];
-            let joined = !gap.contains(|c: char| c.is_ascii_punctuation() || c == '–');
-            let known = command::is_known(&sentence.keys, word)
-                || !self.mind.lexicon.nouns.find(said).is_empty()
-                || self.mind.lexicon.values.longest(&sentence.keys[word..]).is_some();
-            // "hot tea"
-            let unknown = sentence.items().into_iter().find_map(|item| match item {
-                Item::Unknown(words) if words.start == word => Some(words.end),
-                _ => None,
-            });
-            let until = unknown.filter(|_| of > 0).unwrap_or(word + 1);
-            (is_vessel && joined && !known && (of > 0 || russian)).then_some(end..until)
-        });
-        match contents {
-            Some(words) => {
-                let mut left = text.clone();
-                left.replace_range(
-                    sentence.words[words.start - 1].end..sentence.words[words.end - 1].end,
-                    "",
-                );
-                left
-            }
-            None => text,
-        }
-    }
-}
 
 impl Settler<'_, '_> {
     /// «чашку белую»: the value behind its noun.
@@ -185,15 +133,18 @@ impl Settler<'_, '_> {
             || self.sentence.text[before.end..after.start].contains([',', ';', '.', ':'])
     }
 
+    /// A number in digits right behind some words.
     pub(super) fn number_after(&self, words: &Range<usize>) -> Option<&str> {
         let key = self.sentence.keys.get(words.end)?;
         let is_number = !key.is_empty() && key.chars().all(char::is_numeric);
         (is_number && !self.is_parted(words.end)).then_some(key)
     }
 
+    /// Whether a name tells which of a kind is meant: one that is as the kind is described.
     pub(super) fn names_one_of(&self, name: &Phrase, kind: &Phrase) -> bool {
         let named = self.knowledge.base(&name.noun.head);
         let all = self.knowledge.base(&kind.noun.head);
-        matches!(&named[..], [only] if all.len() > 1 && all.contains(only))
+        let fits = |only| self.candidates(&kind.noun, &[]).is_ok_and(|found| found.contains(only));
+        matches!(&named[..], [only] if all.len() > 1 && all.contains(only) && fits(only))
     }
 }
