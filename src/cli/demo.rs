@@ -249,8 +249,10 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
     }
     let mut told = vec![ending(engine.world()?, answer, lang)];
     // That a thing is found already says nothing more than where it is.
-    let finds = answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND);
-    if matches!(answer.ending, TaskEnding::AlreadyTrue) && finds && answer.left.is_empty() {
+    let finds = !answer.goal.is_empty()
+        && answer.goal.iter().all(|goal| goal.predicate == predicate::FOUND)
+        && answer.reported.is_none();
+    if matches!(answer.ending, TaskEnding::AlreadyTrue) && finds {
         told.clear();
     }
     told.extend(places_found(engine, answer, lang)?);
@@ -259,8 +261,7 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
 
 /// Who asks to find a thing wants to know where it is.
 fn places_found(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<Vec<String>, Failure> {
-    let left = answer.left.iter().map(|(goal, _)| goal);
-    let goals = answer.goal.iter().chain(left).filter(|goal| goal.predicate == predicate::FOUND);
+    let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
     let mut places = Vec::new();
     for name in goals.flat_map(|goal| goal.args.first()) {
         let shown = name_in(engine.world()?, name, lang.language());

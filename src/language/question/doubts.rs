@@ -84,9 +84,6 @@ impl Doubt {
 impl super::Unanswered {
     /// "No, the map has nothing called that": of what is like no name, there is none.
     pub(super) fn denied(self) -> Self {
-        if !matches!(&self.doubt, Doubt::Unknown { near, .. } if near.is_empty()) {
-            return self;
-        }
         let no = self.language.pick("нет, ", "no, ");
         let told = super::lexicon::lower_first(&self.text);
         Self { text: speech::sentence(&format!("{no}{told}")), ..self }
