@@ -265,8 +265,7 @@ fn say_ending(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<(), Fa
 
 /// Who asks to find a thing wants to know where it is.
 fn places_found(engine: &Engine, answer: &TaskAnswer, lang: Lang) -> Result<Vec<String>, Failure> {
-    let left = answer.left.iter().map(|(goal, _)| goal);
-    let goals = answer.goal.iter().chain(left).filter(|goal| goal.predicate == predicate::FOUND);
+    let goals = answer.goal.iter().filter(|goal| goal.predicate == predicate::FOUND);
     let mut places = Vec::new();
     for name in goals.flat_map(|goal| goal.args.first()) {
         let shown = name_in(engine.world()?, name, lang.language());

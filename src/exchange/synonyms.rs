@@ -305,7 +305,7 @@ fn is_good_size(size: Option<[f64; 3]>) -> bool {
 }
 
 /// The parts of a compound word, lower case, without numbers: `OfficeChair_2` → office, chair.
-fn parts(word: &str) -> Vec<String> {
+pub(super) fn parts(word: &str) -> Vec<String> {
     let mut parts = Vec::new();
     let mut part = String::new();
     let letters: Vec<char> = word.chars().collect();

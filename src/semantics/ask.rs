@@ -149,7 +149,7 @@ impl Relations {
                     - overlap_area(&body.hull, &second.hull)
                     >= 0.5 * body.hull.area
         };
-        let shared = self.support_of(a).filter(|_| self.support_of(a) == self.support_of(b));
+        let shared = self.support_of(a).filter(|support| self.support_of(b) == Some(*support));
         let crosses = |id: &ReplicaId| {
             let body = &bodies[id];
             *id != a

@@ -121,6 +121,19 @@ fn a_goal_behind_a_locked_door_is_the_answer_no() {
     place.run(&["draw", "route", "--from", "Точка-А", "--to", "Точка-К"]).is(1);
 }
 
+/// A report has no goal, and what is found already needs no words but its place.
+#[test]
+fn who_asks_where_something_is_is_told() {
+    let place = Place::with_rb2();
+    let report = place.run(&["do", "Доложи, где ты"]).is(0).out;
+    assert!(report.contains("Я нахожусь в середине Комнаты-В."), "{report}");
+    let report = place.run(&["do", "Report your position", "--lang", "en"]).is(0).out;
+    assert!(report.contains("I am in the middle of Room V."), "{report}");
+    let found = place.run(&["do", "Найди Книгу-4"]).is(0).out;
+    assert!(found.contains("Книга-4 находится на Столе-1 в Комнате-В."), "{found}");
+    assert!(!found.contains("Так уже и есть"), "{found}");
+}
+
 #[test]
 fn a_task_is_carried_out() {
     let place = Place::with_rb2();

@@ -1,5 +1,7 @@
 //! Colours and materials in words: properties ЦВЕТ and МАТЕРИАЛ.
 
+use crate::exchange::synonyms::parts;
+
 /// A colour whose channels differ by less has no hue.
 const HUE: f64 = 0.12;
 
@@ -91,17 +93,7 @@ pub(super) fn of_text(text: &str) -> Option<&'static str> {
 /// The colour that a material's name tells of, as one of its words: "Glass_Detailed_Green_Mat". None where it tells of
 /// several.
 pub(super) fn of_name(name: &str) -> Option<&'static str> {
-    let mut words: Vec<String> = Vec::new();
-    let mut was_lower = false;
-    for c in name.chars() {
-        if !c.is_alphabetic() || (c.is_uppercase() && was_lower) || words.is_empty() {
-            words.push(String::new());
-        }
-        was_lower = c.is_lowercase();
-        if c.is_alphabetic() {
-            words.last_mut().expect("one was pushed").extend(c.to_lowercase());
-        }
-    }
+    let words = parts(name);
     let told = words.iter().filter_map(|w| ENGLISH.iter().find(|(english, _)| english == w));
     let mut colours = told.map(|(_, colour)| *colour);
     let first = colours.next()?;

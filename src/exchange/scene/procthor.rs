@@ -79,10 +79,10 @@ impl Assets {
                     switches: can("CanToggleOnOff"),
                     material: materials.into_iter().find_map(colour::material),
                     // What is made of several materials has no one colour.
-                    colour: names
-                        .first()
-                        .filter(|_| names.len() == 1)
-                        .and_then(|n| colour::of_name(n)),
+                    colour: match names[..] {
+                        [only] => colour::of_name(only),
+                        _ => None,
+                    },
                 };
                 known.insert(id.to_owned(), asset);
             }

@@ -1,35 +1,47 @@
 //! More constructions put plainly, by their words in order: what a room contains, doors to the outside, what shares a
-//! place with a thing. A part of [`super::rephrase`].
+//! place with a thing, made beds. The first rules of [`super::rephrase`].
 
-use crate::language::words::{Case, Language, NounPhrase, WordHints, word_ranges};
-use crate::units::name_key;
+use super::rephrase::{Rule, Words};
+use crate::language::words::{Case, Language, NounPhrase, WordHints, phrase_at};
 
-/// Beginnings that another beginning means; what follows stays.
-const BEGINNINGS: [(&str, &str); 20] = [
-    ("правда что", "правда ли, что"),
-    ("верно что", "верно ли, что"),
-    ("правда ведь что", "правда ли, что"),
-    ("пройду ли я", "можно ли пройти"),
-    ("попаду ли я", "можно ли попасть"),
-    ("доберусь ли я", "можно ли добраться"),
-    ("смогу ли я пройти", "можно ли пройти"),
-    ("смогу ли я попасть", "можно ли попасть"),
-    ("what do we have more of", "are there more"),
-    ("what is there more of", "are there more"),
-    ("what are there more of", "are there more"),
-    ("which things share a surface with", "what else is on the same piece of furniture as"),
-    ("what shares a surface with", "what else is on the same piece of furniture as"),
-    ("which doors lead outside", "which are the exits"),
-    ("what doors lead outside", "which are the exits"),
-    ("which door leads outside", "where is the exit"),
-    ("does any door lead outside", "is there an exit"),
-    ("do any doors lead outside", "is there an exit"),
-    ("does a door lead outside", "is there an exit"),
-    ("where should i look for", "where is"),
+pub(super) const RULES: [Rule; 12] = [
+    framed,
+    connects_with,
+    nearer_from,
+    but_no,
+    same_as_where,
+    something_there,
+    in_them,
+    both_of,
+    doors_to_open,
+    on_its_walls,
+    made_bed,
+    is_free,
 ];
 
-/// Sentences with one gap: what stands in it goes into the gap of the other.
-const FRAMES: [(&str, &str, &str, &str); 27] = [
+/// Sentences with one gap, by what stands before and behind it, and the same of the sentence that is meant: what stands
+/// in the one goes into the other.
+const FRAMES: [(&str, &str, &str, &str); 47] = [
+    ("правда что", "", "правда ли, что", ""),
+    ("верно что", "", "верно ли, что", ""),
+    ("правда ведь что", "", "правда ли, что", ""),
+    ("пройду ли я", "", "можно ли пройти", ""),
+    ("попаду ли я", "", "можно ли попасть", ""),
+    ("доберусь ли я", "", "можно ли добраться", ""),
+    ("смогу ли я пройти", "", "можно ли пройти", ""),
+    ("смогу ли я попасть", "", "можно ли попасть", ""),
+    ("what do we have more of", "", "are there more", ""),
+    ("what is there more of", "", "are there more", ""),
+    ("what are there more of", "", "are there more", ""),
+    ("which things share a surface with", "", "what else is on the same piece of furniture as", ""),
+    ("what shares a surface with", "", "what else is on the same piece of furniture as", ""),
+    ("which doors lead outside", "", "which are the exits", ""),
+    ("what doors lead outside", "", "which are the exits", ""),
+    ("which door leads outside", "", "where is the exit", ""),
+    ("does any door lead outside", "", "is there an exit", ""),
+    ("do any doors lead outside", "", "is there an exit", ""),
+    ("does a door lead outside", "", "is there an exit", ""),
+    ("where should i look for", "", "where is", ""),
     ("what door do i take to go from", "", "which door leads from", ""),
     ("which door do i take to go from", "", "which door leads from", ""),
     ("how do i get outside from", "", "how do i get from", "to the exit"),
@@ -59,152 +71,197 @@ const FRAMES: [(&str, &str, &str, &str); 27] = [
     ("что еще лежит там же где", "", "что ещё лежит на том же предмете мебели что и", ""),
 ];
 
-/// A text in the words of the first construction that it is.
-pub(super) fn plain(text: &str) -> Option<String> {
-    let at = word_ranges(text);
-    let keys: Vec<String> = at.iter().map(|range| name_key(&text[range.clone()])).collect();
-    let starts = |words: &[&str]| {
-        words.len() <= keys.len() && words.iter().zip(&keys).all(|(word, key)| word == key)
-    };
-    let rest = |from: usize, to: usize| match from < to {
-        true => text[at[from].start..at[to - 1].end].to_owned(),
-        false => String::new(),
-    };
-    for (said, meant) in BEGINNINGS {
-        let said: Vec<&str> = said.split(' ').collect();
-        if starts(&said) {
-            return Some(format!("{meant} {}?", rest(said.len(), keys.len())));
-        }
-    }
-    for (start, end, before, after) in FRAMES {
-        let start: Vec<&str> = start.split(' ').collect();
-        let ends = end.is_empty() || keys.last().is_some_and(|key| key == end);
-        let upto = keys.len().saturating_sub(usize::from(!end.is_empty()));
-        if starts(&start) && ends {
-            return Some(
-                format!("{before} {} {after}", rest(start.len(), upto)).trim_end().to_owned() + "?",
-            );
-        }
-    }
-    connects_with(text, &keys, &at)
-        .or_else(|| nearer_from(text, &keys, &at))
-        .or_else(|| but_no(text, &keys, &at))
-        .or_else(|| same_as_where(text, &keys, &at))
-        .or_else(|| filler(text, &keys, &at))
+fn framed(words: &Words<'_>) -> Option<String> {
+    FRAMES.iter().find_map(|(start, end, before, after)| {
+        let from = phrase_at(&words.keys, 0, start)?;
+        let to = words.keys.len() - usize::from(!end.is_empty());
+        let ends = end.is_empty() || words.is(to, &[end]);
+        let gap = words.part(from..to).unwrap_or_default();
+        ends.then(|| format!("{}?", format!("{before} {gap} {after}").trim_end()))
+    })
 }
 
 /// "Which door connects the hall with the lab?": and the lab.
-fn connects_with(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    const CONNECTS: [&str; 6] = ["connects", "connect", "connecting", "joins", "join", "links"];
-    let verb = keys.iter().position(|key| CONNECTS.contains(&key.as_str()))?;
-    let with = (verb..keys.len()).find(|&n| keys[n] == "with")?;
-    Some(format!("{}and{}", &text[..at[with].start], &text[at[with].end..]))
+fn connects_with(words: &Words<'_>) -> Option<String> {
+    let verb = words.find(&["connects", "connect", "connecting", "joins", "join", "links"])?;
+    let with = words.phrase(verb, "with")?;
+    Some(words.replaced(vec![(with..with + 1, "and".to_owned())]))
 }
 
 /// «От хлеба до чашки ближе, чем до яблока?»: is the cup nearer to the bread than the apple.
-fn nearer_from(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    let is = |n: usize, word: &str| keys.get(n).is_some_and(|key| key == word);
-    let find = |from: usize, word: &str| (from..keys.len()).find(|n| is(*n, word));
-    let to = find(1, "до").filter(|_| is(0, "от"))?;
-    let nearer = (to..keys.len()).find(|n| is(*n, "ближе") || is(*n, "дальше"))?;
-    let than = find(nearer, "чем").filter(|than| is(than + 1, "до") && than + 2 < keys.len())?;
-    let part = |from: usize, to: usize| (from < to).then(|| &text[at[from].start..at[to - 1].end]);
-    let (first, second) = (part(1, to)?, part(to + 1, nearer)?);
-    let third = part(than + 2, keys.len())?;
-    let compares = &keys[nearer];
-    Some(format!("{first} {compares} к {second}, чем к {third}?"))
+fn nearer_from(words: &Words<'_>) -> Option<String> {
+    let to = words.phrase(1, "до").filter(|_| words.is(0, &["от"]))?;
+    let nearer = words.find(&["ближе", "дальше"]).filter(|nearer| *nearer > to)?;
+    let than = words.phrase(nearer, "чем до")?;
+    let (first, second) = (words.part(1..to)?, words.part(to + 1..nearer)?);
+    let third = words.part(than + 2..words.keys.len())?;
+    Some(format!("{first} {} к {second}, чем к {third}?", words.keys[nearer]))
 }
 
 /// «на том же столе, где кофеварка»: the same as that with it.
-fn same_as_where(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    let same = (1..keys.len())
-        .find(|&n| keys[n] == "же" && ["том", "той", "тех"].contains(&keys[n - 1].as_str()))?;
-    let place = (same..keys.len()).find(|&n| keys[n] == "где")?;
-    let partner = place + 1 + usize::from(keys.get(place + 1).is_some_and(|key| key == "и"));
-    let rest = &text[at.get(partner)?.start..];
-    Some(format!("{} что и {rest}", &text[..at[place - 1].end]))
+fn same_as_where(words: &Words<'_>) -> Option<String> {
+    let same = words.phrase(1, "же").filter(|n| words.is(n - 1, &["том", "той", "тех"]))?;
+    let place = words.phrase(same, "где")?;
+    let partner = place + 1 + usize::from(words.is(place + 1, &["и"]));
+    let rest = &words.text[words.at.get(partner)?.start..];
+    Some(format!("{} что и {rest}", &words.text[..words.at[place - 1].end]))
 }
 
-/// "I'm in the bathroom. How do I get to the kitchen?": from there.
+/// "I'm in the bathroom. How do I get to the kitchen?": how to get there from the bathroom.
 pub(super) fn from_where_i_am(text: &str) -> Option<String> {
+    const WAYS: [&str; 3] = ["how do i get to", "how can i get to", "how do i get outside"];
     let (told, asked) = text.split_once('.')?;
-    let told = told.trim().trim_start_matches("I am ").trim_start_matches("I'm ");
-    let place = told.strip_prefix("in ")?;
+    let told = told.trim();
+    let place = told.strip_prefix("I am in ").or_else(|| told.strip_prefix("I'm in "))?;
     let asked = asked.trim().trim_end_matches('?');
-    let way = ["how do i get to", "how can i get to", "how do i get outside"];
-    let asked = if way.iter().any(|way| asked.to_lowercase().starts_with(way)) {
-        asked
-    } else {
-        return None;
-    };
-    let whole = format!("{asked} from {place}?");
-    Some(plain(&whole).unwrap_or(whole))
+    let way = WAYS.iter().any(|way| asked.to_lowercase().starts_with(way));
+    way.then(|| format!("{asked} from {place}?"))
 }
 
 /// "Which rooms have a bed but no lamp?", «В каких комнатах есть кровать, но нет лампы?»: those with one, without the
 /// other.
-fn but_no(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    let find = |words: &[&str]| {
-        (0..keys.len()).find(|&n| {
-            words.iter().enumerate().all(|(i, word)| keys.get(n + i).is_some_and(|key| key == word))
-        })
-    };
-    let part = |from: usize, to: usize| {
-        (from < to).then(|| text[at[from].start..at[to - 1].end].trim_end_matches(','))
-    };
-    let end = keys.len();
-    let rooms = ["which rooms", "what rooms", "which room", "what room"];
-    if rooms.contains(&keys.get(..2)?.join(" ").as_str()) {
-        let have = find(&["have"]).or_else(|| find(&["has"])).filter(|have| *have >= 2)?;
-        if let Some(but) = find(&["but", "no"]) {
-            let (with, without) = (part(have + 1, but)?, part(but + 2, end)?);
-            return Some(format!("Which rooms with {with} are without {without}?"));
-        }
-        // "Which rooms with a bed have no lamp?"
-        let with = find(&["with"]).filter(|with| *with == 2)?;
-        let no = find(&["have", "no"]).or_else(|| find(&["has", "no"]))?;
-        let (with, without) = (part(with + 1, no)?, part(no + 2, end)?);
+fn but_no(words: &Words<'_>) -> Option<String> {
+    let end = words.keys.len();
+    let begins = |all: &[&str]| all.iter().find_map(|start| phrase_at(&words.keys, 0, start));
+    if let Some(rooms) = begins(&["which rooms", "what rooms", "which room", "what room"]) {
+        let have = words.find(&["have", "has"]).filter(|have| *have >= rooms)?;
+        let (with, without) = match words.phrase(have, "but no") {
+            Some(but) => (have + 1..but, but + 2..end),
+            // "Which rooms with a bed have no lamp?"
+            None if words.is(rooms, &["with"]) && words.is(have + 1, &["no"]) => {
+                (rooms + 1..have, have + 2..end)
+            }
+            None => return None,
+        };
+        let (with, without) = (words.part(with)?, words.part(without)?);
         return Some(format!("Which rooms with {with} are without {without}?"));
     }
-    let asked = ["в каких комнатах есть", "в какой комнате есть"];
-    let asks = asked.contains(&keys.get(..4)?.join(" ").as_str());
-    let but = find(&["но", "нет"]).or_else(|| find(&["а", "нет"])).filter(|_| asks)?;
-    let (with, without) = (part(4, but)?, part(but + 2, end)?);
+    let asked = begins(&["в каких комнатах есть", "в какой комнате есть"])?;
+    let but = words.phrase(asked, "но нет").or_else(|| words.phrase(asked, "а нет"))?;
+    let (with, without) = (words.part(asked..but)?, words.part(but + 2..end)?);
     let with = NounPhrase::parse(with, &WordHints::default());
     let with = with.form(Case::Instrumental, with.number());
     Some(format!("Комнаты с {with} без {without}"))
 }
 
 /// «На каких стульях что-нибудь лежит?»: things lie.
-fn something_there(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    let which = ["каком", "какой", "каких"].contains(&keys.get(1)?.as_str());
-    let thing = |n: &usize| {
-        keys[*n] == "что"
-            && keys.get(n + 1).is_some_and(|k| ["нибудь", "то", "либо"].contains(&k.as_str()))
-    };
-    let thing = (2..keys.len()).find(thing).filter(|_| which && keys[0] == "на")?;
-    let verb =
-        (2..keys.len()).find(|n| ["лежит", "стоит", "есть", "находится"].contains(&&*keys[*n]));
-    let end = thing.min(verb?);
-    (end > 2 && keys.len() <= end + 3).then(|| format!("{} есть вещи?", &text[..at[end - 1].end]))
+fn something_there(words: &Words<'_>) -> Option<String> {
+    let which = words.is(0, &["на"]) && words.is(1, &["каком", "какой", "каких"]);
+    let all = ["что нибудь", "что то", "что либо"];
+    let thing = all.iter().find_map(|thing| words.phrase(2, thing)).filter(|_| which)?;
+    let verb = words.find(&["лежит", "стоит", "есть", "находится"])?;
+    let end = thing.min(verb);
+    let table = words.part(0..end).filter(|_| end > 2 && words.keys.len() <= end + 3)?;
+    Some(format!("{table} есть вещи?"))
 }
 
-/// Words that say nothing more: "How many rooms have paintings in them?", "both a bed and a desk".
-fn filler(text: &str, keys: &[String], at: &[std::ops::Range<usize>]) -> Option<String> {
-    if Language::of(text) != Language::English {
-        return something_there(text, keys, at);
+/// "How many rooms have paintings in them?": in them says nothing more.
+fn in_them(words: &Words<'_>) -> Option<String> {
+    let last = words.keys.len() - 1;
+    let ends = last > 2 && words.is(last, &["them", "it"]) && words.is(last - 1, &["in", "inside"]);
+    let asked =
+        words.part(0..last - usize::from(ends)).filter(|_| ends && of_having_rooms(words))?;
+    Some(format!("{asked}?"))
+}
+
+/// "both a bed and a desk": a bed and a desk.
+fn both_of(words: &Words<'_>) -> Option<String> {
+    let both = words.find(&["both"])?;
+    let said = words.is(both + 1, &["a", "an"]) || of_having_rooms(words);
+    words.phrase(both, "and").filter(|_| said && both + 1 < words.keys.len())?;
+    let (before, rest) =
+        (&words.text[..words.at[both].start], &words.text[words.at[both + 1].start..]);
+    Some(format!("{before}{rest}"))
+}
+
+/// "Which rooms have …?"
+fn of_having_rooms(words: &Words<'_>) -> bool {
+    words.find(&["rooms", "room"]).is_some() && words.find(&["have", "has", "contain"]).is_some()
+}
+
+/// «А двери открывать придётся?», "Will I need to open a door?": in the words of the vocabulary.
+fn doors_to_open(words: &Words<'_>) -> Option<String> {
+    const MUST: &[&str] = &["must", "have", "need", "придется", "нужно", "надо", "понадобится"];
+    let must = words.find(MUST)?;
+    let open = words.find(&["open", "открывать"])?;
+    let door = words.find(&["door", "doors", "дверь", "двери", "дверей"])?;
+    let russian = Language::of(words.text) == Language::Russian;
+    // "Do I have to", "will we need to"
+    let asked = must.checked_sub(2).filter(|n| words.is(*n, &["do", "does", "will", "would"]));
+    let ends = [must, open, door];
+    let (first, last) = (ends.into_iter().min()?, ends.into_iter().max()?);
+    let asks_which = words.find(&["какую", "какие", "сколько", "which", "many"]).is_some();
+    if asks_which || last - first > 5 || !(russian || must < open && open < door) {
+        return None;
     }
-    let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&key.as_str()));
-    let last = keys.len().checked_sub(1)?;
-    let rooms = keys.iter().any(|key| ["rooms", "room"].contains(&key.as_str()));
-    let have = keys.iter().any(|key| ["have", "has", "contain"].contains(&key.as_str()));
-    if last > 2 && rooms && have && is(last, &["them", "it"]) && is(last - 1, &["in", "inside"]) {
-        return Some(format!("{}?", &text[..at[last - 2].end]));
+    let plain = if russian {
+        "придётся открывать двери"
+    } else {
+        "have to open any doors"
+    };
+    Some(words.replaced(vec![(asked.unwrap_or(first)..last + 1, plain.to_owned())]))
+}
+
+/// "Which room has the most pictures on its walls?": pictures in a room hang on its walls.
+fn on_its_walls(words: &Words<'_>) -> Option<String> {
+    let walls = words.find(&["walls", "wall", "стенах", "стене"])?;
+    let its = walls.checked_sub(2).filter(|_| words.is(walls - 1, &["its", "своих"]))?;
+    let which = words.find(&["which", "what", "какой", "какая"]).is_some();
+    let room = words.find(&["room", "комната", "комнате"]).is_some();
+    let on = words.is(its, &["on", "на"]);
+    (on && which && room).then(|| words.replaced(vec![(its..walls + 1, String::new())]))
+}
+
+/// «Кровать застелена?», "Are all the beds made?": a made bed is kept as a clean one.
+fn made_bed(words: &Words<'_>) -> Option<String> {
+    const BEDS: &[&str] = &["bed", "beds", "кровать", "кровати", "постель", "постели"];
+    const MADE: &[(&str, &str)] = &[
+        ("застелен", "чист"),
+        ("заправлен", "чист"),
+        ("убран", "чист"),
+        ("незастелен", "грязн"),
+        ("незаправлен", "грязн"),
+        ("неубран", "грязн"),
+        ("расстелен", "грязн"),
+    ];
+    let bed = words.find(BEDS)?;
+    let last = words.keys.len() - 1;
+    match words.keys[last].as_str() {
+        "made" => return Some(words.replaced(vec![(last..last + 1, "clean".to_owned())])),
+        "unmade" => return Some(words.replaced(vec![(last..last + 1, "dirty".to_owned())])),
+        _ => {}
     }
-    let both = (0..keys.len())
-        .find(|n| is(*n, &["both"]) && (is(*n + 1, &["a", "an"]) || rooms && have))?;
-    let and = (both..keys.len()).any(|n| is(n, &["and"]));
-    and.then(|| format!("{}{}", &text[..at[both].start], &text[at[both + 1].start..]))
+    // «Коробка убрана под кровать?» is not asked of the bed.
+    let of_bed = |n: usize| match words.keys.get(n + 1..bed) {
+        Some(between) => between.iter().all(|word| word == "ли"),
+        None => n > bed && n - bed <= 2,
+    };
+    words.keys.iter().enumerate().filter(|(n, _)| of_bed(*n)).find_map(|(n, key)| {
+        let (stem, plain) = MADE.iter().find(|(stem, _)| key.starts_with(stem))?;
+        let ending = key[stem.len()..].trim_start_matches('н');
+        Some(words.replaced(vec![(n..n + 1, format!("{plain}{ending}"))]))
+    })
+}
+
+/// «Он свободен?», «Правда ли, что в холодильнике пусто?»: whether nothing is there.
+fn is_free(words: &Words<'_>) -> Option<String> {
+    const OTHER: &[&str] = &["сколько", "что", "где", "место", "мест", "места", "какой", "какие"];
+    let last = words.keys.len() - 1;
+    let begins = if words.is(0, &["правда", "верно"]) { 3 } else { 0 };
+    if (begins..last).any(|n| words.is(n, OTHER)) || last == 0 {
+        return None;
+    }
+    let plain = match words.keys[last].as_str() {
+        "свободен" => "пуст",
+        "свободна" => "пуста",
+        "свободно" => "пусто",
+        "свободны" => "пусты",
+        "пусто" if (begins..last).any(|n| words.is(n, &["в", "во", "на"])) => {
+            "ничего нет"
+        }
+        _ => return None,
+    };
+    Some(words.replaced(vec![(last..last + 1, plain.to_owned())]))
 }
 
 #[cfg(test)]
@@ -213,6 +270,7 @@ mod tests {
 
     #[test]
     fn constructions_are_put_plainly() {
+        let plain = |text: &str| RULES.iter().find_map(|rule| rule(&Words::of(text)?));
         let check = |text: &str, meant: &str| assert_eq!(plain(text).as_deref(), Some(meant));
         check("What does the bedroom contain?", "what is in the bedroom?");
         check("Which rooms does Door 1 connect?", "what does Door 1 join?");
@@ -222,7 +280,7 @@ mod tests {
         check("Где искать статуэтку?", "где статуэтку?");
         assert_eq!(
             from_where_i_am("I'm in the hall. How do I get outside?").as_deref(),
-            Some("how do i get from the hall to the exit?")
+            Some("How do I get outside from the hall?")
         );
         check(
             "Что ещё есть на том же столе, где и газета?",

@@ -43,9 +43,9 @@ impl Exchange {
         }
     }
 
-    /// What was asked of.
-    pub(super) fn topics(&self) -> &[Thing] {
-        &self.topics[..self.topics.len().min(1)]
+    /// What it was most about.
+    pub(super) fn topic(&self) -> Option<Thing> {
+        self.topics.first().copied()
     }
 
     fn is_empty(&self) -> bool {
@@ -292,7 +292,7 @@ impl Knowledge<'_> {
     /// «Где бита? А ракетка? Они на одной кровати?»: the things of the last two exchanges, one each.
     fn last_pair(&self) -> Option<Vec<Thing>> {
         let [later, earlier, ..] = &self.memory.exchanges[..] else { return None };
-        let one = |e: &Exchange| e.topics.first().copied().filter(|_| e.listed.is_empty());
+        let one = |e: &Exchange| e.topic().filter(|_| e.listed.is_empty());
         let pair = [one(earlier)?, one(later)?];
         let singular = |t: &Thing| t.replica().is_some() && self.gender(*t).1 == Number::Singular;
         let differ = self.alike(&pair).is_none();

@@ -68,9 +68,7 @@ impl Asker<'_> {
         }
         let text = &self.plain(text);
         let sentence = Sentence::new(text, &self.mind.lexicon);
-        let knowledge = self.knowledge(sentence.language, memory);
-        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
-        let mut noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
+        let mut noun = self.fragment(&sentence, memory)?;
         let counts = sentence.items().contains(&Item::Mark(Mark::HowMany));
         // «А сколько из них белых?» tells by itself of what.
         let of_told = |r: &super::Restriction| matches!(r.rel, Rel::From | Rel::Of);
@@ -143,7 +141,7 @@ impl Asker<'_> {
             last,
             Query::Where(_) | Query::RoomOf(_) | Query::Anchor { .. } | Query::Holds { .. }
         );
-        let [only] = memory.exchanges.first().filter(|_| asked)?.topics() else { return None };
+        let only = memory.exchanges.first().filter(|_| asked)?.topic()?;
         let plain = self.plain(text);
         let sentence = Sentence::new(&plain, &self.mind.lexicon);
         let place = |item: &Item| match item {
@@ -158,12 +156,17 @@ impl Asker<'_> {
         {
             return None;
         }
+        let noun = self.fragment(&sentence, memory)?;
+        let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
+        let subject = Noun::of(vec![only]);
+        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
+    }
+
+    /// A description by itself: "the spoons in the kitchen".
+    pub(super) fn fragment(&self, sentence: &Sentence<'_>, memory: &Memory) -> Option<Noun> {
         let knowledge = self.knowledge(sentence.language, memory);
         let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
-        let noun = assemble::fragment(&sentence, &self.mind.lexicon, &referent)?;
-        let claims = noun.restrictions.into_iter().map(Claim::Related).collect::<Vec<_>>();
-        let subject = Noun::of(vec![*only]);
-        (!claims.is_empty()).then_some(Query::Holds { subject, claims, negated: false })
+        assemble::fragment(sentence, &self.mind.lexicon, &referent)
     }
 
     fn is_of_rooms(&self, place: &Restriction) -> bool {

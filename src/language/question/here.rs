@@ -29,8 +29,7 @@ const WIDE: [&str; 10] =
     ["где", "куда", "where", "can", "можно", "кто", "who", "which", "какие", "далеко"];
 
 /// The text with "here" told by its room, which `place` names: «в Гостиной».
-pub(super) fn named<'t>(text: &'t str, place: Option<&str>) -> Cow<'t, str> {
-    let Some(place) = place else { return Cow::Borrowed(text) };
+pub(super) fn named(text: &str, place: impl FnOnce() -> Option<String>) -> Cow<'_, str> {
     let keys = word_keys(text);
     let is = |n: usize, all: &[&str]| keys.get(n).is_some_and(|key| all.contains(&key.as_str()));
     let any = |all: &[&str]| (0..keys.len()).any(|n| is(n, all));
@@ -43,9 +42,10 @@ pub(super) fn named<'t>(text: &'t str, place: Option<&str>) -> Cow<'t, str> {
     if !within && any(&["in"]) {
         return Cow::Borrowed(text);
     }
+    let Some(place) = place() else { return Cow::Borrowed(text) };
     let ranges = word_ranges(text);
     let mut text = text.to_owned();
-    text.replace_range(ranges[here - usize::from(within)].start..ranges[here].end, place);
+    text.replace_range(ranges[here - usize::from(within)].start..ranges[here].end, &place);
     Cow::Owned(text)
 }
 
@@ -56,7 +56,7 @@ mod tests {
     #[test]
     fn a_room_takes_the_place_of_here() {
         let check = |text: &str, place: &str, plain: &str| {
-            assert_eq!(named(text, Some(place)), plain);
+            assert_eq!(named(text, || Some(place.to_owned())), plain);
         };
         check("Есть ли здесь стул?", "в Холле", "Есть ли в Холле стул?");
         check("What is in here?", "in the hall", "What is in the hall?");

@@ -53,7 +53,7 @@ pub use values::{Property, ValueEntry, ValueId, Values};
 
 use crate::language::command::is_too_long;
 use crate::language::report::Detail;
-use crate::language::words::{Language, everyday as everyday_words, word_keys};
+use crate::language::words::{Language, everyday as everyday_words, phrase_at, word_keys};
 use crate::map::World;
 use crate::semantics::Relations;
 use crate::units::{AreaId, Bilingual, MapId, Pose, ReplicaId};
@@ -517,7 +517,10 @@ impl Asker<'_> {
         let mut query = assemble::query(&sentence, &self.mind.lexicon, &referent)?;
         // "Isn't it open?" is answered as "Is it open?" in English: "No, it is not"; the truth of a denial is not.
         if sentence.language == Language::English
-            && !["true that", "correct that", "the case that"].iter().any(|w| text.contains(w))
+            && !(0..sentence.keys.len()).any(|at| {
+                let said = ["true that", "correct that", "the case that"];
+                said.iter().any(|words| phrase_at(&sentence.keys, at, words).is_some())
+            })
             && let Query::Holds { negated, .. } | Query::Exists { negated, .. } = &mut query
         {
             *negated = false;
@@ -542,8 +545,8 @@ impl Asker<'_> {
         let here = self.senses.robot().map(|(map, _)| map);
         let text = rephrase::plain(text);
         let named = storeys::named(&text, self.world, here);
-        let room = self.own_room(&named);
-        everyday::plain(&here::named(&named, room.as_deref()), &self.mind.lexicon).into_owned()
+        let named = here::named(&named, || self.own_room(&named));
+        everyday::plain(&named, &self.mind.lexicon).into_owned()
     }
 
     /// «в Гостиной», in the language of a text: the room where the robot is.

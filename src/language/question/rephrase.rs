@@ -6,13 +6,12 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use super::constructions;
-use crate::language::words::{Language, word_ranges};
+use crate::language::words::{Language, phrase_at, word_ranges};
 use crate::units::name_key;
 
 /// A text with its everyday constructions put plainly.
 pub(super) fn plain(text: &str) -> Cow<'_, str> {
-    let mut plain = constructions::plain(text).map_or(Cow::Borrowed(text), Cow::Owned);
-    let rules = [
+    let rules: [Rule; 28] = [
         locked,
         neither,
         everything_switched,
@@ -41,43 +40,54 @@ pub(super) fn plain(text: &str) -> Cow<'_, str> {
         seen_from_there,
         leads_outside,
         put_it_down,
-        doors_to_open,
-        on_its_walls,
-        made_bed,
-        is_free,
     ];
-    for rule in rules {
-        if let Some(next) = Words::of(&plain).and_then(|words| rule(&words)) {
-            plain = Cow::Owned(next);
-        }
+    let mut rules = constructions::RULES.iter().chain(&rules);
+    let mut plain = Cow::Borrowed(text);
+    // Each rule once, in this order; the words are taken anew only where one has changed the text.
+    while let Some(next) = Words::of(&plain).and_then(|words| rules.find_map(|rule| rule(&words))) {
+        plain = Cow::Owned(next);
     }
     plain
 }
 
+/// Puts a text plainly, where it is of the rule's construction.
+pub(super) type Rule = fn(&Words<'_>) -> Option<String>;
+
 /// A text by its words.
-struct Words<'t> {
-    text: &'t str,
-    at: Vec<Range<usize>>,
-    keys: Vec<String>,
+pub(super) struct Words<'t> {
+    pub(super) text: &'t str,
+    pub(super) at: Vec<Range<usize>>,
+    pub(super) keys: Vec<String>,
 }
 
 impl<'t> Words<'t> {
-    fn of(text: &'t str) -> Option<Self> {
+    pub(super) fn of(text: &'t str) -> Option<Self> {
         let at = word_ranges(text);
         let keys: Vec<String> = at.iter().map(|range| name_key(&text[range.clone()])).collect();
         (!keys.is_empty()).then_some(Self { text, at, keys })
     }
 
-    fn is(&self, n: usize, all: &[&str]) -> bool {
+    pub(super) fn is(&self, n: usize, all: &[&str]) -> bool {
         self.keys.get(n).is_some_and(|key| all.contains(&key.as_str()))
     }
 
-    fn find(&self, all: &[&str]) -> Option<usize> {
+    pub(super) fn find(&self, all: &[&str]) -> Option<usize> {
         (0..self.keys.len()).find(|n| self.is(*n, all))
     }
 
+    /// The text of some words, where there are any.
+    pub(super) fn part(&self, words: Range<usize>) -> Option<&'t str> {
+        let last = words.end.checked_sub(1).filter(|last| words.start <= *last)?;
+        Some(&self.text[self.at.get(words.start)?.start..self.at.get(last)?.end])
+    }
+
+    /// Where a phrase begins, from a place on.
+    pub(super) fn phrase(&self, from: usize, phrase: &str) -> Option<usize> {
+        (from..self.keys.len()).find(|at| phrase_at(&self.keys, *at, phrase).is_some())
+    }
+
     /// The text with some words replaced, the last first.
-    fn replaced(&self, mut changes: Vec<(Range<usize>, String)>) -> String {
+    pub(super) fn replaced(&self, mut changes: Vec<(Range<usize>, String)>) -> String {
         changes.sort_by_key(|(words, _)| std::cmp::Reverse(words.start));
         let mut text = self.text.to_owned();
         for (words, by) in changes {
@@ -85,86 +95,6 @@ impl<'t> Words<'t> {
         }
         text
     }
-}
-
-/// «А двери открывать придётся?», "Will I need to open a door?": in the words of the vocabulary.
-fn doors_to_open(words: &Words<'_>) -> Option<String> {
-    const MUST: &[&str] = &["must", "have", "need", "придется", "нужно", "надо", "понадобится"];
-    let must = words.find(MUST)?;
-    let open = words.find(&["open", "открывать"])?;
-    let door = words.find(&["door", "doors", "дверь", "двери", "дверей"])?;
-    let russian = Language::of(words.text) == Language::Russian;
-    // "Do I have to", "will we need to"
-    let asked = must.checked_sub(2).filter(|n| words.is(*n, &["do", "does", "will", "would"]));
-    let ends = [must, open, door];
-    let (first, last) = (ends.into_iter().min()?, ends.into_iter().max()?);
-    let asks_which = words.find(&["какую", "какие", "сколько", "which", "many"]).is_some();
-    if asks_which || last - first > 5 || !(russian || must < open && open < door) {
-        return None;
-    }
-    let plain = if russian {
-        "придётся открывать двери"
-    } else {
-        "have to open any doors"
-    };
-    Some(words.replaced(vec![(asked.unwrap_or(first)..last + 1, plain.to_owned())]))
-}
-
-/// «Кровать застелена?», "Are all the beds made?": a made bed is kept as a clean one.
-fn made_bed(words: &Words<'_>) -> Option<String> {
-    const BEDS: &[&str] = &["bed", "beds", "кровать", "кровати", "постель", "постели"];
-    const MADE: &[(&str, &str)] = &[
-        ("застелен", "чист"),
-        ("заправлен", "чист"),
-        ("убран", "чист"),
-        ("незастелен", "грязн"),
-        ("незаправлен", "грязн"),
-        ("неубран", "грязн"),
-        ("расстелен", "грязн"),
-    ];
-    words.find(BEDS)?;
-    let last = words.keys.len() - 1;
-    match words.keys[last].as_str() {
-        "made" => return Some(words.replaced(vec![(last..last + 1, "clean".to_owned())])),
-        "unmade" => return Some(words.replaced(vec![(last..last + 1, "dirty".to_owned())])),
-        _ => {}
-    }
-    words.keys.iter().enumerate().find_map(|(n, key)| {
-        let (stem, plain) = MADE.iter().find(|(stem, _)| key.starts_with(stem))?;
-        let ending = key[stem.len()..].trim_start_matches('н');
-        Some(words.replaced(vec![(n..n + 1, format!("{plain}{ending}"))]))
-    })
-}
-
-/// «Он свободен?», «Правда ли, что в холодильнике пусто?»: whether nothing is there.
-fn is_free(words: &Words<'_>) -> Option<String> {
-    const OTHER: &[&str] = &["сколько", "что", "где", "место", "мест", "места", "какой", "какие"];
-    let last = words.keys.len() - 1;
-    let begins = if words.is(0, &["правда", "верно"]) { 3 } else { 0 };
-    if (begins..last).any(|n| words.is(n, OTHER)) || last == 0 {
-        return None;
-    }
-    let plain = match words.keys[last].as_str() {
-        "свободен" => "пуст",
-        "свободна" => "пуста",
-        "свободно" => "пусто",
-        "свободны" => "пусты",
-        "пусто" if (begins..last).any(|n| words.is(n, &["в", "во", "на"])) => {
-            "ничего нет"
-        }
-        _ => return None,
-    };
-    Some(words.replaced(vec![(last..last + 1, plain.to_owned())]))
-}
-
-/// "Which room has the most pictures on its walls?": pictures in a room hang on its walls.
-fn on_its_walls(words: &Words<'_>) -> Option<String> {
-    let walls = words.find(&["walls", "wall", "стенах", "стене"])?;
-    let its = walls.checked_sub(2).filter(|_| words.is(walls - 1, &["its", "своих", "its"]))?;
-    let which = words.find(&["which", "what", "какой", "какая"]).is_some();
-    let room = words.find(&["room", "комната", "комнате"]).is_some();
-    let on = words.is(its, &["on", "на"]);
-    (on && which && room).then(|| words.replaced(vec![(its..walls + 1, String::new())]))
 }
 
 /// «Закрыта ли дверь на ключ?» asks whether it is locked.

@@ -1,10 +1,7 @@
 //! Asking of the rest: whether what was told is all there is, and whether there is more of it elsewhere.
 
 use super::grammar::Sentence;
-use super::lexicon::KindId;
-use super::mark::Pronoun;
-use super::query::Rel;
-use super::{Asker, Head, Memory, Noun, Query, Thing, assemble};
+use super::{Asker, Head, Memory, Noun, Query, Thing};
 use crate::language::words::word_keys;
 
 /// «Это все?», which a noun may follow.
@@ -48,7 +45,7 @@ impl Asker<'_> {
                 true => self.as_asked(memory)?,
                 false => self.described(named, memory)?,
             };
-            let what = vec![self.but(noun, told)];
+            let what = vec![but(noun, told)];
             return Some(Query::Exists { what, either: false, negated: true });
         }
         // What names something itself is a question of its own.
@@ -61,24 +58,22 @@ impl Asker<'_> {
         if rest.split_whitespace().any(|word| !SMALL.contains(&word)) {
             return None;
         }
-        let kind = self.kind_told(memory)?;
-        let noun = Noun { head: Head { kinds: vec![kind], ..Head::default() }, ..Noun::default() };
-        let what = vec![self.but(Noun { plural: true, ..noun }, told)];
+        let what = vec![self.left_of_kind(memory)?];
         Some(Query::Exists { what, either: false, negated: false })
     }
 
-    /// The one kind of what was told last.
-    fn kind_told(&self, memory: &Memory) -> Option<KindId> {
+    /// What there is of the kind of what was told last, besides that.
+    fn left_of_kind(&self, memory: &Memory) -> Option<Noun> {
         let told: Vec<Thing> =
             memory.last.iter().copied().filter(|t| t.replica().is_some()).collect();
-        self.knowledge(memory.language, memory).alike(&told)
+        let kind = self.knowledge(memory.language, memory).alike(&told)?;
+        let noun = Noun { head: Head { kinds: vec![kind], ..Head::default() }, ..Noun::default() };
+        Some(but(noun, &memory.last))
     }
 
-    /// What there is of that kind besides what was told.
+    /// "Where are the others?" of several that were told, where there are others.
     pub(super) fn rest_of_kind(&self, memory: &Memory) -> Option<Noun> {
-        let kind = self.kind_told(memory).filter(|_| memory.last.len() > 1)?;
-        let noun = Noun { head: Head { kinds: vec![kind], ..Head::default() }, ..Noun::default() };
-        let rest = self.but(noun, &memory.last);
+        let rest = self.left_of_kind(memory).filter(|_| memory.last.len() > 1)?;
         let left = self.knowledge(memory.language, memory).find(&rest, true).ok()?;
         (!left.is_empty()).then_some(rest)
     }
@@ -89,17 +84,13 @@ impl Asker<'_> {
         Some(sought.clone())
     }
 
-    /// A description by itself: "the spoons in the kitchen".
     fn described(&self, text: &str, memory: &Memory) -> Option<Noun> {
         let text = self.plain(text);
-        let sentence = Sentence::new(&text, &self.mind.lexicon);
-        let knowledge = self.knowledge(memory.language, memory);
-        let referent = |pronoun: Pronoun, rel: Option<Rel>| knowledge.referent(pronoun, rel);
-        assemble::fragment(&sentence, &self.mind.lexicon, &referent)
+        self.fragment(&Sentence::new(&text, &self.mind.lexicon), memory)
     }
+}
 
-    fn but(&self, noun: Noun, told: &[Thing]) -> Noun {
-        let told = Noun { plural: told.len() > 1, ..Noun::of(told.to_vec()) };
-        Noun { plural: true, except: vec![told], ..noun }
-    }
+fn but(noun: Noun, told: &[Thing]) -> Noun {
+    let told = Noun { plural: told.len() > 1, ..Noun::of(told.to_vec()) };
+    Noun { plural: true, except: vec![told], ..noun }
 }

@@ -75,16 +75,12 @@ impl Knowledge<'_> {
     /// "Why can't I go there directly?": no door joins the two.
     fn not_joined(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
         let start = from.map_or(Ok(Thing::Robot), |noun| self.one(noun))?;
-        let room = |t: Thing| {
-            let area = t.area().or_else(|| self.area_of(t));
-            area.map(|id| Thing::Entity(Entity::Area(id)))
+        let rooms = [self.rooms_of(start), self.rooms_of(self.one(to)?)];
+        let (&[a, ..], &[b, ..]) = (&rooms[0][..], &rooms[1][..]) else {
+            return Ok(self.why_plain(self.memory.said.as_deref().unwrap_or_default(), &[]));
         };
-        let ends = [room(start), room(self.one(to)?)].into_iter().flatten().collect::<Vec<_>>();
-        let place = self.place(Rel::Between, &ends);
-        let joined = |g: &&super::knowledge::Gate| {
-            ends.iter().filter_map(|t| t.area()).all(|area| g.areas.contains(&area))
-        };
-        let text = match (self.gates().iter().find(joined), self.is_russian()) {
+        let place = self.place(Rel::Between, &[a, b].map(|id| Thing::Entity(Entity::Area(id))));
+        let text = match (self.gates_between(a, b).next(), self.is_russian()) {
             (Some(gate), true) => format!("{place} – {}", self.name(gate.thing)),
             (Some(gate), false) => format!("{} is {place}", self.name(gate.thing)),
             (None, true) => format!("{place} нет ни двери, ни прохода"),
@@ -101,19 +97,15 @@ impl Knowledge<'_> {
             _ => return None,
         };
         let first = *self.memory.last.first()?;
-        let others =
-            Noun { best: None, rank: None, except: vec![Noun::of(vec![first])], ..noun.clone() };
-        let mut next = Noun { best: Some(best.clone()), ..others };
-        next.indefinite = true;
-        let next = *self.find(&next, true).ok()?.first()?;
+        let mut others = Noun { rank: None, indefinite: true, ..noun.clone() };
+        others.except.push(Noun::of(vec![first]));
+        let next = *self.find(&others, true).ok()?.first()?;
         let away = |t: Thing| self.distance(t, anchor).map(|away| length(away, self.language));
         let (near, far) = (away(first)?, away(next)?);
+        let of = |thing| self.form(thing, Case::Genitive);
         let (name, other) = (self.name(first), self.name(next));
         let text = match self.is_russian() {
-            true => format!(
-                "до {} {near}, а до следующего, {other}, {far}",
-                self.form(first, Case::Genitive)
-            ),
+            true => format!("до {} {near}, а дальше – до {}, {far}", of(first), of(next)),
             false => format!("{name} is {near} away, and the next one, {other}, {far}"),
         };
         Some(Draft::plain(Said::Found, text).with(vec![first]))
@@ -180,7 +172,11 @@ impl Knowledge<'_> {
         let (a, b) = (self.thing(fact.args.first()?)?, self.thing(fact.args.get(1)?)?);
         if matches!(fact.relation.as_str(), "ON_TOP_OF" | "INSIDE") {
             let place = self.short_place(a, &mut Vec::new());
-            return Some(format!("{} {} {place}", self.pronoun(a), self.is(&[a])));
+            return Some(format!(
+                "{} {} {place}",
+                self.pronoun(a, Case::Nominative),
+                self.is(&[a])
+            ));
         }
         let apart = length(self.distance(a, b)?, self.language);
         Some(match self.is_russian() {
@@ -273,30 +269,28 @@ impl Knowledge<'_> {
         };
         let russian = self.is_russian();
         Some(match (name, russian) {
-            ("over", russian) => {
-                let touches = number(4).abs() < 0.05;
-                let all = percent(5) >= 99.5;
-                match russian {
-                    true => {
-                        let gap = match touches {
-                            true => format!("касается верха {b}"),
-                            false => format!("в {} от верха {b}", cm(4)),
-                        };
-                        let share = if all {
-                            "целиком".to_owned()
-                        } else {
-                            format!("на {:.0} %", percent(5))
-                        };
-                        format!("низ {a} {gap} и {share} над ним")
-                    }
+            ("over", true) => {
+                let gap = match number(4).abs() < 0.05 {
+                    true => format!("касается верха {b}"),
+                    false => format!("в {} от верха {b}", cm(4)),
+                };
+                match percent(5) >= 99.5 {
+                    true => format!("низ {a} {gap} и целиком над ним"),
+                    false => format!("низ {a} {gap} и на {:.0} % над ним", percent(5)),
+                }
+            }
+            ("over", false) => {
+                let gap = match number(4).abs() < 0.05 {
+                    true => format!("touches the top of {b}"),
+                    false => format!("is {} from the top of {b}", cm(4)),
+                };
+                match percent(5) >= 99.5 {
+                    true => format!("the bottom of {a} {gap} and all of it lies over that"),
                     false => {
-                        let gap = match touches {
-                            true => format!("touches the top of {b}"),
-                            false => format!("is {} from the top of {b}", cm(4)),
-                        };
-                        let share =
-                            if all { "all".to_owned() } else { format!("{:.0} %", percent(5)) };
-                        format!("the bottom of {a} {gap} and {share} of it lies over that")
+                        format!(
+                            "the bottom of {a} {gap} and {:.0} % of it lies over that",
+                            percent(5)
+                        )
                     }
                 }
             }
@@ -404,24 +398,35 @@ impl Knowledge<'_> {
         })
     }
 
-    /// «её», of what is not seen
-    pub(super) fn pronoun_of(&self, thing: Thing) -> &'static str {
-        match self.pronoun(thing) {
-            "она" => "её",
-            "они" => "их",
-            _ => "его",
-        }
-    }
-
-    /// «она», "it"
-    fn pronoun(&self, thing: Thing) -> &'static str {
+    /// «она», «её»; "it", "them": in the nominative, or else as an object.
+    pub(super) fn pronoun(&self, thing: Thing, case: Case) -> &'static str {
         let (gender, number) = self.gender(thing);
+        let subject = case == Case::Nominative;
         match (self.is_russian(), number, gender) {
-            (false, ..) if self.is(&[thing]) == "are" => "they",
+            (false, ..) if self.is(&[thing]) == "are" => {
+                if subject {
+                    "they"
+                } else {
+                    "them"
+                }
+            }
             (false, ..) => "it",
-            (true, Number::Plural, _) => "они",
+            (true, Number::Plural, _) => {
+                if subject {
+                    "они"
+                } else {
+                    "их"
+                }
+            }
+            (true, _, Gender::Feminine) => {
+                if subject {
+                    "она"
+                } else {
+                    "её"
+                }
+            }
+            (true, ..) if !subject => "его",
             (true, _, Gender::Masculine) => "он",
-            (true, _, Gender::Feminine) => "она",
             (true, _, Gender::Neuter) => "оно",
         }
     }

@@ -70,7 +70,7 @@ const SAME: &[&str] = &[
     "батарейка|батарея|аккумулятор|battery",
     "табурет|табуретка|stool",
     "губка|губка для посуды|губка для мытья посуды|sponge|dish sponge",
-    "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet|tennis racquet",
+    "ракетка|теннисная ракетка|tennis racket|racket|tennis racquet|racquet",
     "нож|столовый нож|knife|butter knife|table knife|нож для масла|кухонный нож|kitchen knife",
     "офисное кресло|офисный стул|рабочее кресло|office chair|desk chair|swivel chair",
     "кредитная карта|кредитная карточка|кредитка|банковская карта|credit card|bank card",

@@ -7,8 +7,7 @@ use super::property::status_word;
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Claim, Extreme, Noun, Rel, Restriction, Thing};
-use crate::language::question::values::Property;
-use crate::language::question::values::ValueId;
+use crate::language::question::values::{Property, ValueId};
 use crate::language::question::{Doubt, Fact, Said};
 use crate::language::words::{Case, Number, enumerate};
 use crate::map::{DoorStatus, Entity};
@@ -244,11 +243,9 @@ impl Knowledge<'_> {
         let kind = self.base(&subject.head);
         let mut fits = false;
         for thing in candidates.iter().filter(|t| kind.contains(t)) {
-            let mut all = true;
-            for claim in claims {
-                all &= self.judge(*thing, claim)?.0;
-            }
-            fits |= all;
+            let judged: Result<Vec<bool>, Doubt> =
+                claims.iter().map(|claim| Ok(self.judge(*thing, claim)?.0)).collect();
+            fits |= judged?.into_iter().all(|holds| holds);
         }
         Ok(fits)
     }
@@ -479,10 +476,8 @@ impl Knowledge<'_> {
 
     /// «соединена с Комнатой-Z (Дверь-ZY)», "is not connected to the hall"
     fn joined_words(&self, room: Thing, other: Thing, holds: bool) -> String {
-        let (a, b) = (room.area(), other.area());
-        let joins = self.gates().iter().filter(|g| {
-            a.is_some_and(|a| g.areas.contains(&a)) && b.is_some_and(|b| g.areas.contains(&b))
-        });
+        let joins = room.area().zip(other.area()).into_iter();
+        let joins = joins.flat_map(|(a, b)| self.gates_between(a, b));
         let gates: Vec<Thing> = joins.map(|g| g.thing).collect();
         // «(Дверь-КY, закрыта)»: through a closed door no one goes at once.
         let told = |gate: &Thing| {

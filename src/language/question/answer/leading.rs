@@ -2,7 +2,8 @@
 //!
 //! Invariant: a passage is told beside doors, never as one.
 
-use crate::language::question::knowledge::{Gate, Knowledge};
+use super::grouped;
+use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::Extension;
 use crate::language::question::query::{Noun, Rel, Thing};
 use crate::language::words::enumerate;
@@ -86,8 +87,7 @@ impl Knowledge<'_> {
             })
             .collect();
         let [a, b] = ends[..] else { return String::new() };
-        let joins = |area: AreaId| move |g: &&Gate| g.areas.contains(&area);
-        let open = self.gates().iter().filter(|g| g.is_passage).filter(joins(a)).filter(joins(b));
+        let open = self.gates_between(a, b).filter(|gate| gate.is_passage);
         let passages: Vec<Thing> = open.map(|gate| gate.thing).collect();
         match (passages.len(), self.is_russian()) {
             (0, _) => String::new(),
@@ -103,17 +103,10 @@ impl Knowledge<'_> {
         openings: &[Thing],
         here: Thing,
     ) -> Vec<(Vec<Thing>, Vec<Thing>)> {
-        let mut groups: Vec<(Vec<Thing>, Vec<Thing>)> = Vec::new();
-        for opening in openings {
-            let areas = self.gate(*opening).into_iter().flat_map(|g| &g.areas);
-            let others: Vec<Thing> =
-                areas.map(|a| Thing::Entity(Entity::Area(*a))).filter(|t| *t != here).collect();
-            match groups.iter_mut().find(|(to, _)| *to == others) {
-                Some((_, same)) => same.push(*opening),
-                None => groups.push((others, vec![*opening])),
-            }
-        }
-        groups
+        grouped(openings, |opening| {
+            let areas = self.gate(opening).into_iter().flat_map(|g| &g.areas);
+            areas.map(|a| Thing::Entity(Entity::Area(*a))).filter(|t| *t != here).collect()
+        })
     }
 
     /// Openings of a room with where they lead, those to the same place together.

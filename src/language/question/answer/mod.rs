@@ -36,6 +36,22 @@ pub(super) struct Draft {
     number: Option<f64>,
 }
 
+/// Things in groups of one key, both in the order in which they come.
+fn grouped<K: PartialEq>(
+    things: &[Thing],
+    mut key: impl FnMut(Thing) -> K,
+) -> Vec<(K, Vec<Thing>)> {
+    let mut groups: Vec<(K, Vec<Thing>)> = Vec::new();
+    for &thing in things {
+        let own = key(thing);
+        match groups.iter_mut().find(|(other, _)| *other == own) {
+            Some((_, same)) => same.push(thing),
+            None => groups.push((own, vec![thing])),
+        }
+    }
+    groups
+}
+
 impl Draft {
     fn new(said: Said, text: String) -> Self {
         Self { said: Some(said), text, ..Self::default() }

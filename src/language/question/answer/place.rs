@@ -2,7 +2,7 @@
 //!
 //! Invariant: every place that is said rests on a fact that is handed out with it.
 
-use super::Draft;
+use super::{Draft, grouped};
 use crate::language::question::knowledge::{Held, Knowledge};
 use crate::language::question::query::{Extreme, Filter, Noun, Rel, Thing};
 use crate::language::question::{Doubt, Fact, Said};
@@ -37,14 +37,7 @@ impl Knowledge<'_> {
             return Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) }.about(&places));
         }
         // Several: by place, those in one place together.
-        let mut groups: Vec<(String, Vec<Thing>)> = Vec::new();
-        for &thing in &found {
-            let place = self.short_place(thing, &mut facts);
-            match groups.iter_mut().find(|(p, _)| *p == place) {
-                Some((_, things)) => things.push(thing),
-                None => groups.push((place, vec![thing])),
-            }
-        }
+        let groups = grouped(&found, |thing| self.short_place(thing, &mut facts));
         let parts: Vec<String> = groups
             .iter()
             .map(|(place, things)| match self.is_russian() {
@@ -169,7 +162,8 @@ impl Knowledge<'_> {
         if self.relations.support_of(id).is_some() {
             return String::new();
         }
-        if self.held_by_room(thing) == Some(Held::OnWall) {
+        let held = self.held_by_room(thing);
+        if held == Some(Held::OnWall) {
             return String::new();
         }
         if let Some(&above) = over
@@ -191,8 +185,7 @@ impl Knowledge<'_> {
             .collect();
         near.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let Some(&(distance, anchor)) = near.first() else {
-            let held = self.held_by_room(thing).filter(|_| self.is_portable(thing));
-            return match held {
+            return match held.filter(|_| self.is_portable(thing)) {
                 Some(Held::InCorner) => self.pick(", в углу", ", in the corner").to_owned(),
                 Some(Held::AtWall) => self.pick(", у стены", ", by the wall").to_owned(),
                 _ => String::new(),
@@ -345,7 +338,7 @@ impl Knowledge<'_> {
         let found = self.definite(noun)?;
         let mut rooms: Vec<Thing> = Vec::new();
         let mut parts: Vec<String> = Vec::new();
-        let mut by_room: Vec<(Thing, Vec<Thing>)> = Vec::new();
+        let mut placed: Vec<Thing> = Vec::new();
         let mut facts = Vec::new();
         let several = self.world.maps.len() > 1;
         for &thing in &found {
@@ -373,19 +366,16 @@ impl Knowledge<'_> {
                 continue;
             };
             facts.extend(self.fact(Rel::In, thing, first));
+            if self.gate(thing).is_none() && thing.area().is_none() {
+                placed.push(thing);
+                rooms.extend(Some(first).filter(|room| !rooms.contains(room)));
+                continue;
+            }
             let place = if areas.len() > 1 {
                 self.place(Rel::Between, &areas)
             } else {
                 self.place(Rel::In, &areas)
             };
-            if self.gate(thing).is_none() && thing.area().is_none() {
-                match by_room.iter_mut().find(|(room, _)| *room == first) {
-                    Some((_, things)) => things.push(thing),
-                    None => by_room.push((first, vec![thing])),
-                }
-                rooms.extend(Some(first).filter(|room| !rooms.contains(room)));
-                continue;
-            }
             let mut part = format!("{name} {} {place}", self.is(&[thing]));
             if several && let Some((map, _)) = first.area().and_then(|a| self.world.placement(a)) {
                 let map = Thing::Entity(Entity::Map(map));
@@ -401,12 +391,13 @@ impl Knowledge<'_> {
                 }
             }
         }
-        for (room, things) in &by_room {
-            let place = self.place(Rel::In, &[*room]);
-            let storey = room.area().and_then(|a| self.world.placement(a)).filter(|_| several);
+        for (room, things) in grouped(&placed, |thing| self.area_of(thing)) {
+            let Some(room) = room else { continue };
+            let place = self.place(Rel::In, &[Thing::Entity(Entity::Area(room))]);
+            let storey = self.world.placement(room).filter(|_| several);
             let storey = storey.map(|(map, _)| self.name(Thing::Entity(Entity::Map(map))));
             let storey = storey.map(|name| format!(" ({name})")).unwrap_or_default();
-            parts.push(format!("{} {} {place}{storey}", self.list(things), self.is(things)));
+            parts.push(format!("{} {} {place}{storey}", self.list(&things), self.is(&things)));
         }
         let text = parts.join("; ");
         let said = if rooms.is_empty() { Said::Unknown } else { Said::Found };

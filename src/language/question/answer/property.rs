@@ -99,7 +99,6 @@ impl Knowledge<'_> {
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }
 
-    /// «Чашка-1 белая», "Cup 1 is made of glass": what a thing has of a property, of which the words are given.
     /// «Какого цвета стены на кухне?»: of floors and walls, which have no names, the map keeps it with their room.
     fn property_of_surface(&self, property: &Property, of: &Noun) -> Result<Draft, Doubt> {
         let mut rooms: Vec<Thing> = Vec::new();
@@ -116,39 +115,32 @@ impl Knowledge<'_> {
             true => ("ПОЛА", "пола", "the floor"),
             false => ("СТЕН", "стен", "the walls"),
         };
-        let own = property.noun(Language::Russian);
-        let key = Property::of(&format!("{own} {surface}"));
+        let key = Property::of(&format!("{} {surface}", property.noun(Language::Russian)));
+        let own = property.noun(self.language);
         let mut known = false;
         let mut parts = Vec::new();
         for &room in &rooms {
             let place = self.place(Rel::In, &[room]);
             let value = self.values(room).into_iter().find(|(p, _, _)| *p == key);
-            let english_own = property.noun(Language::English);
-            let Some((_, _, text)) = value else {
-                parts.push(match self.is_russian() {
-                    true => format!("{own} {russian} {place} на карте не указан"),
-                    false => {
-                        format!("the map does not give the {english_own} of {english} {place}")
-                    }
-                });
-                continue;
-            };
-            known = true;
-            let value = text.to_lowercase();
-            parts.push(match self.is_russian() {
-                true => format!("{own} {russian} {place} – {value}"),
-                false => {
-                    let entry = self.lexicon().values.meaning(&value);
-                    let value = entry.map(|id| self.lexicon().values.entry(id).english.clone());
-                    let value = value.unwrap_or_else(|| text.to_lowercase());
-                    format!("the {english_own} of {english} {place} is {value}")
+            known |= value.is_some();
+            let told = value.map(|(_, value, text)| match value {
+                Some(value) if !self.is_russian() => {
+                    self.lexicon().values.entry(value).english.clone()
                 }
+                _ => text.to_lowercase(),
+            });
+            parts.push(match (told, self.is_russian()) {
+                (Some(told), true) => format!("{own} {russian} {place} – {told}"),
+                (Some(told), false) => format!("the {own} of {english} {place} is {told}"),
+                (None, true) => format!("{own} {russian} {place}: на карте не указано"),
+                (None, false) => format!("the map does not give the {own} of {english} {place}"),
             });
         }
         let said = if known { Said::Found } else { Said::Unknown };
         Ok(Draft::new(said, enumerate(&parts, self.language)).about(&rooms))
     }
 
+    /// «Чашка-1 белая», "Cup 1 is made of glass": what a thing has of a property, of which the words are given.
     fn property_words(&self, thing: Thing, property: &Property, words: &str) -> String {
         let name = self.name(thing);
         match (self.is_russian(), property) {

@@ -19,16 +19,10 @@ impl Knowledge<'_> {
         let name = self.name(thing);
         let Some(last) = sightings.iter().rev().find(|s| s.place.is_some()) else {
             let place = self.short_place(thing, &mut Vec::new());
+            let (is, it) = (self.is(&[thing]), self.pronoun(thing, Case::Accusative));
             let text = match self.is_russian() {
-                true => {
-                    let it = self.pronoun_of(thing);
-                    format!("по карте {name} {} {place}; сам я {it} не видел", self.is(&[thing]))
-                }
-                false => {
-                    let it = if self.is(&[thing]) == "are" { "them" } else { "it" };
-                    let is = self.is(&[thing]);
-                    format!("by the map {name} {is} {place}; I have not seen {it} myself")
-                }
+                true => format!("по карте {name} {is} {place}; сам я {it} не видел"),
+                false => format!("by the map {name} {is} {place}; I have not seen {it} myself"),
             };
             return Ok(Draft::new(Said::Unknown, text).with(vec![thing]));
         };

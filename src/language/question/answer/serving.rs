@@ -4,7 +4,7 @@
 
 use std::collections::BTreeSet;
 
-use super::Draft;
+use super::{Draft, grouped};
 use crate::language::question::knowledge::Knowledge;
 use crate::language::question::lexicon::lower_first;
 use crate::language::question::purposes::{self, Role};
@@ -34,9 +34,12 @@ impl Knowledge<'_> {
             return Ok(Draft::new(Said::Yes, text).with(found));
         }
         if asked == Asked::Where {
-            return match found[..] {
-                [_] => self.say_where(of),
-                _ => Ok(self.where_serving(found)),
+            return match found.len() <= SEVERAL {
+                true => self.say_where(of),
+                false => {
+                    let text = self.told_by_room(&found);
+                    Ok(Draft { facts, ..Draft::new(Said::Found, text).with(found) })
+                }
             };
         }
         let place = self.restrictions(of);
@@ -97,23 +100,19 @@ impl Knowledge<'_> {
             true => alternatives(names, self.language),
             false => enumerate(names, self.language),
         };
-        let mut places: Vec<(String, Vec<String>)> = Vec::new();
-        for &thing in found {
+        let places = grouped(found, |thing| {
             let support = thing.replica().and_then(|id| self.relations.support_of(id));
             let support = support.map(|id| Thing::Entity(Entity::Replica(id)));
-            let place = match (room, support) {
+            match (room, support) {
                 (true, _) => self.short_place(thing, &mut Vec::new()),
                 (false, Some(on)) if in_room => self.place(self.on_or_in(thing, on), &[on]),
                 (false, _) => String::new(),
-            };
-            match places.iter_mut().find(|(said, _)| *said == place) {
-                Some((_, names)) => names.push(self.name(thing)),
-                None => places.push((place, vec![self.name(thing)])),
             }
-        }
+        });
         let several = places.len() > 1;
-        let told = |(place, names): &(String, Vec<String>)| {
-            let names = if several { enumerate(names, self.language) } else { joined(names) };
+        let told = |(place, things): &(String, Vec<Thing>)| {
+            let names: Vec<String> = things.iter().map(|thing| self.name(*thing)).collect();
+            let names = if several { enumerate(&names, self.language) } else { joined(&names) };
             if place.is_empty() { names } else { format!("{names} ({place})") }
         };
         joined(&places.iter().map(told).collect::<Vec<_>>())
@@ -130,39 +129,10 @@ impl Knowledge<'_> {
 
     /// The rooms that things are in, in words, each with its things.
     pub(super) fn in_each_room(&self, found: &[Thing]) -> Vec<(String, Vec<Thing>)> {
-        let mut rooms: Vec<(String, Vec<Thing>)> = Vec::new();
-        for &thing in found {
+        grouped(found, |thing| {
             let room = self.in_room(thing);
-            let room = room.unwrap_or_else(|| self.short_place(thing, &mut Vec::new()));
-            match rooms.iter_mut().find(|(said, _)| *said == room) {
-                Some((_, things)) => things.push(thing),
-                None => rooms.push((room, vec![thing])),
-            }
-        }
-        rooms
-    }
-
-    /// "Sink 1 is in the kitchen and Sink 2 is in the bathroom."
-    fn where_serving(&self, found: Vec<Thing>) -> Draft {
-        let mut facts = Vec::new();
-        let mut places = self.in_each_room(&found);
-        if found.len() <= SEVERAL {
-            places.clear();
-            for &thing in &found {
-                let place = self.short_place(thing, &mut facts);
-                match places.iter_mut().find(|(said, _)| *said == place) {
-                    Some((_, things)) => things.push(thing),
-                    None => places.push((place, vec![thing])),
-                }
-            }
-        }
-        let told = |(place, things): &(String, Vec<Thing>)| match self.is_russian() {
-            true => format!("{place} – {}", self.list(things)),
-            false => format!("{} {} {place}", self.list(things), self.is(things)),
-        };
-        let told: Vec<String> = places.iter().map(told).collect();
-        let text = told.join("; ");
-        Draft { facts, ..Draft::new(Said::Found, text).with(found) }
+            room.unwrap_or_else(|| self.short_place(thing, &mut Vec::new()))
+        })
     }
 
     /// «на Кухне нет ничего для резки»; what there is elsewhere is told beside.

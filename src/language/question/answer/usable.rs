@@ -155,7 +155,11 @@ impl Knowledge<'_> {
             Fact::holding("HAS_TRAIT", vec![self.symbol(*t), wanted.to_owned()])
         });
         let facts = facts.collect();
-        let said = if found.is_empty() { Said::Nothing } else { Said::Found };
+        let said = match found.is_empty() {
+            true if !on.is_empty() && use_for == Use::Put => Said::No,
+            true => Said::Nothing,
+            false => Said::Found,
+        };
         Ok(Draft { facts, ..Draft::new(said, text).with(found) })
     }
 
@@ -190,7 +194,7 @@ impl Knowledge<'_> {
         let (good, bad): (Vec<Thing>, Vec<Thing>) =
             found.iter().copied().partition(|t| fits(t) && !bears(t));
         let text = match (good.is_empty(), self.is_russian()) {
-            (false, true) => format!("да, {russian} можно {}", self.seats(&good, "-")),
+            (false, true) => format!("да, {russian} можно {}", self.onto(&good)),
             (false, false) => format!("yes, one can {english} {}", self.list(&good)),
             (true, is_russian) if bad.iter().all(fits) => {
                 let on_it = self.related(Rel::On, bad[0]);
@@ -222,18 +226,22 @@ impl Knowledge<'_> {
 
     /// «в Гостиной – на Диван-1 и Кресло-1; в Спальне – на Кровать-1»; where the place was said, without the rooms.
     fn seats(&self, found: &[Thing], place: &str) -> String {
-        let on = |things: &[Thing]| match self.is_russian() {
-            true => format!("на {}", self.names(things, Case::Accusative)),
-            false => self.list(things),
-        };
         if !place.is_empty() {
-            return on(found);
+            return self.onto(found);
         }
         let told = |(room, things): &(String, Vec<Thing>)| match self.is_russian() {
-            true => format!("{room} – {}", on(things)),
-            false => format!("{} {room}", on(things)),
+            true => format!("{room} – {}", self.onto(things)),
+            false => format!("{} {room}", self.onto(things)),
         };
         self.in_each_room(found).iter().map(told).collect::<Vec<_>>().join("; ")
+    }
+
+    /// «на Диван-1 и Кресло-1»; in English the verb says "on".
+    fn onto(&self, things: &[Thing]) -> String {
+        match self.is_russian() {
+            true => format!("на {}", self.names(things, Case::Accusative)),
+            false => self.list(things),
+        }
     }
 
     /// A toilet is a seat only where there is no other.
@@ -248,16 +256,13 @@ impl Knowledge<'_> {
 
     /// «да, …», "no, …" before what there is or is not.
     pub(super) fn as_yes_or_no(&self, draft: Draft) -> Draft {
-        let found = !draft.things.is_empty();
-        let heads = [("да, ", "yes, "), ("нет, ", "no, ")];
-        if heads.iter().any(|(russian, english)| {
-            draft.text.starts_with(russian) || draft.text.starts_with(english)
-        }) {
+        if matches!(draft.said, Some(Said::Yes | Said::No)) {
             return draft;
         }
-        let (said, (russian, english)) = match found {
-            true => (Said::Yes, heads[0]),
-            false => (Said::No, heads[1]),
+        let found = !draft.things.is_empty();
+        let (said, russian, english) = match found {
+            true => (Said::Yes, "да, ", "yes, "),
+            false => (Said::No, "нет, ", "no, "),
         };
         let text = format!("{}{}", self.pick(russian, english), draft.text.trim_start());
         Draft { said: Some(said), text, ..draft }

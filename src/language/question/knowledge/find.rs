@@ -2,7 +2,6 @@
 //!
 //! Invariant: several where one is meant, and none at all, are doubts, never a choice.
 
-use super::Gate;
 use super::Knowledge;
 use crate::language::question::Doubt;
 use crate::language::question::lexicon::Extension;
@@ -172,18 +171,7 @@ impl Knowledge<'_> {
         match (&noun.best, noun.rank) {
             (Some(best), rank) => {
                 let places = (rank.unwrap_or(1), noun.count.unwrap_or(1));
-                // "The nearest thing to the egg" is not the counter under it.
-                if best.extreme == Extreme::Nearest
-                    && self.is_anything(&noun.head)
-                    && let Some(anchor) = &best.anchor
-                    && let Ok([anchor]) = self.find(anchor, loose).as_deref()
-                {
-                    let below = self.support_chain(*anchor);
-                    let apart =
-                        |t: &Thing| !below.contains(t) && !self.support_chain(*t).contains(anchor);
-                    found.retain(apart);
-                }
-                self.best(best, found, places, loose)
+                self.best(best, found, self.is_anything(&noun.head), places, loose)
             }
             (None, Some(rank)) if !found.is_empty() && found.iter().all(|t| is_map(*t)) => {
                 Ok(self.storey(found, rank))
@@ -397,8 +385,7 @@ impl Knowledge<'_> {
             });
         };
         if let (Some(a), Some(b)) = (a.area(), b.area()) {
-            let joins = |g: &&Gate| g.areas.contains(&a) && g.areas.contains(&b);
-            let gates: Vec<Thing> = self.gates().iter().filter(joins).map(|g| g.thing).collect();
+            let gates: Vec<Thing> = self.gates_between(a, b).map(|g| g.thing).collect();
             // Between two rooms are their doors, and the rooms that both lead to; where no door joins them, the rooms
             // through which one leads to the other.
             let next = |area: AreaId| -> HashSet<Thing> {
@@ -445,7 +432,8 @@ impl Knowledge<'_> {
     fn best(
         &self,
         best: &Best,
-        found: Vec<Thing>,
+        mut found: Vec<Thing>,
+        of_anything: bool,
         (rank, count): (u64, u64),
         loose: bool,
     ) -> Result<Vec<Thing>, Doubt> {
@@ -458,6 +446,14 @@ impl Knowledge<'_> {
                     }
                     None => vec![Thing::Robot],
                 };
+                // "The nearest thing to the egg" is not the counter under it.
+                if let (Extreme::Nearest, [anchor], true) =
+                    (best.extreme, &anchors[..], of_anything)
+                {
+                    let below = self.support_chain(*anchor);
+                    found
+                        .retain(|t| !below.contains(t) && !self.support_chain(*t).contains(anchor));
+                }
                 if let (Extreme::Nearest, [anchor], 1) = (best.extreme, &anchors[..], rank) {
                     return Ok(self.nearest(self.this_side(found, *anchor, count), *anchor, count));
                 }

@@ -2,6 +2,7 @@
 //!
 //! Invariant: a passage has the fewest crossings of all that keep to what is asked, and of those the fewest shut doors.
 
+use super::Gate;
 use super::Knowledge;
 use crate::language::question::query::Thing;
 use crate::map::{DoorStatus, Entity};
@@ -42,6 +43,15 @@ impl Knowledge<'_> {
             Some(gate) => gate.areas.clone(),
             None => self.area_of(thing).into_iter().collect(),
         }
+    }
+
+    /// The doors and passages that join two Areas.
+    pub(in crate::language::question) fn gates_between(
+        &self,
+        a: AreaId,
+        b: AreaId,
+    ) -> impl Iterator<Item = &Gate> {
+        self.gates().iter().filter(move |g| g.areas.contains(&a) && g.areas.contains(&b))
     }
 
     /// Whether a door is shut.
