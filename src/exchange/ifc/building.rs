@@ -174,6 +174,7 @@ impl Reader<'_> {
                     "план сдвинут к началу координат: {}, {}, {} см",
                     self.shift.x, self.shift.y, self.shift.z
                 );
+                self.survey.frame.clone_from(&text);
                 self.remark("", text);
             }
         }

@@ -22,7 +22,7 @@ use crate::units::{Cm, Deg, Point, Source, Vector};
 
 use super::{
     Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
-    Thing,
+    Thing, zero_of,
 };
 use document::{Fit, System, entries, length, list, number, param, points, text};
 use faces::Edge;
@@ -65,10 +65,17 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let mut reader = Reader::default();
     let levels: Vec<(&str, &Value)> = entries(&building, "levels");
     reader.fits = match system {
-        System::Image => reader.lay_levels(&levels, text(&building, "reference_level_name")),
+        System::Image => {
+            let fits = reader.lay_levels(&levels, text(&building, "reference_level_name"));
+            reader.survey.frame = "метры RMF: точки рисунка × масштаб, y вверх".to_owned();
+            fits
+        }
         System::Metres => vec![Fit::metres(); levels.len()],
         System::Degrees | System::Mercator => {
-            vec![Reader::laid_flat(system, &levels)?; levels.len()]
+            let fit = Reader::laid_flat(system, &levels)?;
+            let (lat, lon) = fit.zero(system);
+            reader.survey.frame = zero_of(lat, lon);
+            vec![fit; levels.len()]
         }
     };
     for (i, (name, level)) in levels.iter().enumerate() {

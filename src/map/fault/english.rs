@@ -300,7 +300,7 @@ impl MapError {
             Self::NoItems { .. } => "list the parts in the field items",
             Self::BaseItemCount { .. } => "mark exactly one part with `base = true`",
             Self::BaseItemOffOrigin { .. } => {
-                "move the part so that a corner of it falls on [0, 0]"
+                "move the part so that a corner of it falls on [0, 0]; a map with coordinates of another names them in its field frame"
             }
             Self::UnknownItem { known, .. } => return format!("there are the parts: {known}"),
             Self::UnknownSide { known, .. } => return format!("there are the sides: {known}"),

@@ -189,7 +189,9 @@ pub enum MapError {
     )]
     #[diagnostic(
         code(map::base_item_off_origin),
-        help("сдвиньте часть так, чтобы её угол попал в [0, 0]")
+        help(
+            "сдвиньте часть так, чтобы её угол попал в [0, 0]; карта с чужими координатами называет их в поле frame"
+        )
     )]
     BaseItemOffOrigin { owner: Bilingual, item: String, nearest: String },
     /// An id of an item that the group does not have.
