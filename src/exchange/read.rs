@@ -287,6 +287,9 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         let why = Why::Other { text: remark.text.clone() };
         report.mended(What::Record, &remark.source, why);
     }
+    for note in &survey.notes {
+        report.noted(What::Record, &note.source, Why::Other { text: note.text.clone() });
+    }
     let world = assemble(&survey, &synonyms, &mut report)?;
     Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })
 }

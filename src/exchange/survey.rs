@@ -25,6 +25,8 @@ pub struct Survey {
     pub frame: String,
     /// What the reader left out or had to assume, for the report.
     pub remarks: Vec<Remark>,
+    /// What it took as the file has it, and that is worth a word.
+    pub notes: Vec<Remark>,
 }
 
 /// The words for a plane that touches the globe: x runs east and y north from here, degrees.
