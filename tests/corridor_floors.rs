@@ -134,6 +134,7 @@ pub(crate) fn empty_world() -> World {
         name_en: String::new(),
         description: String::new(),
         map_type: None,
+        frame: String::new(),
         items: Vec::new(),
         links: Vec::new(),
     };

@@ -34,6 +34,7 @@ impl Builder {
             name_en: "Map".into(),
             description: String::new(),
             map_type: None,
+            frame: String::new(),
             items: vec![],
             links: vec![],
         };

@@ -257,6 +257,7 @@ fn rooms(world: &mut World, dice: &mut Dice) {
             name_en: format!("Floor {floor}"),
             description: dice.text(),
             map_type: dice.pick(&type_ids(world, TypeKind::Map)),
+            frame: dice.text(),
             items: Vec::new(),
             links: Vec::new(),
         };

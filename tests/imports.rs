@@ -13,7 +13,7 @@ use orthoframe::map::{DoorState, World, check};
 use orthoframe::units::{AreaId, Cm, MapId, Point};
 
 #[expect(clippy::print_stdout, reason = "a skipped test says so")]
-fn data(name: &str) -> Option<PathBuf> {
+pub(crate) fn data(name: &str) -> Option<PathBuf> {
     let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
     if !path.exists() {
         println!("пропущено: нет {}", path.display());
@@ -66,7 +66,7 @@ fn by_doors(world: &World) -> Groups<AreaId> {
     groups
 }
 
-fn source(properties: &orthoframe::map::Properties) -> &str {
+pub(crate) fn source(properties: &orthoframe::map::Properties) -> &str {
     properties.get("ИСТОЧНИК").map_or("", String::as_str)
 }
 
@@ -215,7 +215,7 @@ fn by_lanes(path: &std::path::Path) -> Groups<String> {
     groups
 }
 
-fn contains(ring: &[Point], p: Point) -> bool {
+pub(crate) fn contains(ring: &[Point], p: Point) -> bool {
     let sides = ring.iter().zip(ring.iter().cycle().skip(1));
     let cut = sides.filter(|(a, b)| (a.y > p.y) != (b.y > p.y));
     cut.filter(|(a, b)| p.x < a.x + (b.x - a.x) * (p.y - a.y) / (b.y - a.y)).count() % 2 == 1

@@ -348,6 +348,7 @@ fn maps(dice: &mut Dice, world: &mut World) {
             name_en: dice.text(),
             description: dice.text(),
             map_type: dice.type_of(&world.types.map),
+            frame: dice.text(),
         };
         world.domain.maps.push(DomainMap { map: map.id, frame: dice.frame(), is_base: n == 0 });
         world.maps.insert(map.id, map);

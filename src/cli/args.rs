@@ -86,8 +86,13 @@ pub(super) enum Command {
     Import(ImportArgs),
     /// Write the map in other programs' formats (docs/export.md)
     Export(ExportArgs),
-    /// Check a map file; all faults at once, with line and column
-    Check { file: PathBuf },
+    /// Check a map file; all faults at once, with line and column, and what reads well and cannot be
+    Check {
+        file: PathBuf,
+        /// Warnings are errors
+        #[arg(long)]
+        strict: bool,
+    },
     /// Edit the map: one step, or a file of steps; checked as a whole, one transaction, can be undone
     Edit(EditArgs),
     /// JSON Schema of the map file, for editors

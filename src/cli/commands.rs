@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map, parse_pose, ride_in_words,
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, parse_pose, ride_in_words,
     uncertain_names,
 };
 use crate::language::report::Detail as Level;
@@ -13,7 +13,7 @@ use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
 
 use super::args::{Common, Detail, Lang, RouteMethod};
-use super::fault::{Failure, drawn};
+use super::fault::{Failure, drawn, views};
 use super::{Answer, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
@@ -93,8 +93,20 @@ pub(super) fn warn(warnings: &MapErrors, lang: Lang) {
     );
 }
 
-pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
-    let (world, warnings) = check_map(file)?;
+/// Each warning with its place and remedy.
+fn faults_view(warnings: &MapErrors, lang: Lang) -> serde_json::Value {
+    match lang {
+        _ if warnings.faults.is_empty() => json!([]),
+        Lang::Ru => views(warnings),
+        Lang::En => views(&EnglishMapErrors::from(warnings)),
+    }
+}
+
+pub(super) fn check(common: &Common, file: &Path, strict: bool) -> Result<Answer, Failure> {
+    let (world, warnings) = check_map_closely(file, rules_dir(common).as_deref())?;
+    if strict && !warnings.faults.is_empty() {
+        return Err(warnings.into());
+    }
     warn(&warnings, common.lang);
     let uncertain = uncertain_names(&world);
     if common.json {
@@ -103,7 +115,8 @@ pub(super) fn check(common: &Common, file: &Path) -> Result<Answer, Failure> {
             .map(|phrase| json!({"name": phrase.name(), "genitive": phrase.case(Case::Genitive)}))
             .collect();
         return say(&json!({
-            "outcome": "sound", "warnings": warnings.faults.len(), "world": size(&world),
+            "outcome": "sound", "warnings": warnings.faults.len(),
+            "told": faults_view(&warnings, common.lang), "world": size(&world),
             "uncertain_names": names,
         })
         .to_string());

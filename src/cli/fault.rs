@@ -163,6 +163,13 @@ fn gather<'e>(
     }
 }
 
+/// Every leaf of a tree of faults, for programs.
+pub(super) fn views(error: &dyn Diagnostic) -> serde_json::Value {
+    let mut leaves = Vec::new();
+    gather(error, None, &mut leaves);
+    serde_json::json!(leaves.iter().map(view).collect::<Vec<_>>())
+}
+
 /// A leaf with its first place, for programs.
 fn view(leaf: &Leaf<'_>) -> FaultView {
     let place = leaf.labels().and_then(|mut labels| labels.next()).and_then(|label| {

@@ -261,8 +261,10 @@ fn way(world: &World, route: &Route, chain: &[(AreaId, PassframeId)]) -> Value {
 
 pub(super) fn whereabout(world: &World, found: &Whereabout) -> Value {
     let terms = &found.terms;
+    let map = &world.maps[&found.map];
     let mut view = json!({
-        "map": world.maps[&found.map].name,
+        "map": map.name,
+        "frame": Some(&map.frame).filter(|frame| !frame.is_empty()),
         "pose": pose(found.pose),
         "area": world.areas[&terms.area].name,
         "ru": found.position.say(Language::Russian),

@@ -62,7 +62,7 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Import(args) => import::run(common, args),
         Command::Export(args) => export::run(common, args),
-        Command::Check { file } => commands::check(common, file),
+        Command::Check { file, strict } => commands::check(common, file, *strict),
         Command::Edit(edit) => edit::run(common, edit),
         Command::Schema => say(&crate::map::json_schema()),
         Command::Relations { name, of } => {

@@ -19,7 +19,7 @@ use crate::map::plane::{bounds, doubled_area};
 use crate::units::{Cm, Point, Source, Vector};
 
 use super::assemble::ring::{self, LEAST_AREA, Ring};
-use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey};
+use super::{Level, Lift, Opening, OpeningKind, ReadError, Remark, Room, Survey, zero_of};
 
 const FORMAT: &str = "osmAG";
 /// Mean radius of the earth, cm.
@@ -142,6 +142,7 @@ impl<'x> Reader<'x> {
         let Some(&(_, lat0, lon0, _)) = places.iter().find(|p| p.3).or(places.first()) else {
             return;
         };
+        self.survey.frame = zero_of(lat0, lon0);
         let east = EARTH * lat0.to_radians().cos();
         for (id, lat, lon, _) in places {
             let p = Point::new((lon - lon0).to_radians() * east, (lat - lat0).to_radians() * EARTH);

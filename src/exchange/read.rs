@@ -278,8 +278,10 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         None => Synonyms::built_in(),
     };
     let synonyms = synonyms.of_format(reader.key);
-    let survey = (reader.read)(input)?;
+    let mut survey = (reader.read)(input)?;
     let name = input.path.file_name().map_or_else(String::new, |n| n.to_string_lossy().into());
+    let told = if survey.frame.is_empty() { "" } else { "; " };
+    survey.frame = format!("{} «{name}», см{told}{}", reader.title, survey.frame);
     let mut report = Report::new(reader.title, &name);
     for remark in &survey.remarks {
         let why = Why::Other { text: remark.text.clone() };
@@ -290,6 +292,9 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
         report.note(told.deed, told.what, &told.source, why);
         report.found(told.what, told.count.found);
         report.taken(told.what, told.count.taken);
+    }
+    for note in &survey.notes {
+        report.noted(What::Record, &note.source, Why::Other { text: note.text.clone() });
     }
     let world = assemble(&survey, &synonyms, &mut report)?;
     Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })

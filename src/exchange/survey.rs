@@ -3,7 +3,8 @@
 //! A reader turns its format into a `Survey` and judges nothing beyond its own syntax; one assembler, the same for all
 //! formats, makes of it Areas, doors, Objects and links that pass the checks of [`crate::map`], mending and leaving out
 //! as the report tells. Lengths are cm, angles degrees counter-clockwise from +x, x to the right and y up; a format
-//! with another frame is turned by its reader.
+//! with another frame is turned by its reader. A Map keeps these coordinates, so that a robot's pose in the frame of
+//! the file names the same place on it.
 //!
 //! **Invariant.** Every number in a `Survey` is finite; indices into its lists are in range. Order follows the file, so
 //! that two readings of one file give the same ids.
@@ -22,11 +23,15 @@ pub struct Survey {
     /// Kinds of things, shared by all levels.
     pub kinds: Vec<Kind>,
     pub lifts: Vec<Lift>,
+    /// Whose coordinates these are, in words; what lies at the zero point where that is not the file's own zero.
+    pub frame: String,
     /// What the reader left out or had to assume, for the report.
     pub remarks: Vec<Remark>,
     /// What became of records of the file that stand in none of the lists above, or stand there otherwise than in the
     /// file: with them the report counts what the file has.
     pub told: Vec<Told>,
+    /// What it took as the file has it, and that is worth a word.
+    pub notes: Vec<Remark>,
 }
 
 /// What a reader tells of records of its file.
@@ -40,6 +45,11 @@ pub struct Told {
     pub text: String,
     /// Records that the lists of the survey do not hold; none where they do.
     pub count: Count,
+}
+
+/// The words for a plane that touches the globe: x runs east and y north from here, degrees.
+pub(super) fn zero_of(lat: f64, lon: f64) -> String {
+    format!("начало координат: {lat:.8}° с. ш., {lon:.8}° в. д.; x на восток, y на север")
 }
 
 /// What a reader left out, mended or had to assume.

@@ -43,12 +43,14 @@ mod orthoframe;
 mod types;
 mod world;
 
-pub use check::check;
+pub use check::{check, doubts};
 pub(crate) use check::plane;
 pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};
-pub use file::{EditReading, Format, NextIds, Reading, edit, json_schema, kinds, read, read_file};
+pub use file::{
+    EditReading, Format, NextIds, Reading, edit, json_schema, kinds, locate, read, read_file,
+};
 pub use marks::Mark;
 pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};

@@ -76,6 +76,9 @@ pub struct Map {
     pub name_en: String,
     pub description: String,
     pub map_type: Option<TypeId>,
+    /// Whose coordinates the Map's are, where they are not its own: those of the file that it was imported from, in cm.
+    /// Empty: its own, and a corner of the base Area stands at the origin (paper 2 §5).
+    pub frame: String,
     pub items: Vec<MapItem>,
     pub links: Vec<MapLink>,
 }

@@ -444,6 +444,7 @@ impl Reader<'_> {
                 name_en: r.name_en,
                 description: r.desc,
                 map_type: r.type_id.map(TypeId),
+                frame: r.frame,
                 items: items.into_iter().map(item).collect::<Result<_>>()?,
                 links: links.into_iter().map(link).collect::<Result<_>>()?,
             })

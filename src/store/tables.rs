@@ -228,6 +228,7 @@ tables! {
         col height: f64 = "Hieght",
         beyond key: String = "Key",
         beyond name_en: String = "NameEn",
+        beyond frame: String = "Frame",
     }
     /// Types of Maps: «Квартира».
     Paper MapTypeList = 20 {

@@ -443,6 +443,7 @@ fn put_map(sheet: &mut Sheet, world: &World, map: &Map) -> Result<()> {
         height,
         key: map.key.clone(),
         name_en: map.name_en.clone(),
+        frame: map.frame.clone(),
     })?;
     for (no, item) in (0..).zip(&map.items) {
         let Frame { x, y, z, angle } = item.frame;

@@ -21,6 +21,23 @@ fn a_map_is_checked_and_imported() {
 }
 
 #[test]
+fn an_impossible_map_is_told_and_strictly_refused() {
+    let place = Place::empty();
+    let text = std::fs::read_to_string(rb2()).unwrap();
+    let fast = place.write("fast.toml", text.replace("speed = 60", "speed = 0.6"));
+    let told = place.run(&["check", &fast]).is(0);
+    assert!(told.out.contains("Карта исправна") && told.err.contains("map::metres"), "{}", told.err);
+    let view = place.json(&["check", &fast], 0);
+    assert_eq!((&view["outcome"], &view["warnings"]), (&"sound".into(), &1.into()));
+    assert_eq!(view["told"][0]["code"], "map::metres");
+    let line = text.lines().position(|line| line.starts_with("speed")).unwrap() + 1;
+    assert_eq!(view["told"][0]["line"], line);
+    let refused = place.json(&["check", &fast, "--strict"], 2);
+    assert_eq!(refused["errors"][0]["code"], "map::metres");
+    place.run(&["check", &rb2(), "--strict"]).is(0);
+}
+
+#[test]
 fn the_map_is_edited_told_and_taken_back() {
     let place = Place::with_rb2();
     let tried = place.json(&["edit", "move", "стула-1", "--by", "10,0", "--dry-run"], 0);

@@ -132,26 +132,31 @@ impl Maker<'_> {
     fn storeys(&mut self) -> Result<Vec<Option<Storey>>, ImportError> {
         let survey = self.survey;
         let mut storeys = Vec::new();
-        let mut base: Option<(Point, f64)> = None;
         for level in &survey.levels {
             self.report.found(What::Level, 1);
             let storey = self.storey(level);
-            let Some((storey, origin)) = storey else {
+            if storey.is_some() {
+                self.report.taken(What::Level, 1);
+            } else {
                 self.report.skipped(What::Level, &level.source, Why::EmptyLevel);
-                storeys.push(None);
-                continue;
-            };
-            self.report.taken(What::Level, 1);
-            let elevation = level.elevation.get();
-            let (zero, floor) = *base.get_or_insert((origin, elevation));
-            let offset = origin - zero;
-            self.world.domain.maps.push(DomainMap {
-                map: storey.map,
-                frame: Frame::new(offset.x, offset.y, elevation - floor, Deg::ZERO),
-                is_base: self.world.domain.maps.is_empty(),
-            });
-            storeys.push(Some(storey));
+            }
+            storeys.push(storey);
         }
+        // Heights too are the file's where it has a floor at zero: that is the base.
+        let made = || survey.levels.iter().zip(&storeys).filter_map(|(l, s)| Some((l, s.as_ref()?)));
+        let heights = made().map(|(level, _)| level.elevation.get());
+        let zero = heights.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
+        let mut maps: Vec<DomainMap> = made()
+            .map(|(level, storey)| DomainMap {
+                map: storey.map,
+                frame: Frame::new(0.0, 0.0, level.elevation.get() - zero, Deg::ZERO),
+                is_base: false,
+            })
+            .collect();
+        if let Some(base) = maps.iter_mut().find(|m| m.frame == Frame::IDENTITY) {
+            base.is_base = true;
+        }
+        self.world.domain.maps = maps;
         if self.world.maps.is_empty() {
             return Err(ImportError::content(
                 "импорт",
@@ -162,7 +167,7 @@ impl Maker<'_> {
         Ok(storeys)
     }
 
-    fn storey(&mut self, level: &Level) -> Option<(Storey, Point)> {
+    fn storey(&mut self, level: &Level) -> Option<Storey> {
         self.report.found(What::Room, level.rooms.len());
         let regions = rooms::regions(level, self.report);
         let first = regions.iter().position(Option::is_some)?;
@@ -186,7 +191,6 @@ impl Maker<'_> {
             floors,
             heights,
         };
-        let origin = storey.origins[first];
         let named = self.map_name(level);
         let meaning = self.synonyms.find(Vocabulary::Map, &level.name).map(|f| f.meaning.clone());
         let map_type = meaning.map(|m| self.types.of(TypeKind::Map, &m));
@@ -198,7 +202,7 @@ impl Maker<'_> {
             }
             let area = self.area(level, &storey, i, room, &mut doors);
             storey.areas[i] = Some(area);
-            let at = storey.origins[i] - origin;
+            let at = storey.origins[i];
             let frame = Frame::new(at.x, at.y, 0.0, Deg::ZERO);
             items.push(MapItem { area, frame, is_base: i == first });
         }
@@ -211,17 +215,21 @@ impl Maker<'_> {
                 key,
                 name: named.name,
                 name_en: named.name_en,
-                description: format!(
-                    "начало координат карты в исходном файле: ({:.2}; {:.2}) см",
-                    origin.x, origin.y
-                ),
+                description: String::new(),
                 map_type,
+                frame: self.frame(),
                 items,
                 links: Vec::new(),
             },
         );
         self.links(level, &storey, &doors);
-        Some((storey, origin))
+        Some(storey)
+    }
+
+    /// Whose coordinates the Maps keep.
+    fn frame(&self) -> String {
+        let frame = names::tidy(&self.survey.frame);
+        if frame.is_empty() { "исходный файл".to_owned() } else { frame }
     }
 
     fn map_name(&mut self, level: &Level) -> names::Named {

@@ -266,8 +266,7 @@ mod tests {
                 name: "лестница".into(),
                 stops: vec![(0, 1), (1, 0)],
             }],
-            remarks: Vec::new(),
-            told: Vec::new(),
+            ..Survey::default()
         };
         let mut report = Report::default();
         let world = assemble(&survey, &Synonyms::built_in(), &mut report).expect("a world");
@@ -276,8 +275,10 @@ mod tests {
         assert!(seams.filter(|v| v.permeability == Permeability::Permeable).count() >= 2);
         assert_eq!(world.domain.lifts.len(), 1);
         assert_eq!(world.domain.maps[1].frame.z, Cm::of(320.0));
-        // The upper floor stands over its stairs.
-        assert_eq!(world.domain.maps[1].frame.x, Cm::of(800.0));
+        // The upper floor stands over its stairs: both in the coordinates of the file.
+        assert_eq!(world.domain.maps[1].frame.x, Cm::ZERO);
+        let upper = world.maps.values().nth(1).expect("two storeys");
+        assert_eq!(upper.items[0].frame.x, Cm::of(800.0));
         let names: Vec<&str> = world.replicas.values().map(|r| r.name.as_str()).collect();
         assert_eq!(names, ["Стул-1", "Стул-2", "Gizmo-1"], "{report}");
         assert_eq!(world.places.len(), 1);

@@ -159,6 +159,7 @@ fn survey(
         room_places: HashMap::new(),
         left_out: BTreeMap::new(),
     };
+    reader.survey.frame.clone_from(&says);
     reader.remark("", says);
     if let Some(assumed) = reader.levels.assumed() {
         reader.remark("", assumed);

@@ -210,6 +210,7 @@ impl<'a> Reader<'a> {
                     "план сдвинут к началу координат: {}, {}, {} см",
                     shift.x, shift.y, shift.z
                 );
+                self.survey.frame.clone_from(&text);
                 self.remark("", text);
             }
         }

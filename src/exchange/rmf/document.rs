@@ -118,6 +118,18 @@ impl Fit {
         Self { origin: Vector::new(x, y), ..Self::units(cm, -cm) }
     }
 
+    /// Latitude and longitude of what lies at the zero point of a globe laid flat.
+    pub(super) fn zero(&self, system: System) -> (f64, f64) {
+        match system {
+            System::Mercator => {
+                let unit = std::f64::consts::PI / 128.0;
+                let lat = ((128.0 - self.origin.y) * unit).sinh().atan().to_degrees();
+                (lat, self.origin.x / 256.0 * 360.0 - 180.0)
+            }
+            _ => (self.origin.y, self.origin.x),
+        }
+    }
+
     pub(super) fn then(self, (turn, shift): (f64, Vector)) -> Self {
         Self { turn, shift, ..self }
     }

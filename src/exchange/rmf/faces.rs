@@ -47,6 +47,12 @@ const LEAST_PART: f64 = 40_000.0;
 const MOST_EDGES: usize = 20_000;
 /// Open edges tried on one level; the shortest come first.
 const MOST_LEADS: usize = 150;
+/// A gap in a wall no wider than this is a doorway, cm: that of a double door.
+const DOORWAY: f64 = 150.0;
+/// Walls on both sides of a gap are one wall when they turn by less than this, degrees.
+const TURN: f64 = 20.0;
+/// Floor smaller than this is no room of its own, cm².
+const LEAST_ROOM: f64 = 12_000.0;
 
 /// What a graph encloses.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -57,6 +63,10 @@ pub(super) struct Plan {
     /// Edges between faces on which nothing stands. A door in a wall that ends in the open would have one room on both
     /// sides; the loose ends of its wall are led across to the next wall, and rooms meet there by a passage.
     pub(super) open: Vec<(Point, Point)>,
+    /// Those of them that are gaps in a wall as narrow as a doorway, in which no door is drawn.
+    pub(super) gaps: Vec<(Point, Point)>,
+    /// Gaps in a wall that are wider, so that the floor on both sides became one face.
+    pub(super) wide: Vec<(Point, Point)>,
 }
 
 /// The faces of a graph of walls.
@@ -71,8 +81,10 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.lead_loose_ends();
     graph.split();
     graph.dedup();
+    let gaps = graph.close_gaps();
     graph.part_doors();
     graph.span_doors();
+    let wide = graph.wide_gaps();
     let (loose, cycles) = graph.settle();
     let ends = |e: &(usize, usize, usize)| (graph.points[e.0], graph.points[e.1]);
     let open = graph.edges.iter().filter(|e| e.2 == OPEN).map(ends).collect();
@@ -81,7 +93,7 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
         .filter(|e| e.2 != OPEN)
         .map(|(a, b, tag)| Edge { ends: (graph.points[a], graph.points[b]), tag })
         .collect();
-    Plan { faces: graph.faces(&cycles), loose, open }
+    Plan { faces: graph.faces(&cycles), loose, open, gaps, wide }
 }
 
 /// The nodes round a face, each with the tag of the edge that follows.
@@ -302,6 +314,112 @@ impl Graph {
         })
     }
 
+    /// Where a wall that ends in the open goes on in its own line, or meets another wall, no farther than `reach`: the
+    /// gap from its end, the narrowest first.
+    fn gaps(&self, reach: f64) -> Vec<(usize, Point)> {
+        let degrees = self.degrees();
+        let (turn, mut gaps) = (TURN.to_radians().cos(), Vec::<(f64, usize, Point)>::new());
+        for &edge in &self.edges {
+            for (end, from) in [(edge.0, edge.1), (edge.1, edge.0)] {
+                let p = self.points[end];
+                let Some(way) = (p - self.points[from]).try_normalize(1e-9) else { continue };
+                if degrees[end] != 1 || edge.2 != 0 {
+                    continue;
+                }
+                let is_ahead = |q: &Point| {
+                    let (v, far) = (q - p, (q - p).norm());
+                    far > WELD && far <= reach && v.dot(&way) >= far * turn
+                };
+                let others = || self.edges.iter().filter(|e| e.0 != end && e.1 != end);
+                let ray = (p + way * WELD, p + way * reach);
+                let met = others().filter_map(|&e| meeting(ray, self.ends(e)));
+                let ends = others().flat_map(|&e| [self.points[e.0], self.points[e.1]]);
+                let ahead = met.chain(ends).filter(is_ahead);
+                let nearest = ahead.min_by(|a, b| (a - p).norm().total_cmp(&(b - p).norm()));
+                gaps.extend(nearest.map(|q| ((q - p).norm(), end, q)));
+            }
+        }
+        gaps.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // From both its ends it is one gap.
+        let mut known: Vec<(Point, Point)> = Vec::new();
+        let near = |a: Point, b: Point| (a - b).norm() <= WELD;
+        gaps.retain(|&(_, end, q)| {
+            let p = self.points[end];
+            let is_new = !known.iter().any(|&(a, b)| near(a, q) && near(b, p));
+            known.push((p, q));
+            is_new
+        });
+        gaps.into_iter().map(|(_, end, q)| (end, q)).take(MOST_LEADS).collect()
+    }
+
+    /// This graph with open edges over gaps.
+    fn led(&self, gaps: &[(usize, Point)]) -> Self {
+        let mut graph = self.clone();
+        for &(end, q) in gaps {
+            let to = graph.node(q);
+            if to != end {
+                graph.edges.push((end, to, OPEN));
+            }
+        }
+        graph.split();
+        graph.dedup();
+        graph
+    }
+
+    /// Which gaps part the floor into two rooms, or a room from the outside, when all of them are closed.
+    fn parting(&self, gaps: &[(usize, Point)]) -> Vec<bool> {
+        let mut graph = self.led(gaps);
+        let ends: Vec<(usize, usize)> = gaps.iter().map(|&(end, q)| (end, graph.node(q))).collect();
+        let (_, cycles) = graph.settle();
+        let mut sides: HashMap<(usize, usize), f64> = HashMap::new();
+        for cycle in &cycles {
+            let ring: Vec<Point> = cycle.iter().map(|&(n, _)| graph.points[n]).collect();
+            let area = doubled_area(&ring) / 2.0;
+            for (i, &(node, _)) in cycle.iter().enumerate() {
+                sides.insert((node, cycle[(i + 1) % cycle.len()].0), area);
+            }
+        }
+        // Of the border of all walls the outside lies beyond.
+        let is_room = |area: &f64| *area < 0.0 || *area >= LEAST_ROOM;
+        let parts = |a: usize, b: usize| {
+            let areas = [sides.get(&(a, b)), sides.get(&(b, a))];
+            areas.iter().all(|area| area.is_some_and(is_room))
+                && areas.iter().flatten().any(|area| **area > 0.0)
+        };
+        ends.into_iter().map(|(a, b)| parts(a, b)).collect()
+    }
+
+    /// Closes gaps in walls that are doorways which nobody drew: else the rooms on both sides would be one.
+    fn close_gaps(&mut self) -> Vec<(Point, Point)> {
+        if self.edges.len() > MOST_EDGES {
+            return Vec::new();
+        }
+        let mut gaps = self.gaps(DOORWAY);
+        loop {
+            let parting = self.parting(&gaps);
+            if parting.iter().all(|&parts| parts) {
+                break;
+            }
+            // One that shuts off a niche may have kept others from parting anything.
+            let mut kept = parting.into_iter();
+            gaps.retain(|_| kept.next().unwrap_or(false));
+        }
+        if !gaps.is_empty() {
+            *self = self.led(&gaps);
+        }
+        gaps.iter().map(|&(end, q)| (self.points[end], q)).collect()
+    }
+
+    /// The gaps wider than a doorway over which two rooms are one, each by itself.
+    fn wide_gaps(&self) -> Vec<(Point, Point)> {
+        if self.edges.len() > MOST_EDGES {
+            return Vec::new();
+        }
+        let gaps = self.gaps(REACH);
+        let wide = gaps.into_iter().filter(|gap| self.parting(&[*gap]) == [true]);
+        wide.map(|(end, q)| (self.points[end], q)).collect()
+    }
+
     /// Leads free ends of walls across to the next wall, as few as give every door two sides.
     fn part_doors(&mut self) {
         let (doors, loose) = self.one_sided();
@@ -324,16 +442,8 @@ impl Graph {
         leads.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         leads.truncate(MOST_LEADS);
         let led = |leads: &[(f64, usize, Point)]| {
-            let mut graph = self.clone();
-            for &(_, end, foot) in leads {
-                let to = graph.node(foot);
-                if to != end {
-                    graph.edges.push((end, to, OPEN));
-                }
-            }
-            graph.split();
-            graph.dedup();
-            graph
+            let gaps: Vec<(usize, Point)> = leads.iter().map(|&(_, end, foot)| (end, foot)).collect();
+            self.led(&gaps)
         };
         let left = led(&leads).one_sided().0.len();
         if left == doors.len() {
@@ -566,6 +676,48 @@ mod tests {
         let plan = faces(&edges);
         assert_eq!(areas(&plan), [60_000, 120_000]);
         assert_eq!(plan.open, [(Point::new(200.0, 200.0), Point::new(200.0, 300.0))]);
+    }
+
+    #[test]
+    fn an_undrawn_doorway_keeps_rooms_apart_and_a_wide_one_is_told() {
+        // A room above a corridor; the wall between them has a gap at x from `x0` to `x1`.
+        let plan_of = |x0: f64, x1: f64, bend: f64| {
+            plan(&[
+                [0.0, 0.0, 800.0, 0.0],
+                [800.0, 0.0, 800.0, 600.0],
+                [800.0, 600.0, 0.0, 600.0],
+                [0.0, 600.0, 0.0, 0.0],
+                [0.0, 200.0, x0, 200.0],
+                [x1, 200.0 + bend, 800.0, 200.0],
+            ])
+        };
+        // In mid-wall, in a wall drawn askew, and in a corner where one side of the wall is missing.
+        for (x0, x1, bend) in [(300.0, 390.0, 0.0), (300.0, 400.0, 12.0), (690.0, 799.0, 0.0)] {
+            let plan = plan_of(x0, x1, bend);
+            assert_eq!(plan.faces.len(), 2, "{x0} {x1}");
+            assert_eq!((plan.open.len(), plan.gaps.len(), plan.wide.len()), (1, 1, 0), "{x0} {x1}");
+            let (a, b) = plan.gaps[0];
+            assert!(((b - a).norm() - (x1 - x0)).abs() < 5.0, "{a} {b}");
+            assert!(plan.loose.is_empty());
+        }
+        let wide = plan_of(200.0, 600.0, 0.0);
+        assert_eq!((wide.faces.len(), wide.gaps.len()), (1, 0));
+        assert!(!wide.wide.is_empty());
+        // A screen that leaves a way round either end parts nothing, and a niche is no room.
+        let mut walls = vec![
+            [0.0, 0.0, 800.0, 0.0],
+            [800.0, 0.0, 800.0, 600.0],
+            [800.0, 600.0, 0.0, 600.0],
+            [0.0, 600.0, 0.0, 0.0],
+        ];
+        walls.push([200.0, 300.0, 700.0, 300.0]);
+        let screen = plan(&walls);
+        assert_eq!((screen.faces.len(), screen.gaps.len()), (1, 0));
+        walls.pop();
+        walls.push([100.0, 0.0, 100.0, 90.0]);
+        walls.push([100.0, 90.0, 60.0, 90.0]);
+        let niche = plan(&walls);
+        assert_eq!((niche.faces.len(), niche.gaps.len()), (1, 0));
     }
 
     #[test]

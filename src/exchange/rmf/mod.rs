@@ -22,7 +22,7 @@ use crate::units::{Cm, Deg, Point, Source, Vector};
 
 use super::{
     Kind, Lane, Level, Lift, Opening, OpeningKind, Part, ReadError, Remark, Room, Spot, Survey,
-    Thing,
+    Thing, zero_of,
 };
 use document::{Fit, System, entries, length, list, number, param, points, text};
 use faces::Edge;
@@ -65,10 +65,17 @@ pub fn read(source: &Source) -> Result<Survey, ReadError> {
     let mut reader = Reader::default();
     let levels: Vec<(&str, &Value)> = entries(&building, "levels");
     reader.fits = match system {
-        System::Image => reader.lay_levels(&levels, text(&building, "reference_level_name")),
+        System::Image => {
+            let fits = reader.lay_levels(&levels, text(&building, "reference_level_name"));
+            reader.survey.frame = "метры RMF: точки рисунка × масштаб, y вверх".to_owned();
+            fits
+        }
         System::Metres => vec![Fit::metres(); levels.len()],
         System::Degrees | System::Mercator => {
-            vec![Reader::laid_flat(system, &levels)?; levels.len()]
+            let fit = Reader::laid_flat(system, &levels)?;
+            let (lat, lon) = fit.zero(system);
+            reader.survey.frame = zero_of(lat, lon);
+            vec![fit; levels.len()]
         }
     };
     for (i, (name, level)) in levels.iter().enumerate() {
@@ -184,12 +191,20 @@ impl Reader {
         let driven: Vec<(Point, Point)> = lanes.iter().map(|lane| lane.ends).collect();
         let lane = |l: Drawn<'_>| Lane { source: l.source, ends: [l.ends.0, l.ends.1] };
         made.lanes = lanes.into_iter().map(lane).collect();
-        made.rooms = rooms::rooms(name, &plan, &polygons("floors"), &polygons("holes"), &driven);
+        let drawn = rooms::Drawn { floors: &polygons("floors"), holes: &polygons("holes") };
+        let found = rooms::rooms(name, &plan, &drawn, &driven);
+        let (rooms, faces): (Vec<Room>, Vec<Option<usize>>) = found.rooms.into_iter().unzip();
+        made.rooms = rooms;
+        for (source, hole) in found.left_out {
+            let text = format!("по рисунку здесь нет пола: {}", rooms::place(&hole));
+            self.survey.notes.push(Remark { source, text });
+        }
+        self.gaps(name, &plan);
         let door_names: Vec<String> = doors
             .iter()
             .map(|d| param(d.record, "name").and_then(Value::as_str).unwrap_or_default().to_owned())
             .collect();
-        rooms::name(&mut made.rooms, &plan, &made.spots, &door_names);
+        rooms::name(&mut made.rooms, &faces, &plan, &made.spots, &door_names);
         for door in &doors {
             if let Some(opening) = self.door(door) {
                 made.openings.push(opening);
@@ -213,6 +228,22 @@ impl Reader {
         }
         self.survey.levels.push(made);
         Ok(())
+    }
+
+    /// Doorways that nobody drew.
+    fn gaps(&mut self, level: &str, plan: &faces::Plan) {
+        let told = [
+            (&plan.gaps, "gap", "в стене проём без двери: сделан проход, и помещения разделены"),
+            (&plan.wide, "wide", "стена прервана: пол по обе стороны стал одним помещением"),
+        ];
+        for (gaps, sort, text) in told {
+            for (i, (a, b)) in gaps.iter().enumerate() {
+                let middle = nalgebra::center(a, b);
+                let (width, x, y) = ((b - a).norm(), middle.x / METRE, middle.y / METRE);
+                let text = format!("{text}; {width:.0} см у ({x:.2}; {y:.2}) м");
+                self.survey.notes.push(Remark { source: format!("{level}/{sort}/{i}"), text });
+            }
+        }
     }
 
     /// Edges whose two vertices exist.

@@ -6,10 +6,10 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use crate::exchange::assemble::ring::{self, Region, Ring};
 use crate::exchange::{Room, Spot};
 use crate::map::Properties;
-use crate::map::plane::{contains, doubled_area, edges};
+use crate::map::plane::{bounds, contains, doubled_area, edges};
 use crate::units::{Cm, Point};
 
-use super::WALL;
+use super::{METRE, WALL};
 use super::faces::{Face, Plan};
 
 /// Open floor smaller than this is the edge of a drawing, cm².
@@ -19,16 +19,34 @@ const LEAST_WIDTH: f64 = 60.0;
 /// A face of which the drawn floors cover less is no room: a shaft, a yard.
 const COVERED: f64 = 0.2;
 
+/// What a level says of its floor.
+pub(super) struct Drawn<'d> {
+    pub(super) floors: &'d [Vec<Point>],
+    pub(super) holes: &'d [Vec<Point>],
+}
+
+/// The rooms of a level.
+#[derive(Default)]
+pub(super) struct Found {
+    /// Each with the face of the walls whose floor it is, or a part of it.
+    pub(super) rooms: Vec<(Room, Option<usize>)>,
+    /// Parts of rooms in which the drawing has no floor: wells, voids over a hall.
+    pub(super) left_out: Vec<(String, Region)>,
+}
+
 /// The faces that have a floor or through which a lane runs, then what the floors cover beyond all faces.
+///
+/// Floors are drawn roughly: one may stop short of its walls, so a face is floor up to them. But what of a face the
+/// drawn floors leave out, as large as a piece of floor counts, and every hole that is drawn, is none.
 pub(super) fn rooms(
     level: &str,
     plan: &Plan,
-    floors: &[Vec<Point>],
-    holes: &[Vec<Point>],
+    drawn: &Drawn<'_>,
     lanes: &[(Point, Point)],
-) -> Vec<Room> {
+) -> Found {
     let faces: Vec<Region> = plan.faces.iter().map(region).collect();
-    let floors = without(rings(floors), &rings(holes));
+    let holes = rings(drawn.holes);
+    let floors = without(rings(drawn.floors), &holes);
     let is_driven = |face: &Region| {
         lanes
             .iter()
@@ -43,19 +61,55 @@ pub(super) fn rooms(
         height: Some(Cm::of(WALL)),
         properties: Properties::new(),
     };
-    let mut rooms: Vec<Room> = faces
-        .iter()
-        .enumerate()
-        .filter(|(_, face)| floors.is_empty() || is_covered(face, &floors) || is_driven(face))
-        .map(|(i, face)| room(format!("{level}/face/{i}"), face))
-        .collect();
+    let mut found = Found::default();
+    for (i, face) in faces.iter().enumerate() {
+        let is_room = floors.is_empty() || is_covered(face, &floors) || is_driven(face);
+        if !is_room {
+            continue;
+        }
+        let source = format!("{level}/face/{i}");
+        let mut none: Vec<Region> = Vec::new();
+        if !floors.is_empty() {
+            let bare = ring::subtract(face, &floors);
+            none.extend(bare.into_iter().filter(|part| is_floor(part) && !is_driven(part)));
+        }
+        none.extend(within(face, &holes).into_iter().filter(|hole| hole.area() >= ring::LEAST_AREA));
+        if none.is_empty() {
+            found.rooms.push((room(source, face), Some(i)));
+            continue;
+        }
+        let cuts: Vec<Ring> = none.iter().flat_map(|part| part.rings().cloned()).collect();
+        let parts = ring::subtract(face, &cuts);
+        let parts: Vec<&Region> = parts.iter().filter(|p| is_floor(p) || is_driven(p)).collect();
+        for (k, part) in parts.iter().enumerate() {
+            let source = if parts.len() > 1 { format!("{source}/{k}") } else { source.clone() };
+            found.rooms.push((room(source, part), Some(i)));
+        }
+        found.left_out.extend(none.into_iter().map(|part| (source.clone(), part)));
+    }
     if !floors.is_empty() {
         let walled: Vec<Vec<Point>> = faces.iter().map(|f| f.outer.clone()).collect();
         let open = ring::overlay(&floors, &walled, OverlayRule::Difference, FillRule::NonZero);
-        let open = open.iter().filter(|region| is_floor(region));
-        rooms.extend(open.enumerate().map(|(i, r)| room(format!("{level}/floor/{i}"), r)));
+        let open = open.iter().filter(|region| is_floor(region)).enumerate();
+        found.rooms.extend(open.map(|(i, r)| (room(format!("{level}/floor/{i}"), r), None)));
     }
-    rooms
+    found
+}
+
+/// Where a piece of floor is and how large, for people.
+pub(super) fn place(region: &Region) -> String {
+    let (low, high) = bounds(region.outer.iter().copied());
+    let middle = nalgebra::center(&low, &high) / METRE;
+    format!("{:.1} м² у ({:.2}; {:.2}) м", region.area() / 1e4, middle.x, middle.y)
+}
+
+/// The part of drawn polygons that lies in a face.
+fn within(face: &Region, drawn: &[Ring]) -> Vec<Region> {
+    if drawn.is_empty() {
+        return Vec::new();
+    }
+    let own: Vec<Ring> = face.rings().cloned().collect();
+    ring::overlay(&own, drawn, OverlayRule::Intersect, FillRule::NonZero)
 }
 
 /// Drawn polygons, counter-clockwise.
@@ -90,7 +144,13 @@ fn is_floor(region: &Region) -> bool {
 }
 
 /// Tells what a room is by the one named vertex in it, else by the name of a door for which it is the smaller room.
-pub(super) fn name(rooms: &mut [Room], plan: &Plan, spots: &[Spot], doors: &[String]) {
+pub(super) fn name(
+    rooms: &mut [Room],
+    faces: &[Option<usize>],
+    plan: &Plan,
+    spots: &[Spot],
+    doors: &[String],
+) {
     let area = |room: &Room| doubled_area(&room.outline).abs();
     for room in rooms.iter_mut() {
         let within = |spot: &&Spot| {
@@ -103,10 +163,9 @@ pub(super) fn name(rooms: &mut [Room], plan: &Plan, spots: &[Spot], doors: &[Str
         }
     }
     for (i, door) in doors.iter().enumerate() {
-        let beside = |room: &Room| {
-            plan.faces.iter().any(|f| f.outline == room.outline && f.tags.contains(&(i + 1)))
-        };
-        let mut beside: Vec<usize> = (0..rooms.len()).filter(|&r| beside(&rooms[r])).collect();
+        let beside =
+            |room: usize| faces[room].is_some_and(|f| plan.faces[f].tags.contains(&(i + 1)));
+        let mut beside: Vec<usize> = (0..rooms.len()).filter(|&r| beside(r)).collect();
         beside.sort_by(|&a, &b| area(&rooms[a]).total_cmp(&area(&rooms[b])));
         // A door with one room only leads outside: its name may mean either.
         if let [smaller, _] = beside[..]

@@ -150,9 +150,8 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
         name: String::new(),
         levels: vec![level],
         kinds,
-        lifts: Vec::new(),
         remarks: reader.remarks,
-        told: Vec::new(),
+        ..Survey::default()
     })
 }
 

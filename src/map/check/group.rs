@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use crate::map::fault::{MapError, Record, Spot};
 use crate::map::{
-    BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind,
+    BaseVector, DoorMount, Face, Item, ItemLink, Orthoframe, Permeability, SideRef, TypeKind, World,
 };
 use crate::units::{Bilingual, Cm, Deg, Frame, Point};
 
@@ -226,18 +226,7 @@ impl<'w> Checker<'w> {
 
     /// The items where they stand in their group. All must be sound.
     pub(super) fn bodies(&self, items: &[Item]) -> Vec<Body> {
-        let body = |item: &Item| {
-            let orthoframe = self.world.orthoframe_of(item);
-            let polygon: Vec<_> = orthoframe.corners().map(|p| item.frame.apply(p)).collect();
-            let bottom = item.frame.z.get();
-            Body {
-                bounds: bounds(polygon.iter().copied()),
-                polygon,
-                bottom,
-                top: bottom + orthoframe.height.get(),
-            }
-        };
-        items.iter().map(body).collect()
+        bodies_of(self.world, items)
     }
 
     fn origin(&mut self, group: &Group<'_>) {
@@ -447,8 +436,24 @@ impl<'w> Checker<'w> {
     }
 }
 
+/// The items where they stand in their group.
+pub(super) fn bodies_of(world: &World, items: &[Item]) -> Vec<Body> {
+    let body = |item: &Item| {
+        let orthoframe = world.orthoframe_of(item);
+        let polygon: Vec<_> = orthoframe.corners().map(|p| item.frame.apply(p)).collect();
+        let bottom = item.frame.z.get();
+        Body {
+            bounds: bounds(polygon.iter().copied()),
+            polygon,
+            bottom,
+            top: bottom + orthoframe.height.get(),
+        }
+    };
+    items.iter().map(body).collect()
+}
+
 /// Something can be inside: a face is open, or is a door.
-fn is_hollow(orthoframe: &Orthoframe) -> bool {
+pub(super) fn is_hollow(orthoframe: &Orthoframe) -> bool {
     let faces = [orthoframe.base_permeability, orthoframe.roof_permeability];
     let sides = orthoframe.base.iter().map(|v| v.permeability);
     faces.into_iter().chain(sides).any(|p| p != Permeability::Impermeable)

@@ -73,8 +73,11 @@ impl<'w> Checker<'w> {
         self.connected_areas(map, &title, spot);
     }
 
-    /// The base Area stands with a corner of its base item at the origin of the Map.
+    /// The base Area stands with a corner of its base item at the origin of the Map, where the coordinates are its own.
     fn map_origin(&mut self, map: &Map, title: &Bilingual, spot: &Spot) {
+        if !map.frame.is_empty() {
+            return;
+        }
         for (i, item) in map.items.iter().enumerate().filter(|(_, item)| item.is_base) {
             let area = &self.world.areas[&item.area];
             let Some(base) = area.items.iter().find(|item| item.is_base) else { continue };

@@ -4,6 +4,7 @@
 
 mod base;
 mod doors;
+mod doubts;
 mod group;
 mod maps;
 mod names;
@@ -13,6 +14,8 @@ pub(crate) mod plane;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::units::{AreaId, Bilingual, Cm, Frame, MapId, OrFrId, Point, TypeId};
+
+pub use doubts::doubts;
 
 use super::fault::{COORDINATE, Fault, MapError, Record, Spot, WITHIN};
 use super::{Item, TypeKind, World};

@@ -256,7 +256,7 @@ fn footprint(robot: &RobotProfile) -> Result<(), Bilingual> {
     Ok(())
 }
 
-fn place(body: &mut Body, frame: &Frame) {
+pub(super) fn place(body: &mut Body, frame: &Frame) {
     body.polygon.iter_mut().for_each(|p| *p = frame.apply(*p));
     body.bounds = bounds(body.polygon.iter().copied());
     body.bottom += frame.z.get();

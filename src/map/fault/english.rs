@@ -233,6 +233,39 @@ impl MapError {
             Self::NotBound { door } => format!("the door “{door}” does not hang there"),
             Self::NotLinked { link } => format!("there is no link {link}"),
             Self::AreaNowhereYet { area } => format!("the area “{area}” stands on no map yet"),
+            Self::ThingsOverlap { thing, other, at } => {
+                format!("“{thing}” and “{other}” are in one another, for instance at {at}")
+            }
+            Self::ThingHovers { thing, over, height } => format!(
+                "“{thing}” hovers: {} above {}, and neither a wall nor the ceiling holds it",
+                cm(height),
+                en(over)
+            ),
+            Self::DoorwayBarred { door, things, free, width } => format!(
+                "in the doorway “{door}”, {} wide, there stands {}: {} is free",
+                cm(width),
+                en(things),
+                cm(free)
+            ),
+            Self::PlaceUnder { place, thing } => {
+                format!("the place “{place}” lies under “{thing}”: the robot cannot stand there")
+            }
+            Self::NamesNothing { property, what, name, nearest } => format!(
+                "{property} names “{name}”, and there is no such {} on the map{}",
+                en(what),
+                perhaps(nearest)
+            ),
+            Self::UnknownState { property, value, .. } => {
+                format!("{property} = “{value}”: the program knows no such state")
+            }
+            Self::UnknownTrait { owner, word, nearest, .. } => format!(
+                "the type “{owner}”: neither the program nor a rule knows the trait “{word}”{}",
+                perhaps(nearest)
+            ),
+            Self::Metres { what, size, .. } => {
+                format!("{}: the size is {size}; are these metres?", en(what))
+            }
+            Self::MoreAlike { count, kind } => format!("and {count} more of this sort ({kind})"),
             Self::More { count } => format!("and {count} more"),
         }
     }
@@ -300,7 +333,7 @@ impl MapError {
             Self::NoItems { .. } => "list the parts in the field items",
             Self::BaseItemCount { .. } => "mark exactly one part with `base = true`",
             Self::BaseItemOffOrigin { .. } => {
-                "move the part so that a corner of it falls on [0, 0]"
+                "move the part so that a corner of it falls on [0, 0]; a map with coordinates of another names them in its field frame"
             }
             Self::UnknownItem { known, .. } => return format!("there are the parts: {known}"),
             Self::UnknownSide { known, .. } => return format!("there are the sides: {known}"),
@@ -371,6 +404,30 @@ impl MapError {
                     "first make it stand: [[edit]] stand = \"{area}\", map = …, at = [x, y]"
                 );
             }
+            Self::ThingsOverlap { .. } => "move them apart: correct the `at` of one of them",
+            Self::ThingHovers { .. } => {
+                "correct the third coordinate of `at`, or put beneath the thing what it stands on"
+            }
+            Self::DoorwayBarred { .. } => {
+                "move away from the doorway what is named, or correct the place of the door"
+            }
+            Self::PlaceUnder { .. } => "move the place to where the floor is free",
+            Self::NamesNothing { .. } => "correct the name, or describe on the map what is named",
+            Self::UnknownState { wanted, .. } => {
+                return format!(
+                    "write {}; what else is to be said of the state stands in a property of its own",
+                    en(wanted)
+                );
+            }
+            Self::UnknownTrait { known, .. } => {
+                return format!(
+                    "the traits are known: {known}; one of your own must stand in a rule file"
+                );
+            }
+            Self::Metres { wanted, .. } => {
+                return format!("lengths on a map are centimetres; if these are metres, write {wanted}");
+            }
+            Self::MoreAlike { .. } => "mend what is shown, and check the map again",
             Self::More { .. } => "mend what is shown, and check the map again",
         };
         told.to_owned()

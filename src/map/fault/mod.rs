@@ -189,7 +189,9 @@ pub enum MapError {
     )]
     #[diagnostic(
         code(map::base_item_off_origin),
-        help("сдвиньте часть так, чтобы её угол попал в [0, 0]")
+        help(
+            "сдвиньте часть так, чтобы её угол попал в [0, 0]; карта с чужими координатами называет их в поле frame"
+        )
     )]
     BaseItemOffOrigin { owner: Bilingual, item: String, nearest: String },
     /// An id of an item that the group does not have.
@@ -399,6 +401,79 @@ pub enum MapError {
         )
     )]
     BadFootprint { reason: Bilingual },
+
+    /// Two solid things in one place.
+    #[error("«{thing}» и «{other}» находятся друг в друге, например в точке {at}")]
+    #[diagnostic(
+        code(map::things_overlap),
+        severity(Warning),
+        help("раздвиньте их: исправьте at у одной из них")
+    )]
+    ThingsOverlap { thing: String, other: String, at: String },
+    /// A thing that nothing holds.
+    #[error("«{thing}» висит в воздухе: {height} над {over}, и ни стена, ни потолок её не держат")]
+    #[diagnostic(
+        code(map::thing_hovers),
+        severity(Warning),
+        help("исправьте третью координату at, или поставьте под вещь то, на чём она стоит")
+    )]
+    ThingHovers { thing: String, over: Bilingual, height: Cm },
+    /// Things that leave too little of a doorway.
+    #[error("в проёме «{door}» шириной {width} стоит {things}: свободно {free}")]
+    #[diagnostic(
+        code(map::doorway_barred),
+        severity(Warning),
+        help("отодвиньте от проёма то, что названо, или исправьте место двери")
+    )]
+    DoorwayBarred { door: String, things: Bilingual, free: Cm, width: Cm },
+    /// A place where the robot cannot stand.
+    #[error("место «{place}» лежит под «{thing}»: там роботу не встать")]
+    #[diagnostic(
+        code(map::place_under),
+        severity(Warning),
+        help("перенесите место туда, где пол свободен")
+    )]
+    PlaceUnder { place: String, thing: String },
+    /// A property that must name something of the map and names nothing.
+    #[error("{property} называет «{name}», а такого на карте нет ({what}){}", perhaps(.nearest))]
+    #[diagnostic(
+        code(map::names_nothing),
+        severity(Warning),
+        help("исправьте имя, или опишите на карте то, что названо")
+    )]
+    NamesNothing { property: String, what: Bilingual, name: String, nearest: Option<String> },
+    /// A state that the program does not understand.
+    #[error("{property} = «{value}»: такого состояния программа не знает")]
+    #[diagnostic(
+        code(map::unknown_state),
+        severity(Warning),
+        help("напишите {wanted}; что ещё сказать о состоянии, пишут в своём свойстве")
+    )]
+    UnknownState { property: String, value: String, wanted: Bilingual },
+    /// A trait that neither the program nor a rule reads.
+    #[error("тип «{owner}»: признака «{word}» не знают ни программа, ни правила{}", perhaps(.nearest))]
+    #[diagnostic(
+        code(map::unknown_trait),
+        severity(Warning),
+        help("известны признаки: {known}; свой признак должен стоять в файле правил")
+    )]
+    UnknownTrait { owner: String, word: String, nearest: Option<String>, known: String },
+    /// A size that fits if it is taken for metres.
+    #[error("{what}: размер {size} - не метры ли это?")]
+    #[diagnostic(
+        code(map::metres),
+        severity(Warning),
+        help("длины на карте - в сантиметрах; если это метры, напишите {wanted}")
+    )]
+    Metres { what: Bilingual, size: String, wanted: String },
+    /// The rest of the warnings of one sort.
+    #[error("и ещё таких же предупреждений: {count} ({kind})")]
+    #[diagnostic(
+        code(map::more_alike),
+        severity(Warning),
+        help("исправьте показанные и проверьте карту снова")
+    )]
+    MoreAlike { count: usize, kind: String },
 
     /// An edit file that says nothing.
     #[error("в файле правок ничего нет")]

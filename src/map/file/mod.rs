@@ -136,6 +136,15 @@ pub fn read_file(path: &Path) -> Reading {
     }
 }
 
+/// Finds in the text that a map was read from the places of faults which were found in its world afterwards, and puts
+/// them in the order of the text.
+pub fn locate(source: &Source, format: Format, faults: &mut Vec<Fault>) {
+    let Ok(root) = node::parse(source.text(), format) else { return };
+    let Draft { origins, left_out, .. } = read::build(&root);
+    faults.iter_mut().for_each(|fault| fault.locate(&origins, &left_out));
+    faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+}
+
 /// The place in the text of a place in the model, or of the nearest thing around it that the text spells out.
 fn place(origin: &Origin<'_>, spot: &Spot, left_out: &HashSet<Span>) -> Span {
     let mut node: &Node = origin.node;

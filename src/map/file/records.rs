@@ -508,6 +508,7 @@ impl Reader<'_> {
             name_en: file.name_en,
             description: file.description,
             map_type: self.type_of(TypeKind::Map, file.r#type.as_deref(), spot.field("type")),
+            frame: file.frame,
             items,
             links,
         }

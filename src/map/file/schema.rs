@@ -519,6 +519,8 @@ tables! {
         description: String;
         /// Name of an entry of `type.map`.
         r#type: Option<String>;
+        /// Whose coordinates the map's are, where no corner of the base Area stands at its origin: of which file or survey.
+        frame: String;
         links: Vec<PlanLinkFile>;
     }
 

@@ -429,6 +429,7 @@ impl Writer<'_> {
             name_en: map.name_en.clone(),
             description: map.description.clone(),
             r#type: self.type_name(TypeKind::Map, map.map_type),
+            frame: map.frame.clone(),
             links: map.links.iter().map(link).collect(),
         }
     }

@@ -1,0 +1,45 @@
+//! A map file looked at closely: what reads well and cannot be.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use crate::map::{self, Format, MapErrors};
+
+use super::{World, check_map};
+
+/// Reads a map file as [`check_map`] does; to the warnings come those of impossible maps. Traits that the rule files of
+/// `rules` name are known.
+///
+/// # Errors
+/// All faults of the file.
+pub fn check_map_closely(
+    file: &Path,
+    rules: Option<&Path>,
+) -> Result<(World, MapErrors), MapErrors> {
+    let (world, mut told) = check_map(file)?;
+    let mut doubts = map::doubts(&world, &rules.map(quoted_words).unwrap_or_default());
+    if let Some(source) = &told.source {
+        map::locate(source, Format::of(file), &mut doubts);
+    }
+    told.faults.extend(doubts);
+    told.faults.sort_by_key(|fault| fault.spans.first().map(|span| (span.offset(), span.len())));
+    Ok((world, told))
+}
+
+/// A rule file larger than this is no rule file.
+const LIMIT: u64 = 4 << 20;
+
+/// Every word in quotation marks in the Datalog files of a directory. A file that cannot be read is told by who uses it.
+fn quoted_words(dir: &Path) -> BTreeSet<String> {
+    let entries = std::fs::read_dir(dir).into_iter().flatten().flatten();
+    let files = entries.map(|entry| entry.path()).filter(|path: &PathBuf| {
+        path.extension().is_some_and(|e| e == "dl")
+            && path.metadata().is_ok_and(|data| data.is_file() && data.len() <= LIMIT)
+    });
+    let texts = files.filter_map(|path| std::fs::read_to_string(path).ok());
+    let words = |text: String| {
+        let parts = text.lines().flat_map(|line| line.split('"').skip(1).step_by(2));
+        parts.map(str::to_owned).collect::<Vec<_>>()
+    };
+    texts.flat_map(words).collect()
+}

@@ -1,0 +1,594 @@
+//! What a map says that reads well and cannot be: things in one another, things that hover, a doorway that furniture
+//! bars, a place where nobody can stand, words that nothing understands, metres written for centimetres.
+//!
+//! None of it hinders the use of a map, so all of it is told as a warning, by [`doubts`] alone: reading and editing do
+//! not ask. The tolerances are those within which one thing is taken to stand on another (SPEC R1), and walls, doors
+//! and things are held against each other as solids of their own Area; a thing that sticks through a wall is a fault of
+//! [`check`](super::check).
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::ControlFlow;
+
+use miette::Diagnostic;
+
+use crate::map::fault::{Fault, MapError, Record, Spot};
+use crate::map::{
+    Area, Mark, Permeability, Properties, Replica, TypeKind, World, is_dark, is_on, is_open,
+};
+use crate::units::{AreaId, Bilingual, Cm, DoorId, Point, name_key, nearest_name};
+
+use super::group::{Body, bodies_of, is_hollow};
+use super::placed::place;
+use super::plane::{
+    Bounds, border_distance, bounds, contains, edges, intersection, middle, near_pairs,
+    segment_distance, touch,
+};
+use super::{Short, at};
+
+/// A thing may sink so far into what bears it, or be so far from what it stands on or hangs on, cm: the widest that a
+/// profile allows.
+const STANDING: f64 = 8.0;
+/// How far two things may reach into one another sidewards, cm, before it is no slip of the tape.
+const DEPTH: f64 = 1.0;
+/// What leans on a thing comes so near to it, cm; likewise what is within a container (R1).
+const BESIDE: f64 = 5.0;
+/// How deep a doorway reaches into each of its rooms, cm.
+const THRESHOLD: f64 = 10.0;
+/// Of one sort of doubt so many are told, and the rest counted: a plan shifted against itself has them by thousands.
+const MOST_ALIKE: usize = 5;
+
+/// What the program and its own rules know of a kind of thing or room.
+const TRAITS: [&str; 14] = [
+    "bed", "container", "corridor", "device", "lift", "light", "movable", "person", "portable", "room",
+    "seat", "shelves", "stairs", "support",
+];
+/// The person whom the operator's tasks speak of, in either language.
+const OPERATOR: [&str; 2] = ["оператор", "operator"];
+
+/// What may be written of a checked world and cannot be, every fault a warning. `rule_words` are traits that rules of the
+/// user's own know.
+///
+/// ```
+/// use std::collections::BTreeSet;
+/// use orthoframe::map::{World, doubts};
+///
+/// let mut world = World::load("maps/rb2.toml").unwrap();
+/// assert!(doubts(&world, &BTreeSet::new()).is_empty());
+/// world.robot.speed = 0.6;
+/// let told = doubts(&world, &BTreeSet::new())[0].to_string();
+/// assert_eq!(told, "робот, speed: размер 0.6 - не метры ли это?");
+/// ```
+#[must_use]
+pub fn doubts(world: &World, rule_words: &BTreeSet<String>) -> Vec<Fault> {
+    let mut doubter = Doubter { world, faults: Vec::new() };
+    doubter.measures();
+    let mut things: BTreeMap<AreaId, Vec<Thing<'_>>> = BTreeMap::new();
+    for replica in world.replicas.values() {
+        things.entry(replica.area).or_default().push(Thing::of(world, replica));
+    }
+    for (area, things) in &things {
+        let area = &world.areas[area];
+        doubter.overlaps(things);
+        doubter.hovering(area, things);
+        doubter.doorways(area, things);
+    }
+    doubter.places(&things);
+    doubter.marks();
+    doubter.traits(rule_words);
+    few_alike(doubter.faults)
+}
+
+/// Of each sort the first, then how many more there are.
+fn few_alike(faults: Vec<Fault>) -> Vec<Fault> {
+    let code = |fault: &Fault| Diagnostic::code(fault).map_or_else(String::new, |c| c.to_string());
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    faults.iter().for_each(|fault| *counts.entry(code(fault)).or_default() += 1);
+    let mut told: BTreeMap<String, usize> = BTreeMap::new();
+    let mut few = Vec::new();
+    for fault in faults {
+        let kind = code(&fault);
+        let (count, no) = (counts[&kind], told.entry(kind.clone()).or_default());
+        *no += 1;
+        if *no <= MOST_ALIKE || count == MOST_ALIKE + 1 {
+            few.push(fault);
+        } else if *no == MOST_ALIKE + 1 {
+            let error = MapError::MoreAlike { count: count - MOST_ALIKE, kind };
+            few.push(Fault::new(error, fault.spots));
+        }
+    }
+    few
+}
+
+/// A replica with its solids in the frame of its Area.
+struct Thing<'w> {
+    replica: &'w Replica,
+    bodies: Vec<Body>,
+    hollow: Vec<bool>,
+    /// Made to hold others, whatever its solids let through.
+    is_container: bool,
+    is_light: bool,
+    is_person: bool,
+}
+
+impl<'w> Thing<'w> {
+    fn of(world: &'w World, replica: &'w Replica) -> Self {
+        let items = &world.objects[&replica.object].items;
+        let mut bodies = bodies_of(world, items);
+        bodies.iter_mut().for_each(|body| place(body, &replica.frame));
+        let has = |wanted: &str| world.has_trait(replica.id, wanted);
+        Self {
+            replica,
+            bodies,
+            hollow: items.iter().map(|i| is_hollow(world.orthoframe_of(i))).collect(),
+            is_container: has("container") || has("shelves"),
+            is_light: has("light"),
+            is_person: has("person"),
+        }
+    }
+
+    fn at(&self) -> Spot {
+        Spot::of(Record::Replica(self.replica.id)).field("at")
+    }
+
+    fn bottom(&self) -> f64 {
+        self.bodies.iter().map(|b| b.bottom).fold(f64::INFINITY, f64::min)
+    }
+
+    fn top(&self) -> f64 {
+        self.bodies.iter().map(|b| b.top).fold(f64::NEG_INFINITY, f64::max)
+    }
+}
+
+struct Doubter<'w> {
+    world: &'w World,
+    faults: Vec<Fault>,
+}
+
+impl Doubter<'_> {
+    fn doubt(&mut self, error: MapError, spots: Vec<Spot>) {
+        self.faults.push(Fault::new(error, spots));
+    }
+
+    /// Rooms, doors, furniture and robots of sizes that no such thing has in centimetres, and has in metres.
+    fn measures(&mut self) {
+        let world = self.world;
+        let mut told = BTreeSet::new();
+        for area in world.areas.values() {
+            let bodies = bodies_of(world, &area.items);
+            let base = area.items.iter().find(|i| i.is_base).or(area.items.first());
+            let Some(base) = base.map(|item| item.orthoframe) else { continue };
+            let (low, high) = bounds(bodies.iter().flat_map(|b| b.polygon.iter().copied()));
+            let size = high - low;
+            let height = bodies.iter().map(|b| b.top - b.bottom).fold(0.0, f64::max);
+            let what = || Bilingual::named(("помещение", "area"), &area.name);
+            let spot = Spot::of(Record::Orthoframe(base));
+            if size.min() >= 10.0 && (height <= 0.0 || height >= 15.0) || !told.insert(base) {
+                continue;
+            }
+            if size.min() < 10.0 {
+                let size = [size.x, size.y, height];
+                self.metres(what(), &size, spot.field("base_vectors"));
+            } else {
+                self.metres(what(), &[height], spot.field("height"));
+            }
+        }
+        for door in world.doors.values() {
+            let what = Bilingual::named(("дверь", "door"), &door.name);
+            let spot = Spot::of(Record::Door(door.id));
+            if door.width.get() < 5.0 {
+                self.metres(what, &[door.width.get()], spot.field("width"));
+            } else if door.height.get() < 5.0 {
+                self.metres(what, &[door.height.get()], spot.field("height"));
+            }
+        }
+        for object in world.objects.values() {
+            let is = |wanted| world.types.object.has_trait(object.object_type, wanted);
+            if !["seat", "bed", "support"].into_iter().any(is) || is("portable") {
+                continue;
+            }
+            let bodies = bodies_of(world, &object.items);
+            let (low, high) = bounds(bodies.iter().flat_map(|b| b.polygon.iter().copied()));
+            let top = bodies.iter().map(|b| b.top).fold(0.0, f64::max);
+            let size = high - low;
+            if size.max().max(top) < 10.0 {
+                let what = Bilingual::named(("объект", "object"), &object.name);
+                self.metres(what, &[size.x, size.y, top], Spot::of(Record::Object(object.id)));
+            }
+        }
+        let robot = &world.robot;
+        for (field, value, least) in [
+            ("radius", robot.radius.get(), 2.0),
+            ("height", robot.height.get(), 2.5),
+            ("speed", robot.speed, 2.5),
+        ] {
+            if value < least {
+                let what = Bilingual::new(format!("робот, {field}"), format!("the robot's {field}"));
+                self.metres(what, &[value], Spot::of(Record::Robot).field(field));
+            }
+        }
+    }
+
+    fn metres(&mut self, what: Bilingual, sizes: &[f64], spot: Spot) {
+        let line = |factor: f64| {
+            let shown = sizes.iter().map(|size| Short(size * factor).to_string());
+            shown.collect::<Vec<_>>().join(" × ")
+        };
+        self.doubt(MapError::Metres { what, size: line(1.0), wanted: line(100.0) }, vec![spot]);
+    }
+
+    /// Solids of two things in one place.
+    fn overlaps(&mut self, things: &[Thing<'_>]) {
+        let (owners, boxes) = solids(things);
+        let mut found: BTreeMap<(usize, usize), Point> = BTreeMap::new();
+        near_pairs(&boxes, 0.0, |i, j| {
+            let ((a, m), (b, n)) = (owners[i], owners[j]);
+            let pair = (a.min(b), a.max(b));
+            if a != b
+                && !found.contains_key(&pair)
+                && let Some(p) = clash((&things[a], m), (&things[b], n))
+            {
+                found.insert(pair, p);
+            }
+            ControlFlow::Continue(())
+        });
+        for ((a, b), p) in found {
+            let (one, other) = (&things[a], &things[b]);
+            let error = MapError::ThingsOverlap {
+                thing: other.replica.name.clone(),
+                other: one.replica.name.clone(),
+                at: at(p),
+            };
+            self.doubt(error, vec![other.at(), one.at()]);
+        }
+    }
+
+    /// Things that nothing bears, and that no wall, ceiling or neighbour holds.
+    fn hovering(&mut self, area: &Area, things: &[Thing<'_>]) {
+        let world = self.world;
+        let rooms = bodies_of(world, &area.items);
+        let walls = walls(world, area);
+        let (owners, boxes) = solids(things);
+        let mut is_held = vec![false; things.len()];
+        for (no, thing) in things.iter().enumerate() {
+            is_held[no] = thing.is_light || thing.is_person || is_fixed(thing, &rooms, &walls);
+        }
+        let mut neighbours = Vec::new();
+        near_pairs(&boxes, BESIDE, |i, j| {
+            let ((a, m), (b, n)) = (owners[i], owners[j]);
+            if a != b {
+                for ((a, m), (b, n)) in [((a, m), (b, n)), ((b, n), (a, m))] {
+                    let (body, other) = (&things[a].bodies[m], &things[b].bodies[n]);
+                    if is_held[a] || !touch(&body.polygon, &other.polygon, BESIDE) {
+                        continue;
+                    }
+                    if stands(&things[a], body, other) {
+                        is_held[a] = true;
+                    } else if hangs(body, other) || body.heights_meet(other, 0.0) {
+                        neighbours.push((a, b));
+                    }
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        // A neighbour holds only what it can: two that hover side by side both do.
+        let firm = is_held.clone();
+        neighbours.into_iter().for_each(|(a, b)| is_held[a] |= firm[b]);
+        for thing in things.iter().zip(is_held).filter(|(_, held)| !held).map(|(thing, _)| thing) {
+            let beneath = |body: &&Body| {
+                let meets = |b: &&Body| {
+                    let size = b.bounds.1.inf(&body.bounds.1) - b.bounds.0.sup(&body.bounds.0);
+                    size.x > 0.0 && size.y > 0.0
+                };
+                body.top <= thing.bottom()
+                    && (thing.bodies.iter().filter(meets))
+                        .any(|b| intersection(&b.polygon, &body.polygon).area > 0.0)
+            };
+            let others = things.iter().filter(|other| other.replica.id != thing.replica.id);
+            let below = others.flat_map(|other| other.bodies.iter().map(move |b| (other, b)));
+            let below = below.filter(|(_, body)| beneath(body));
+            let nearest = below.max_by(|(_, a), (_, b)| a.top.total_cmp(&b.top));
+            let floor = rooms.iter().map(|b| b.bottom).fold(f64::INFINITY, f64::min);
+            let (over, height) = match nearest {
+                Some((other, body)) => {
+                    (Bilingual::quoted(&other.replica.name), thing.bottom() - body.top)
+                }
+                None => (("полом", "the floor").into(), thing.bottom() - floor),
+            };
+            let error = MapError::ThingHovers {
+                thing: thing.replica.name.clone(),
+                over,
+                height: Cm::of((height * 100.0).round() / 100.0),
+            };
+            self.doubt(error, vec![thing.at()]);
+        }
+    }
+
+    /// Doorways of which things leave less than the robot needs.
+    fn doorways(&mut self, area: &Area, things: &[Thing<'_>]) {
+        let world = self.world;
+        let robot = &world.robot;
+        let needed = robot.passing_width();
+        for mount in &area.doors {
+            let door = &world.doors[&mount.door];
+            let Some(doorway) = threshold(world, area.id, mount.door) else { continue };
+            let (length, width) = (doorway.length, door.width.get());
+            if width < needed {
+                continue;
+            }
+            let mut taken: Vec<(f64, f64, usize)> = Vec::new();
+            for (no, thing) in things.iter().enumerate() {
+                let tall = thing.bodies.iter().filter(|b| {
+                    b.bottom < robot.height.get().min(door.height.get()) && b.top > robot.step.get() + 1.0
+                });
+                taken.extend(tall.filter_map(|b| doorway.taken(b)).map(|(from, to)| (from, to, no)));
+            }
+            taken.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let (mut free, mut reached) = (0.0_f64, 0.0_f64);
+            let mut in_the_way: BTreeSet<usize> = BTreeSet::new();
+            for (from, to, no) in taken {
+                free = free.max(from - reached);
+                reached = reached.max(to);
+                in_the_way.insert(no);
+            }
+            free = free.max(length - reached);
+            let Some(&first) = in_the_way.first().filter(|_| free < needed) else { continue };
+            let names: Vec<Bilingual> =
+                in_the_way.iter().map(|&no| Bilingual::quoted(&things[no].replica.name)).collect();
+            let error = MapError::DoorwayBarred {
+                door: door.name.clone(),
+                things: Bilingual::list(&names),
+                free: Cm::of((free * 100.0).round() / 100.0),
+                width: door.width,
+            };
+            self.doubt(error, vec![things[first].at(), Spot::of(Record::Door(door.id))]);
+        }
+    }
+
+    /// Places that lie in what stands on the floor.
+    fn places(&mut self, things: &BTreeMap<AreaId, Vec<Thing<'_>>>) {
+        let robot = &self.world.robot;
+        for spot in self.world.places.values() {
+            let is_over = |body: &Body| {
+                body.bottom < robot.height.get()
+                    && body.top > robot.step.get() + 1.0
+                    && contains(&body.polygon, spot.at)
+            };
+            let mut here = things.get(&spot.area).into_iter().flatten();
+            if let Some(thing) = here.find(|thing| thing.bodies.iter().any(is_over)) {
+                let error = MapError::PlaceUnder {
+                    place: spot.name.clone(),
+                    thing: thing.replica.name.clone(),
+                };
+                let place = Spot::of(Record::Place(spot.id)).field("at");
+                self.doubt(error, vec![place, thing.at()]);
+            }
+        }
+    }
+
+    /// Properties that the program understands, with values that it does not.
+    fn marks(&mut self) {
+        let world = self.world;
+        let doors: BTreeSet<String> = both_names(world.doors.values().map(|d| (&d.name, &d.name_en)));
+        let things: BTreeSet<String> =
+            both_names(world.replicas.values().map(|r| (&r.name, &r.name_en)));
+        let is_operator = |name: &str| OPERATOR.contains(&name_key(name).as_str());
+        for replica in world.replicas.values() {
+            let record = Record::Replica(replica.id);
+            let own = &replica.properties;
+            self.named(record, own, Mark::KeyOf, ("дверь", "door"), &doors);
+            self.named(record, own, Mark::KeptOn, ("вещь", "thing"), &things);
+            self.switched(record, own, world.has_trait(replica.id, "device"));
+        }
+        for object in world.objects.values() {
+            let is_device = world.types.object.has_trait(object.object_type, "device");
+            self.switched(Record::Object(object.id), &object.properties, is_device);
+        }
+        for door in world.doors.values() {
+            let holder = Mark::KeyWith.of(&door.properties).filter(|(_, who)| !is_operator(who));
+            if holder.is_some() {
+                let record = Record::Door(door.id);
+                self.named(record, &door.properties, Mark::KeyWith, ("человек", "person"), &things);
+            }
+        }
+        for area in world.areas.values() {
+            // Whether a room is dark is asked in one way only; what is lit is no less known for it.
+            if let Some((name, value)) = Mark::Light.of(&area.properties)
+                && !is_dark(&area.properties)
+                && is_on(&Properties::from([(Mark::Power.names()[1].to_owned(), value.to_owned())]))
+                    .is_none()
+            {
+                self.value(Record::Area(area.id), name, value, ON_OFF);
+            }
+        }
+    }
+
+    /// A property that names something of the map.
+    fn named(
+        &mut self,
+        record: Record,
+        properties: &Properties,
+        mark: Mark,
+        what: (&'static str, &'static str),
+        known: &BTreeSet<String>,
+    ) {
+        let Some((property, value)) = mark.of(properties) else { return };
+        if known.contains(&name_key(value)) {
+            return;
+        }
+        let error = MapError::NamesNothing {
+            property: property.to_owned(),
+            what: what.into(),
+            name: value.to_owned(),
+            nearest: nearest_name(value, known.iter().map(String::as_str)).map(str::to_owned),
+        };
+        self.doubt(error, vec![Spot::of(record).field("properties").key(property)]);
+    }
+
+    /// Power is on or off; so is, or open or shut, the state of a device whose power is not told apart.
+    fn switched(&mut self, record: Record, properties: &Properties, is_device: bool) {
+        let alone = |value: &str| {
+            Properties::from([(Mark::State.names()[1].to_owned(), value.to_owned())])
+        };
+        if let Some((name, value)) = Mark::Power.of(properties) {
+            if is_on(&alone(value)).is_none() {
+                self.value(record, name, value, ON_OFF);
+            }
+        } else if let Some((name, value)) = Mark::State.of(properties)
+            && is_device
+            && is_on(&alone(value)).is_none()
+            && is_open(&alone(value)).is_none()
+        {
+            self.value(record, name, value, STATES);
+        }
+    }
+
+    fn value(&mut self, record: Record, property: &str, value: &str, wanted: (&'static str, &'static str)) {
+        let error = MapError::UnknownState {
+            property: property.to_owned(),
+            value: value.to_owned(),
+            wanted: wanted.into(),
+        };
+        self.doubt(error, vec![Spot::of(record).field("properties").key(property)]);
+    }
+
+    fn traits(&mut self, rule_words: &BTreeSet<String>) {
+        for kind in TypeKind::ALL {
+            for entry in self.world.types.list(kind).entries.values() {
+                for (no, word) in entry.traits.iter().enumerate() {
+                    if TRAITS.contains(&word.as_str()) || rule_words.contains(word) {
+                        continue;
+                    }
+                    let known = TRAITS.into_iter().chain(rule_words.iter().map(String::as_str));
+                    let error = MapError::UnknownTrait {
+                        owner: entry.name.clone(),
+                        word: word.clone(),
+                        nearest: nearest_name(word, known).map(str::to_owned),
+                        known: TRAITS.join(", "),
+                    };
+                    let spot = Spot::of(Record::Type(kind, entry.id)).field("traits").index(no);
+                    self.doubt(error, vec![spot]);
+                }
+            }
+        }
+    }
+}
+
+const ON_OFF: (&str, &str) = ("Включено или Выключено", "on or off");
+const STATES: (&str, &str) =
+    ("Включено, Выключено, Открыто или Закрыто", "on, off, open or closed");
+
+fn both_names<'n>(names: impl Iterator<Item = (&'n String, &'n String)>) -> BTreeSet<String> {
+    names.flat_map(|(name, name_en)| [name_key(name), name_key(name_en)]).collect()
+}
+
+/// Every solid of every thing: which thing, which of its solids, and its box.
+fn solids(things: &[Thing<'_>]) -> (Vec<(usize, usize)>, Vec<Bounds>) {
+    let all = things.iter().enumerate().flat_map(|(no, thing)| {
+        thing.bodies.iter().enumerate().map(move |(part, body)| ((no, part), body.bounds))
+    });
+    all.unzip()
+}
+
+/// Where two solids are in one another, unless one stands on the other, lies in it, or lets it through.
+fn clash((one, m): (&Thing<'_>, usize), (other, n): (&Thing<'_>, usize)) -> Option<Point> {
+    let (a, b) = (&one.bodies[m], &other.bodies[n]);
+    // People sit in what bears them.
+    if one.is_person || other.is_person || one.hollow[m] || other.hollow[n] || a.top.min(b.top) - a.bottom.max(b.bottom) <= DEPTH {
+        return None;
+    }
+    let stands = |upper: &Body, lower: &Body| {
+        upper.top > lower.top && lower.top - upper.bottom <= STANDING
+    };
+    if stands(a, b) || stands(b, a) {
+        return None;
+    }
+    if (one.is_container && is_within(b, a)) || (other.is_container && is_within(a, b)) {
+        return None;
+    }
+    let common = intersection(&a.polygon, &b.polygon);
+    let outline = common.outlines.first()?;
+    let around: f64 = edges(outline).map(|(p, q)| (q - p).norm()).sum();
+    (common.area > DEPTH * around / 2.0).then(|| middle(outline))
+}
+
+/// Whether a solid is in another, which may be open above.
+fn is_within(inner: &Body, outer: &Body) -> bool {
+    inner.bottom >= outer.bottom - BESIDE
+        && inner.polygon.iter().all(|&p| {
+            contains(&outer.polygon, p) || border_distance(&outer.polygon, p) <= BESIDE
+        })
+}
+
+/// Whether a thing stands with one of its solids on or in a solid below. Any of its lowest will do: a bench may stand on
+/// a step and on the floor.
+fn stands(thing: &Thing<'_>, body: &Body, other: &Body) -> bool {
+    body.bottom <= thing.bottom() + STANDING
+        && body.bottom <= other.top + STANDING
+        && body.bottom >= other.bottom - STANDING
+}
+
+/// Whether a solid hangs from one above it.
+fn hangs(body: &Body, other: &Body) -> bool {
+    (other.bottom - body.top).abs() <= STANDING
+}
+
+/// Whether the floor, the ceiling or a wall holds a thing.
+fn is_fixed(thing: &Thing<'_>, rooms: &[Body], walls: &[(Point, Point)]) -> bool {
+    let (bottom, top) = (thing.bottom(), thing.top());
+    let is_here =
+        |room: &&Body| thing.bodies.iter().any(|b| touch(&b.polygon, &room.polygon, BESIDE));
+    let floors = rooms.iter().filter(is_here);
+    let by_floor = floors.clone().any(|room| bottom - room.bottom <= STANDING);
+    by_floor
+        || floors.clone().any(|room| room.top - top <= 2.0 * STANDING)
+        || thing.bodies.iter().any(|body| {
+            walls.iter().any(|&(a, b)| {
+                body.polygon.iter().any(|&p| segment_distance(p, (a, b)) <= STANDING)
+                    || [a, b].iter().any(|&p| border_distance(&body.polygon, p) <= STANDING)
+                    || edges(&body.polygon).any(|e| super::plane::meeting(e, (a, b)).is_some())
+            })
+        })
+}
+
+/// The solid sides of an Area.
+fn walls(world: &World, area: &Area) -> Vec<(Point, Point)> {
+    let sides = area.items.iter().flat_map(|item| {
+        let base = &world.orthoframe_of(item).base;
+        let solid = base.iter().filter(|v| v.permeability == Permeability::Impermeable);
+        solid.map(|v| (item.frame.apply(v.start), item.frame.apply(v.end)))
+    });
+    sides.collect()
+}
+
+/// A doorway as its room sees it: from the right jamb along the threshold, and inwards.
+struct Doorway {
+    right: Point,
+    along: crate::units::Vector,
+    length: f64,
+    /// The strip before the threshold.
+    strip: Vec<Point>,
+}
+
+fn threshold(world: &World, area: AreaId, door: DoorId) -> Option<Doorway> {
+    let (right, left) = world.threshold(area, door)?;
+    let length = (left - right).norm();
+    let along = (left - right).try_normalize(1e-9)?;
+    // The base runs counter-clockwise: the room is on the left of the way from right to left.
+    let inwards = crate::units::Vector::new(-along.y, along.x) * THRESHOLD;
+    let strip = vec![right, left, left + inwards, right + inwards];
+    Some(Doorway { right, along, length, strip })
+}
+
+impl Doorway {
+    /// The stretch of the threshold before which a solid stands.
+    fn taken(&self, body: &Body) -> Option<(f64, f64)> {
+        let common = intersection(&self.strip, &body.polygon);
+        // A touch takes nothing.
+        if common.area < DEPTH {
+            return None;
+        }
+        let along = common.outlines.iter().flatten().map(|p| (p - self.right).dot(&self.along));
+        let stretch = along.fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
+        Some((stretch.0.max(0.0), stretch.1.min(self.length)))
+    }
+}
