@@ -207,7 +207,7 @@ fn answer(task: &Task, outcome: &Outcome) -> (String, String) {
         Outcome::NoPlan { leveled_off_at, .. } => {
             ("no plan".to_owned(), format!("level {leveled_off_at}"))
         }
-        Outcome::LimitReached(limit) => (format!("limit {limit:?}"), "–".to_owned()),
+        Outcome::LimitReached(known) => (format!("limit {:?}", known.limit), "–".to_owned()),
     }
 }
 

@@ -35,6 +35,7 @@ mod partition;
 mod passframes;
 mod planning;
 mod planning_front;
+mod planning_interference;
 mod planning_mutants;
 mod planning_properties;
 mod position_reports;

@@ -141,7 +141,7 @@ fn told(scenario: Result<Scenario, RuleFaults>) -> String {
                 format!("плана нет: вместе недостижимы {}\n", goals.join(", "))
             }
         },
-        Outcome::LimitReached(limit) => format!("предел: {limit:?}\n"),
+        Outcome::LimitReached(known) => format!("предел: {:?}\n", known.limit),
     }
 }
 
@@ -284,9 +284,9 @@ fn grounding_keeps_to_the_limits() {
         plan_alone(scenario.clone(), &limits, Wanted::Shortest).unwrap().solved.outcome
     };
     let small = Limits { memory_bytes: 1 << 20, ..Limits::default() };
-    assert_eq!(outcome(small), Outcome::LimitReached(Limit::Memory));
+    assert_eq!(outcome(small).limit(), Some(Limit::Memory));
     let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
-    assert_eq!(outcome(now), Outcome::LimitReached(Limit::Time));
+    assert_eq!(outcome(now).limit(), Some(Limit::Time));
 }
 
 #[test]

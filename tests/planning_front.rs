@@ -541,3 +541,33 @@ fn stirred_texts_are_read_without_panic() {
     }
     assert!(good > 15 && bad > 330, "{good} good, {bad} bad");
 }
+
+#[test]
+fn pddl_names_that_differ_in_an_underscore_are_two() {
+    let domain = "(define (domain d) (:types place place_ - object) (:predicates (at ?p - place) (at_ ?p - place) (seen_ ?p - place_))
+        (:action move :parameters (?a - place) :precondition (at ?a) :effect (and (not (at ?a)) (at_ ?a)))
+        (:action move_ :parameters (?a - place ?b - place_) :precondition (at_ ?a) :effect (seen_ ?b)))";
+    let problem = "(define (problem p) (:domain d) (:objects x x__ - place x_ - place_) (:init (at x)) (:goal (seen_ x_)))";
+    let scenario = pddl(domain, problem).unwrap();
+    let task = scenario.ground().unwrap();
+    let Outcome::Plan(plan) = solve(&task, &Limits::default()) else { panic!("there is a plan") };
+    let text = PlanText::write(&task, &plan.steps);
+    assert!(text.contains("0: (move x)\n1: (move_ x x_)"), "{text}");
+    let read = PlanText::parse(&Source::new("план", &text)).unwrap();
+    assert!(read.check(&scenario.domain, &scenario.problem).is_ok());
+    // What nobody declared is not taken for its neighbour.
+    let faults =
+        pddl(&domain.replace("(at_ ?a) :effect", "(at__ ?a) :effect"), problem).unwrap_err();
+    assert_eq!(faults.codes(), ["strips::unknown_predicate"]);
+}
+
+/// A van stands in the yard, but only a lorry could take the goods: that no vehicle is there would be untrue.
+#[test]
+fn an_explanation_names_the_type_that_the_action_asks_for() {
+    let domain = "(define (domain d) (:types vehicle goods place - object van lorry - vehicle)
+        (:predicates (at ?v - vehicle ?p - place) (lies ?g - goods ?p - place) (gone ?g - goods))
+        (:action load :parameters (?l - lorry ?g - goods ?p - place) :precondition (and (lies ?g ?p) (at ?l ?p)) :effect (gone ?g)))";
+    let problem = "(define (problem p) (:domain d) (:objects v - van g - goods yard - place) (:init (at v yard) (lies g yard)) (:goal (gone g)))";
+    let told = solved(&pddl(domain, problem).unwrap()).explanation(Language::Russian).unwrap();
+    assert!(told.contains("lorry") && !told.contains("vehicle"), "{told}");
+}

@@ -37,17 +37,11 @@ fn spoil(lines: &mut Vec<Line>, random: &mut Random) {
     }
 }
 
-/// The number at the end of a name.
-fn number(name: &str) -> usize {
-    let digits = name.trim_start_matches(|c: char| !c.is_ascii_digit());
-    digits.parse().expect("drawn names end in numbers")
-}
-
 /// Whether the plan reaches the goal, by the plain steps.
-fn works(world: &World, lines: &[Line]) -> bool {
+fn works(drawn: &Drawn, world: &World, lines: &[Line]) -> bool {
     let mut steps: BTreeMap<u32, Vec<&Ground>> = BTreeMap::new();
     for (step, action, args) in lines {
-        let name = (number(action), args.iter().map(|arg| number(arg)).collect());
+        let name = (drawn.number(action), args.iter().map(|arg| drawn.number(arg)).collect());
         let Some(ground) = world.actions.iter().find(|ground| ground.name == name) else {
             return false;
         };
@@ -85,7 +79,7 @@ fn spoilt_plans_are_judged_as_plain_steps_judge_them() {
             let replayed = PlanText::parse(&Source::new("план", &text))
                 .and_then(|text| text.replay(&scenario.domain, &scenario.problem))
                 .unwrap_or_else(|faults| panic!("seed {seed}: {faults}\n{text}"));
-            let expected = works(&world, &lines);
+            let expected = works(&drawn, &world, &lines);
             assert_eq!(replayed.broken.is_none(), expected, "seed {seed}:\n{text}{replayed:?}");
             *(if expected { &mut good } else { &mut bad }) += 1;
         }

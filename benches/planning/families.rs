@@ -114,15 +114,16 @@ pub(crate) fn blocks(count: usize, seed: u64) -> Instance {
     instance(format!("blocks-{count}/{seed}"), domain, &objects("b", count, "object"), &init, &goal)
 }
 
-/// Rovers sample rocks and soil, take images and send them to a lander.
+/// Rovers sample rocks and soil, take images and send them to a lander, one message at a time: who sends takes the
+/// lander's channel and gives it back.
 pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> Instance {
     let domain = "(define (domain d) (:requirements :strips :typing) (:types rover place store camera mode lander objective)
  (:predicates (at ?r - rover ?p - place) (lander-at ?l - lander ?p - place) (road ?r - rover ?a ?b - place) (visible ?a ?b - place)
   (store-of ?s - store ?r - rover) (empty ?s - store) (full ?s - store) (soil ?p - place) (rock ?p - place) (for-soil ?r - rover) (for-rock ?r - rover)
   (has-soil ?r - rover ?p - place) (has-rock ?r - rover ?p - place) (on-board ?c - camera ?r - rover) (supports ?c - camera ?m - mode)
   (calibrated ?c - camera ?r - rover) (target ?c - camera ?o - objective) (seen-from ?o - objective ?p - place)
-  (image ?r - rover ?o - objective ?m - mode) (sent-soil ?p - place) (sent-rock ?p - place) (sent-image ?o - objective ?m - mode) (channel ?l - lander))
- (:action drive :parameters (?r - rover ?a ?b - place) :precondition (and (at ?r ?a) (road ?r ?a ?b)) :effect (and (not (at ?r ?a)) (at ?r ?b)))
+  (image ?r - rover ?o - objective ?m - mode) (sent-soil ?p - place) (sent-rock ?p - place) (sent-image ?o - objective ?m - mode) (channel ?l - lander) (available ?r - rover))
+ (:action drive :parameters (?r - rover ?a ?b - place) :precondition (and (available ?r) (at ?r ?a) (road ?r ?a ?b)) :effect (and (not (at ?r ?a)) (at ?r ?b)))
  (:action dig :parameters (?r - rover ?s - store ?p - place) :precondition (and (at ?r ?p) (soil ?p) (for-soil ?r) (store-of ?s ?r) (empty ?s))
   :effect (and (not (empty ?s)) (full ?s) (has-soil ?r ?p) (not (soil ?p))))
  (:action drill :parameters (?r - rover ?s - store ?p - place) :precondition (and (at ?r ?p) (rock ?p) (for-rock ?r) (store-of ?s ?r) (empty ?s))
@@ -134,11 +135,14 @@ pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> I
   :precondition (and (calibrated ?c ?r) (on-board ?c ?r) (supports ?c ?m) (seen-from ?o ?p) (at ?r ?p))
   :effect (and (image ?r ?o ?m) (not (calibrated ?c ?r))))
  (:action send-soil :parameters (?r - rover ?l - lander ?x ?a ?b - place)
-  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-soil ?r ?x) (visible ?a ?b) (channel ?l)) :effect (sent-soil ?x))
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-soil ?r ?x) (visible ?a ?b) (available ?r) (channel ?l))
+  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-soil ?x) (available ?r)))
  (:action send-rock :parameters (?r - rover ?l - lander ?x ?a ?b - place)
-  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-rock ?r ?x) (visible ?a ?b) (channel ?l)) :effect (sent-rock ?x))
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (has-rock ?r ?x) (visible ?a ?b) (available ?r) (channel ?l))
+  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-rock ?x) (available ?r)))
  (:action send-image :parameters (?r - rover ?l - lander ?o - objective ?m - mode ?a ?b - place)
-  :precondition (and (at ?r ?a) (lander-at ?l ?b) (image ?r ?o ?m) (visible ?a ?b) (channel ?l)) :effect (sent-image ?o ?m)))";
+  :precondition (and (at ?r ?a) (lander-at ?l ?b) (image ?r ?o ?m) (visible ?a ?b) (available ?r) (channel ?l))
+  :effect (and (not (available ?r)) (not (channel ?l)) (channel ?l) (sent-image ?o ?m) (available ?r))))";
     let mut random = Random::new(seed);
     let objectives = goals.max(2);
     let mut init = vec![format!("(lander-at l0 p{}) (channel l0)", random.below(places))];
@@ -152,7 +156,7 @@ pub(crate) fn rovers(rovers: usize, places: usize, goals: usize, seed: u64) -> I
     }
     for rover in 0..rovers {
         init.push(format!(
-            "(at r{rover} p{}) (store-of s{rover} r{rover}) (empty s{rover})",
+            "(at r{rover} p{}) (store-of s{rover} r{rover}) (empty s{rover}) (available r{rover})",
             random.below(places)
         ));
         init.push(format!("(for-soil r{rover}) (for-rock r{rover}) (on-board c{rover} r{rover})"));

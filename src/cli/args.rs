@@ -159,6 +159,12 @@ pub(super) enum Command {
         /// Directory for the .csv files
         #[arg(short = 'D', long, default_value = ".", value_name = "DIR")]
         output: PathBuf,
+        /// Give up after this many seconds; 600 when left out
+        #[arg(long, value_name = "SECONDS", value_parser = parse_seconds)]
+        time_limit: Option<Duration>,
+        /// Give up when what is derived takes more memory than this, MiB; 2048 when left out
+        #[arg(long, value_name = "MIB")]
+        memory_limit: Option<usize>,
     },
     /// Where the robot stands, or where a pose is, in words
     Where {

@@ -327,8 +327,9 @@ pub(super) fn datalog(
     program: &Path,
     facts: &Path,
     output: &Path,
+    limits: crate::facts::Limits,
 ) -> Result<Answer, Failure> {
-    let report = crate::facts::run_files(program, facts, output)
+    let report = crate::facts::run_files(program, facts, output, limits)
         .map_err(|e| crate::engine::Error::from(Box::new(e)))?;
     for warning in &report.warnings {
         note(drawn(warning).trim_end());

@@ -1,9 +1,13 @@
 //! Faults as a person or a program sees them.
 
 use std::fmt;
+use std::io::Write as _;
 use std::process::ExitCode;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, SourceCode};
+use miette::{
+    Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, MietteError, SourceCode,
+    SourceSpan, SpanContents,
+};
 use serde::Serialize;
 
 use crate::engine::{Error, RequestError};
@@ -33,6 +37,17 @@ struct FaultView {
     file: Option<String>,
     line: Option<usize>,
     column: Option<usize>,
+    /// All places, where there are several; the first is that above.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    places: Vec<PlaceView>,
+}
+
+#[derive(Debug, Clone, Serialize)]
+struct PlaceView {
+    label: Option<String>,
+    file: Option<String>,
+    line: usize,
+    column: usize,
 }
 
 impl Failure {
@@ -45,11 +60,7 @@ impl Failure {
     }
 
     /// Prints the faults and says with which code to end.
-    #[expect(
-        clippy::print_stderr,
-        clippy::print_stdout,
-        reason = "this is where faults are printed"
-    )]
+    #[expect(clippy::print_stderr, reason = "this is where faults are printed")]
     pub(super) fn show(&self, as_json: bool, lang: Lang) -> ExitCode {
         match self {
             Self::Output(reason) => {
@@ -69,7 +80,8 @@ impl Failure {
                         (only.message, only.help) = (text, None);
                     }
                     let view = serde_json::json!({ "outcome": "error", "errors": faults });
-                    println!("{view}");
+                    // Who reads no further has read enough.
+                    let _ = writeln!(std::io::stdout(), "{view}");
                 } else {
                     match told {
                         Some(text) => eprintln!("  × {text}"),
@@ -108,7 +120,64 @@ pub(super) fn drawn(error: &dyn Diagnostic) -> String {
 /// A fault with the text that it stands in, which the fault around it may hold.
 struct Leaf<'e> {
     fault: &'e dyn Diagnostic,
-    source: Option<&'e dyn SourceCode>,
+    source: Option<Excerpts<'e>>,
+}
+
+/// A text of which no more is shown than stands beside each place. Places near each other share an excerpt; what lies
+/// between two that are far apart helps nobody.
+#[derive(Clone, Copy)]
+struct Excerpts<'e>(&'e dyn SourceCode);
+
+/// A place that takes more lines, or bytes, is shown by its first line, or its beginning.
+const MOST_LINES: usize = 6;
+const MOST_BYTES: usize = 400;
+
+impl fmt::Debug for Excerpts<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Excerpts")
+    }
+}
+
+impl SourceCode for Excerpts<'_> {
+    /// Refuses an excerpt that would span two places far apart; they are then shown one by one.
+    fn read_span<'a>(
+        &'a self,
+        span: &SourceSpan,
+        lines_before: usize,
+        lines_after: usize,
+    ) -> Result<Box<dyn SpanContents<'a> + 'a>, MietteError> {
+        if span.len() > 2 * MOST_BYTES {
+            return Err(MietteError::OutOfBounds);
+        }
+        self.0.read_span(span, lines_before, lines_after)
+    }
+}
+
+impl Excerpts<'_> {
+    /// As much of a place as is shown of it.
+    fn beginning(&self, place: &LabeledSpan) -> LabeledSpan {
+        let shown = |len: usize| {
+            let (label, span) = (place.label().map(str::to_owned), (place.offset(), len));
+            match place.primary() {
+                true => LabeledSpan::new_primary_with_span(label, span),
+                false => LabeledSpan::new_with_span(label, span),
+            }
+        };
+        let Ok(contents) = self.0.read_span(place.inner(), 0, 0) else { return place.clone() };
+        let start = place.offset().saturating_sub(contents.span().offset());
+        let text = contents.data().get(start..).unwrap_or_default();
+        let text = &text[..text.len().min(place.len())];
+        let lines = text.iter().filter(|&&byte| byte == b'\n').count();
+        let first = text.iter().position(|&byte| byte == b'\n').unwrap_or(text.len());
+        let len = if lines >= MOST_LINES { first } else { text.len() };
+        if len.min(MOST_BYTES) == place.len() {
+            return place.clone();
+        }
+        // To where a character begins.
+        let ends = (0..=len.min(MOST_BYTES)).rev();
+        let mut ends = ends.filter(|&end| text.get(end).is_none_or(|byte| byte & 0xC0 != 0x80));
+        shown(ends.next().unwrap_or(0))
+    }
 }
 
 impl fmt::Display for Leaf<'_> {
@@ -139,11 +208,15 @@ impl Diagnostic for Leaf<'_> {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.source
+        self.source.as_ref().map(|source| source as &dyn SourceCode)
     }
 
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = miette::LabeledSpan> + '_>> {
-        self.fault.labels()
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let places = self.fault.labels()?;
+        Some(match &self.source {
+            Some(source) => Box::new(places.map(|place| source.beginning(&place))),
+            None => places,
+        })
     }
 }
 
@@ -159,7 +232,7 @@ fn gather<'e>(
         gather(inner, source, into);
     }
     if into.len() == before {
-        into.push(Leaf { fault: error, source });
+        into.push(Leaf { fault: error, source: source.map(Excerpts) });
     }
 }
 
@@ -170,18 +243,83 @@ pub(super) fn views(error: &dyn Diagnostic) -> serde_json::Value {
     serde_json::json!(leaves.iter().map(view).collect::<Vec<_>>())
 }
 
-/// A leaf with its first place, for programs.
+/// A leaf with its places, for programs.
 fn view(leaf: &Leaf<'_>) -> FaultView {
-    let place = leaf.labels().and_then(|mut labels| labels.next()).and_then(|label| {
-        let contents = leaf.source?.read_span(label.inner(), 0, 0).ok()?;
-        Some((contents.name().map(str::to_owned), contents.line() + 1, contents.column() + 1))
-    });
+    let place = |label: LabeledSpan| {
+        let contents = leaf.source.as_ref()?.read_span(label.inner(), 0, 0).ok()?;
+        Some(PlaceView {
+            label: label.label().map(str::to_owned),
+            file: contents.name().map(str::to_owned),
+            line: contents.line() + 1,
+            column: contents.column() + 1,
+        })
+    };
+    let places: Vec<PlaceView> = leaf.labels().into_iter().flatten().filter_map(place).collect();
+    let first = places.first().cloned();
     FaultView {
         code: leaf.code().map(|c| c.to_string()),
         message: leaf.to_string(),
         help: leaf.help().map(|h| h.to_string()),
-        file: place.as_ref().and_then(|p| p.0.clone()),
-        line: place.as_ref().map(|p| p.1),
-        column: place.as_ref().map(|p| p.2),
+        file: first.as_ref().and_then(|place| place.file.clone()),
+        line: first.as_ref().map(|place| place.line),
+        column: first.as_ref().map(|place| place.column),
+        places: if places.len() > 1 { places } else { Vec::new() },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::strips::Scenario;
+    use crate::units::Source;
+
+    /// A rule file that declares a predicate twice, with so many others in between, on as many lines or on one.
+    fn declared_twice(others: usize, line_end: &str) -> String {
+        let others: String =
+            (0..others).map(|n| format!("ДРУГОЙ-{n}_(объект){line_end}")).collect();
+        let text = format!(
+            "Предикаты:{line_end}ТОТ-ЖЕ_(объект){line_end}{others}ТОТ-ЖЕ_(объект){line_end}Факты: ТОТ-ЖЕ_(Стол) Цель: ТОТ-ЖЕ_(Стол)"
+        );
+        let faults = Scenario::parse(&Source::new("правила", text)).unwrap_err();
+        drawn(&faults)
+    }
+
+    #[test]
+    fn both_places_of_a_fault_are_shown_and_not_what_lies_between() {
+        for line_end in ["\n", " "] {
+            for others in (0..12).chain([20, 50, 150, 400, 3000]) {
+                let told = declared_twice(others, line_end);
+                for label in ["первый раз – здесь", "второй раз – здесь"]
+                {
+                    assert!(told.contains(label), "{others}: {told}");
+                }
+                assert!(told.lines().count() < 30, "{others}: {}", told.lines().count());
+                // Two excerpts of a long line, and the signs under them.
+                assert!(told.len() < 20_000, "{others}: {} bytes", told.len());
+            }
+        }
+    }
+
+    #[test]
+    fn a_place_of_many_lines_is_shown_by_its_first() {
+        let goal: String = (0..500).map(|n| format!("    (p o{n})\n")).collect();
+        let domain = "(define (domain d) (:predicates (p ?x)) (:action a :parameters (?x) :precondition (and) :effect (p ?x)))";
+        let problem =
+            format!("(define (problem q) (:domain d) (:objects o)\n (:goal (or\n{goal})))");
+        let faults = Scenario::parse_pddl(&Source::new("d", domain), &Source::new("p", problem))
+            .unwrap_err();
+        let told = drawn(&faults);
+        assert!(told.contains("(or") && told.lines().count() < 20, "{told}");
+    }
+
+    #[test]
+    fn programs_get_every_place() {
+        let text = "Предикаты:\n ТОТ-ЖЕ_(объект)\n ТОТ-ЖЕ_(объект)\nЦель: ТОТ-ЖЕ_(Стол)";
+        let faults = Scenario::parse(&Source::new("правила", text)).unwrap_err();
+        let mut leaves = Vec::new();
+        gather(&faults, None, &mut leaves);
+        let views: Vec<FaultView> = leaves.iter().map(view).collect();
+        let lines = |fault: &FaultView| fault.places.iter().map(|p| p.line).collect::<Vec<_>>();
+        assert!(views.iter().any(|fault| lines(fault) == [3, 2]), "{views:?}");
     }
 }

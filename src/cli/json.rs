@@ -59,12 +59,15 @@ pub(super) fn plan(solved: &Solved, name: &dyn Fn(&str) -> String) -> Value {
                 }
             };
         }
-        Outcome::LimitReached(limit) => {
-            view["limit"] = json!(match limit {
+        Outcome::LimitReached(known) => {
+            view["limit"] = json!(match known.limit {
                 Limit::Time => "time",
                 Limit::Memory => "memory",
                 Limit::Steps => "steps",
+                Limit::Stopped => "stopped",
             });
+            view["at_least_steps"] = json!(known.at_least);
+            view["at_most_steps"] = json!(known.plan.as_ref().map(|plan| plan.steps.len()));
         }
         Outcome::Plan(_) => {}
     }

@@ -80,8 +80,14 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
             commands::route(common, from, to, *method, *words)
         }
         Command::Corridor(corridor) => corridor::run(common, corridor),
-        Command::Datalog { program, facts, output } => {
-            commands::datalog(common, program, facts, output)
+        Command::Datalog { program, facts, output, time_limit, memory_limit } => {
+            let all = crate::facts::Limits::default();
+            let limits = crate::facts::Limits {
+                time: time_limit.unwrap_or(all.time),
+                memory_bytes: memory_limit
+                    .map_or(all.memory_bytes, |mib| mib.saturating_mul(1 << 20)),
+            };
+            commands::datalog(common, program, facts, output, limits)
         }
         Command::Where { map, at, detail, read: None } => {
             commands::locate(common, map.as_deref(), at.as_deref(), *detail)

@@ -1,11 +1,18 @@
 //! `ortho plan`: a plan for a scenario or a PDDL problem, or a given plan checked step by step.
 
 use std::path::Path;
+use std::sync::atomic::AtomicBool;
+use std::sync::{Arc, LazyLock};
+
+use serde_json::{Value, json};
+use signal_hook::consts::TERM_SIGNALS;
+use signal_hook::flag;
 
 use crate::engine::{
-    Engine, PlanAnswer, check_map, check_plan_alone, name_in, plan_alone, plan_alone_without,
+    Engine, PlanAnswer, Solved, check_map, check_plan_alone, name_in, plan_alone,
+    plan_alone_without,
 };
-use crate::graphplan::{Limits, Outcome, Plan};
+use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
 use crate::units::English;
@@ -13,7 +20,7 @@ use crate::units::English;
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
 use super::fault::{Failure, drawn};
-use super::{Answer, json, say, text};
+use super::{Answer, json as views, say, text};
 
 pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     let (mut scenario, engine) = read(common, args)?;
@@ -29,32 +36,91 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         None => name.to_owned(),
     };
     let (language, limits) = (common.lang.language(), args.limits());
-    let limits = Limits { tell: Some(interim(common.lang)), ..limits };
+    let limits = Limits { tell: Some(interim(common.lang)), stop: stopped_by_signals(), ..limits };
     let english = |name: &str| names(name, Language::English);
     let name = |name: &str| names(name, language);
     let (solved, warnings, told) = if args.without.is_empty() {
         let PlanAnswer { solved, warnings } = plan_alone(scenario, &limits, args.wanted())?;
         let told = match common.json {
-            true => json::plan(&solved, &english).to_string(),
-            false => text::plan(&solved, &solved.wording(language, &name)),
+            true => with_help(views::plan(&solved, &english), &solved, args).to_string(),
+            false => {
+                let told = text::plan(&solved, &solved.wording(language, &name));
+                told + &help(&solved, args, language)
+            }
         };
         (solved, warnings, told)
     } else {
         let (replanned, warnings) =
             plan_alone_without(scenario, &args.without, &limits, args.wanted())?;
+        let after = &replanned.after;
         let told = match common.json {
-            true => json::replanned(&replanned, &english).to_string(),
-            false => text::replanned(&replanned, &replanned.after.wording(language, &name)),
+            true => with_help(views::replanned(&replanned, &english), after, args).to_string(),
+            false => {
+                let told = text::replanned(&replanned, &after.wording(language, &name));
+                told + &help(after, args, language)
+            }
         };
         (replanned.after, warnings, told)
     };
     warn(&warnings, common.lang);
-    if let (Some(path), Outcome::Plan(plan)) = (&args.out, &solved.outcome) {
+    if let (Some(path), Some(plan)) = (&args.out, solved.outcome.plan()) {
         let text = PlanText::write(&solved.task, &plan.steps);
         std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
     }
     say(&told)?;
     Ok(if matches!(solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })
+}
+
+/// What would help where the search was given up.
+fn remedies(solved: &Solved, args: &PlanArgs) -> Vec<&'static str> {
+    let Outcome::LimitReached(known) = &solved.outcome else { return Vec::new() };
+    let more = match known.limit {
+        Limit::Time => Some("--time-limit"),
+        Limit::Memory => Some("--memory-limit"),
+        Limit::Steps | Limit::Stopped => None,
+    };
+    (!args.any).then_some("--any").into_iter().chain(more).collect()
+}
+
+fn with_help(mut view: Value, solved: &Solved, args: &PlanArgs) -> Value {
+    if matches!(solved.outcome, Outcome::LimitReached(_)) {
+        view["help"] = json!(remedies(solved, args));
+    }
+    view
+}
+
+fn help(solved: &Solved, args: &PlanArgs, language: Language) -> String {
+    let told: Vec<&str> = remedies(solved, args)
+        .into_iter()
+        .map(|remedy| match remedy {
+            "--any" => language.pick(
+                "--any (план скоро, без доказательства, что он кратчайший)",
+                "--any (a plan soon, not proven to be the shortest)",
+            ),
+            "--time-limit" => {
+                language.pick("больше времени (--time-limit)", "more time (--time-limit)")
+            }
+            _ => language.pick("больше памяти (--memory-limit)", "more memory (--memory-limit)"),
+        })
+        .collect();
+    if told.is_empty() {
+        return String::new();
+    }
+    let (head, or) =
+        (language.pick("Помогло бы: ", "It would help: "), language.pick(" или ", " or "));
+    format!("\n{head}{}", told.join(or))
+}
+
+/// Raised by the first signal to end; the second ends the program at once.
+fn stopped_by_signals() -> Option<&'static AtomicBool> {
+    static STOPPED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
+    let stopped = &*STOPPED;
+    for signal in TERM_SIGNALS {
+        // In this order the first signal only raises the flag, and the second finds it raised.
+        flag::register_conditional_shutdown(*signal, 128 + signal, Arc::clone(stopped)).ok()?;
+        flag::register(*signal, Arc::clone(stopped)).ok()?;
+    }
+    Some(stopped.as_ref())
 }
 
 /// A plan found soon is told of at once, and so is every shorter one made of it; the last is the answer.
@@ -115,7 +181,7 @@ fn check(common: &Common, scenario: &Scenario, plan: &Path) -> Result<Answer, Fa
     warn(&scenario.warnings, common.lang);
     let replayed = check_plan_alone(scenario, &plan)?;
     if common.json {
-        say(&json::replayed(&replayed).to_string())?;
+        say(&views::replayed(&replayed).to_string())?;
     } else {
         say(&text::replayed(&replayed, common.lang))?;
     }

@@ -73,19 +73,22 @@ fn fact(relation: &str, values: &[Value]) -> String {
 /// where they have any in the language.
 pub(super) fn plan(solved: &Solved, wording: &Wording<'_>) -> String {
     let directive = |id: &OperatorId| wording.action(&Said::from(solved.task.operator(*id)));
-    let steps: Vec<Vec<String>> = match &solved.outcome {
-        Outcome::Plan(plan) => {
-            plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
-        }
-        _ => Vec::new(),
-    };
+    let steps = solved.outcome.plan().map_or_else(Vec::new, |plan| {
+        plan.steps.iter().map(|step| step.iter().map(directive).collect()).collect()
+    });
     plan_of(solved, &steps, wording)
 }
 
 /// A plan, its directives given in words.
 pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<'_>) -> String {
     let pick = |russian, english| wording.language.pick(russian, english);
-    if !matches!(solved.outcome, Outcome::Plan(_)) {
+    // What was given up before it began knows no plan, and one of no steps would be an answer.
+    let is_found = match solved.outcome {
+        Outcome::Plan(_) => true,
+        Outcome::NoPlan { .. } => false,
+        Outcome::LimitReached(_) => !steps.is_empty(),
+    };
+    if !is_found {
         let head = match solved.outcome {
             Outcome::LimitReached(_) => pick("План не найден", "No plan was found"),
             _ => pick("Плана нет, и это доказано", "There is no plan; this is proven"),
@@ -96,7 +99,8 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<
         return pick("Цель уже достигнута.", "The goal holds already.").to_owned();
     }
     let actions: usize = steps.iter().map(Vec::len).sum();
-    let proof = match solved.is_shortest {
+    let is_proven = solved.is_shortest && matches!(solved.outcome, Outcome::Plan(_));
+    let proof = match is_proven {
         true => pick("меньше шагов нельзя, это доказано", "fewer steps are proven impossible"),
         false => pick("что он кратчайший, не доказано", "not proven to be the shortest"),
     };
@@ -109,6 +113,12 @@ pub(super) fn plan_of(solved: &Solved, steps: &[Vec<String>], wording: &Wording<
             let label = if i == 0 { format!("{}.", number + 1) } else { String::new() };
             text.push_str(&format!("\n{label:>4} {action}"));
         }
+    }
+    if let (Outcome::LimitReached(_), Some(known)) =
+        (&solved.outcome, solved.explanation_with(wording))
+    {
+        let head = pick("Это не ответ до конца: ", "This is no full answer: ");
+        text.push_str(&format!("\n{head}{known}"));
     }
     if !solved.assumptions.is_empty() {
         let head = pick("Предположения, на которых он держится:", "It rests on the assumptions:");

@@ -1,6 +1,6 @@
 //! Plans for scenarios: a rule file's problem, supplemented with what the Map knows.
 
-use crate::graphplan::{Limits, Outcome};
+use crate::graphplan::Limits;
 use crate::robot::{Replanned, Solved, Wanted, facts_of_map, solve, solve_without, state};
 use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
 
@@ -32,10 +32,10 @@ impl PlanAnswer {
     }
 }
 
-/// The parallel steps of a plan, empty unless there is one.
+/// The parallel steps of a plan, empty unless there is one; where the search was given up, of the best that was found.
 #[must_use]
 pub fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
-    let Outcome::Plan(plan) = &solved.outcome else { return Vec::new() };
+    let Some(plan) = solved.outcome.plan() else { return Vec::new() };
     let step = |&id| {
         let operator = solved.task.operator(id);
         PlanStep {

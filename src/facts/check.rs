@@ -1,6 +1,6 @@
 //! Items to a [`Program`]: names resolved, kinds inferred, groundedness and strata checked. Reports everything it finds.
 
-use std::collections::{BTreeMap, BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
 use std::sync::Arc;
 
 use petgraph::algo::kosaraju_scc;
@@ -23,7 +23,8 @@ pub(super) const MAX_COLUMNS: usize = 32;
 pub(super) struct Type {
     pub(super) name: String,
     pub(super) kind: Kind,
-    above: BTreeSet<usize>,
+    /// The types declared to be part of it; what is part of these in turn is looked up.
+    below: Vec<usize>,
     /// Of a union: what its values may be.
     parts: Vec<usize>,
 }
@@ -43,10 +44,40 @@ pub(super) struct Declared {
 impl Declared {
     /// Whether every value of type `a` is a value of type `b`.
     pub(super) fn is_subtype(&self, a: usize, b: usize) -> bool {
-        let parts = &self.types[a].parts;
-        a == b
-            || self.types[a].above.contains(&b)
-            || !parts.is_empty() && parts.iter().all(|part| self.is_subtype(*part, b))
+        if a == b {
+            return true;
+        }
+        // A union is part of what all its parts are part of.
+        let part_of_b = self.below(b);
+        let mut open = vec![a];
+        let mut seen = HashSet::from([a]);
+        while let Some(one) = open.pop() {
+            let parts = &self.types[one].parts;
+            if part_of_b.contains(&one) {
+                continue;
+            }
+            if parts.is_empty() {
+                return false;
+            }
+            open.extend(parts.iter().copied().filter(|part| seen.insert(*part)));
+        }
+        true
+    }
+
+    /// A type and all that were declared to be part of it, one by another.
+    fn below(&self, of: usize) -> HashSet<usize> {
+        let mut found = HashSet::from([of]);
+        let mut open = vec![of];
+        while let Some(one) = open.pop() {
+            let below = self.types[one].below.iter().copied();
+            open.extend(below.filter(|other| found.insert(*other)));
+        }
+        found
+    }
+
+    /// Declares that every value of one type is one of another.
+    fn put_below(&mut self, one: usize, other: usize) {
+        self.types[other].below.push(one);
     }
 
     /// The position of a type in `types`.
@@ -148,28 +179,9 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
     for kind in [Kind::Symbol, Kind::Number, Kind::Unsigned, Kind::Float] {
         let name = kind_name(kind);
         declared.type_names.insert(name.into(), declared.types.len());
-        declared.types.push(Type {
-            name: name.into(),
-            kind,
-            above: BTreeSet::new(),
-            parts: vec![],
-        });
+        declared.types.push(Type { name: name.into(), kind, below: vec![], parts: vec![] });
     }
-    let is_type = |item: &&Item| matches!(item, Item::Type { .. });
-    let mut open: Vec<&Item> = items.iter().filter(is_type).collect();
-    // A type may be named before it is declared. What is left when nothing more fits names what nobody declares.
-    while !open.is_empty() {
-        let is_ready = |item: &&&Item| match item {
-            Item::Type { bases, .. } => {
-                bases.iter().all(|base| declared.type_names.contains_key(&base.text))
-            }
-            _ => false,
-        };
-        let ready = open.iter().position(|item| is_ready(&item)).unwrap_or(0);
-        if let Item::Type { name, bases, is_union } = open.remove(ready) {
-            declare_type(name, bases, *is_union, &mut declared, faults);
-        }
-    }
+    declare_types(items, &mut declared, faults);
     for item in items {
         if let Item::Relation { names, columns, second, roles } = item {
             for name in names {
@@ -178,6 +190,45 @@ fn declare(items: &[Item], faults: &mut Found) -> Declared {
         }
     }
     declared
+}
+
+/// A type may be named before it is declared: it waits until all its bases are. What is left when nothing more fits
+/// names what nobody declares.
+fn declare_types(items: &[Item], declared: &mut Declared, faults: &mut Found) {
+    let types: Vec<(&Name, &[Name], bool)> = items
+        .iter()
+        .filter_map(|item| match item {
+            Item::Type { name, bases, is_union } => Some((name, bases.as_slice(), *is_union)),
+            _ => None,
+        })
+        .collect();
+    let mut waiting: HashMap<&str, Vec<usize>> = HashMap::new();
+    let mut missing = vec![0_usize; types.len()];
+    for (number, (_, bases, _)) in types.iter().enumerate() {
+        for base in *bases {
+            if !declared.type_names.contains_key(&base.text) {
+                waiting.entry(&base.text).or_default().push(number);
+                missing[number] += 1;
+            }
+        }
+    }
+    let mut left: BTreeSet<usize> = (0..types.len()).collect();
+    let mut ready: BTreeSet<usize> =
+        (0..types.len()).filter(|number| missing[*number] == 0).collect();
+    while let Some(next) = ready.pop_first().or_else(|| left.first().copied()) {
+        left.remove(&next);
+        ready.remove(&next);
+        let (name, bases, is_union) = types[next];
+        declare_type(name, bases, is_union, declared, faults);
+        if declared.type_names.contains_key(&name.text) {
+            for number in waiting.remove(name.text.as_str()).into_iter().flatten() {
+                missing[number] -= 1;
+                if missing[number] == 0 && left.contains(&number) {
+                    ready.insert(number);
+                }
+            }
+        }
+    }
 }
 
 /// `<:` puts the new type below its base; `=` with several bases puts it above all of them.
@@ -192,22 +243,17 @@ fn declare_type(
         bases.iter().filter_map(|base| type_named(base, declared, faults)).collect();
     let Some(first) = known.first().copied() else { return };
     let id = declared.types.len();
-    if declared.type_names.insert(name.text.clone(), id).is_some() {
+    if declared.type_names.contains_key(&name.text) {
         let fault = RuleError::Duplicate { name: name.text.clone(), at: name.at.into() };
         faults.push(name.at, fault);
         return;
     }
     let kind = declared.types[first].kind;
-    let mut above = BTreeSet::new();
-    if bases.len() == 1 {
-        above.extend(declared.types[first].above.iter().copied());
-        above.insert(first);
-    } else {
-        // The primitive type is above a union as it is above the union's parts.
-        above.insert(primitive(kind));
-    }
     let parts = if is_union { known.clone() } else { Vec::new() };
-    declared.types.push(Type { name: name.text.clone(), kind, above, parts });
+    declared.type_names.insert(name.text.clone(), id);
+    declared.types.push(Type { name: name.text.clone(), kind, below: Vec::new(), parts });
+    // The primitive type is above a union as it is above the union's parts.
+    declared.put_below(id, if bases.len() == 1 { first } else { primitive(kind) });
     if is_union {
         for (part, base) in known.iter().zip(bases) {
             if declared.types[*part].kind != kind {
@@ -222,18 +268,12 @@ fn declare_type(
                 faults.push(base.at, fault);
             }
         }
-        for other in 0..id {
-            if known.iter().any(|part| declared.is_subtype(other, *part))
-                && *part_kind(declared, other) == kind
-            {
-                declared.types[other].above.insert(id);
+        for part in known {
+            if declared.types[part].kind == kind {
+                declared.put_below(part, id);
             }
         }
     }
-}
-
-fn part_kind(declared: &Declared, id: usize) -> &Kind {
-    &declared.types[id].kind
 }
 
 fn primitive(kind: Kind) -> usize {

@@ -6,6 +6,7 @@
 
 use std::cell::Ref;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use datafrog::Iteration;
 use miette::Diagnostic;
@@ -16,6 +17,7 @@ use super::database::Database;
 use super::derived::Derived;
 use super::finished::Finished;
 use super::head::{Head, head_variables};
+use super::limits::{Limits, Reached, Watch};
 use super::plan::{Plan, Request, Task, Version, plan};
 use super::program::{Clause, Expr, Kind, Literal, Program, RelationId, Stratum};
 use super::rows::{Growing, RowSet, SharedRows, Sink, growing, heap};
@@ -23,7 +25,7 @@ use super::run::Step;
 use super::word::Word;
 
 /// Why a program has no result.
-#[derive(Debug, Clone, PartialEq, Eq, Error, Diagnostic)]
+#[derive(Debug, Clone, PartialEq, Error, Diagnostic)]
 pub enum EvaluateError {
     /// A rule that always finds something new, or more than memory should hold.
     #[error("отношение «{relation}» больше {limit} строк")]
@@ -34,6 +36,24 @@ pub enum EvaluateError {
         )
     )]
     TooMany { relation: String, limit: usize },
+    /// It takes longer than it may.
+    #[error("{rule}: за {seconds} с отношение «{relation}» не выведено")]
+    #[diagnostic(
+        code(facts::time),
+        help(
+            "правило, видимо, порождает новое без конца: ограничьте в нём числа сравнением; или дайте больше времени (--time-limit)"
+        )
+    )]
+    Time { relation: String, rule: String, seconds: f64 },
+    /// It takes more memory than it may.
+    #[error("{rule}: отношение «{relation}» не помещается в {megabytes} МиБ памяти")]
+    #[diagnostic(
+        code(facts::memory),
+        help(
+            "свяжите посылки правила общими переменными или ограничьте его сравнением; или дайте больше памяти (--memory-limit)"
+        )
+    )]
+    Memory { relation: String, rule: String, megabytes: usize },
 }
 
 /// A relation's rows at most, unless `.limitsize` says less.
@@ -43,9 +63,21 @@ impl Program {
     /// Derives everything that follows from the database.
     ///
     /// # Errors
-    /// [`EvaluateError::TooMany`] when a relation outgrows the limit.
+    /// [`EvaluateError`] when a relation outgrows the limit, or the whole those of [`Limits`].
     pub fn evaluate(&self, database: &Database) -> Result<Derived, EvaluateError> {
-        let mut evaluation = Evaluation::new(self, database);
+        self.evaluate_within(database, Limits::default())
+    }
+
+    /// As [`Self::evaluate`], within other limits.
+    ///
+    /// # Errors
+    /// As [`Self::evaluate`].
+    pub fn evaluate_within(
+        &self,
+        database: &Database,
+        limits: Limits,
+    ) -> Result<Derived, EvaluateError> {
+        let mut evaluation = Evaluation::new(self, database, limits);
         let last_readers = self.last_readers();
         for (n, stratum) in self.strata.iter().enumerate() {
             evaluation.stratum(stratum)?;
@@ -57,6 +89,23 @@ impl Program {
 }
 
 impl Program {
+    /// That a limit was reached while a clause ran, if one was.
+    pub(super) fn check_limits(&self, clause: &Clause, watch: &Watch) -> Result<(), EvaluateError> {
+        let Some(reached) = watch.reached() else { return Ok(()) };
+        let relation = self.info(clause.head).name.clone();
+        let rule = self.place(clause.at);
+        let limits = watch.limits();
+        Err(match reached {
+            Reached::Time => {
+                EvaluateError::Time { relation, rule, seconds: limits.time.as_secs_f64() }
+            }
+            Reached::Memory => {
+                let megabytes = limits.memory_bytes >> 20;
+                EvaluateError::Memory { relation, rule, megabytes }
+            }
+        })
+    }
+
     /// For each relation the number of the last stratum that reads it.
     fn last_readers(&self) -> Vec<usize> {
         let mut last = vec![0; self.relations.len()];
@@ -80,15 +129,21 @@ pub(super) struct Evaluation<'a> {
 }
 
 impl<'a> Evaluation<'a> {
-    pub(super) fn new(program: &'a Program, database: &Database) -> Self {
+    fn new(program: &'a Program, database: &Database, limits: Limits) -> Self {
         let all: Vec<RelationId> = program.relations().map(|(relation, _)| relation).collect();
-        Self::of(program, database, &all)
+        Self::of(program, database, &all, limits)
     }
 
     /// To evaluate some relations only.
-    pub(super) fn of(program: &'a Program, database: &Database, relations: &[RelationId]) -> Self {
+    pub(super) fn of(
+        program: &'a Program,
+        database: &Database,
+        relations: &[RelationId],
+        limits: Limits,
+    ) -> Self {
         let given = given(program, database, relations);
-        let finished = Finished::new(database.words.share(), vec![None; given.len()]);
+        let watch = Rc::new(Watch::new(limits));
+        let finished = Finished::new(database.words.share(), vec![None; given.len()], watch);
         Self { program, finished, given }
     }
 
@@ -112,6 +167,10 @@ impl<'a> Evaluation<'a> {
         Err(EvaluateError::TooMany { relation, limit: MAX_ROWS })
     }
 
+    fn check_limits(&self, clause: &Clause) -> Result<(), EvaluateError> {
+        self.program.check_limits(clause, &self.finished.watch)
+    }
+
     pub(super) fn stratum(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
         let program = self.program;
         let clauses: Vec<&Clause> = stratum.clauses.iter().map(|n| &program.clauses[*n]).collect();
@@ -130,6 +189,7 @@ impl<'a> Evaluation<'a> {
                 let mut new = heap(self.program.info(*relation).columns.len());
                 (0..given.len()).for_each(|at| new.push(given.row(at)));
                 for clause in clauses {
+                    self.finished.watch.hold(self.finished.bytes());
                     let limit = self.limit(*relation);
                     let versions = vec![Version::Finished; clause.body.len()];
                     let mut plan = self.plan(clause, &versions, None);
@@ -139,6 +199,7 @@ impl<'a> Evaluation<'a> {
                     }
                     self.finished.provide(&mut plan);
                     self.emit(clause, &plan, &no_parts(&plan), limit, new.as_sink());
+                    self.check_limits(clause)?;
                 }
                 self.check_size(*relation, new.len())?;
                 new.sort()
@@ -178,6 +239,7 @@ impl<'a> Evaluation<'a> {
                     limit,
                     &mut *growing[&clause.head].sink(),
                 );
+                self.check_limits(clause)?;
             }
             for recent in &own {
                 let mut versions = vec![Version::Finished; clause.body.len()];
@@ -207,6 +269,7 @@ impl<'a> Evaluation<'a> {
                 plan.requests.iter().map(order).collect()
             })
             .collect();
+        let finished = self.finished.bytes();
         loop {
             growing.values_mut().for_each(|rows| rows.flush());
             if !iteration.changed() {
@@ -214,6 +277,8 @@ impl<'a> Evaluation<'a> {
             }
             growing.values_mut().for_each(|rows| rows.follow());
             orders.changed();
+            let held = finished + growing.values().map(|rows| rows.bytes()).sum::<usize>();
+            self.finished.watch.hold(held);
             for ((clause, plan), orders) in rounds.iter().zip(&orders_of) {
                 let limit = self.limit(clause.head);
                 let is_limited = limit < MAX_ROWS;
@@ -221,6 +286,7 @@ impl<'a> Evaluation<'a> {
                 let room = limit.saturating_sub(held);
                 let parts = parts(plan, orders, &growing);
                 self.emit(clause, plan, &parts, room, &mut *growing[&clause.head].sink());
+                self.check_limits(clause)?;
             }
             for (relation, rows) in &growing {
                 self.check_size(*relation, rows.len() + rows.sink().len())?;
@@ -270,7 +336,8 @@ impl<'a> Evaluation<'a> {
         limit: usize,
         sink: &mut dyn Sink,
     ) {
-        let mut head = Head::new(self.program, clause, limit, sink);
+        let watch = Rc::clone(&self.finished.watch);
+        let mut head = Head::new(self.program, clause, limit, sink, &watch);
         let mut registers = vec![0; clause.variables.len()];
         self.finished.run(plan, parts, &mut registers, &mut head);
     }

@@ -13,6 +13,7 @@ use super::database::{Database, FactError, Known, Loader};
 use super::derived::Derived;
 use super::evaluate::EvaluateError;
 use super::fault::{Faults, FileFaults};
+use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
 use crate::units::Source;
 
@@ -74,6 +75,7 @@ pub fn run_files(
     program: &Path,
     facts_dir: &Path,
     out_dir: &Path,
+    limits: Limits,
 ) -> Result<FilesReport, FilesError> {
     let program = Program::parse_included(&with_included(program)?)?;
     for (_, info) in program.relations() {
@@ -86,7 +88,7 @@ pub fn run_files(
             read(&mut database, relation, info, parameters, facts_dir)?;
         }
     }
-    let derived = program.evaluate(&database)?;
+    let derived = program.evaluate_within(&database, limits)?;
     let mut report =
         FilesReport { warnings: program.warnings().to_vec(), ..FilesReport::default() };
     for (relation, info) in program.relations() {
@@ -402,7 +404,7 @@ mod tests {
         let program = folder.path().join("программа.dl");
         std::fs::write(&program, PROGRAM).unwrap();
         std::fs::write(folder.path().join("двери.tsv"), facts).unwrap();
-        let report = run_files(&program, folder.path(), folder.path());
+        let report = run_files(&program, folder.path(), folder.path(), Limits::default());
         let written = std::fs::read_to_string(folder.path().join("путь.csv")).unwrap_or_default();
         (report, written)
     }

@@ -2,8 +2,10 @@
 
 use std::cell::{Ref, RefCell};
 use std::collections::HashMap;
+use std::rc::Rc;
 
 use super::index::Index;
+use super::limits::Watch;
 use super::plan::{Plan, Request, Statistics, UNKNOWN_SHARE};
 use super::program::{Expr, RelationId};
 use super::rows::{RowSet, SharedRows};
@@ -15,12 +17,19 @@ pub(super) struct Finished {
     pub(super) words: Words,
     pub(super) rows: Vec<Option<SharedRows>>,
     pub(super) indexes: HashMap<(RelationId, Vec<Expr>), Index>,
+    pub(super) watch: Rc<Watch>,
     distinct: RefCell<HashMap<(RelationId, usize), f64>>,
 }
 
 impl Finished {
-    pub(super) fn new(words: Words, rows: Vec<Option<SharedRows>>) -> Self {
-        Self { words, rows, indexes: HashMap::new(), distinct: RefCell::default() }
+    pub(super) fn new(words: Words, rows: Vec<Option<SharedRows>>, watch: Rc<Watch>) -> Self {
+        Self { words, rows, indexes: HashMap::new(), watch, distinct: RefCell::default() }
+    }
+
+    /// Memory held by relations and indexes, near enough.
+    pub(super) fn bytes(&self) -> usize {
+        let rows: usize = self.rows.iter().flatten().map(|rows| rows.bytes()).sum();
+        rows + self.indexes.values().map(Index::bytes).sum::<usize>()
     }
 
     pub(super) fn relation(&self, relation: RelationId) -> &dyn RowSet {
@@ -74,7 +83,7 @@ impl Finished {
                 Request::Growing { .. } => Source::Rows(parts.iter().map(|part| &**part).collect()),
             });
         }
-        run(&plan.steps, &sources, registers, &mut self.words, goal)
+        run(&plan.steps, &sources, registers, &mut self.words, &self.watch, goal)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The head of a clause: its tuple for each solution of the body.
 
 use super::evaluate::MAX_ROWS;
+use super::limits::Watch;
 use super::program::{Clause, Expr, Kind, Program, VariableId};
 use super::rows::Sink;
 use super::run::Goal;
@@ -25,7 +26,11 @@ pub(super) struct Head<'a> {
     left: usize,
     row: Vec<Word>,
     sink: &'a mut dyn Sink,
+    watch: &'a Watch,
 }
+
+/// Solutions between two looks at the memory that they take.
+const SOLUTIONS_A_LOOK: usize = 1 << 12;
 
 impl<'a> Head<'a> {
     pub(super) fn new(
@@ -33,12 +38,13 @@ impl<'a> Head<'a> {
         clause: &'a Clause,
         limit: usize,
         sink: &'a mut dyn Sink,
+        watch: &'a Watch,
     ) -> Self {
         let columns = &program.info(clause.head).columns;
         let unsigned: Vec<usize> =
             (0..columns.len()).filter(|n| columns[*n].kind == Kind::Unsigned).collect();
         let row = vec![0; clause.args.len()];
-        Self { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink }
+        Self { args: &clause.args, unsigned, limit, left: MAX_ROWS, row, sink, watch }
     }
 }
 
@@ -56,7 +62,7 @@ impl Rows {
         clause: &Clause,
         run: impl FnOnce(&mut dyn Goal),
     ) {
-        run(&mut Head::new(program, clause, MAX_ROWS, self));
+        run(&mut Head::new(program, clause, MAX_ROWS, self, &Watch::unlimited()));
     }
 }
 
@@ -67,6 +73,10 @@ impl Sink for Rows {
 
     fn len(&self) -> usize {
         self.rows.len()
+    }
+
+    fn bytes(&self) -> usize {
+        self.rows.iter().map(|row| size_of_val(&**row) + size_of_val(row)).sum()
     }
 }
 
@@ -85,7 +95,13 @@ impl Goal for Head<'_> {
         if self.unsigned.iter().any(|n| words.to_number(self.row[*n]) < 0) {
             return false;
         }
-        if self.left == 0 || self.limit < MAX_ROWS && self.sink.len() >= self.limit {
+        if self.left.is_multiple_of(SOLUTIONS_A_LOOK) {
+            self.watch.weigh(self.sink.bytes() + words.bytes());
+        }
+        if self.watch.is_over()
+            || self.left == 0
+            || self.limit < MAX_ROWS && self.sink.len() >= self.limit
+        {
             return false;
         }
         self.left -= 1;

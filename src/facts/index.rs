@@ -65,6 +65,12 @@ impl Index {
         Self { order, len, keys, directory, columns: Vec::new() }
     }
 
+    /// Memory held, near enough.
+    pub(super) fn bytes(&self) -> usize {
+        let words = self.keys.len() + self.columns.len() + usize::from(self.order.is_some());
+        (words + 1) * self.len * size_of::<Word>()
+    }
+
     /// The number of the column that holds the expression, made if there is none yet.
     pub(super) fn column(&mut self, rows: &dyn RowSet, expr: &Expr, words: &mut Words) -> usize {
         if let Some(known) = self.columns.iter().position(|(known, _)| known == expr) {

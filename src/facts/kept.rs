@@ -9,6 +9,7 @@ use std::sync::{Arc, OnceLock};
 
 use super::finished::distinct;
 use super::index::Index;
+use super::limits::Watch;
 use super::plan::{Plan, Request, Statistics};
 use super::program::{Expr, RelationId};
 use super::rows::{RowSet, SharedRows};
@@ -201,7 +202,7 @@ impl Kept {
                 }
             });
         }
-        let found = run(&plan.steps, &sources, registers, &mut words, goal);
+        let found = run(&plan.steps, &sources, registers, &mut words, &Watch::unlimited(), goal);
         drop(sources);
         self.words = words;
         found

@@ -21,6 +21,7 @@ use super::derived::{Derived, Tuple};
 use super::evaluate::{EvaluateError, Evaluation, MAX_ROWS};
 use super::head::Rows;
 use super::kept::View;
+use super::limits::{Limits, Watch};
 use super::program::{Program, RelationId, Stratum};
 use super::stored::Stored;
 use super::word::{NO_WORD, Value, Word, Words};
@@ -247,6 +248,9 @@ struct Update<'a> {
     told: &'a HashMap<RelationId, Lines>,
 }
 
+/// What a tuple takes that an update adds, near enough.
+const BYTES_A_TUPLE: usize = 128;
+
 /// More may have to be given up than evaluation from scratch would cost.
 struct TooMuch;
 
@@ -331,6 +335,7 @@ impl Update<'_> {
         }
         self.touched_heads(stratum, View::After, &mut rising);
         let mut added = 0;
+        let watch = Watch::new(Limits::default());
         while !rising.is_empty() {
             let mut new = Vec::new();
             for (relation, row) in std::mem::take(&mut rising) {
@@ -342,6 +347,11 @@ impl Update<'_> {
             if added >= MAX_ROWS {
                 let relation = self.program.info(stratum.relations[0]).name.clone();
                 return Err(EvaluateError::TooMany { relation, limit: MAX_ROWS });
+            }
+            if watch.weigh(added * BYTES_A_TUPLE)
+                && let Some(clause) = stratum.clauses.first()
+            {
+                self.program.check_limits(&self.program.clauses[*clause], &watch)?;
             }
             if is_recursive {
                 self.follow(stratum, &new, View::After, &mut rising);
@@ -463,7 +473,8 @@ impl Update<'_> {
     /// Evaluates the stratum from nothing.
     fn anew(&mut self, stratum: &Stratum) -> Result<(), EvaluateError> {
         let program = self.program;
-        let mut evaluation = Evaluation::of(program, self.database, &stratum.relations);
+        let mut evaluation =
+            Evaluation::of(program, self.database, &stratum.relations, Limits::default());
         evaluation.finished.words = std::mem::take(&mut self.derived.kept.words);
         for clause in &stratum.clauses {
             reads(&program.clauses[*clause].body, false, &mut |relation, _, _| {

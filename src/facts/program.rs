@@ -245,6 +245,13 @@ impl Program {
     }
 
     /// Texts that were read with all that they include.
+    /// `rules.dl:3:1`
+    pub(super) fn place(&self, at: Span) -> String {
+        let source = &self.sources[at.file as usize];
+        let (line, column) = source.position(at.start as usize);
+        format!("{}:{line}:{column}", source.name())
+    }
+
     pub(super) fn parse_included(sources: &[Source]) -> Result<Self, Faults> {
         let mut faults = Found::default();
         let items = all_items(sources, &mut faults);

@@ -71,6 +71,8 @@ pub(super) use at_width;
 pub(super) trait RowSet {
     fn len(&self) -> usize;
     fn row(&self, at: usize) -> &[Word];
+    /// Memory held.
+    fn bytes(&self) -> usize;
     /// One column of all rows.
     fn column(&self, column: usize) -> Vec<Word>;
     /// The rows that start with the key.
@@ -92,6 +94,10 @@ impl<const N: usize> RowSet for Relation<Row<N>> {
 
     fn row(&self, at: usize) -> &[Word] {
         &self.elements[at].0
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(self.elements.as_slice())
     }
 
     fn column(&self, column: usize) -> Vec<Word> {
@@ -124,6 +130,8 @@ pub(super) trait Sink {
     fn push(&mut self, row: &[Word]);
     /// Rows pushed so far.
     fn len(&self) -> usize;
+    /// Memory that they take, now and when they are sorted.
+    fn bytes(&self) -> usize;
 }
 
 /// Rows in any order, to become a [`RowSet`].
@@ -145,6 +153,10 @@ impl<const N: usize> Sink for Vec<Row<N>> {
 
     fn len(&self) -> usize {
         self.len()
+    }
+
+    fn bytes(&self) -> usize {
+        (self.capacity() + self.len()) * size_of::<Row<N>>()
     }
 }
 
@@ -258,6 +270,8 @@ pub(super) trait Growing {
     fn recent(&self, order: usize) -> Ref<'_, dyn RowSet>;
     fn stable(&self, order: usize) -> Vec<Ref<'_, dyn RowSet>>;
     fn len(&self) -> usize;
+    /// Memory held, what was pushed since included.
+    fn bytes(&self) -> usize;
     fn complete(self: Box<Self>) -> SharedRows;
 }
 
@@ -301,6 +315,11 @@ impl<const N: usize> Sink for Pushed<N> {
 
     fn len(&self) -> usize {
         self.rows.len() + self.outside.len()
+    }
+
+    fn bytes(&self) -> usize {
+        let seen = self.seen.as_ref().map_or(0, Seen::bytes);
+        Sink::bytes(&self.rows) + Sink::bytes(&self.outside) + seen
     }
 }
 
@@ -440,6 +459,15 @@ impl<const N: usize> Growing for GrowingRows<N> {
         }
         let stable: usize = self.rows.stable.borrow().iter().map(|batch| batch.len()).sum();
         stable + self.rows.recent.borrow().len()
+    }
+
+    fn bytes(&self) -> usize {
+        let batches = |rows: &Variable<Row<N>>| {
+            let stable: usize = rows.stable.borrow().iter().map(|batch| batch.len()).sum();
+            stable + rows.recent.borrow().len()
+        };
+        let own = std::iter::once(&self.rows).chain(self.orders.iter().map(|(_, rows)| rows));
+        own.map(batches).sum::<usize>() * size_of::<Row<N>>() + self.pushed.borrow().bytes()
     }
 
     fn complete(self: Box<Self>) -> SharedRows {

@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use super::index::{Index, IndexColumn};
 use super::kept::{KeptIndex, column_word};
+use super::limits::Watch;
 use super::program::{Bounds, Compare, Expr};
 use super::rows::RowSet;
 use super::stored::{Slot, Stored};
@@ -137,15 +138,17 @@ impl<F: FnMut(&[Word], &mut Words) -> bool> Goal for F {
     }
 }
 
-/// Runs the steps from the given registers; true when the goal accepted something.
+/// Runs the steps from the given registers; true when the goal accepted something. When the watch says that it is
+/// over, what was found so far is all.
 pub(super) fn run(
     steps: &[Step],
     sources: &[Source<'_>],
     registers: &mut [Word],
     words: &mut Words,
+    watch: &Watch,
     goal: &mut dyn Goal,
 ) -> bool {
-    Machine { steps, sources, registers, words, goal, spare: Vec::new() }.run(0)
+    Machine { steps, sources, registers, words, watch, goal, spare: Vec::new() }.run(0)
 }
 
 struct Machine<'a, 'b> {
@@ -153,6 +156,7 @@ struct Machine<'a, 'b> {
     sources: &'a [Source<'b>],
     registers: &'a mut [Word],
     words: &'a mut Words,
+    watch: &'a Watch,
     goal: &'a mut dyn Goal,
     /// Buffers for selected rows, one for each scan that is not using one now.
     spare: Vec<Vec<u32>>,
@@ -238,6 +242,9 @@ impl<'a> Machine<'a, '_> {
         }
         let mut found = false;
         for number in numbers.iter() {
+            if self.watch.tick() {
+                break;
+            }
             self.registers[register] = self.words.number(number);
             found |= self.run(next);
         }
@@ -278,6 +285,9 @@ impl<'a> Machine<'a, '_> {
     }
 
     fn scan(&mut self, scan: &'a Scan, next: usize) -> bool {
+        if self.watch.tick() {
+            return false;
+        }
         let sources = self.sources;
         if let [one] = scan.key.as_slice() {
             let Some(word) = self.compute(one) else { return false };
@@ -484,6 +494,7 @@ impl<'a> Machine<'a, '_> {
             sources: self.sources,
             registers: &mut *self.registers,
             words: &mut *self.words,
+            watch: self.watch,
             goal: &mut each,
             spare: Vec::new(),
         };

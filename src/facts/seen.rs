@@ -43,6 +43,11 @@ impl Seen {
         Some(Self { least, width: [span; 2], bits: vec![0; bits.div_ceil(64)], len: 0 })
     }
 
+    /// Memory held.
+    pub(super) fn bytes(&self) -> usize {
+        size_of_val(self.bits.as_slice())
+    }
+
     /// Whether the pair is new; none when it lies outside the range.
     #[inline]
     pub(super) fn insert<const N: usize>(&mut self, row: &Row<N>) -> Option<bool> {

@@ -134,11 +134,8 @@ fn text(expr: &Expr, variable: &impl Fn(VariableId) -> Word, words: &mut Words) 
 pub(super) struct Numbers {
     from: i64,
     step: i64,
-    count: i64,
+    count: u64,
 }
-
-/// Longer ranges are no values: a rule over one would not end.
-const MAX_NUMBERS: i128 = 1 << 31;
 
 impl Numbers {
     pub(super) fn contains(self, number: i64) -> bool {
@@ -151,11 +148,12 @@ impl Numbers {
     }
 
     pub(super) fn iter(self) -> impl Iterator<Item = i64> {
-        (0..self.count).map(move |n| self.from + n * self.step)
+        // The last is within the bounds, so what wraps on the way comes back.
+        (0..self.count).map(move |n| self.from.wrapping_add((n as i64).wrapping_mul(self.step)))
     }
 }
 
-/// None where a bound has no value, or the range is too long.
+/// None where a bound has no value.
 pub(super) fn numbers(
     bounds: &Bounds,
     variable: &impl Fn(VariableId) -> Word,
@@ -174,7 +172,7 @@ pub(super) fn numbers(
         step if far.signum() != step.signum() => 0,
         step => (far.abs() + step.abs() - 1) / step.abs(),
     };
-    let count = i64::try_from(count).ok().filter(|count| i128::from(*count) <= MAX_NUMBERS)?;
+    let count = u64::try_from(count).expect("two numbers of 64 bits are less than 2^64 apart");
     Some(Numbers { from, step, count })
 }
 

@@ -89,6 +89,7 @@ struct Layer {
     /// Symbols and large numbers of the layers below.
     below: (usize, usize),
     symbols: Vec<Arc<str>>,
+    text_bytes: usize,
     symbol_words: HashMap<Arc<str>, Word, RandomState>,
     numbers: Vec<i64>,
     number_words: HashMap<i64, Word, RandomState>,
@@ -104,7 +105,15 @@ impl Layer {
         (self.below.0 + self.symbols.len(), self.below.1 + self.numbers.len())
     }
 
+    /// Memory held, near enough: each text twice referred to.
+    fn bytes(&self) -> usize {
+        const A_SYMBOL: usize = 72;
+        const A_NUMBER: usize = 32;
+        self.text_bytes + self.symbols.len() * A_SYMBOL + self.numbers.len() * A_NUMBER
+    }
+
     fn append(&mut self, above: Self) {
+        self.text_bytes += above.text_bytes;
         self.symbols.extend(above.symbols);
         self.symbol_words.extend(above.symbol_words);
         self.numbers.extend(above.numbers);
@@ -160,10 +169,16 @@ impl Words {
         }
         let word = self.own.end().0 as Word;
         assert!(word < NO_WORD, "fewer than 2^32 - 1 symbols fit into the memory that holds them");
+        self.own.text_bytes += text.len();
         let text: Arc<str> = text.into();
         self.own.symbols.push(Arc::clone(&text));
         self.own.symbol_words.insert(text, word);
         word
+    }
+
+    /// Memory that symbols and large numbers take, near enough.
+    pub(super) fn bytes(&self) -> usize {
+        self.layers().map(Layer::bytes).sum()
     }
 
     /// All symbols in the order of their words.

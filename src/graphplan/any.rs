@@ -31,6 +31,8 @@ pub(super) enum Found {
 /// How long to go on where hill climbing is stuck.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Effort {
+    /// Hill climbing, and a little width.
+    Least,
     Small,
     All,
 }
@@ -73,9 +75,9 @@ struct Forward<'a> {
 }
 
 impl Forward<'_> {
-    /// Hill climbing, then a little width, then landmarks, then width, then relaxed plans and landmarks.
+    /// Hill climbing, then a little width, and with the least effort no more; then landmarks, then width, then relaxed plans and landmarks.
     fn sequence(&mut self) -> Result<Searched, Limit> {
-        if self.effort == Effort::Small
+        if self.effort != Effort::All
             && let Some((operators, _)) = self.climb(self.initial())?
         {
             return Ok(Searched::Path(operators));
@@ -83,7 +85,7 @@ impl Forward<'_> {
         let landmarks = Landmarks::of(self.task);
         // What is looked at by width leaves room for what comes after it.
         let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
-        if self.effort == Effort::Small
+        if self.effort != Effort::All
             && let Some(landmarks) = &landmarks
         {
             if let Some(operators) = self.climb_in_order(landmarks.goals_in_order())? {
@@ -92,9 +94,14 @@ impl Forward<'_> {
             if let Some(found) = self.by_width(Some(landmarks), FEWEST_STATES_BY_WIDTH, &half)? {
                 return Ok(found);
             }
-            if let Some(operators) = self.descend()? {
+            if self.effort == Effort::Small
+                && let Some(operators) = self.descend()?
+            {
                 return Ok(Searched::Path(operators));
             }
+        }
+        if self.effort == Effort::Least {
+            return Ok(Searched::Open);
         }
         let first = if self.effort == Effort::Small { 0 } else { 1 };
         // Both take turns, each with more effort than before: where one loses its way, the other may know it.
@@ -589,14 +596,10 @@ pub(super) fn in_parallel(task: &Task, operators: impl Iterator<Item = OperatorI
     let mut steps: Vec<Vec<OperatorId>> = Vec::new();
     for id in operators {
         let operator = task.operator(id);
-        let meets = |a: &[FactId], b: &[FactId]| a.iter().any(|fact| b.contains(fact));
         let follows = |earlier: OperatorId| {
             let earlier = task.operator(earlier);
-            meets(&earlier.add_effects, &operator.preconditions)
-                || meets(&earlier.del_effects, &operator.preconditions)
-                || meets(&earlier.del_effects, &operator.add_effects)
-                || meets(&operator.del_effects, &earlier.preconditions)
-                || meets(&operator.del_effects, &earlier.add_effects)
+            earlier.add_effects.iter().any(|fact| operator.preconditions.contains(fact))
+                || earlier.interferes(operator)
         };
         let after =
             placed.iter().filter(|(earlier, _)| follows(*earlier)).map(|(_, step)| step + 1);

@@ -6,7 +6,8 @@
 //! it; what else `c` needs stays too, for whoever deletes it needs something that excludes `f`.
 //!
 //! The conditions are read off below. They ask of `c` no more than `a` and `b` had, that it adds what they did, and
-//! deletes nothing that they did not.
+//! deletes nothing that they did not, be it for a moment; what it needs in their stead nobody else may delete then, not
+//! even for a moment.
 
 use std::collections::HashMap;
 
@@ -25,13 +26,15 @@ pub(super) struct Detours<'a> {
     stays: HashMap<(FactId, FactId), bool>,
     implied: HashMap<(FactId, FactId), bool>,
     alone: HashMap<(FactId, FactId), bool>,
+    untouched: HashMap<(FactId, FactId), bool>,
 }
 
-/// By whom each fact is added, needed and deleted, of those who can be carried out; what holds at first, and in the end.
+/// By whom each fact is added, needed, deleted and renewed, of those who can be carried out; what holds at first, and in the end.
 pub(super) struct Uses {
     pub(super) added_by: Vec<Vec<OperatorId>>,
     pub(super) needed_by: Vec<Vec<OperatorId>>,
     pub(super) deleted_by: Vec<Vec<OperatorId>>,
+    renewed_by: Vec<Vec<OperatorId>>,
     pub(super) initially: Vec<bool>,
     pub(super) is_goal: Vec<bool>,
 }
@@ -39,13 +42,15 @@ pub(super) struct Uses {
 impl Uses {
     pub(super) fn of(task: &Task, pairs: &ReachedPairs) -> Self {
         let count = task.facts.len();
-        let (mut added_by, mut needed_by, mut deleted_by) =
-            (vec![Vec::new(); count], vec![Vec::new(); count], vec![Vec::new(); count]);
+        let nobody = || vec![Vec::new(); count];
+        let (mut added_by, mut needed_by, mut deleted_by, mut renewed_by) =
+            (nobody(), nobody(), nobody(), nobody());
         for id in task.operator_ids().filter(|id| pairs.applicable[id.index()]) {
             let operator = task.operator(id);
             operator.add_effects.iter().for_each(|f| added_by[f.index()].push(id));
             operator.preconditions.iter().for_each(|f| needed_by[f.index()].push(id));
             operator.del_effects.iter().for_each(|f| deleted_by[f.index()].push(id));
+            operator.renewed.iter().for_each(|f| renewed_by[f.index()].push(id));
         }
         let marked = |facts: &[FactId]| {
             let mut marks = vec![false; count];
@@ -53,7 +58,7 @@ impl Uses {
             marks
         };
         let (initially, is_goal) = (marked(&task.init), marked(&task.goal));
-        Self { added_by, needed_by, deleted_by, initially, is_goal }
+        Self { added_by, needed_by, deleted_by, renewed_by, initially, is_goal }
     }
 }
 
@@ -79,6 +84,7 @@ impl<'a> Detours<'a> {
             stays: HashMap::new(),
             implied: HashMap::new(),
             alone: HashMap::new(),
+            untouched: HashMap::new(),
         }
     }
 
@@ -132,6 +138,7 @@ impl<'a> Detours<'a> {
     fn is_as_good(&mut self, f: FactId, a: OperatorId, b: OperatorId, c: OperatorId) -> bool {
         let [first, last, direct] = [a, b, c].map(|id| self.task.operator(id));
         direct.cost <= first.cost + last.cost
+            && direct.renewed.iter().all(|fact| last.takes().any(|taken| taken == *fact))
             && direct.preconditions.iter().all(|&need| {
                 let own = last.preconditions.contains(&need) && !first.add_effects.contains(&need);
                 own || self.is_had(f, a, need)
@@ -154,6 +161,7 @@ impl<'a> Detours<'a> {
     fn is_had(&mut self, f: FactId, a: OperatorId, fact: FactId) -> bool {
         let given_up = self.task.operator(a).del_effects.contains(&fact);
         self.holds_before(a, fact)
+            && self.is_untouched(fact, f)
             && match given_up {
                 true => self.pairs.is_exclusive(fact, f) && self.is_given_up_by_need(fact),
                 false => self.stays_beside(fact, f),
@@ -181,6 +189,17 @@ impl<'a> Detours<'a> {
                 task.operator(id).preconditions.iter().any(|&need| pairs.is_exclusive(need, f))
             };
             deleted_by[fact.index()].iter().all(apart)
+        })
+    }
+
+    /// Whether nobody can renew a fact while `f` holds.
+    fn is_untouched(&mut self, fact: FactId, f: FactId) -> bool {
+        let (pairs, task, renewed_by) = (self.pairs, self.task, &self.uses.renewed_by);
+        *self.untouched.entry((fact, f)).or_insert_with(|| {
+            let apart = |&id: &OperatorId| {
+                task.operator(id).preconditions.iter().any(|&need| pairs.is_exclusive(need, f))
+            };
+            renewed_by[fact.index()].iter().all(apart)
         })
     }
 

@@ -27,7 +27,8 @@ impl ActionId {
 pub(super) struct Action {
     pub(super) preconditions: Box<[FactId]>,
     pub(super) add_effects: Box<[FactId]>,
-    pub(super) del_effects: Box<[FactId]>,
+    /// What it deletes, if only for a moment: through these it interferes with others.
+    pub(super) takes: Box<[FactId]>,
 }
 
 /// A level that no fact or action reaches.
@@ -74,6 +75,7 @@ pub(super) struct PlanningGraph {
     mutex: Vec<Pairs>,
     top: usize,
     leveled_off_at: Option<usize>,
+    effort: u64,
 }
 
 impl PlanningGraph {
@@ -83,12 +85,12 @@ impl PlanningGraph {
         let operators = task.operators.iter().map(|operator| Action {
             preconditions: operator.preconditions.as_slice().into(),
             add_effects: operator.add_effects.as_slice().into(),
-            del_effects: operator.del_effects.as_slice().into(),
+            takes: operator.takes().collect(),
         });
         let no_ops = task.fact_ids().map(|fact| Action {
             preconditions: [fact].into(),
             add_effects: [fact].into(),
-            del_effects: [].into(),
+            takes: [].into(),
         });
         let actions: Vec<Action> = operators.chain(no_ops).collect();
         let operator_count = task.operators.len();
@@ -110,6 +112,7 @@ impl PlanningGraph {
             mutex: vec![Pairs::new(fact_count)],
             top: 0,
             leveled_off_at: None,
+            effort: 0,
         }
     }
 
@@ -207,7 +210,7 @@ impl PlanningGraph {
     fn interfere(&self, a: ActionId, b: ActionId) -> bool {
         let (a, b) = (self.action(a), self.action(b));
         let breaks = |x: &Action, y: &Action| {
-            x.del_effects.iter().any(|f| y.preconditions.contains(f) || y.add_effects.contains(f))
+            x.takes.iter().any(|f| y.preconditions.contains(f) || y.add_effects.contains(f))
         };
         breaks(a, b) || breaks(b, a)
     }
@@ -229,7 +232,8 @@ impl PlanningGraph {
         }
         let new_actions = self.add_actions();
         let new_facts = self.add_facts();
-        let next = self.next_mutex(inherited, limits)?;
+        let (next, effort) = self.next_mutex(inherited, limits)?;
+        self.effort += effort + self.actions.len() as u64;
         if !new_actions && !new_facts && next == self.mutex[self.top] {
             self.leveled_off_at = Some(self.top);
         } else {
@@ -282,11 +286,12 @@ impl PlanningGraph {
         &self,
         inherited: Option<&Inherited<'_>>,
         limits: &Limits,
-    ) -> Result<Pairs, Limit> {
+    ) -> Result<(Pairs, u64), Limit> {
         let level = self.top as u32;
         let known = |a, b| inherited.is_some_and(|old| old.is_exclusive(self.top + 1, a, b));
         let old = &self.mutex[self.top];
         let mut next = Pairs::new(self.fact_level.len());
+        let mut effort = 0;
         let words = old.words;
         let (mut present, mut new) = (vec![0_u64; words], vec![0_u64; words]);
         for (fact, &first) in self.fact_level.iter().enumerate() {
@@ -310,6 +315,7 @@ impl PlanningGraph {
                 let open =
                     if is_new { present[word] } else { present[word] & (row[word] | new[word]) };
                 for bit in bits::of_word(open) {
+                    effort += 1;
                     let b = FactId((word * 64 + bit) as u32);
                     let excluded = |barred| !self.jointly_achievable(old, a, b, barred);
                     if b < a
@@ -320,7 +326,7 @@ impl PlanningGraph {
                 }
             }
         }
-        Ok(next)
+        Ok((next, effort))
     }
 
     /// The facts, as a row of bits, that no action may need beside any way to have `p`: each way excludes its
@@ -334,7 +340,7 @@ impl PlanningGraph {
             for &fact in &action.preconditions {
                 bits::unite(&mut excluded, mutex.row(fact));
             }
-            for fact in &action.del_effects {
+            for fact in &action.takes {
                 bits::put(&mut excluded, fact.index());
             }
             bits::keep_common(&mut barred, &excluded);
@@ -356,6 +362,11 @@ impl PlanningGraph {
         };
         self.ways(p).any(|a| self.action(a).add_effects.contains(&q))
             || self.ways(q).any(goes_beside)
+    }
+
+    /// Pairs of facts and actions looked at.
+    pub(super) fn effort(&self) -> u64 {
+        self.effort
     }
 
     /// Memory held, near enough to honour a limit.

@@ -75,7 +75,7 @@ enum Reply {
 impl<'a> Induction<'a> {
     /// The graph has leveled off: what excludes each other does so for good.
     pub(super) fn new(task: &'a Task, graph: &PlanningGraph, limits: &'a Limits) -> Self {
-        let mut solver = Solver::new(limits.deadline);
+        let mut solver = Solver::new(limits);
         let top = graph.top();
         let mut facts = || -> Vec<Option<Literal>> {
             let possible = |fact| graph.fact_level(fact) as usize <= top;

@@ -45,6 +45,7 @@ mod solver;
 mod symmetry;
 mod transition;
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 pub use plan::{Flaw, Plan, validate};
@@ -68,8 +69,45 @@ pub enum Outcome {
         leveled_off_at: usize,
         reason: NoPlanReason,
     },
-    /// Given up; nothing is known.
-    LimitReached(Limit),
+    /// Given up, with what is known.
+    LimitReached(Unfinished),
+}
+
+impl Outcome {
+    /// The plan that there is, proven to be the shortest or not.
+    #[must_use]
+    pub fn plan(&self) -> Option<&Plan> {
+        match self {
+            Self::Plan(plan) => Some(plan),
+            Self::NoPlan { .. } => None,
+            Self::LimitReached(unfinished) => unfinished.plan.as_ref(),
+        }
+    }
+
+    /// The limit that ended the search, if one did.
+    #[must_use]
+    pub fn limit(&self) -> Option<Limit> {
+        match self {
+            Self::LimitReached(unfinished) => Some(unfinished.limit),
+            _ => None,
+        }
+    }
+}
+
+/// What is known when a search is given up.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Unfinished {
+    pub limit: Limit,
+    /// Proven: no plan has fewer parallel steps.
+    pub at_least: usize,
+    /// A plan, though shorter ones are not ruled out: the fewest steps are no more than its.
+    pub plan: Option<Plan>,
+}
+
+impl From<Limit> for Unfinished {
+    fn from(limit: Limit) -> Self {
+        Self { limit, at_least: 0, plan: None }
+    }
 }
 
 /// Why there is no plan.
@@ -89,6 +127,8 @@ pub enum Limit {
     Time,
     Memory,
     Steps,
+    /// It was told to stop.
+    Stopped,
 }
 
 /// How far the search may go.
@@ -96,12 +136,16 @@ pub enum Limit {
 pub struct Limits {
     pub deadline: Option<Instant>,
     pub memory_bytes: usize,
+    /// Raised from outside, as by a signal, when the search is to end with what it has.
+    pub stop: Option<&'static AtomicBool>,
     pub parallel_steps: usize,
     /// Conflicts of the solver that may be spent on fewer actions once the fewest steps are found; on less cost,
     /// where actions have different costs.
     pub fewer_actions: u64,
     /// Pieces of a plan found soon that may be planned anew to shorten it.
     pub shorten: u64,
+    /// What shortening may take in all, in variables set by the solver and what takes as long.
+    pub shorten_effort: u64,
     /// Who is told of a plan found soon, and of every one with fewer steps that it is shortened to.
     pub tell: Option<fn(&Plan)>,
 }
@@ -112,9 +156,11 @@ impl Default for Limits {
         Self {
             deadline: None,
             memory_bytes: 1 << 30,
+            stop: None,
             parallel_steps: 10_000,
             fewer_actions: 1 << 10,
             shorten: 300,
+            shorten_effort: 1 << 28,
             tell: None,
         }
     }
@@ -126,10 +172,17 @@ impl Limits {
     /// # Errors
     /// The limit that was reached.
     pub fn check(&self, bytes: usize) -> Result<(), Limit> {
+        if self.is_stopped() {
+            return Err(Limit::Stopped);
+        }
         if self.deadline.is_some_and(|deadline| Instant::now() >= deadline) {
             return Err(Limit::Time);
         }
         if bytes > self.memory_bytes { Err(Limit::Memory) } else { Ok(()) }
+    }
+
+    fn is_stopped(&self) -> bool {
+        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
     }
 
     fn tell_of(&self, plan: &Plan) {
@@ -164,7 +217,7 @@ pub fn solve_learning(
         Ok((outcome, learned)) => {
             (outcome.expect("turns without end come to an answer"), Some(learned))
         }
-        Err(limit) => (Outcome::LimitReached(limit), None),
+        Err(unfinished) => (Outcome::LimitReached(unfinished), None),
     }
 }
 
@@ -172,15 +225,17 @@ pub fn solve_learning(
 /// another task, and is not kept; finding them out again costs less than the whole graph would.
 const LARGE: usize = 1_000;
 
-fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
+fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Unfinished> {
     let reduced = needed::Reduced::of(task, limits)?;
-    let (outcome, _) = with_stack(|| search(&reduced.task, limits, Turn::default(), None))?;
+    let own = |mut plan: Plan| {
+        plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
+        plan
+    };
+    let (outcome, _) = with_stack(|| search(&reduced.task, limits, Turn::default(), None))
+        .map_err(|unfinished| Unfinished { plan: unfinished.plan.map(own), ..unfinished })?;
     let facts = |facts: Vec<FactId>| facts.into_iter().map(|fact| reduced.fact(fact)).collect();
     Ok(match outcome.expect("turns without end come to an answer") {
-        Outcome::Plan(mut plan) => {
-            plan.steps.iter_mut().flatten().for_each(|id| *id = reduced.operator(*id));
-            Outcome::Plan(plan)
-        }
+        Outcome::Plan(plan) => Outcome::Plan(own(plan)),
         Outcome::NoPlan { leveled_off_at, reason } => {
             let reason = match reason {
                 NoPlanReason::Unreachable(unreachable) => {
@@ -194,7 +249,7 @@ fn solve_large(task: &Task, limits: &Limits) -> Result<Outcome, Limit> {
             };
             Outcome::NoPlan { leveled_off_at, reason }
         }
-        Outcome::LimitReached(limit) => Outcome::LimitReached(limit),
+        limit @ Outcome::LimitReached(_) => limit,
     })
 }
 
@@ -217,13 +272,14 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         any::Found::Exhausted => Some(solve(task, limits)),
         any::Found::Open => None,
     };
-    let tries = || -> Result<Outcome, Limit> {
+    let tries = || -> Result<Outcome, Unfinished> {
         if let Some(outcome) = found(any::search(task, limits, any::Effort::Small)?) {
             return Ok(outcome);
         }
+        let mut refuted = 0;
         // Where forward search loses its way, the graph may see at once that there is none, or the solver that there
         // is one; if it is small.
-        let turn = Turn { turns: Some(FEW_TURNS), goes_on: true, ..Turn::default() };
+        let turn = Turn { turns: Some(FEW_TURNS), goes_on: true, seek: None, ..Turn::default() };
         let brief = Limits {
             memory_bytes: limits.memory_bytes / FEW_OF_MEMORY,
             parallel_steps: limits.parallel_steps.min(FEW_STEPS),
@@ -232,24 +288,30 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         match with_stack(|| search(task, &brief, turn, None)) {
             Ok((Some(Outcome::Plan(plan)), _)) => return Ok(shortened(plan)),
             Ok((Some(outcome), _)) => return Ok(outcome),
-            Err(Limit::Time) => return Err(Limit::Time),
-            Ok((None, _)) | Err(Limit::Memory | Limit::Steps) => {}
+            Err(unfinished) if matches!(unfinished.limit, Limit::Time | Limit::Stopped) => {
+                return Err(unfinished);
+            }
+            Err(unfinished) => refuted = unfinished.at_least,
+            Ok((None, _)) => {}
         }
-        Ok(found(any::search(task, limits, any::Effort::All)?)
-            .expect("all effort leaves nothing open"))
+        let all = any::search(task, limits, any::Effort::All)
+            .map_err(|limit| Unfinished { at_least: refuted, ..limit.into() })?;
+        Ok(found(all).expect("all effort leaves nothing open"))
     };
     tries().unwrap_or_else(Outcome::LimitReached)
 }
 
 /// Runs a search on a stack of its own: it goes as deep as a plan has goals and steps.
-fn with_stack<T: Send>(search: impl FnOnce() -> Result<T, Limit> + Send) -> Result<T, Limit> {
+fn with_stack<T: Send, E: From<Limit> + Send>(
+    search: impl FnOnce() -> Result<T, E> + Send,
+) -> Result<T, E> {
     const STACK_BYTES: usize = 1 << 29;
     std::thread::scope(|scope| {
         std::thread::Builder::new()
             .name("graphplan".to_owned())
             .stack_size(STACK_BYTES)
             .spawn_scoped(scope, search)
-            .map_or(Err(Limit::Memory), |search| {
+            .map_or(Err(Limit::Memory.into()), |search| {
                 search.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
             })
     })
@@ -284,62 +346,109 @@ struct Turn {
     turns: Option<u32>,
     /// A level given up is left for one farther on, where more plans lie: the first found need not be the shortest.
     goes_on: bool,
+    /// Effort in all before giving up, if ever.
+    effort: Option<u64>,
+    /// After so much effort it is time for some plan, if ever, to know how far there is to go: a search that is given
+    /// up then leaves it behind, and at its length nothing is left to be sought.
+    seek: Option<u64>,
 }
 
 impl Default for Turn {
     fn default() -> Self {
-        Self { choices: 1 << 13, conflicts: 1 << 9, turns: None, goes_on: false }
+        Self {
+            choices: 1 << 13,
+            conflicts: 1 << 9,
+            turns: None,
+            goes_on: false,
+            effort: None,
+            seek: Some(1 << 22),
+        }
     }
 }
 
-/// No outcome when the turns at some level are used up.
+/// No outcome when the turns at some level are used up, or the effort in all.
 fn search(
     task: &Task,
     limits: &Limits,
     turn: Turn,
     inherited: Option<&Inherited<'_>>,
-) -> Result<(Option<Outcome>, Learned), Limit> {
-    let mut graph = PlanningGraph::new(task);
+) -> Result<(Option<Outcome>, Learned), Unfinished> {
     let mut extractor = Extractor::new(task, limits, turn);
+    let mut graph = PlanningGraph::new(task);
+    match by_levels(&mut graph, &mut extractor, inherited) {
+        Ok(outcome) => {
+            let fewest_steps = graph.top();
+            let no_goods = extractor.search.into_no_goods();
+            let (task, state) = (task.clone(), task.init.clone());
+            Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
+        }
+        Err(limit) => {
+            Err(Unfinished { limit, at_least: extractor.at_least, plan: extractor.known })
+        }
+    }
+}
+
+/// What a search comes to, if it does, and what it took.
+fn search_counted(task: &Task, limits: &Limits, turn: Turn) -> (Option<Outcome>, u64) {
+    let mut extractor = Extractor::new(task, limits, turn);
+    let mut graph = PlanningGraph::new(task);
+    let outcome = by_levels(&mut graph, &mut extractor, None);
+    (outcome.ok().flatten(), extractor.effort(&graph))
+}
+
+fn by_levels(
+    graph: &mut PlanningGraph,
+    extractor: &mut Extractor<'_>,
+    inherited: Option<&Inherited<'_>>,
+) -> Result<Option<Outcome>, Limit> {
+    let Extractor { task, limits, turn, .. } = *extractor;
     if let Some(inherited) = inherited {
         extractor.search.inherit(inherited.no_goods());
     }
     let mut too_few = inherited.map_or(0, Inherited::fewest_steps);
-    let outcome = loop {
+    // Whether every length so far was refuted, and none only left.
+    let mut are_refuted = true;
+    extractor.at_least = too_few;
+    loop {
         limits.check(graph.bytes() + extractor.bytes())?;
+        if turn.effort.is_some_and(|most| extractor.effort(graph) > most) {
+            return Ok(None);
+        }
         if graph.is_possible(&task.goal) {
             if graph.top() >= too_few {
-                match extractor.extract(&graph)? {
+                match extractor.extract(graph)? {
                     Extraction::Plan(mut plan) => {
                         any::drop_needless(task, &mut plan.steps);
                         let encoding = &mut extractor.encoding;
-                        let plan = fewest::fewest(task, &graph, encoding, plan, limits);
-                        break Some(Outcome::Plan(plan));
+                        let plan = fewest::fewest(task, graph, encoding, plan, limits);
+                        return Ok(Some(Outcome::Plan(plan)));
                     }
                     Extraction::None => {}
-                    Extraction::Open if turn.goes_on => too_few = graph.top() + graph.top() / 4 + 1,
-                    Extraction::Open => break None,
+                    Extraction::Open if turn.goes_on => {
+                        are_refuted = false;
+                        too_few = graph.top() + graph.top() / 4 + 1;
+                    }
+                    Extraction::Open => return Ok(None),
                     Extraction::Never(goals) => {
                         let leveled_off_at =
                             graph.leveled_off_at().expect("never is said after level-off");
                         let reason = NoPlanReason::Together(goals);
-                        break Some(Outcome::NoPlan { leveled_off_at, reason });
+                        return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
                     }
                 }
             }
         } else if let Some(leveled_off_at) = graph.leveled_off_at() {
             let reason = graph.conflict_of(&task.goal);
-            break Some(Outcome::NoPlan { leveled_off_at, reason });
+            return Ok(Some(Outcome::NoPlan { leveled_off_at, reason }));
+        }
+        if are_refuted {
+            extractor.at_least = extractor.at_least.max(graph.top() + 1);
         }
         if graph.top() >= limits.parallel_steps {
             return Err(Limit::Steps);
         }
         graph.expand(inherited, limits)?;
-    };
-    let fewest_steps = graph.top();
-    let no_goods = extractor.search.into_no_goods();
-    let (task, state) = (task.clone(), task.init.clone());
-    Ok((outcome, Learned { task, graph, no_goods, fewest_steps, state, done: 0 }))
+    }
 }
 
 /// The ways to look for a plan of a given length, taking turns.
@@ -361,7 +470,14 @@ struct Extractor<'a> {
     /// The third way, once the graph has leveled off, and the plan that it came to.
     induction: Option<Induction<'a>>,
     known: Option<Plan>,
+    /// Whether forward search was asked for any plan.
+    has_sought: bool,
+    /// Fewer steps than these are refuted.
+    at_least: usize,
 }
+
+/// Forward search gets this part of the memory for it.
+const SEEKING_OF_MEMORY: usize = 4;
 
 impl<'a> Extractor<'a> {
     fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
@@ -376,12 +492,45 @@ impl<'a> Extractor<'a> {
             refuted: 0,
             induction: None,
             known: None,
+            has_sought: false,
+            at_least: 0,
         }
     }
 
     fn bytes(&self) -> usize {
         let induction = self.induction.as_ref().map_or(0, Induction::bytes);
         self.search.bytes() + self.encoding.bytes() + induction
+    }
+
+    /// What was spent so far, in variables set by the solver and what takes as long.
+    fn effort(&self, graph: &PlanningGraph) -> u64 {
+        let induction = self.induction.as_ref().map_or(0, Induction::effort);
+        let choices = self.search.choices() * EFFORT_A_CHOICE;
+        graph.effort() + choices + self.encoding.effort() + induction
+    }
+
+    /// The fewest steps are no more than those of a plan found soon.
+    fn seek(&mut self, graph: &PlanningGraph) -> Result<(), Limit> {
+        let is_time = self.turn.seek.is_some_and(|effort| self.effort(graph) >= effort);
+        if !is_time || std::mem::replace(&mut self.has_sought, true) || self.known.is_some() {
+            return Ok(());
+        }
+        let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
+        let limits = Limits { memory_bytes, ..*self.limits };
+        match any::search(self.task, &limits, any::Effort::Least) {
+            Ok(any::Found::Plan(plan)) => {
+                self.limits.tell_of(&plan);
+                self.known = Some(plan);
+            }
+            Err(limit @ (Limit::Time | Limit::Stopped)) => return Err(limit),
+            Ok(any::Found::Exhausted | any::Found::Open) | Err(_) => {}
+        }
+        Ok(())
+    }
+
+    /// The plan that is known, once every shorter one is refuted.
+    fn known_at(&self, graph: &PlanningGraph) -> Option<Plan> {
+        self.known.clone().filter(|plan| plan.steps.len() == graph.top())
     }
 
     fn extract(&mut self, graph: &PlanningGraph) -> Result<Extraction, Limit> {
@@ -395,6 +544,10 @@ impl<'a> Extractor<'a> {
         let before = self.search.choices();
         let mut round = 0;
         loop {
+            self.seek(graph)?;
+            if let Some(plan) = self.known_at(graph) {
+                return Ok(Extraction::Plan(plan));
+            }
             if let Some(extraction) = self.induce(graph)? {
                 return Ok(extraction);
             }
@@ -463,10 +616,10 @@ impl<'a> Extractor<'a> {
                 Proof::Open => {}
             }
         }
-        Ok(match &self.known {
-            // Shorter ones are refuted.
-            Some(plan) if plan.steps.len() == graph.top() => Some(Extraction::Plan(plan.clone())),
-            _ => (graph.top() <= induction.refuted()).then_some(Extraction::None),
+        let refuted = induction.refuted();
+        Ok(match self.known_at(graph) {
+            Some(plan) => Some(Extraction::Plan(plan)),
+            None => (graph.top() <= refuted).then_some(Extraction::None),
         })
     }
 }

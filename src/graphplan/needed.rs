@@ -43,16 +43,22 @@ impl Reduced {
         let operators: Vec<OperatorId> =
             task.operator_ids().filter(|id| kept[id.index()]).collect();
         let (mut added, mut deleted) = (vec![false; needed.len()], vec![false; needed.len()]);
+        let (mut renewed, mut users) = (vec![false; needed.len()], vec![0; needed.len()]);
         for operator in operators.iter().map(|&id| task.operator(id)) {
             operator.add_effects.iter().for_each(|fact| added[fact.index()] = true);
             operator.del_effects.iter().for_each(|fact| deleted[fact.index()] = true);
+            operator.renewed.iter().for_each(|fact| renewed[fact.index()] = true);
+            let needs_only =
+                operator.preconditions.iter().filter(|fact| !operator.add_effects.contains(fact));
+            needs_only.chain(&operator.add_effects).for_each(|fact| users[fact.index()] += 1);
         }
         let (initially, is_goal) = (&uses.initially, &uses.is_goal);
-        // What holds and is never given up need not be asked for; what nobody needs still keeps operators apart, of
-        // which one adds it and one deletes it.
+        // What holds and is never given up need not be asked for; it still keeps operators apart, and so does what
+        // nobody needs, where one of them deletes, if only for a moment, what another adds or needs.
         let counts = |fact: usize| {
             let stays = initially[fact] && !deleted[fact] && !is_goal[fact];
-            if needed[fact] { !stays } else { added[fact] && deleted[fact] }
+            let contested = added[fact] && deleted[fact] || renewed[fact] && users[fact] > 1;
+            contested || needed[fact] && !stays
         };
         let facts: Vec<FactId> = task.fact_ids().filter(|fact| counts(fact.index())).collect();
         let mut number = vec![None; task.facts.len()];
@@ -71,6 +77,7 @@ impl Reduced {
             operator.preconditions = own(&operator.preconditions);
             operator.add_effects = own(&operator.add_effects);
             operator.del_effects = own(&operator.del_effects);
+            operator.renewed = own(&operator.renewed);
         }
         Ok(Self { task: smaller, facts, operators })
     }

@@ -101,7 +101,7 @@ pub fn validate(task: &Task, plan: &Plan) -> Result<(), Flaw> {
         for &deleter in operators {
             for &other in operators.iter().filter(|&&other| other != deleter) {
                 let needs = task.operator(other);
-                for &fact in &task.operator(deleter).del_effects {
+                for fact in task.operator(deleter).takes() {
                     if needs.preconditions.contains(&fact) || needs.add_effects.contains(&fact) {
                         return Err(Flaw::Interference { step, deleter, other, fact });
                     }

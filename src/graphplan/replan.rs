@@ -164,14 +164,19 @@ impl Inherited<'_> {
         let Some(pairs) = pairs else { return false };
         // What operators of the new task need, add and delete among the facts that it lacks.
         let lacking = |fact: &&FactId| self.new[fact.index()].is_none();
-        let mut used = vec![false; whole.facts.len()];
-        let mut deleted = vec![false; whole.facts.len()];
+        let mut users = vec![0_usize; whole.facts.len()];
+        let (mut deleted, mut renewed) =
+            (vec![false; whole.facts.len()], vec![false; whole.facts.len()]);
         for (_, o) in &pairs {
-            let uses = o.preconditions.iter().chain(&o.add_effects).filter(lacking);
-            uses.for_each(|fact| used[fact.index()] = true);
+            let needs_only = o.preconditions.iter().filter(|fact| !o.add_effects.contains(fact));
+            let uses = needs_only.chain(&o.add_effects).filter(lacking);
+            uses.for_each(|fact| users[fact.index()] += 1);
             o.del_effects.iter().filter(lacking).for_each(|fact| deleted[fact.index()] = true);
+            o.renewed.iter().filter(lacking).for_each(|fact| renewed[fact.index()] = true);
         }
-        let harmless = used.iter().zip(&deleted).all(|(used, deleted)| !(*used && *deleted));
+        let interferes =
+            |fact: usize| deleted[fact] && users[fact] > 0 || renewed[fact] && users[fact] > 1;
+        let harmless = !(0..whole.facts.len()).any(interferes);
         let always = |fact: &FactId| self.state.contains(fact) && !deleted[fact.index()];
         let same = |new: &[FactId], old: &[FactId]| {
             let mut kept: Vec<FactId> =
@@ -184,6 +189,7 @@ impl Inherited<'_> {
                 same(&new.preconditions, &old.preconditions)
                     && same(&new.add_effects, &old.add_effects)
                     && same(&new.del_effects, &old.del_effects)
+                    && same(&new.renewed, &old.renewed)
                     && old.preconditions.iter().filter(lacking).all(always)
             })
             && self.keeps_goal(task, always)

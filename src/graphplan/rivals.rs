@@ -1,7 +1,7 @@
 //! Which actions exclude each other, as rows of bits that are found when first asked for.
 //!
 //! The backward search asks of every action that it tries whether one chosen before excludes it. Whoever needs, adds
-//! or deletes a fact is kept as a row of bits; an action's rivals are the union of a few of them.
+//! or deletes a fact (if only for a moment) is kept as a row of bits; an action's rivals are the union of a few of them.
 
 use super::bits;
 use super::graph::{ActionId, PlanningGraph};
@@ -73,7 +73,7 @@ impl Rivals {
             for (rows, facts) in [
                 (&mut self.needing, &action.preconditions),
                 (&mut self.adding, &action.add_effects),
-                (&mut self.deleting, &action.del_effects),
+                (&mut self.deleting, &action.takes),
             ] {
                 for fact in facts {
                     bits::put(&mut rows[fact.index() * self.words..][..self.words], number);
@@ -94,7 +94,7 @@ impl Rivals {
             graph.exclusive_with(level, fact).for_each(|f| bits::put(&mut excluded, f.index()));
         }
         // Interference and inconsistent effects, by the one and by the other.
-        for fact in &action.del_effects {
+        for fact in &action.takes {
             bits::put(&mut excluded, fact.index());
             unite(&self.adding, fact.index());
         }

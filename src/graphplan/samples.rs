@@ -39,12 +39,14 @@ impl Named {
     }
 
     pub(super) fn operator(&mut self, needs: &[FactId], adds: &[FactId], deletes: &[FactId]) {
+        let (renewed, del_effects) = sorted(deletes).into_iter().partition(|f| adds.contains(f));
         self.operators.push(Operator {
             name: format!("o{}", self.operators.len()).into(),
             args: Vec::new(),
             preconditions: sorted(needs),
             add_effects: sorted(adds),
-            del_effects: sorted(deletes),
+            del_effects,
+            renewed,
             cost: 1,
         });
     }
@@ -81,18 +83,20 @@ pub(super) fn random_task(seed: u64) -> Task {
             let add_effects = random.facts(adds, fact_count);
             let preconditions = random.facts(needs, fact_count);
             // Operators that use up what they need make goals that exclude each other by threes.
-            let mut del_effects = if seed.is_multiple_of(2) {
+            let deleted = if seed.is_multiple_of(2) {
                 preconditions.clone()
             } else {
                 random.facts(dels, fact_count)
             };
-            del_effects.retain(|fact| !add_effects.contains(fact));
+            let (renewed, del_effects) =
+                deleted.into_iter().partition(|fact| add_effects.contains(fact));
             Operator {
                 name: format!("o{number}").into(),
                 args: Vec::new(),
                 preconditions,
                 add_effects,
                 del_effects,
+                renewed,
                 cost: 1,
             }
         })
@@ -149,14 +153,15 @@ pub(super) fn random_task_with_objects(seed: u64) -> Task {
         let dels = if random.below(3) > 0 { needs.clone() } else { pick(&mut random, 1) };
         for object in 0..OBJECTS {
             let add_effects = about(&adds, object);
-            let mut del_effects = about(&dels, object);
-            del_effects.retain(|fact| !add_effects.contains(fact));
+            let (renewed, del_effects) =
+                about(&dels, object).into_iter().partition(|fact| add_effects.contains(fact));
             operators.push(Operator {
                 name: format!("o{schema}").into(),
                 args: vec![format!("object{object}").into()],
                 preconditions: about(&needs, object),
                 add_effects,
                 del_effects,
+                renewed,
                 cost: 1,
             });
         }
@@ -189,6 +194,7 @@ pub(super) fn wishes(wishes: u32, tokens: u32) -> Task {
                 preconditions: vec![token],
                 add_effects: vec![FactId(w)],
                 del_effects: vec![token],
+                renewed: Vec::new(),
                 cost: 1,
             })
             .collect(),

@@ -57,7 +57,7 @@ impl<'a> Encoding<'a> {
         let serial = if shorter_refuted { Serial::of(task, limits) } else { None };
         Self {
             task,
-            solver: Solver::new(limits.deadline),
+            solver: Solver::new(limits),
             facts: Vec::new(),
             operators: Vec::new(),
             transition: Transition::new(task),

@@ -8,7 +8,7 @@
 use super::Limits;
 use super::bits;
 use super::pairs::ReachedPairs;
-use crate::strips::{FactId, Operator, OperatorId, Task};
+use crate::strips::{FactId, OperatorId, Task};
 
 /// Looking at every pair of an operator and a fact, or of operators, takes too long beyond this.
 const MOST_PAIRS: usize = 1 << 21;
@@ -70,17 +70,11 @@ impl Serial {
 /// Whether two operators are never carried out in one step.
 fn exclude(task: &Task, pairs: &ReachedPairs, a: OperatorId, b: OperatorId) -> bool {
     let (a, b) = (task.operator(a), task.operator(b));
-    let spoils = |a: &Operator, b: &Operator| {
-        let asked = |fact| {
-            b.preconditions.binary_search(fact).is_ok() || b.add_effects.binary_search(fact).is_ok()
-        };
-        a.del_effects.iter().any(asked)
-    };
     let compete = || {
         let mut needs = a.preconditions.iter();
         needs.any(|&one| b.preconditions.iter().any(|&other| pairs.is_exclusive(one, other)))
     };
-    spoils(a, b) || spoils(b, a) || compete()
+    a.interferes(b) || compete()
 }
 
 fn kept(task: &Task, pairs: &ReachedPairs, id: OperatorId) -> Box<[u64]> {

@@ -2,55 +2,84 @@
 //! the rest of the plan needs (after F. Siddiqui, P. Haslum, 2015, "block deordering and local search").
 //!
 //! Wider pieces follow when narrower ones are as short as they can be. The plan stays a plan throughout, so the
-//! improvement may be ended at any time. It never proves anything about the whole.
+//! improvement may be ended at any time; it ends by itself when its effort is spent. It never proves anything about the
+//! whole. On the way it may take more actions for fewer steps, and win them back; what it ends with has no more actions
+//! than it began with, and costs no more.
 
 use super::any::in_parallel;
 use super::plan::Plan;
-use super::{Limits, Outcome, Turn, search};
+use super::{Limits, Outcome, Turn, search_counted};
 use crate::strips::{FactId, OperatorId, Task};
 
 /// Steps planned anew at once, one size after the other.
 const WIDTHS: [usize; 5] = [3, 5, 8, 12, 18];
 
 /// What one piece may take: it is a small task, or better left alone.
-const TURN: Turn = Turn { choices: 1 << 12, conflicts: 1 << 8, turns: Some(3), goes_on: false };
+const TURN: Turn = Turn {
+    choices: 1 << 12,
+    conflicts: 1 << 8,
+    turns: Some(3),
+    goes_on: false,
+    effort: None,
+    seek: None,
+};
 
-/// A plan of fewer steps, or as many with fewer actions, after at most `limits.shorten` pieces were looked at.
+/// What making ready to plan a piece takes for each operator, beside what its search counts.
+const EFFORT_AN_OPERATOR: u64 = 32;
+
+/// A plan of fewer steps, or as many with fewer actions, and never of more actions or greater cost than at first, after
+/// at most `limits.shorten` pieces were looked at.
 pub(super) fn shorten(task: &Task, plan: Plan, limits: &Limits) -> Plan {
+    let mut best = plan.clone();
+    let first = plan.clone();
+    let is_no_dearer = |plan: &Plan| {
+        plan.action_count() <= first.action_count() && plan.cost(task) <= first.cost(task)
+    };
     let mut plan = plan;
-    let mut left = limits.shorten;
+    let (mut left, mut effort) = (limits.shorten, limits.shorten_effort);
     let mut narrowest = 0;
     while let Some(&width) = WIDTHS.get(narrowest) {
         let mut better = false;
         let mut from = 0;
-        while from < plan.steps.len() && left > 0 && limits.check(0).is_ok() {
+        while from < plan.steps.len() && left > 0 && effort > 0 && limits.check(0).is_ok() {
             left -= 1;
-            match replaced(task, &plan, from, width, limits) {
+            match replaced(task, &plan, from, width, limits, &mut effort) {
                 Some(shorter) => {
-                    if shorter.steps.len() < plan.steps.len() {
-                        limits.tell_of(&shorter);
-                    }
                     plan = shorter;
+                    if is_no_dearer(&plan) && size(&plan) < size(&best) {
+                        if plan.steps.len() < best.steps.len() {
+                            limits.tell_of(&plan);
+                        }
+                        best = plan.clone();
+                    }
                     better = true;
                 }
                 None => from += (width / 2).max(1),
             }
         }
-        if left == 0 || width >= plan.steps.len() {
+        if left == 0 || effort == 0 || width >= plan.steps.len() {
             break;
         }
         // What one width improved, a narrower one may improve further.
         narrowest = if better { 0 } else { narrowest + 1 };
     }
-    plan
+    best
 }
 
 fn size(plan: &Plan) -> (usize, usize) {
     (plan.steps.len(), plan.action_count())
 }
 
-/// The plan with a better piece in place of `width` of its steps.
-fn replaced(task: &Task, plan: &Plan, from: usize, width: usize, limits: &Limits) -> Option<Plan> {
+/// The plan with a better piece in place of `width` of its steps; what the search for it takes is taken from `effort`.
+fn replaced(
+    task: &Task,
+    plan: &Plan,
+    from: usize,
+    width: usize,
+    limits: &Limits,
+    effort: &mut u64,
+) -> Option<Plan> {
+    *effort = effort.saturating_sub(EFFORT_AN_OPERATOR * task.operators.len() as u64);
     let to = (from + width).min(plan.steps.len());
     let piece = Task {
         init: state_before(task, &plan.steps[..from]),
@@ -58,9 +87,10 @@ fn replaced(task: &Task, plan: &Plan, from: usize, width: usize, limits: &Limits
         ..task.clone()
     };
     let within = Limits { parallel_steps: to - from, shorten: 0, ..*limits };
-    let (Some(Outcome::Plan(found)), _) = search(&piece, &within, TURN, None).ok()? else {
-        return None;
-    };
+    let turn = Turn { effort: Some(*effort), ..TURN };
+    let (outcome, spent) = search_counted(&piece, &within, turn);
+    *effort = effort.saturating_sub(spent);
+    let Some(Outcome::Plan(found)) = outcome else { return None };
     let operators = plan.steps[..from].iter().chain(&found.steps).chain(&plan.steps[to..]);
     let whole = in_parallel(task, operators.flatten().copied());
     (size(&whole) < size(plan)).then_some(whole)
@@ -95,12 +125,71 @@ fn needed_by(task: &Task, steps: &[Vec<OperatorId>]) -> Vec<FactId> {
 mod tests {
     use std::cell::RefCell;
 
-    use super::super::samples::random_task;
-    use super::super::{Outcome, solve_any};
+    use super::super::samples::{Random, random_errand, random_task};
+    use super::super::{Outcome, solve_any, validate};
     use super::*;
 
     thread_local! {
         static TOLD: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
+    }
+
+    #[test]
+    fn what_is_shortened_has_no_more_actions_and_costs_no_more() {
+        let mut traded = 0;
+        for seed in 1..=3000 {
+            let mut task = if seed % 2 == 0 { random_task(seed) } else { random_errand(seed) };
+            let mut random = Random(seed);
+            if seed % 3 == 0 {
+                task.operators.iter_mut().for_each(|o| o.cost = random.below(4) as u32);
+            }
+            let at_once = Limits { shorten: 0, ..Limits::default() };
+            let Outcome::Plan(first) = solve_any(&task, &at_once) else { continue };
+            // Detours and returns make a plan longer in every way.
+            let walk = wandering(&task, &mut random, &first);
+            for from in [first, walk] {
+                let plan = shorten(&task, from.clone(), &Limits::default());
+                assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert!(size(&plan) <= size(&from), "seed {seed}");
+                assert!(plan.action_count() <= from.action_count(), "seed {seed}");
+                assert!(plan.cost(&task) <= from.cost(&task), "seed {seed}");
+                traded += usize::from(size(&plan) < size(&from));
+            }
+        }
+        assert!(traded > 100, "{traded}");
+    }
+
+    /// A plan that first goes where chance leads, and on from there.
+    fn wandering(task: &Task, random: &mut Random, otherwise: &Plan) -> Plan {
+        let mut steps: Vec<Vec<OperatorId>> = Vec::new();
+        for _ in 0..6 {
+            let holds = state_before(task, &steps);
+            let possible: Vec<OperatorId> = task
+                .operator_ids()
+                .filter(|&id| task.operator(id).preconditions.iter().all(|f| holds.contains(f)))
+                .collect();
+            if possible.is_empty() {
+                break;
+            }
+            steps.push(vec![possible[random.below(possible.len())]]);
+        }
+        let rest = Task { init: state_before(task, &steps), ..task.clone() };
+        match solve_any(&rest, &Limits { shorten: 0, ..Limits::default() }) {
+            Outcome::Plan(on) => in_parallel(task, steps.into_iter().chain(on.steps).flatten()),
+            _ => otherwise.clone(),
+        }
+    }
+
+    #[test]
+    fn shortening_ends_with_its_effort() {
+        for effort in [0, 1, 1 << 10] {
+            for seed in 1..=300 {
+                let task = random_errand(seed);
+                let limits = Limits { shorten_effort: effort, ..Limits::default() };
+                if let Outcome::Plan(plan) = solve_any(&task, &limits) {
+                    assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                }
+            }
+        }
     }
 
     #[test]

@@ -1,10 +1,11 @@
 //! The satisfiability solver behind [`super::sat`]: batsat, a MiniSat in Rust, held to a number of conflicts.
 
 use std::cell::Cell;
-use std::time::Instant;
 
 use batsat::callbacks::Callbacks;
 use batsat::{Lit, SolverInterface, lbool};
+
+use super::Limits;
 
 /// A variable or its negation.
 pub(super) type Literal = Lit;
@@ -22,11 +23,11 @@ pub(super) struct Solver {
     clause: Vec<Lit>,
 }
 
-/// Stops the solver by the number of conflicts, which repeats, and by the clock, which is a limit.
+/// Stops the solver by the number of conflicts, which repeats, and by the clock or from outside, which is a limit.
 struct Effort {
     conflicts: Cell<u64>,
     allowed: u64,
-    deadline: Option<Instant>,
+    limits: Limits,
     late: Cell<bool>,
 }
 
@@ -39,9 +40,7 @@ impl Callbacks for Effort {
 
     fn stop(&self) -> bool {
         // Looking at the clock costs more than a propagation.
-        if self.conflicts.get().is_multiple_of(64)
-            && self.deadline.is_some_and(|deadline| Instant::now() >= deadline)
-        {
+        if self.conflicts.get().is_multiple_of(64) && self.limits.check(0).is_err() {
             self.late.set(true);
         }
         self.late.get() || self.conflicts.get() >= self.allowed
@@ -49,9 +48,9 @@ impl Callbacks for Effort {
 }
 
 impl Solver {
-    pub(super) fn new(deadline: Option<Instant>) -> Self {
+    pub(super) fn new(limits: &Limits) -> Self {
         let effort =
-            Effort { conflicts: Cell::new(0), allowed: 0, deadline, late: Cell::new(false) };
+            Effort { conflicts: Cell::new(0), allowed: 0, limits: *limits, late: Cell::new(false) };
         Self {
             inner: batsat::Solver::new(batsat::SolverOpts::default(), effort),
             literals: 0,

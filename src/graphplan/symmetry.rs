@@ -207,6 +207,7 @@ impl<'a> Index<'a> {
         maps(&operator.preconditions, &image.preconditions)
             && maps(&operator.add_effects, &image.add_effects)
             && maps(&operator.del_effects, &image.del_effects)
+            && maps(&operator.renewed, &image.renewed)
     }
 }
 
@@ -231,6 +232,7 @@ mod tests {
                     preconditions: vec![FactId(2 * number as u32)],
                     add_effects: vec![FactId(2 * number as u32 + 1)],
                     del_effects: vec![FactId(2 * number as u32)],
+                    renewed: Vec::new(),
                     cost: 1,
                 })
                 .collect(),

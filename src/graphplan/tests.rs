@@ -27,7 +27,7 @@ fn steps_from(task: &Task, state: u64) -> Vec<(u64, u64)> {
         let free = chosen.iter().enumerate().all(|(x, a)| {
             chosen.iter().enumerate().all(|(y, b)| {
                 let used = mask(&b.preconditions) | mask(&b.add_effects);
-                x == y || mask(&a.del_effects) & used == 0
+                x == y || mask(&a.del_effects) & used == 0 && mask(&a.renewed) & used == 0
             })
         });
         if free {
@@ -131,11 +131,51 @@ fn compare(turn: Turn) {
                 unsolvable += 1;
                 searched += usize::from(matches!(reason, NoPlanReason::Together(_)));
             }
-            Outcome::LimitReached(limit) => panic!("seed {seed}: {limit:?}"),
+            Outcome::LimitReached(known) => panic!("seed {seed}: {known:?}"),
         }
     }
     // The generator is worth its name only if every kind of answer comes up.
     assert!(solved > 500 && unsolvable > 500 && searched > 0, "{solved} {unsolvable} {searched}");
+}
+
+#[test]
+fn answers_are_the_same_when_some_plan_is_sought_first() {
+    compare(Turn { choices: 16, seek: Some(0), ..Turn::default() });
+}
+
+#[test]
+fn a_search_given_up_leaves_true_bounds() {
+    let (mut bounded, mut with_plan) = (0, 0);
+    for seed in 1..=3000 {
+        let task = random_task(seed);
+        let Some(fewest) = fewest_steps(&task) else { continue };
+        for steps in 0..fewest {
+            let limits = Limits { parallel_steps: steps, ..Limits::default() };
+            let turn = Turn { seek: Some(0), ..Turn::default() };
+            let Err(known) = search(&task, &limits, turn, None) else {
+                panic!("seed {seed}: {steps} of {fewest} steps")
+            };
+            assert_eq!(known.limit, Limit::Steps, "seed {seed}");
+            assert!(known.at_least == steps + 1 && known.at_least <= fewest, "seed {seed}");
+            if let Some(plan) = known.plan {
+                assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
+                assert!(plan.steps.len() >= fewest, "seed {seed}");
+                with_plan += 1;
+            }
+            bounded += 1;
+        }
+    }
+    assert!(bounded > 500 && with_plan > 5, "{bounded} {with_plan}");
+}
+
+#[test]
+fn a_search_told_to_stop_stops() {
+    static STOP: AtomicBool = AtomicBool::new(true);
+    let limits = Limits { stop: Some(&STOP), ..Limits::default() };
+    for seed in 1..=50 {
+        let task = random_task(seed);
+        assert_eq!(solve(&task, &limits).limit(), Some(Limit::Stopped), "seed {seed}");
+    }
 }
 
 #[test]
@@ -207,11 +247,11 @@ fn a_plan_found_soon_becomes_shorter_with_effort() {
 fn limits_are_an_outcome() {
     let task = (1..).map(random_task).find(|t| fewest_steps(t).is_some_and(|s| s >= 2)).unwrap();
     let now = Limits { deadline: Some(Instant::now()), ..Limits::default() };
-    assert_eq!(solve(&task, &now), Outcome::LimitReached(Limit::Time));
+    assert_eq!(solve(&task, &now).limit(), Some(Limit::Time));
     let short = Limits { parallel_steps: 1, ..Limits::default() };
-    assert_eq!(solve(&task, &short), Outcome::LimitReached(Limit::Steps));
+    assert_eq!(solve(&task, &short).limit(), Some(Limit::Steps));
     let small = Limits { memory_bytes: 1, ..Limits::default() };
-    assert_eq!(solve(&task, &small), Outcome::LimitReached(Limit::Memory));
+    assert_eq!(solve(&task, &small).limit(), Some(Limit::Memory));
 }
 
 /// The task after its initial state lost a fact and grounding dropped what that made impossible.
@@ -249,6 +289,7 @@ fn without_fact(task: &Task, lost: FactId) -> Task {
         renumber(&mut operator.preconditions);
         renumber(&mut operator.add_effects);
         renumber(&mut operator.del_effects);
+        renumber(&mut operator.renewed);
     }
     let mut kept = possible.iter();
     rest.facts.retain(|_| *kept.next().unwrap());

@@ -1,7 +1,8 @@
 //! A step as clauses: how the facts before it, the operators carried out in it and the facts after it hang together.
 //!
 //! Interference is encoded in linear space: whoever needs a fact without deleting it makes it hold after the
-//! step as well, which no deleter of the same step allows; those who both need and delete it are at most one.
+//! step as well, which no deleter of the same step allows; those who both need and delete it are at most one. Who
+//! renews a fact leaves it to nobody else: neither to those who need it nor to those who add it.
 
 use super::graph::PlanningGraph;
 use super::solver::{Literal, Solver};
@@ -22,6 +23,9 @@ struct Users {
     keepers: Vec<OperatorId>,
     takers: Vec<OperatorId>,
     breakers: Vec<OperatorId>,
+    renewers: Vec<OperatorId>,
+    /// Who needs or adds a fact that others renew.
+    beside_renewers: Vec<OperatorId>,
 }
 
 impl<'a> Transition<'a> {
@@ -41,6 +45,18 @@ impl<'a> Transition<'a> {
                 }
             }
             operator.add_effects.iter().for_each(|fact| added_by[fact.index()].push(id));
+            operator.renewed.iter().for_each(|fact| users[fact.index()].renewers.push(id));
+        }
+        for (users, adders) in users.iter_mut().zip(&added_by) {
+            if users.renewers.is_empty() {
+                continue;
+            }
+            let mut others: Vec<OperatorId> = users.keepers.iter().chain(adders).copied().collect();
+            others.sort_unstable();
+            others.dedup();
+            // Both are in the order of operators.
+            others.retain(|id| users.renewers.binary_search(id).is_err());
+            users.beside_renewers = others;
         }
         Self { task, users, added_by }
     }
@@ -89,10 +105,16 @@ impl<'a> Transition<'a> {
         operators: &Variables,
         after: &Variables,
     ) {
-        let Users { keepers, takers, breakers } = &self.users[fact.index()];
+        let Users { keepers, takers, breakers, renewers, beside_renewers } =
+            &self.users[fact.index()];
         let present = |ids: &[OperatorId]| -> Vec<Literal> {
             ids.iter().filter_map(|id| operators[id.index()]).collect()
         };
+        let renewing = present(renewers);
+        if !renewing.is_empty() {
+            keep_apart(solver, &renewing, &present(beside_renewers));
+            at_most_one(solver, &renewing);
+        }
         let (takers, breakers) = (present(takers), present(breakers));
         if takers.is_empty() && breakers.is_empty() {
             return;
@@ -102,15 +124,7 @@ impl<'a> Transition<'a> {
             solver.add_clause(&[!keeper, after]);
         }
         at_most_one(solver, &takers);
-        if !takers.is_empty() && !breakers.is_empty() {
-            let broken = solver.new_variable();
-            for breaker in breakers {
-                solver.add_clause(&[!breaker, broken]);
-            }
-            for taker in takers {
-                solver.add_clause(&[!taker, !broken]);
-            }
-        }
+        keep_apart(solver, &breakers, &takers);
     }
 
     /// Of the operators done, those that make the wanted facts hold that did not hold before, and the facts that all
@@ -153,6 +167,16 @@ pub(super) fn add_mutexes(
             }
         }
     }
+}
+
+/// None of the one beside any of the other.
+fn keep_apart(solver: &mut Solver, one: &[Literal], other: &[Literal]) {
+    if one.is_empty() || other.is_empty() {
+        return;
+    }
+    let barred = solver.new_variable();
+    one.iter().for_each(|&done| solver.add_clause(&[!done, barred]));
+    other.iter().for_each(|&done| solver.add_clause(&[!done, !barred]));
 }
 
 /// Pairs while they are few, a chain of "one of those so far" beyond.

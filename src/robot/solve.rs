@@ -15,7 +15,7 @@ use crate::units::{Language, name_key};
 pub struct Solved {
     pub task: Task,
     pub outcome: Outcome,
-    /// A plan is proven to have the fewest parallel steps.
+    /// A plan, where the search was not given up, is proven to have the fewest parallel steps.
     pub is_shortest: bool,
     /// The assumptions that the plan rests on.
     pub assumptions: Vec<Said>,
@@ -33,7 +33,14 @@ pub enum Reason {
     Exclusive(Vec<(Said, Said)>),
     /// Goals that cannot all hold at once.
     Together(Vec<Said>),
-    Limit(Limit),
+    /// The search was given up.
+    Limit {
+        limit: Limit,
+        /// Proven: no plan has fewer parallel steps.
+        at_least: usize,
+        /// There is a plan of so many steps, though shorter ones are not ruled out.
+        at_most: Option<usize>,
+    },
 }
 
 impl Reason {
@@ -69,21 +76,47 @@ impl Reason {
                 let facts: Vec<String> = facts.iter().map(|fact| wording.fact(fact)).collect();
                 head.to_owned() + &facts.join(language.pick(", ", ", that "))
             }
-            Self::Limit(limit) => match limit {
-                Limit::Time => language.pick(
-                    "время вышло раньше, чем нашёлся план",
-                    "the time was up before a plan was found",
-                ),
-                Limit::Memory => language.pick(
-                    "память вышла раньше, чем нашёлся план",
-                    "the memory was used up before a plan was found",
-                ),
-                Limit::Steps => language.pick(
-                    "плана нет в пределах наибольшего числа шагов",
-                    "there is no plan within the greatest number of steps",
-                ),
+            Self::Limit { limit, at_least, at_most: None } => {
+                let ended = match limit {
+                    Limit::Time => language.pick(
+                        "время вышло раньше, чем нашёлся план",
+                        "the time was up before a plan was found",
+                    ),
+                    Limit::Memory => language.pick(
+                        "память вышла раньше, чем нашёлся план",
+                        "the memory was used up before a plan was found",
+                    ),
+                    Limit::Steps => language.pick(
+                        "плана нет в пределах наибольшего числа шагов",
+                        "there is no plan within the greatest number of steps",
+                    ),
+                    Limit::Stopped => language.pick(
+                        "поиск прерван раньше, чем нашёлся план",
+                        "the search was stopped before a plan was found",
+                    ),
+                };
+                match at_least {
+                    0 => ended.to_owned(),
+                    least => language.pick(
+                        format!("{ended}; доказано, что шагов нужно не меньше {least}"),
+                        format!("{ended}; proven: at least {least} steps are needed"),
+                    ),
+                }
             }
-            .to_owned(),
+            Self::Limit { limit, at_least, at_most: Some(most) } => {
+                let ended = match limit {
+                    Limit::Time => language.pick("время вышло", "the time was up"),
+                    Limit::Memory => language.pick("память вышла", "the memory was used up"),
+                    Limit::Steps => {
+                        language.pick("наибольшее число шагов", "the greatest number of steps")
+                    }
+                    Limit::Stopped => language.pick("поиск прерван", "the search was stopped"),
+                };
+                language.pick(
+                    format!("{ended} раньше, чем нашёлся план короче или стало ясно, что его нет; шагов нужно от {at_least} до {most}"),
+                    format!("{ended} before a shorter plan was found or ruled out; it takes {at_least} to {most} steps"),
+                )
+            }
         }
     }
 }
@@ -152,7 +185,7 @@ pub fn solve(
             };
             (task, outcome)
         }
-        Err(limit) => (Task::default(), Outcome::LimitReached(limit)),
+        Err(limit) => (Task::default(), Outcome::LimitReached(limit.into())),
     };
     told(domain, problem, task, outcome, wanted, limits)
 }
@@ -172,7 +205,7 @@ pub(super) fn solve_again(
             let solved = graphplan::solve_learning(&task, learned, limits);
             (task, solved)
         }
-        Err(limit) => (Task::default(), (Outcome::LimitReached(limit), None)),
+        Err(limit) => (Task::default(), (Outcome::LimitReached(limit.into()), None)),
     };
     Ok((told(domain, problem, task, outcome, Wanted::Shortest, limits)?, learned))
 }
@@ -263,12 +296,9 @@ fn told(
     limits: &Limits,
 ) -> Result<Solved, RuleFaults> {
     let is_shortest = wanted == Wanted::Shortest;
-    let assumptions = match &outcome {
-        Outcome::Plan(plan) => {
-            plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
-        }
-        _ => Vec::new(),
-    };
+    let assumptions = outcome.plan().map_or_else(Vec::new, |plan| {
+        plan.assumptions(&task).iter().map(|&f| Said::from(task.fact(f))).collect()
+    });
     let reason = explain(domain, problem, &task, &outcome, limits)?;
     let phrases = Arc::clone(domain.phrases());
     Ok(Solved { task, outcome, is_shortest, assumptions, reason, phrases })
@@ -300,7 +330,11 @@ fn explain(
         Outcome::NoPlan { reason: NoPlanReason::Together(facts), .. } => {
             Reason::Together(facts.iter().map(|&id| fact(id)).collect())
         }
-        Outcome::LimitReached(limit) => Reason::Limit(*limit),
+        Outcome::LimitReached(known) => Reason::Limit {
+            limit: known.limit,
+            at_least: known.at_least,
+            at_most: known.plan.as_ref().map(|plan| plan.steps.len()),
+        },
     }))
 }
 

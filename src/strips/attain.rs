@@ -45,7 +45,10 @@ impl<'a> Attainable<'a> {
                 let schema = &domain.schemas[reached.instances[number].schema];
                 let adds = schema.add_effects.iter().filter_map(|atom| ground(atom, number));
                 news.extend(adds.filter(|&atom| held.insert(atom)).map(|atom| (atom, true)));
+                let added: Vec<&GroundAtom> =
+                    schema.add_effects.iter().filter_map(|atom| ground(atom, number)).collect();
                 let dels = schema.del_effects.iter().filter_map(|atom| ground(atom, number));
+                let dels = dels.filter(|atom| !added.contains(atom));
                 let dels = dels.filter(|&atom| initial.contains(atom) && undone.insert(atom));
                 news.extend(dels.map(|atom| (atom, false)));
             }

@@ -295,7 +295,7 @@ impl Checker<'_> {
                 action.parameters.iter().map(|p| (p.variable.key(), p.kinds.as_slice())).collect();
             let in_conditions = action.precondition.iter().filter_map(atom_of);
             for atom in in_conditions.chain(&action.add).chain(&action.del) {
-                if arities.get(&predicate_key(atom)) != Some(&atom.args.len()) {
+                if arities.get(&atom.predicate.key()) != Some(&atom.args.len()) {
                     continue;
                 }
                 let args: Vec<Option<KindSet>> = atom
@@ -383,6 +383,7 @@ impl Checker<'_> {
             different: Vec::new(),
             add_effects: Vec::new(),
             del_effects: Vec::new(),
+            renewed: Vec::new(),
             cost: Vec::new(),
         };
         self.precondition(action, &scope, &mut schema);
@@ -446,6 +447,8 @@ impl Checker<'_> {
                 schema.add_effects.push(meaning);
             }
         }
+        let renewed = action.renewed.iter().filter_map(|atom| self.atom(action, scope, atom));
+        schema.renewed = renewed.collect();
         for atom in &action.del {
             let Some(meaning) = self.atom(action, scope, atom) else { continue };
             if schema.add_effects.contains(&meaning) {
@@ -619,10 +622,6 @@ impl Domain {
     }
 }
 
-fn predicate_key(atom: &Atom) -> String {
-    name_key(atom.predicate.text.trim_end_matches('_'))
-}
-
 /// How many arguments each predicate has by most of its uses; by the first of them where no number leads.
 fn arities(document: &Document) -> HashMap<String, usize> {
     let in_actions = document.actions.iter().flat_map(|action| {
@@ -632,7 +631,7 @@ fn arities(document: &Document) -> HashMap<String, usize> {
     let stated = document.facts.iter().chain(&document.assumptions).chain(&document.goal);
     let mut counts: HashMap<String, Vec<(usize, usize)>> = HashMap::new();
     for atom in in_actions.chain(stated.filter_map(atom_of)) {
-        let of_predicate = counts.entry(predicate_key(atom)).or_default();
+        let of_predicate = counts.entry(atom.predicate.key()).or_default();
         match of_predicate.iter_mut().find(|(arity, _)| *arity == atom.args.len()) {
             Some((_, count)) => *count += 1,
             None => of_predicate.push((atom.args.len(), 1)),

@@ -90,6 +90,8 @@ pub struct Schema {
     pub different: Vec<(SchemaTerm, SchemaTerm)>,
     pub add_effects: Vec<SchemaAtom>,
     pub del_effects: Vec<SchemaAtom>,
+    /// Those of `add_effects` that are deleted first, in so many words.
+    pub renewed: Vec<SchemaAtom>,
     /// Summed; empty means one.
     pub cost: Vec<SchemaCost>,
 }
@@ -119,10 +121,11 @@ impl Domain {
         &self.kinds
     }
 
-    /// The predicate of this name in any of its spellings.
+    /// The predicate of this name in any of its spellings. An underscore at the end is a sign like any other: PDDL tells
+    /// `at` and `at_` apart, and the rule text, where the paper writes one before the bracket, is read without it.
     #[must_use]
     pub fn predicate(&self, name: &str) -> Option<PredicateId> {
-        self.predicate_index.get(&name_key(name.trim_end_matches('_'))).copied()
+        self.predicate_index.get(&name_key(name)).copied()
     }
 
     #[must_use]

@@ -170,7 +170,7 @@ pub fn explain_unreachable<'a>(
         let thing = |name| resolved.index.get(&name_key(name)).copied().map(Some);
         let wanted = domain.predicate(&goal.predicate).and_then(|predicate| {
             let args = goal.args.iter().map(|name| thing(name)).collect::<Option<_>>()?;
-            Some(Wanted { predicate, args, negated: goal.negated })
+            Some(Wanted { negated: goal.negated, ..Wanted::of(predicate, args) })
         });
         let none = Obstacle {
             goal: Said::from(goal),
@@ -306,11 +306,8 @@ impl Lacks<'_> {
                 && atom.args.len() == wanted.args.len()
                 && fits(&atom.args, &wanted.args)
         });
-        let shown = facts.map(|atom| Wanted {
-            predicate: atom.predicate,
-            args: atom.args.iter().copied().map(Some).collect(),
-            negated: false,
-        });
+        let shown = facts
+            .map(|atom| Wanted::of(atom.predicate, atom.args.iter().copied().map(Some).collect()));
         shown.map(|wanted| self.shown(&wanted)).collect()
     }
 
@@ -345,7 +342,9 @@ impl Lacks<'_> {
     /// An open place is told by its type.
     fn shown(&self, wanted: &Wanted) -> Said {
         let predicate = &self.domain.predicates[wanted.predicate.index()];
-        let args = wanted.args.iter().zip(&predicate.args);
+        let kinds = wanted.kinds.iter().zip(&predicate.args);
+        let kinds = kinds.map(|(asked, taken)| if asked.is_empty() { taken } else { asked });
+        let args = wanted.args.iter().zip(kinds);
         let args = args.map(|(thing, kinds)| self.argument(*thing, kinds)).collect();
         Said { name: predicate.name.clone(), args, negated: wanted.negated }
     }

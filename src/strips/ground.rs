@@ -450,6 +450,7 @@ fn draft(domain: &Domain, resolved: &Resolved, reached: &Reachability<'_>) -> Dr
                 negative: known(&schema.negative_preconditions, instance),
                 add_effects: known(&schema.add_effects, instance),
                 del_effects: known(&schema.del_effects, instance),
+                renewed: known(&schema.renewed, instance),
                 cost: cost(schema, resolved, &instance.args),
             }
         })

@@ -13,17 +13,33 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap, HashMap};
 
 use super::attain::Attainable;
-use super::domain::{Domain, PredicateId, Schema, SchemaAtom, SchemaTerm};
+use super::domain::{Domain, KindId, KindSet, PredicateId, Schema, SchemaAtom, SchemaTerm};
 use super::exchange::{exchanged, moving, states};
 use super::ground::{Binding, Reachability};
 use super::resolve::{GroundAtom, Resolved, ThingId};
 
-/// An atom, or its absence; open places are any object.
+/// An atom, or its absence; open places are any object of the types that are asked for there.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub(super) struct Wanted {
     pub(super) predicate: PredicateId,
     pub(super) args: Vec<Option<ThingId>>,
+    /// For each open place the types of which the object must be one: a parameter's may be narrower than the
+    /// predicate's. None where they are all that the predicate takes, or the place is not open.
+    pub(super) kinds: Vec<KindSet>,
     pub(super) negated: bool,
+}
+
+impl Wanted {
+    pub(super) fn of(predicate: PredicateId, args: Vec<Option<ThingId>>) -> Self {
+        Self { predicate, kinds: vec![KindSet::new(); args.len()], args, negated: false }
+    }
+}
+
+/// An action, with the types that its parameters are to have.
+struct Rule<'a> {
+    number: usize,
+    schema: &'a Schema,
+    kinds: Vec<KindSet>,
 }
 
 /// An action that would give `gives`, were it not for what it misses.
@@ -146,9 +162,11 @@ impl<'a> Lacks<'a> {
                 let Some(binding) = self.bound(number, &effect.args, &wanted.args) else {
                     continue;
                 };
+                let Some(kinds) = self.narrowed(schema, effect, &wanted) else { continue };
+                let rule = Rule { number, schema, kinds };
                 let open: Vec<usize> = (0..schema.preconditions.len()).collect();
                 let mut found = Vec::new();
-                self.complete(number, &binding, &open, Vec::new(), &mut found);
+                self.complete(&rule, &binding, &open, Vec::new(), &mut found);
                 for (missing, is_far_fetched) in found {
                     let missing = missing.into_iter().map(|wanted| self.number(wanted)).collect();
                     let way = Way { schema: number, gives: fact, missing, is_far_fetched };
@@ -195,23 +213,62 @@ impl<'a> Lacks<'a> {
         Some(binding)
     }
 
+    /// The types of an action's parameters where its effect is what is wanted; none where no object is of the types
+    /// that both ask for.
+    fn narrowed(
+        &self,
+        schema: &Schema,
+        effect: &SchemaAtom,
+        wanted: &Wanted,
+    ) -> Option<Vec<KindSet>> {
+        let mut kinds = schema.parameters.clone();
+        let open = effect.args.iter().zip(&wanted.kinds).filter(|(_, asked)| !asked.is_empty());
+        for (term, asked) in open {
+            match term {
+                SchemaTerm::Constant(_) => {
+                    let constant = self.reached.value(&Vec::new(), term)?;
+                    let have = &self.resolved.things[constant.index()].kinds;
+                    self.domain.fits(have, asked).then_some(())?;
+                }
+                SchemaTerm::Parameter(parameter) => {
+                    let own = &mut kinds[*parameter as usize];
+                    *own = self.common(own, asked)?;
+                }
+            }
+        }
+        Some(kinds)
+    }
+
+    /// The types that both sets ask for; an empty one asks for nothing.
+    fn common(&self, a: &KindSet, b: &KindSet) -> Option<KindSet> {
+        if a.is_empty() || b.is_empty() {
+            return Some(if a.is_empty() { b.clone() } else { a.clone() });
+        }
+        let within = |kind: &KindId, of: &KindSet| self.domain.fits(&[*kind], of);
+        let mut both: KindSet = a.iter().copied().filter(|kind| within(kind, b)).collect();
+        both.extend(b.iter().copied().filter(|kind| within(kind, a)));
+        both.sort_unstable();
+        both.dedup();
+        (!both.is_empty()).then_some(both)
+    }
+
     /// Chooses the objects that are still open, precondition by precondition, the most closely tied first; what no
     /// object satisfies is missing.
     fn complete(
         &self,
-        schema: usize,
+        of: &Rule<'_>,
         binding: &Binding,
         open: &[usize],
         missing: Vec<Wanted>,
         found: &mut Vec<(Vec<Wanted>, bool)>,
     ) {
-        let rule = &self.domain.schemas[schema];
+        let rule = of.schema;
         let too_many = found.len() >= MOST_WAYS || missing.len() > MOST_MISSING;
         if too_many || !self.reached.comparisons_hold(rule, binding) {
             return;
         }
         let tied = open.iter().copied().filter_map(|at| {
-            let wanted = self.under(&rule.preconditions[at], binding);
+            let wanted = self.wanted(of, &rule.preconditions[at], binding);
             let bound = wanted.args.iter().flatten().count();
             if bound == wanted.args.len() {
                 return Some((0, at, wanted));
@@ -225,26 +282,31 @@ impl<'a> Lacks<'a> {
             Some((1 + count + changes * MOST_WAYS, at, wanted))
         });
         let Some((_, at, wanted)) = tied.min_by_key(|&(count, at, _)| (count, at)) else {
-            found.extend(self.finished(rule, binding, open, missing));
+            found.extend(self.finished(of, binding, open, missing));
             return;
         };
         let rest: Vec<usize> = open.iter().copied().filter(|&other| other != at).collect();
         let atom = &rule.preconditions[at];
         let chosen = |tuple: &[ThingId]| {
-            let mut binding = binding.clone();
-            self.reached.unify(schema, &mut binding, atom, tuple).then_some(binding)
+            let mut chosen = binding.clone();
+            let is_new = |(at, thing): (usize, &Option<ThingId>)| match (binding[at], thing) {
+                (None, Some(thing)) => self.is_of(*thing, &of.kinds[at]),
+                _ => true,
+            };
+            let unifies = self.reached.unify(of.number, &mut chosen, atom, tuple);
+            (unifies && chosen.iter().enumerate().all(is_new)).then_some(chosen)
         };
         let mut is_chosen = false;
         for binding in self.holding(&wanted).filter_map(chosen) {
             is_chosen = true;
-            self.complete(schema, &binding, &rest, missing.clone(), found);
+            self.complete(of, &binding, &rest, missing.clone(), found);
         }
         for binding in self.otherwise(&wanted).filter_map(|atom| chosen(&atom.args)) {
-            let now_wanted = self.under(atom, &binding);
+            let now_wanted = self.wanted(of, atom, &binding);
             if closed(&now_wanted).is_some_and(|atom| !self.attainable.holds(&atom)) {
                 is_chosen = true;
                 let missing = with(missing.clone(), now_wanted);
-                self.complete(schema, &binding, &rest, missing, found);
+                self.complete(of, &binding, &rest, missing, found);
             }
         }
         // What was withdrawn would be true but for that.
@@ -253,18 +315,18 @@ impl<'a> Lacks<'a> {
             gone.filter(|gone| fits(&gone.args, &wanted.args)).filter_map(|gone| chosen(&gone.args))
         {
             is_chosen = true;
-            let missing = with(missing.clone(), self.under(atom, &binding));
-            self.complete(schema, &binding, &rest, missing, found);
+            let missing = with(missing.clone(), self.wanted(of, atom, &binding));
+            self.complete(of, &binding, &rest, missing, found);
         }
         for args in self.elsewhere(&wanted) {
             if let Some(binding) = chosen(&args) {
-                let missing = with(missing.clone(), self.under(atom, &binding));
-                self.complete(schema, &binding, &rest, missing, found);
+                let missing = with(missing.clone(), self.wanted(of, atom, &binding));
+                self.complete(of, &binding, &rest, missing, found);
             }
         }
         if !is_chosen {
             let missing = with(missing, wanted);
-            self.complete(schema, binding, &rest, missing, found);
+            self.complete(of, binding, &rest, missing, found);
         }
     }
 
@@ -272,11 +334,12 @@ impl<'a> Lacks<'a> {
     /// nothing is chosen count only where no object at all satisfies them and nothing else that is missing is open.
     fn finished(
         &self,
-        rule: &Schema,
+        of: &Rule<'_>,
         binding: &Binding,
         open: &[usize],
         mut missing: Vec<Wanted>,
     ) -> Option<(Vec<Wanted>, bool)> {
+        let rule = of.schema;
         let is_open = |wanted: &Wanted| wanted.args.iter().any(Option::is_none);
         let mut is_far_fetched = false;
         if missing.iter().any(is_open) {
@@ -293,14 +356,14 @@ impl<'a> Lacks<'a> {
             });
         } else {
             for &at in open {
-                let wanted = self.under(&rule.preconditions[at], binding);
+                let wanted = self.wanted(of, &rule.preconditions[at], binding);
                 if self.holding(&wanted).next().is_none() {
                     missing.push(wanted);
                 }
             }
         }
         for atom in &rule.negative_preconditions {
-            let wanted = Wanted { negated: true, ..self.under(atom, binding) };
+            let wanted = Wanted { negated: true, ..self.wanted(of, atom, binding) };
             if closed(&wanted).is_some_and(|atom| !self.attainable.may_be_absent(&atom)) {
                 missing.push(wanted);
             }
@@ -309,14 +372,43 @@ impl<'a> Lacks<'a> {
     }
 
     fn under(&self, atom: &SchemaAtom, binding: &Binding) -> Wanted {
-        let args = atom.args.iter().map(|term| self.reached.value(binding, term)).collect();
-        Wanted { predicate: atom.predicate, args, negated: false }
+        let args: Vec<Option<ThingId>> =
+            atom.args.iter().map(|term| self.reached.value(binding, term)).collect();
+        Wanted::of(atom.predicate, args)
+    }
+
+    /// As [`Self::under`], with the types of what is still open.
+    fn wanted(&self, of: &Rule<'_>, atom: &SchemaAtom, binding: &Binding) -> Wanted {
+        let mut wanted = self.under(atom, binding);
+        let signature = &self.domain.predicates[atom.predicate.index()].args;
+        for (place, term) in atom.args.iter().enumerate() {
+            let SchemaTerm::Parameter(parameter) = term else { continue };
+            if wanted.args[place].is_some() {
+                continue;
+            }
+            let (own, taken) = (&of.kinds[*parameter as usize], &signature[place]);
+            let is_wider = own.is_empty()
+                || !taken.is_empty() && taken.iter().all(|&kind| self.domain.fits(&[kind], own));
+            if !is_wider {
+                wanted.kinds[place].clone_from(own);
+            }
+        }
+        wanted
+    }
+
+    fn is_of(&self, thing: ThingId, kinds: &KindSet) -> bool {
+        kinds.is_empty() || self.domain.fits(&self.resolved.things[thing.index()].kinds, kinds)
+    }
+
+    /// Whether things stand in the places that are open and of the types that are asked for there.
+    fn are_of(&self, things: &[ThingId], wanted: &Wanted) -> bool {
+        things.iter().zip(&wanted.kinds).all(|(&thing, kinds)| self.is_of(thing, kinds))
     }
 
     fn holding<'b>(&'b self, wanted: &'b Wanted) -> impl Iterator<Item = &'b [ThingId]> {
         self.reached.matching(wanted.predicate, &wanted.args).filter(|tuple| {
             let atom = GroundAtom { predicate: wanted.predicate, args: tuple.to_vec() };
-            self.attainable.holds(&atom)
+            self.are_of(tuple, wanted) && self.attainable.holds(&atom)
         })
     }
 
@@ -454,7 +546,7 @@ impl<'a> Lacks<'a> {
 
     fn is_attained_of_any(&self, predicate: PredicateId) -> bool {
         let args = vec![None; self.domain.predicates[predicate.index()].args.len()];
-        self.holding(&Wanted { predicate, args, negated: false }).next().is_some()
+        self.holding(&Wanted::of(predicate, args)).next().is_some()
     }
 
     /// Whether the initial facts say something that excludes the wanted.

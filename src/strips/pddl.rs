@@ -186,6 +186,7 @@ impl Reader<'_> {
             precondition: Vec::new(),
             add: Vec::new(),
             del: Vec::new(),
+            renewed: Vec::new(),
             cost: Vec::new(),
         };
         let mut rest = items[2..].iter();
@@ -222,7 +223,7 @@ impl Reader<'_> {
                 other => self.unsupported(other, *span),
             }
         }
-        // Adding comes after deleting, so that an atom in both is simply added.
+        // Adding comes after deleting, so an atom in both is added; it is taken for a moment all the same.
         let key = |atom: &Atom| -> Vec<String> {
             std::iter::once(&atom.predicate)
                 .chain(atom.args.iter().map(|t| &t.name))
@@ -230,7 +231,8 @@ impl Reader<'_> {
                 .collect()
         };
         let added: Vec<Vec<String>> = action.add.iter().map(key).collect();
-        action.del.retain(|atom| !added.contains(&key(atom)));
+        (action.renewed, action.del) =
+            action.del.into_iter().partition(|atom| added.contains(&key(atom)));
         self.document.actions.push(action);
     }
 

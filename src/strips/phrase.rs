@@ -186,7 +186,7 @@ pub(super) fn phrases(
 ) -> Phrases {
     let mut phrases = Phrases::default();
     for text in &document.phrases {
-        let (name, key) = (&text.name, name_key(text.name.text.trim_end_matches('_')));
+        let (name, key) = (&text.name, text.name.key());
         let vocabulary = phrases.of_mut(text.language);
         let schema = domain.schemas.iter().find(|schema| name_key(&schema.name) == key);
         let predicate = domain.predicate(&name.text);

@@ -78,11 +78,11 @@ impl Problem {
 
     /// Withdraws a fact or an assumption; whether it had been stated.
     pub fn withdraw(&mut self, predicate: &str, args: &[&str]) -> bool {
-        let predicate = atom_key(predicate);
+        let predicate = name_key(predicate);
         let args: Vec<String> = args.iter().map(|arg| name_key(arg)).collect();
         let before = self.facts.len();
         self.facts.retain(|fact| {
-            atom_key(&fact.predicate) != predicate
+            name_key(&fact.predicate) != predicate
                 || !fact.args.iter().map(|arg| name_key(arg)).eq(args.iter().cloned())
         });
         self.facts.len() < before
@@ -256,10 +256,6 @@ impl Problem {
     }
 }
 
-fn atom_key(predicate: &str) -> String {
-    name_key(predicate.trim_end_matches('_'))
-}
-
 fn no_plain_fact(at: miette::SourceSpan) -> RuleError {
     let found = ("отрицание или сравнение", "a negation or a comparison");
     RuleError::Syntax { expected: PLAIN_FACT.into(), found: found.into(), at }
@@ -329,13 +325,13 @@ impl Statement {
     /// Equal for statements that say the same.
     fn key(&self) -> String {
         let args: Vec<String> = self.args.iter().map(|arg| name_key(arg)).collect();
-        format!("{}({})", atom_key(&self.predicate), args.join(","))
+        format!("{}({})", name_key(&self.predicate), args.join(","))
     }
 
     /// Whether an atom, in which variables stand for any object, says this.
     fn is_matched_by(&self, atom: &Atom) -> bool {
         let mut objects = atom.args.iter().zip(&self.args);
-        atom_key(&atom.predicate.text) == atom_key(&self.predicate)
+        atom.predicate.key() == name_key(&self.predicate)
             && atom.args.len() == self.args.len()
             && !self.negated
             && objects.all(|(term, arg)| term.is_variable || term.name.key() == name_key(arg))

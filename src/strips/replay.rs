@@ -89,7 +89,8 @@ struct Replay<'a> {
     source: &'a Source,
 }
 
-/// What a directive needs, adds and deletes, and what it costs.
+/// What a directive needs, deletes and then adds, and what it costs. What it deletes and adds holds after it, but within
+/// its step nobody else may need or add it.
 struct Instance {
     needs: Vec<GroundAtom>,
     denied: Vec<GroundAtom>,
@@ -196,7 +197,7 @@ impl Replay<'_> {
         }
         let adds = ground(&schema.add_effects);
         let mut dels = ground(&schema.del_effects);
-        dels.retain(|atom| !adds.contains(atom));
+        dels.extend(ground(&schema.renewed));
         Ok(Instance { needs, denied, adds, dels, cost: cost(schema, self.resolved, &args) })
     }
 
@@ -207,8 +208,14 @@ impl Replay<'_> {
     }
 
     fn schema(&self, directive: &Directive) -> Result<&Schema, RuleFaults> {
-        let key = name_key(directive.action.trim_end_matches('_'));
-        self.domain.schemas.iter().find(|schema| name_key(&schema.name) == key).ok_or_else(|| {
+        let named = |name: &str| {
+            let key = name_key(name);
+            self.domain.schemas.iter().find(|schema| name_key(&schema.name) == key)
+        };
+        // The paper writes an underscore between a name and its bracket; only where no action is called so is it
+        // taken for that.
+        let plain = directive.action.trim_end_matches('_');
+        named(&directive.action).or_else(|| named(plain)).ok_or_else(|| {
             let near = nearest_name(
                 &directive.action,
                 self.domain.schemas.iter().map(|s| s.name.as_str()),

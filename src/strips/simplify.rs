@@ -1,8 +1,8 @@
 //! The last step of grounding: complementary facts for negations, then everything dropped that cannot matter.
 //!
 //! What is dropped is dropped soundly: operators that can never apply or never help, facts that always hold,
-//! facts that never do. A fact that nothing needs stays all the same where one operator adds and another
-//! deletes it: the two then interfere, and a plan's number of parallel steps must not depend on grounding.
+//! facts that never do. A fact stays all the same where two operators interfere through it, though nothing needs it
+//! or it always holds: a plan's number of parallel steps must not depend on grounding.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::sync::Arc;
@@ -17,6 +17,8 @@ pub(super) struct DraftOperator {
     pub(super) negative: Vec<u32>,
     pub(super) add_effects: Vec<u32>,
     pub(super) del_effects: Vec<u32>,
+    /// What is deleted and then added: among `add_effects`, and not among `del_effects` once complements are made.
+    pub(super) renewed: Vec<u32>,
     pub(super) cost: u32,
 }
 
@@ -43,12 +45,8 @@ pub(super) fn simplify(mut draft: Draft) -> Task {
     let bystanders = bystanders(&draft, &facts, &goal);
     keep(&mut draft.operators, bystanders);
     let fixed = always_true(&draft, facts.len());
-    for operator in &mut draft.operators {
-        operator.preconditions.retain(|&fact| !fixed[fact as usize]);
-        operator.add_effects.retain(|&fact| !fixed[fact as usize]);
-    }
     let goal: Vec<u32> = goal.into_iter().filter(|&fact| !fixed[fact as usize]).collect();
-    let relevant = relevant(&draft, &goal, facts.len());
+    let relevant = relevant(&draft, &goal, &fixed);
     keep(&mut draft.operators, relevant.operators);
     renumber(draft, &facts, &goal, &relevant.facts)
 }
@@ -77,7 +75,11 @@ fn complement(draft: &mut Draft, facts: &mut Vec<Fact>) -> Vec<u32> {
         let negative = std::mem::take(&mut operator.negative);
         operator.preconditions.extend(negative.into_iter().filter_map(complement));
         // An action adds after it deletes, as in PDDL.
-        operator.del_effects.retain(|fact| !operator.add_effects.contains(fact));
+        let is_added = |fact: &u32| operator.add_effects.contains(fact);
+        let (renewed, deleted): (Vec<u32>, Vec<u32>) =
+            std::mem::take(&mut operator.del_effects).into_iter().partition(is_added);
+        operator.renewed.extend(renewed);
+        operator.del_effects = deleted;
         let gained: Vec<u32> =
             operator.del_effects.iter().filter_map(|&fact| complement(fact)).collect();
         let lost: Vec<u32> =
@@ -157,8 +159,9 @@ struct Relevant {
     operators: Vec<bool>,
 }
 
-/// What the goal can be traced back to.
-fn relevant(draft: &Draft, goal: &[u32], fact_count: usize) -> Relevant {
+/// What the goal can be traced back to, but for what always holds; and through what operators interfere.
+fn relevant(draft: &Draft, goal: &[u32], fixed: &[bool]) -> Relevant {
+    let fact_count = fixed.len();
     let mut achievers: Vec<Vec<u32>> = vec![Vec::new(); fact_count];
     for (number, operator) in draft.operators.iter().enumerate() {
         operator.add_effects.iter().for_each(|&f| achievers[f as usize].push(number as u32));
@@ -172,18 +175,25 @@ fn relevant(draft: &Draft, goal: &[u32], fact_count: usize) -> Relevant {
         }
         for &number in &achievers[fact as usize] {
             if !std::mem::replace(&mut operators[number as usize], true) {
-                open.extend(&draft.operators[number as usize].preconditions);
+                let needs = draft.operators[number as usize].preconditions.iter();
+                open.extend(needs.filter(|need| !fixed[**need as usize]));
             }
         }
     }
-    // Facts through which two operators interfere.
+    // Facts through which two operators interfere: one adds and another deletes it; or one renews it, and another has
+    // any use of it.
     let (mut added, mut deleted) = (vec![false; fact_count], vec![false; fact_count]);
+    let (mut renewed, mut users) = (vec![false; fact_count], vec![0; fact_count]);
     for (operator, _) in draft.operators.iter().zip(&operators).filter(|(_, relevant)| **relevant) {
         operator.add_effects.iter().for_each(|&fact| added[fact as usize] = true);
         operator.del_effects.iter().for_each(|&fact| deleted[fact as usize] = true);
+        operator.renewed.iter().for_each(|&fact| renewed[fact as usize] = true);
+        let needs_only =
+            operator.preconditions.iter().filter(|f| !operator.add_effects.contains(f));
+        needs_only.chain(&operator.add_effects).for_each(|&fact| users[fact as usize] += 1);
     }
     for fact in 0..fact_count {
-        facts[fact] |= added[fact] && deleted[fact];
+        facts[fact] |= added[fact] && deleted[fact] || renewed[fact] && users[fact] > 1;
     }
     Relevant { facts, operators }
 }
@@ -209,6 +219,7 @@ fn renumber(draft: Draft, facts: &[Fact], goal: &[u32], relevant: &[bool]) -> Ta
             preconditions: translate(&operator.preconditions),
             add_effects: translate(&operator.add_effects),
             del_effects: translate(&operator.del_effects),
+            renewed: translate(&operator.renewed),
             name: operator.name,
             args: operator.args,
             cost: operator.cost,

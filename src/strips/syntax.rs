@@ -68,6 +68,8 @@ pub(super) struct ActionText {
     pub(super) precondition: Vec<Condition>,
     pub(super) add: Vec<Atom>,
     pub(super) del: Vec<Atom>,
+    /// Deleted, and then added: among `add` alone.
+    pub(super) renewed: Vec<Atom>,
     pub(super) cost: Vec<CostTerm>,
 }
 

@@ -1,7 +1,8 @@
 //! A planning task over ground facts and operators: all that a planner needs, and nothing of where it came from.
 //!
 //! Invariant: in every operator preconditions, add and delete effects are sorted, without repetition, and no
-//! fact is both added and deleted; every [`FactId`] lies within [`Task::facts`].
+//! fact is both added and deleted: what an action deletes and adds holds after it, so it is added, and *renewed*
+//! besides, for within a parallel step it is in nobody else's reach. Every [`FactId`] lies within [`Task::facts`].
 
 use std::fmt;
 use std::sync::Arc;
@@ -41,7 +42,27 @@ pub struct Operator {
     pub preconditions: Vec<FactId>,
     pub add_effects: Vec<FactId>,
     pub del_effects: Vec<FactId>,
+    /// Those of `add_effects` that the action deletes before it adds them: a channel that is taken and free again.
+    pub renewed: Vec<FactId>,
     pub cost: u32,
+}
+
+impl Operator {
+    /// What it deletes, if only for a moment: no other operator of the same step may need or add it.
+    pub fn takes(&self) -> impl Iterator<Item = FactId> {
+        self.del_effects.iter().chain(&self.renewed).copied()
+    }
+
+    /// Whether two operators cannot be carried out in one step: one deletes what the other needs or adds (A. Blum,
+    /// M. Furst, 1997).
+    #[must_use]
+    pub fn interferes(&self, other: &Self) -> bool {
+        let spoils = |one: &Self, other: &Self| {
+            let uses = |facts: &[FactId], fact| facts.binary_search(&fact).is_ok();
+            one.takes().any(|f| uses(&other.preconditions, f) || uses(&other.add_effects, f))
+        };
+        spoils(self, other) || spoils(other, self)
+    }
 }
 
 /// `Движение-из_в_через-дверь_(Комната-В, Комната-Z, Дверь-ВZ)`, as the paper prints a directive.
@@ -102,12 +123,17 @@ impl Task {
             assert!(strictly_sorted(ids) && within(ids), "the task's fact lists are sorted sets");
         }
         for operator in &self.operators {
-            for ids in [&operator.preconditions, &operator.add_effects, &operator.del_effects] {
+            let Operator { preconditions, add_effects, del_effects, renewed, .. } = operator;
+            for ids in [preconditions, add_effects, del_effects, renewed] {
                 assert!(strictly_sorted(ids) && within(ids), "{operator}: lists are sorted sets");
             }
             assert!(
-                !operator.add_effects.iter().any(|id| operator.del_effects.contains(id)),
+                !add_effects.iter().any(|id| del_effects.contains(id)),
                 "{operator}: no fact is both added and deleted"
+            );
+            assert!(
+                renewed.iter().all(|id| add_effects.contains(id)),
+                "{operator}: what is renewed is added"
             );
         }
     }

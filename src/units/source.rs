@@ -71,8 +71,9 @@ impl SourceCode for Source {
         let name = self.name.to_string();
         if inner.data().len() <= LONGEST_EXCERPT {
             let (_, column) = self.position(inner.span().offset());
-            let (line, lines) = (inner.line(), inner.line_count());
-            let (data, place) = (inner.data(), *inner.span());
+            let (line, data, place) = (inner.line(), inner.data(), *inner.span());
+            // miette's own count begins with the text; by it excerpts far apart would seem to meet.
+            let lines = String::from_utf8_lossy(data).lines().count();
             let contents =
                 MietteSpanContents::new_named(name, data, place, line, column - 1, lines);
             return Ok(Box::new(contents));
@@ -99,5 +100,12 @@ mod tests {
         assert_eq!(source.position(10_000), (2, 14));
         let contents = source.read_span(&("факт\nдверь ".len(), 2).into(), 0, 0).unwrap();
         assert_eq!((contents.line(), contents.column()), (1, 6));
+    }
+
+    #[test]
+    fn an_excerpt_counts_its_own_lines() {
+        let source = Source::new("правила", "факт\n".repeat(100));
+        let contents = source.read_span(&("факт\n".len() * 50, 2).into(), 1, 1).unwrap();
+        assert_eq!((contents.line(), contents.line_count()), (49, 3));
     }
 }

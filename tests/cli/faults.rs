@@ -218,3 +218,20 @@ fn a_reader_that_leaves_early_is_no_fault() {
         assert_eq!(output.status.code(), Some(0), "{args:?}: {err}");
     }
 }
+
+/// Nineteen doors that both their rooms claim, each with two places far apart.
+#[test]
+fn faults_with_places_far_apart_are_told_on_few_lines() {
+    let file = project("../shared/data/cases/corridor_19_errors.json");
+    if !file.exists() {
+        return eprintln!("{} is not there", file.display());
+    }
+    let file = file.display().to_string();
+    let args = ["check", &file];
+    let told = Place::empty().run(&args).is(2).err;
+    assert!(told.lines().count() < 19 * 20 + 2, "{} lines", told.lines().count());
+    assert_eq!(told.matches("и здесь").count(), 19);
+    let faults = Place::empty().json(&args, 2);
+    let both = |fault: &Value| fault["places"].as_array().is_some_and(|places| places.len() == 2);
+    assert!(faults["errors"].as_array().unwrap().iter().all(both), "{faults}");
+}

@@ -1,6 +1,6 @@
 //! `ortho plan`: English words, withdrawn assumptions, limits.
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::{Place, project};
 
@@ -120,5 +120,135 @@ fn limits_of_time_and_memory_are_an_outcome() {
     place.run(&["plan", &file, "--time-limit", "60", "--memory-limit", "512"]).is(0);
     for wrong in ["-1", "soon", "1e400", "NaN"] {
         place.run(&["plan", &file, &format!("--time-limit={wrong}")]).is(2);
+    }
+}
+
+/// Balls that two grippers carry from one room to the other.
+fn gripper(place: &Place, balls: usize) -> [String; 2] {
+    let domain = place.write(
+        "gripper.pddl",
+        "(define (domain g) (:predicates (room ?r) (ball ?b) (gripper ?g) (robby ?r) (at ?b ?r) (free ?g) (carry ?b ?g))
+         (:action move :parameters (?a ?b) :precondition (and (room ?a) (room ?b) (robby ?a)) :effect (and (robby ?b) (not (robby ?a))))
+         (:action pick :parameters (?b ?r ?g) :precondition (and (ball ?b) (gripper ?g) (at ?b ?r) (robby ?r) (free ?g))
+          :effect (and (carry ?b ?g) (not (at ?b ?r)) (not (free ?g))))
+         (:action drop :parameters (?b ?r ?g) :precondition (and (carry ?b ?g) (robby ?r) (gripper ?g))
+          :effect (and (at ?b ?r) (free ?g) (not (carry ?b ?g)))))",
+    );
+    let each =
+        |text: &str| -> String { (0..balls).map(|n| text.replace('#', &n.to_string())).collect() };
+    let problem = place.write(
+        "balls.pddl",
+        format!(
+            "(define (problem p) (:domain g) (:objects a b l r {}) (:init (room a) (room b) (gripper l) (gripper r) (robby a) (free l) (free r) {}) (:goal (and {})))",
+            each("b# "), each("(ball b#) (at b# a) "), each("(at b# b) "),
+        ),
+    );
+    [domain, problem]
+}
+
+/// Fifteen tiles in a frame, in the opposite order: too far for a proof.
+fn tiles(place: &Place) -> [String; 2] {
+    let domain = place.write(
+        "tiles.pddl",
+        "(define (domain t) (:predicates (next ?a ?b) (on ?t ?p) (hole ?p))
+         (:action slide :parameters (?t ?a ?b) :precondition (and (next ?a ?b) (on ?t ?a) (hole ?b))
+          :effect (and (on ?t ?b) (hole ?a) (not (on ?t ?a)) (not (hole ?b)))))",
+    );
+    let places = 0..16_usize;
+    let next: String = places
+        .clone()
+        .flat_map(|p| {
+            let right = (p % 4 < 3).then_some(p + 1);
+            let below = (p < 12).then_some(p + 4);
+            right
+                .into_iter()
+                .chain(below)
+                .map(move |q| format!("(next p{p} p{q}) (next p{q} p{p}) "))
+        })
+        .collect();
+    let on = |order: &dyn Fn(usize) -> usize| -> String {
+        (0..15).map(|t| format!("(on t{t} p{}) ", order(t))).collect()
+    };
+    let objects: String = places.map(|p| format!("p{p} t{p} ")).collect();
+    let problem = place.write(
+        "frame.pddl",
+        format!(
+            "(define (problem p) (:domain t) (:objects {objects}) (:init {next}(hole p15) {}) (:goal (and {})))",
+            on(&|t| t), on(&|t| 14 - t),
+        ),
+    );
+    [domain, problem]
+}
+
+#[test]
+fn a_search_given_up_tells_what_is_known_and_what_would_help() {
+    let place = Place::empty();
+    let [domain, problem] = tiles(&place);
+    let args = ["plan", "--domain", &domain, "--problem", &problem, "--time-limit", "3"];
+    let limited = place.json(&args, 1);
+    assert_eq!((&limited["outcome"], &limited["limit"]), (&json!("limit"), &json!("time")));
+    // The farthest tiles have six places to go.
+    assert!(limited["at_least_steps"].as_u64().is_some_and(|least| least > 3), "{limited}");
+    assert_eq!(limited["help"], json!(["--any", "--time-limit"]));
+    let told = place.run(&args).is(1).out;
+    assert!(told.contains("не меньше") && told.contains("Помогло бы: --any"), "{told}");
+    let told = place.run(&[&args[..], &["--lang", "en"]].concat()).is(1).out;
+    assert!(told.contains("at least") && told.contains("It would help: --any"), "{told}");
+}
+
+/// A child whose handlers of signals stand.
+#[cfg(target_os = "linux")]
+fn started(place: &Place, args: &[&str]) -> std::process::Child {
+    use std::process::Stdio;
+    let mut child =
+        place.command(args).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+    let status = format!("/proc/{}/status", child.id());
+    let handles = |status: String| {
+        let caught = status.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        let caught = caught.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+        caught.is_some_and(|mask| mask >> 14 & 1 == 1 && mask >> 1 & 1 == 1)
+    };
+    while !std::fs::read_to_string(&status).is_ok_and(handles) {
+        assert!(child.try_wait().unwrap().is_none(), "it ended by itself");
+        std::thread::sleep(std::time::Duration::from_millis(20));
+    }
+    child
+}
+
+#[cfg(target_os = "linux")]
+fn send(signal: &str, to: &std::process::Child) {
+    let sent = std::process::Command::new("kill").args([signal, &to.id().to_string()]).status();
+    assert!(sent.unwrap().success());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_signal_ends_the_search_with_what_it_has() {
+    use std::io::{BufRead, BufReader, Read};
+    let place = Place::empty();
+    for signal in ["-INT", "-TERM"] {
+        let [domain, problem] = tiles(&place);
+        let child =
+            started(&place, &["plan", "--domain", &domain, "--problem", &problem, "--json"]);
+        send(signal, &child);
+        let output = child.wait_with_output().unwrap();
+        let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!((&told["outcome"], &told["limit"]), (&json!("limit"), &json!("stopped")));
+        assert_eq!((output.status.code(), &told["help"]), (Some(1), &json!(["--any"])));
+
+        let [domain, problem] = gripper(&place, 30);
+        let out = place.path("plan.txt").display().to_string();
+        let args = ["plan", "--domain", &domain, "--problem", &problem, "--any", "--out", &out];
+        let mut child = started(&place, &args);
+        let mut notes = BufReader::new(child.stderr.take().unwrap()).lines();
+        let first = notes.next().unwrap().unwrap();
+        assert!(first.contains("Найден план"), "{first}");
+        send(signal, &child);
+        let mut told = String::new();
+        child.stdout.take().unwrap().read_to_string(&mut told).unwrap();
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{told}");
+        assert!(told.starts_with("План: шагов"), "{told}");
+        let checked = ["plan", "--domain", &domain, "--problem", &problem, "--check", &out];
+        place.run(&checked).is(0);
     }
 }

@@ -151,6 +151,7 @@ impl<'a> Parser<'a> {
             precondition: Vec::new(),
             add: Vec::new(),
             del: Vec::new(),
+            renewed: Vec::new(),
             cost: Vec::new(),
         });
         Ok(())
