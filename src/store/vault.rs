@@ -372,7 +372,12 @@ impl Vault {
         });
         // With neither snapshot nor journal, empty trees would be a silent loss of everything. The head of the first
         // journal was on the disk before there were trees.
-        let was_emptied = files.had_trees && log.is_headless();
+        let was_emptied = files.had_trees && log.is_headless() && newest_snapshot == 0;
+        let opened = opened.and_then(|found| match found.1.state.lsn {
+            // sled makes new trees of broken ones: that they are empty then says nothing.
+            0 if was_emptied => Err(StoreError::Tables { what: "пусты".to_owned() }),
+            _ => Ok(found),
+        });
         match opened {
             Ok((trees, brought)) => Ok(Found { brought, trees: Ok(trees) }),
             Err(why)

@@ -18,7 +18,7 @@ const READERS: &[&[&str]] = &[
     &["demo", "--map", "{}"],
     &["plan", "{}"],
     &["plan", "--domain", "{}", "--problem", "{}"],
-    &["plan", "walk.strips", "--check", "{}"],
+    &["plan", "{walk}", "--check", "{}"],
     &["corridor", "{}", "--from", "A", "--to", "B"],
     &["datalog", "{}"],
     &["datalog", "program.dl"],
@@ -38,9 +38,8 @@ fn place(make: &dyn Fn(&std::path::Path)) -> Place {
     std::fs::create_dir(place.path("ortho-store")).unwrap();
     let map = std::fs::read_to_string(super::rb2()).unwrap();
     place.write("map.toml", map);
-    place.write("walk.strips", std::fs::read_to_string(walk()).unwrap());
     place.write("program.dl", ".decl a(x: symbol)\n.input a(filename=\"named\")\n");
-    place.write("includes.dl", "#include \"named\"\n");
+    place.write("includes.dl", ".include \"named\"\n");
     place.write("includes.strips", "Включить: named\n");
     for (dir, file) in [("rules-of-others", "relations.dl"), ("more-rules", "mine.dl")] {
         std::fs::create_dir(place.path(dir)).unwrap();
@@ -52,13 +51,19 @@ fn place(make: &dyn Fn(&std::path::Path)) -> Place {
 /// Runs every reader at once; each must refuse, saying why, in good time.
 fn all_refuse(make: &dyn Fn(&std::path::Path)) {
     let places: Vec<Place> = READERS.iter().map(|_| place(make)).collect();
-    let begin = Instant::now();
+    let (begin, walk) = (Instant::now(), walk());
     let mut running: Vec<_> = places
         .iter()
         .zip(READERS)
         .map(|(place, args)| {
-            let args: Vec<&str> = args.iter().map(|a| if *a == "{}" { FILE } else { a }).collect();
-            let mut command = place.command(&args);
+            let of = |arg: &&'static str| match *arg {
+                "{}" => FILE.to_owned(),
+                "{walk}" => walk.clone(),
+                other => other.to_owned(),
+            };
+            let args: Vec<String> = args.iter().map(of).collect();
+            let shown: Vec<&str> = args.iter().map(String::as_str).collect();
+            let mut command = place.command(&shown);
             command.stdout(Stdio::piped()).stderr(Stdio::piped());
             (args, command.spawn().expect("ortho starts"))
         })
