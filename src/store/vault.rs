@@ -151,6 +151,16 @@ struct Files<'f> {
     had_trees: bool,
 }
 
+/// What an opening for writing goes on with.
+struct Recovered {
+    memory: Arc<MemoryTrees>,
+    /// The trees that are to follow, or why none do.
+    trees: std::result::Result<Arc<dyn Trees>, String>,
+    /// Keys in which they differ from memory.
+    dirty: Vec<(u8, Vec<u8>)>,
+    state: State,
+}
+
 /// Where the records come from.
 struct Found {
     brought: Brought,
@@ -234,14 +244,13 @@ impl Vault {
         }
         let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
         let mut report = OpenReport::default();
-        let (memory, trees, dirty, state) = Self::recover(&files, shelf, &mut report)?;
+        let Recovered { memory, trees, dirty, state } = Self::recover(&files, shelf, &mut report)?;
         // Without it the store works as well, and is only not told twice how far it must reach.
         let head = Head::open(&*disk, dir, &known, &Mark::of(&state));
         let head = head.inspect_err(|error| tracing::warn!(%error, "head is not written")).ok();
         if known == Known::Broken {
             report.marks_renewed.push("head");
         }
-        let trees = trees.map_err(|why| why.to_string());
         report.tables_off = trees.as_ref().err().cloned();
         let threaded = shelf.has_thread();
         let behind = Behind::new(Arc::clone(&memory), trees, head.clone(), dirty, threaded)?;
@@ -338,13 +347,8 @@ impl Vault {
         }
     }
 
-    /// The records, the trees that are to follow them, and in which keys these differ.
-    #[expect(clippy::type_complexity, reason = "taken apart at its one call")]
-    fn recover(
-        files: &Files,
-        shelf: &mut dyn Shelf,
-        report: &mut OpenReport,
-    ) -> Result<(Arc<MemoryTrees>, Result<Arc<dyn Trees>>, Vec<(u8, Vec<u8>)>, State)> {
+    /// The records, and the trees that are to follow them.
+    fn recover(files: &Files, shelf: &mut dyn Shelf, report: &mut OpenReport) -> Result<Recovered> {
         let Found { mut brought, trees } = Self::find(files, || shelf.open())?;
         let (trees, dirty) = match trees {
             Ok(trees) => (Ok(trees), std::mem::take(&mut brought.touched)),
@@ -356,7 +360,8 @@ impl Vault {
         };
         let Brought { memory, state, frames, .. } = brought;
         report.fill(&state, frames);
-        Ok((Arc::new(memory), trees, dirty, state))
+        let trees = trees.map_err(|why| why.to_string());
+        Ok(Recovered { memory: Arc::new(memory), trees, dirty, state })
     }
 
     /// The records by the trees, or, when these do not hold, by snapshot and journal.
