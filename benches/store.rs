@@ -1,7 +1,7 @@
 //! The store: 100 000 records in durable batches, one durable edit, opening with full verification, a Fragment.
 //!
 //! `cargo bench --bench store` measures the store's own work with criterion;
-//! `cargo bench --features sqlite --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
+//! `cargo bench --bench store -- --quick-table` prints the table of `docs/reliability.md`, in which
 //! SQLite (WAL, synchronous=FULL) does the same work in the same run, turn by turn, on the same disk. The directory is
 //! taken from `ORTHO_BENCH_DIR`, or the target directory, since /tmp may be in memory.
 

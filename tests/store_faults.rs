@@ -77,7 +77,10 @@ fn spawn(dir: &Path) -> Child {
 
 /// The last revision that a writer said to be done.
 fn acknowledged(child: &mut Child) -> u64 {
-    let out = child.stdout.take().expect("the output is piped");
+    last_done(child.stdout.take().expect("the output is piped"))
+}
+
+fn last_done(out: impl std::io::Read) -> u64 {
     let lines = BufReader::new(out).lines().map_while(Result::ok);
     lines.filter_map(|l| l.strip_prefix("done ")?.trim().parse().ok()).last().unwrap_or(0)
 }
@@ -141,6 +144,81 @@ fn a_full_disk_stops_the_writer_and_costs_nothing() {
     let (store, _) = Store::open_read_only(&dir).expect("the store can be read");
     assert!(store.revision() >= known);
     check(&store);
+}
+
+/// No file may grow beyond a limit, as on a disk without room: sled, which takes the most, fails first, and may hang.
+/// Whatever it does, the writer ends by itself once its journal is full, and all that it acknowledged is there.
+#[cfg(unix)]
+#[test]
+fn a_writer_without_room_ends_and_loses_nothing() {
+    for kib in [100, 400] {
+        let dir = tempfile::tempdir().unwrap();
+        let limited = format!("trap '' XFSZ; ulimit -f {}; exec \"$0\" \"$@\"", kib * 2);
+        let mut child = Command::new("sh")
+            .args(["-c", &limited])
+            .arg(std::env::current_exe().expect("the test binary has a path"))
+            .args(["--exact", "store_faults::writer"])
+            .env("STORE_WRITER", dir.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("a shell is there");
+        let begin = std::time::Instant::now();
+        let out = child.stdout.take().expect("the output is piped");
+        let listener = std::thread::spawn(move || last_done(out));
+        while child.try_wait().expect("a child can be asked").is_none() {
+            if begin.elapsed() > Duration::from_secs(100) {
+                child.kill().expect("the writer can be killed");
+                panic!("{kib} KiB: the writer hangs");
+            }
+            std::thread::sleep(Duration::from_millis(20));
+        }
+        let known = listener.join().expect("the listener ends with the writer");
+        assert!(known > 0, "{kib} KiB");
+        let (store, _) = Store::open_read_only(dir.path()).expect("the store can be read");
+        assert!(store.revision() >= known, "{kib} KiB");
+        check(&store);
+        drop(store);
+        let (store, _) = Store::open(dir.path()).expect("there is room again");
+        check(&store);
+    }
+}
+
+/// sled waits for ever while it is opened, for a pipe that stands where a file of its own should be.
+#[cfg(unix)]
+#[test]
+fn a_sled_that_never_opens_is_left_alone() {
+    let dir = tempfile::tempdir().unwrap();
+    let write = |store: &mut Store| {
+        let revision = store.revision() + 1;
+        let edits = batch(revision).fold(Edits::new(), |edits, r| edits.put(&r));
+        let change = Change::new("писатель", Timestamp(revision as i64), "ещё");
+        store.apply(&edits, &change).expect("the journal takes it");
+    };
+    write(&mut Store::open(dir.path()).unwrap().0);
+    let conf = dir.path().join("sled").join("conf");
+    std::fs::remove_file(&conf).expect("sled has this file");
+    assert!(Command::new("mkfifo").arg(&conf).status().unwrap().success());
+    for round in 1..4 {
+        let begin = std::time::Instant::now();
+        let (mut store, report) = Store::open(dir.path()).expect("the journal is whole");
+        check(&store);
+        assert_eq!(store.revision(), round);
+        assert!(report.tables_off.is_some(), "{report:?}");
+        write(&mut store);
+        drop(store);
+        assert!(begin.elapsed() < Duration::from_secs(60));
+    }
+    // Another program begins with a new sled.
+    let checker = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "store_faults::checker", "--nocapture"])
+        .env("STORE_CHECK", dir.path())
+        .env("STORE_KNOWN", "4")
+        .output()
+        .unwrap();
+    let said = String::from_utf8_lossy(&checker.stderr);
+    assert!(checker.status.success(), "{said}");
+    assert!(said.contains("tables_off: None"), "{said}");
 }
 
 /// Run by the scripts after a fault: opens the store of `STORE_CHECK`, which must be at `STORE_KNOWN` at least.

@@ -19,7 +19,7 @@ use super::store::StoreCommand;
 #[derive(Debug, Parser)]
 #[command(name = "ortho", version, propagate_version = true)]
 #[command(
-    after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 internal error."
+    after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 the disk or the program is at fault."
 )]
 pub(super) struct Arguments {
     #[command(flatten)]

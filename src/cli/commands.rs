@@ -73,10 +73,29 @@ pub(super) fn note_repairs(engine: &Engine, lang: Lang) {
         .pick("таблицы построены заново по журналу", "the tables are built anew from the journal");
     let journal = lang
         .pick("журнал записан заново по таблицам", "the journal is written anew from the tables");
-    for (what, why) in [(tables, &opened.tables_rebuilt), (journal, &opened.journal_renewed)] {
+    let read = lang.pick(
+        "прочитано по таблицам, потому что журнал неполон (открытие для записи восстановит его)",
+        "read from the tables, since the journal is incomplete (opening to write mends it)",
+    );
+    let off = lang.pick(
+        "таблицы не ведутся, всё остаётся в журнале и снимках",
+        "the tables are not kept, everything stays in journal and snapshots",
+    );
+    let shut = lang.pick("писать в него нельзя", "it cannot be written");
+    for (what, why) in [
+        (tables, &opened.tables_rebuilt),
+        (journal, &opened.journal_renewed),
+        (read, &opened.read_from_tables),
+        (off, &opened.tables_off),
+        (shut, &opened.not_writable),
+    ] {
         if let Some(why) = why {
             note(&format!("{store}: {what}: {why}."));
         }
+    }
+    for name in &opened.marks_renewed {
+        let renewed = lang.pick("был утрачен или испорчен", "was lost or broken");
+        note(&format!("{store}: {name} {renewed}."));
     }
 }
 

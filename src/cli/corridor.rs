@@ -6,7 +6,7 @@ use serde_json::json;
 
 use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, figure};
 use crate::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
-use crate::engine::{Error, RequestError, check_map};
+use crate::engine::{Error, check_map};
 use crate::units::Source;
 
 use super::args::{Common, CorridorArgs, Lang};
@@ -86,10 +86,7 @@ fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Direct
 }
 
 fn read(file: &Path) -> Result<CorridorSystem, Failure> {
-    let source = Source::read(file).map_err(|e| RequestError::File {
-        path: file.display().to_string(),
-        reason: e.to_string(),
-    })?;
+    let source = Source::read(file).map_err(|fault| Failure::file(file, &fault.into_io()))?;
     Ok(CorridorSystem::from_toml(&source).map_err(Error::from)?)
 }
 

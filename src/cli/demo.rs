@@ -15,6 +15,7 @@ use crate::language::command::{in_time, is_order};
 use crate::language::question::{Conditional, conditional};
 use crate::robot::Directive;
 use crate::semantics::predicate;
+use crate::units::write_file;
 
 use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
@@ -349,7 +350,7 @@ impl Scratch {
             return Ok(file.to_owned());
         }
         let copy = self.dir.join("rb2.toml");
-        std::fs::write(&copy, RB2.1).map_err(|e| Failure::file(&copy, &e))?;
+        write_file(&copy, RB2.1.as_bytes()).map_err(|e| Failure::file(&copy, &e))?;
         Ok(copy)
     }
 }

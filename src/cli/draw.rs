@@ -11,7 +11,7 @@ use crate::engine::{
 };
 use crate::language::Language;
 use crate::robot::Directive;
-use crate::units::{MapId, Point};
+use crate::units::{MapId, Point, write_file};
 
 use super::args::{Common, CorridorArgs, Lang};
 use super::commands::{note, open};
@@ -356,7 +356,7 @@ fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<Vec<S
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    std::fs::write(path, bytes).map_err(|e| Failure::file(path, &e))
+    write_file(path, bytes).map_err(|e| Failure::file(path, &e))
 }
 
 #[cfg(feature = "pictures")]

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use crate::engine::Engine;
 use crate::map::Format;
+use crate::units::write_file;
 
 use super::args::{Common, ExportArgs};
 use super::commands::open;
@@ -64,7 +65,7 @@ fn grids(
 }
 
 fn write(path: &Path, bytes: &[u8], written: &mut Vec<PathBuf>) -> Result<(), Failure> {
-    std::fs::write(path, bytes).map_err(|e| Failure::file(path, &e))?;
+    write_file(path, bytes).map_err(|e| Failure::file(path, &e))?;
     written.push(path.to_owned());
     Ok(())
 }

@@ -56,7 +56,12 @@ impl Failure {
     }
 
     pub(super) fn file(path: &std::path::Path, error: &std::io::Error) -> Self {
-        RequestError::File { path: path.display().to_string(), reason: error.to_string() }.into()
+        RequestError::File {
+            path: path.display().to_string(),
+            reason: error.to_string(),
+            is_input: crate::units::is_input(error.kind()),
+        }
+        .into()
     }
 
     /// Prints the faults and says with which code to end.

@@ -1,7 +1,7 @@
 //! The command line: arguments in, engine, text or JSON out.
 //!
 //! Results go to standard output, faults and progress to standard error. Exit codes: 0 done, 1 the answer is
-//! no, 2 the input is wrong, 3 internal.
+//! no, 2 the input is wrong, 3 the disk or the program is at fault.
 
 mod args;
 mod ask;

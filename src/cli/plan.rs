@@ -15,7 +15,7 @@ use crate::engine::{
 use crate::graphplan::{Limit, Limits, Outcome, Plan};
 use crate::language::Language;
 use crate::strips::{PlanText, RuleFault, RuleFaults, Scenario};
-use crate::units::English;
+use crate::units::{English, write_file};
 
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
@@ -65,7 +65,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
     warn(&warnings, common.lang);
     if let (Some(path), Some(plan)) = (&args.out, solved.outcome.plan()) {
         let text = PlanText::write(&solved.task, &plan.steps);
-        std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
+        write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
     }
     say(&told)?;
     Ok(if matches!(solved.outcome, Outcome::Plan(_)) { Answer::Yes } else { Answer::No })

@@ -8,7 +8,8 @@ use serde_json::{Value, json};
 use crate::engine::{
     Difference, Revision, RevisionKind, Severity, When, change_now, check_store, restore_store,
 };
-use crate::store::ImportReport;
+use crate::store::{Forgotten, ImportReport};
+use crate::units::write_file;
 
 use super::args::{Common, Lang};
 use super::commands::{note, open, open_to_write, store_dir};
@@ -97,12 +98,21 @@ pub(super) fn run(common: &Common, command: &StoreCommand) -> Result<Answer, Fai
         StoreCommand::Restore { file } => restore(common, file),
         StoreCommand::Gc { before } => {
             let change = change_now(&common.user, "сборка мусора");
-            let dropped = open_to_write(common)?.forget_before(*before, &change)?;
+            let Forgotten { versions, not_freed } =
+                open_to_write(common)?.forget_before(*before, &change)?;
             if common.json {
-                return say(&json!({"outcome": "done", "versions": dropped}).to_string());
+                let view = json!({"outcome": "done", "versions": versions, "not_freed": not_freed});
+                return say(&view.to_string());
+            }
+            if let Some(why) = not_freed {
+                let text = common.lang.pick(
+                    "Место на диске освободится со следующим снимком, этот не записан",
+                    "Their room on the disk is freed by the next snapshot, this one is not written",
+                );
+                note(&format!("{text}: {why}."));
             }
             let forgotten = common.lang.pick("Забыто версий записей:", "Versions forgotten:");
-            say(&format!("{forgotten} {dropped}"))
+            say(&format!("{forgotten} {versions}"))
         }
     }
 }
@@ -218,7 +228,7 @@ fn as_of(
     let text = engine.world()?.to_toml();
     match out {
         Some(path) => {
-            std::fs::write(path, text).map_err(|e| Failure::file(path, &e))?;
+            write_file(path, text.as_bytes()).map_err(|e| Failure::file(path, &e))?;
             Ok(Answer::Yes)
         }
         None if common.json => say(&json!({ "map": text }).to_string()),

@@ -14,7 +14,7 @@ use crate::robot::MissionError;
 use crate::semantics::RelationError;
 use crate::store::StoreError;
 use crate::strips::{EnglishFaults, RuleFaults};
-use crate::units::capitalized;
+use crate::units::{capitalized, is_input};
 
 /// Why the engine could not do what it was asked.
 #[derive(Debug, Error, Diagnostic)]
@@ -350,7 +350,12 @@ pub enum RequestError {
     /// A file that cannot be read or written.
     #[error("файл «{path}»: {reason}")]
     #[diagnostic(code(engine::file), help("проверьте путь и права доступа"))]
-    File { path: String, reason: String },
+    File {
+        path: String,
+        reason: String,
+        /// What was named is at fault, not the disk.
+        is_input: bool,
+    },
 }
 
 impl Error {
@@ -405,16 +410,18 @@ impl Error {
             | Self::Relations(_)
             | Self::Misheard(_)
             | Self::Corridor(_)
-            | Self::CorridorFile(_)
-            | Self::Datalog(_)
-            | Self::Request(_) => true,
+            | Self::CorridorFile(_) => true,
+            Self::Datalog(error) => match error.as_ref() {
+                FilesError::File { cause, .. } => is_input(cause.kind()),
+                _ => true,
+            },
+            Self::Request(RequestError::File { is_input, .. }) => *is_input,
+            Self::Request(_) => true,
             #[cfg(feature = "pictures")]
             Self::Png(_) => true,
             #[cfg(feature = "sqlite")]
-            Self::Sqlite(_) => true,
-            Self::Store(error) => {
-                !matches!(error, StoreError::Io { .. } | StoreError::BadRecord { .. })
-            }
+            Self::Sqlite(error) => error.is_input(),
+            Self::Store(error) => error.is_input(),
         }
     }
 }

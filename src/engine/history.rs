@@ -1,6 +1,8 @@
 //! The history of the map: revisions, what changed between them, undo and redo (D3).
 
-use crate::store::{Change, Difference, ImportReport, Revision, Store, StoreError, Timestamp};
+use crate::store::{
+    Change, Difference, Forgotten, ImportReport, Revision, Store, StoreError, Timestamp,
+};
 
 use super::{Engine, Error};
 
@@ -120,7 +122,7 @@ impl Engine {
     ///
     /// # Errors
     /// There is no such revision, or the disk refused.
-    pub fn forget_before(&mut self, when: When, change: &Change) -> Result<u64, Error> {
+    pub fn forget_before(&mut self, when: When, change: &Change) -> Result<Forgotten, Error> {
         let revision = self.revision_of(when)?;
         Ok(self.writable()?.forget_before(revision, change)?)
     }
@@ -140,6 +142,7 @@ impl Engine {
 
 fn in_memory() -> StoreError {
     StoreError::ReadOnly {
-        reason: "карта держится в памяти, без хранилища".to_owned()
+        reason: "карта держится в памяти, без хранилища".to_owned(),
+        by_choice: true,
     }
 }

@@ -186,7 +186,7 @@ impl Engine {
     pub(super) fn writable(&mut self) -> Result<&mut Store, Error> {
         self.store.as_mut().ok_or_else(|| {
             let reason = "карта держится в памяти, без хранилища".to_owned();
-            StoreError::ReadOnly { reason }.into()
+            StoreError::ReadOnly { reason, by_choice: true }.into()
         })
     }
 }

@@ -53,11 +53,12 @@ fn more_relations(dir: &Path) -> Result<Vec<PathBuf>, RequestError> {
     let unreadable = |e: std::io::Error| RequestError::File {
         path: dir.display().to_string(),
         reason: e.to_string(),
+        is_input: crate::units::is_input(e.kind()),
     };
     let mut files = Vec::new();
     for entry in std::fs::read_dir(dir).map_err(unreadable)? {
         let path = entry.map_err(unreadable)?.path();
-        let is_rules = path.extension().is_some_and(|e| e == "dl") && path.is_file();
+        let is_rules = path.extension().is_some_and(|e| e == "dl") && !path.is_dir();
         if is_rules && path.file_name().is_some_and(|name| name != RELATIONS) {
             files.push(path);
         }

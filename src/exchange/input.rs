@@ -3,11 +3,9 @@
 //! Exporters write UTF-8 with and without a mark, UTF-16 with one, and in Russia Windows-1251. A text that is none of
 //! the first is taken for the last; a byte that stands in no text of either is refused with its place.
 
-use std::fs::File;
-use std::io::Read;
 use std::path::Path;
 
-use crate::units::Source;
+use crate::units::{FileFault, Source, read_file};
 
 use super::error::ReadError;
 
@@ -19,15 +17,10 @@ pub const LARGEST: u64 = 256 << 20;
 /// # Errors
 /// [`ReadError::Unreadable`], [`ReadError::TooLarge`].
 pub fn file_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
-    let file = File::open(path).map_err(ReadError::unreadable(path))?;
-    let mut bytes = Vec::new();
-    // A pipe or a growing file tells no length; one byte past the limit is enough to know.
-    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(ReadError::unreadable(path))?;
-    if bytes.len() as u64 > LARGEST {
-        let bytes = std::fs::metadata(path).map_or(bytes.len() as u64, |m| m.len());
-        return Err(ReadError::TooLarge { bytes, limit: LARGEST });
-    }
-    Ok(bytes)
+    read_file(path, LARGEST).map_err(|fault| match fault {
+        FileFault::TooLarge { bytes, limit } => ReadError::TooLarge { bytes, limit },
+        other => ReadError::unreadable(path)(other.into_io()),
+    })
 }
 
 /// The text of a file.

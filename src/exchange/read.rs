@@ -213,15 +213,30 @@ impl Format {
 
     fn recognised(input: &Input<'_>) -> Option<Self> {
         // A file of our own says so in its first key, or is TOML, which no foreign format is.
-        let is_map = input.ends_with(&[".toml"])
-            || input.text().lines().take(50).any(|line| {
-                let line = line.trim_start().trim_start_matches('"');
-                line.strip_prefix("format")
-                    .is_some_and(|rest| rest.trim_start_matches(['"', ' ']).starts_with(['=', ':']))
-            });
+        let is_map = input.ends_with(&[".toml"]) || names_its_format(input.text());
         let foreign = READERS.iter().find(|r| (r.recognises)(input)).map(|r| r.format);
         foreign.or(is_map.then_some(Self::Map))
     }
+}
+
+/// Whether a text has the field `format` of a map file, however its lines are broken.
+fn names_its_format(text: &str) -> bool {
+    /// Whatever else stands at the top.
+    #[derive(serde::Deserialize)]
+    struct Top {
+        format: Option<serde::de::IgnoredAny>,
+    }
+    let text = text.trim_start_matches('\u{FEFF}').trim_start();
+    if text.starts_with('{')
+        && let Ok(top) = serde_json::from_str::<Top>(text)
+    {
+        return top.format.is_some();
+    }
+    text.lines().take(50).any(|line| {
+        let line = line.trim_start().trim_start_matches(['{', ' ']).trim_start_matches(['"', '\'']);
+        line.strip_prefix("format")
+            .is_some_and(|rest| rest.trim_start_matches(['"', '\'', ' ']).starts_with(['=', ':']))
+    })
 }
 
 /// Reads a building of any known format.

@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fmt::Write as _;
-use std::io::{BufWriter, Write as _};
 use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
@@ -15,7 +14,7 @@ use super::evaluate::EvaluateError;
 use super::fault::{Faults, FileFaults};
 use super::limits::Limits;
 use super::program::{Column, Kind, Parameters, Program, RelationId, RelationInfo, includes};
-use crate::units::Source;
+use crate::units::{Source, read_text, write_file_with};
 
 /// Why a program over files has no result.
 #[derive(Debug, Error, Diagnostic)]
@@ -110,6 +109,11 @@ pub fn run_files(
     Ok(report)
 }
 
+/// A program that is longer was not written by a person.
+const MAX_PROGRAM_BYTES: u64 = 16 << 20;
+/// Facts of one relation.
+const MAX_FACTS_BYTES: u64 = 256 << 20;
+
 /// The program's text and all that it includes, each once; paths are looked for beside the text that names them.
 fn with_included(program: &Path) -> Result<Vec<Source>, FilesError> {
     let mut sources = Vec::new();
@@ -120,7 +124,8 @@ fn with_included(program: &Path) -> Result<Vec<Source>, FilesError> {
         if !read.insert(known) {
             continue;
         }
-        let source = Source::read(&path).map_err(|cause| file_error(&path, cause))?;
+        let source = Source::read_within(&path, MAX_PROGRAM_BYTES)
+            .map_err(|fault| file_error(&path, fault.into_io()))?;
         let folder = path.parent().unwrap_or(Path::new(""));
         open.extend(includes(source.text()).into_iter().rev().map(|name| folder.join(name)));
         sources.push(source);
@@ -191,7 +196,8 @@ fn read(
     facts_dir: &Path,
 ) -> Result<(), FilesError> {
     let path = facts_dir.join(file_name(info, parameters, "facts"));
-    let text = std::fs::read_to_string(&path).map_err(|cause| file_error(&path, cause))?;
+    let text =
+        read_text(&path, MAX_FACTS_BYTES).map_err(|fault| file_error(&path, fault.into_io()))?;
     let mut loader = database.load();
     let mut tuple = Vec::new();
     let places =
@@ -360,12 +366,12 @@ fn write(
     parameters: &Parameters,
     path: &Path,
 ) -> std::io::Result<()> {
-    let mut file = BufWriter::new(std::fs::File::create(path)?);
-    lines(derived, relation, info, parameters, &mut |line| {
-        file.write_all(line.as_bytes())?;
-        file.write_all(b"\n")
-    })?;
-    file.flush()
+    write_file_with(path, |file| {
+        lines(derived, relation, info, parameters, &mut |line| {
+            file.write_all(line.as_bytes())?;
+            file.write_all(b"\n")
+        })
+    })
 }
 
 fn print(

@@ -2,7 +2,8 @@
 //!
 //! A thread takes the keys that were written since it last looked, in their order, and brings sled to the state that
 //! memory has now: so a record that changed ten times meanwhile is written once. What sled has not got when the
-//! program ends without warning comes from the journal at the next opening, as it always did.
+//! program ends without warning comes from the journal at the next opening, as it always did. When sled fails, it is
+//! left alone from then on: the journal has everything, and whoever writes need not know.
 //!
 //! **Invariant**: sled's state mark never runs ahead of its records: keys, values and state are taken under one lock.
 
@@ -12,6 +13,7 @@ use std::time::Duration;
 
 use super::error::{Result, StoreError};
 use super::frame::Op;
+use super::head::Head;
 use super::memory::MemoryTrees;
 use super::trees::{State, Trees};
 
@@ -35,7 +37,9 @@ struct Queue {
 
 struct Shared {
     memory: Arc<MemoryTrees>,
-    trees: Arc<dyn Trees>,
+    /// None: sled is not followed, and `Queue::failed` says why.
+    trees: Option<Arc<dyn Trees>>,
+    head: Option<Head>,
     queue: Mutex<Queue>,
     /// Told of work for the thread, and of work done.
     news: Condvar,
@@ -61,10 +65,14 @@ impl Shared {
         let (ops, state) = self.memory.current(std::mem::take(&mut queue.dirty));
         queue.is_busy = true;
         drop(queue);
-        let done = self.trees.apply(ops, &state);
+        if let Some(Err(error)) = self.head.as_ref().map(Head::sync) {
+            tracing::debug!(%error, "head is not on the disk yet");
+        }
+        let done = self.trees.as_ref().map_or(Ok(()), |trees| trees.apply(ops, &state));
         let mut queue = self.lock();
         queue.is_busy = false;
         if let Err(error) = done {
+            tracing::warn!(%error, "sled is not followed any more");
             queue.failed.get_or_insert(error.to_string());
         }
         self.news.notify_all();
@@ -95,20 +103,26 @@ impl Shared {
 }
 
 impl Behind {
-    /// `dirty` are the keys in which the trees differ from memory. Without a thread of its own, the trees follow
-    /// when [`Behind::catch_up`] is called and at no other time.
+    /// `dirty` are the keys in which the trees differ from memory; instead of trees there may be a reason why none
+    /// follow. Without a thread of its own, the trees follow when [`Behind::catch_up`] is called and at no other time.
     ///
     /// # Errors
     /// [`StoreError::Tables`] when the system has no thread to give.
     pub(crate) fn new(
         memory: Arc<MemoryTrees>,
-        trees: Arc<dyn Trees>,
+        trees: std::result::Result<Arc<dyn Trees>, String>,
+        head: Option<Head>,
         dirty: Vec<(u8, Vec<u8>)>,
         has_thread: bool,
     ) -> Result<Self> {
-        let queue = Mutex::new(Queue { dirty, ..Queue::default() });
-        let shared = Arc::new(Shared { memory, trees, queue, news: Condvar::new() });
-        let thread = if has_thread {
+        let (trees, failed) = match trees {
+            Ok(trees) => (Some(trees), None),
+            Err(why) => (None, Some(why)),
+        };
+        let follows = has_thread && failed.is_none();
+        let queue = Mutex::new(Queue { dirty, failed, ..Queue::default() });
+        let shared = Arc::new(Shared { memory, trees, head, queue, news: Condvar::new() });
+        let thread = if follows {
             let shared = Arc::clone(&shared);
             let spawned = std::thread::Builder::new()
                 .name("orthoframe-store".to_owned())
@@ -120,11 +134,6 @@ impl Behind {
         Ok(Self { shared, thread })
     }
 
-    /// Why sled does not follow any more, if so.
-    pub(crate) fn failure(&self) -> Option<String> {
-        self.shared.lock().failed.clone()
-    }
-
     /// Takes a transaction into memory; sled follows.
     pub(crate) fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
         let mut queue = self.shared.lock();
@@ -132,7 +141,9 @@ impl Behind {
             queue = self.shared.wait(queue);
         }
         let before = queue.dirty.len();
-        queue.dirty.extend(ops.iter().map(|op| (op.tree, op.key.clone())));
+        if queue.failed.is_none() {
+            queue.dirty.extend(ops.iter().map(|op| (op.tree, op.key.clone())));
+        }
         self.shared.memory.apply(ops, state)?;
         if before == 0 || (before < TURN && queue.dirty.len() >= TURN) {
             self.shared.news.notify_all();
@@ -164,7 +175,7 @@ impl Behind {
     /// As [`Behind::catch_up`], and gives sled's own buffers to the system.
     pub(crate) fn flush(&self) -> Result<()> {
         self.catch_up()?;
-        self.shared.trees.flush()
+        self.shared.trees.as_ref().map_or(Ok(()), |trees| trees.flush())
     }
 }
 
@@ -174,7 +185,8 @@ impl Drop for Behind {
         self.shared.lock().ends = true;
         self.shared.news.notify_all();
         if let Some(thread) = self.thread.take() {
-            // A thread that panicked left sled behind; the journal has it all.
+            // It ends: sled answers in a bounded time or not at all. A thread that panicked left sled behind; the
+            // journal has it all.
             let _ = thread.join();
         }
     }

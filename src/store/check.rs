@@ -1,15 +1,18 @@
 //! The deep check of a store, its backup and its restoration.
 
 use std::collections::BTreeSet;
+use std::fs::File;
+use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
 use super::derived::broken_derived;
 use super::disk::{Disk, RealDisk};
 use super::error::{Result, StoreError};
-use super::journal::snapshot_files;
+use super::frame::{FILE_HEADER, format_stated};
+use super::journal::{numbered, snapshot_dir, snapshot_files};
 use super::keep::Store;
-use super::open::{SledShelf, check_format, lock, write_format};
+use super::open::{Place, SledShelf, check_format, lock, write_format};
 use super::reader::replica_index;
 use super::schema::key_of;
 use super::snapshot::{check_snapshot, write_snapshot};
@@ -67,21 +70,26 @@ impl FsckReport {
 pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
     let dir = dir.as_ref();
     let disk: Arc<dyn Disk> = Arc::new(RealDisk);
-    if !check_format(&*disk, dir)? {
+    let place = check_format(&*disk, dir)?;
+    if place == Place::New {
         return Err(StoreError::Missing { dir: dir.display().to_string() });
     }
     let mut report = FsckReport::default();
+    if place == Place::Unmarked {
+        report.find(Severity::Mendable, "файл FORMAT утрачен или испорчен");
+    }
     check_snapshots(&*disk, dir, &mut report)?;
     let lock = lock(dir);
-    let mut shelf = SledShelf { dir: dir.to_owned() };
+    let mut shelf = SledShelf::new(dir);
+    let had_trees = shelf.exists();
     let looked = match &lock {
-        Ok(_) => Vault::look(Arc::clone(&disk), dir, || match shelf.exists() {
+        Ok(_) => Vault::look(Arc::clone(&disk), dir, had_trees, || match had_trees {
             true => shelf.open(),
             false => Err(StoreError::Tables { what: "таблиц sled нет".to_owned() }),
         }),
         Err(why) => {
             report.find(Severity::Note, format!("{why}: таблицы sled не проверены"));
-            Vault::open_read_only(Arc::clone(&disk), dir)
+            Vault::open_read_only(Arc::clone(&disk), dir, &shelf)
         }
     };
     match looked {
@@ -94,8 +102,13 @@ pub fn fsck(dir: impl AsRef<Path>) -> Result<FsckReport> {
                 let text = format!("журнал обрывается: {} байт не дописано", opened.torn_bytes);
                 report.find(Severity::Mendable, text);
             }
-            for fault in [&opened.journal_renewed, &opened.tables_rebuilt].into_iter().flatten() {
+            let faults =
+                [&opened.journal_renewed, &opened.tables_rebuilt, &opened.read_from_tables];
+            for fault in faults.into_iter().flatten() {
                 report.find(Severity::Mendable, fault);
+            }
+            for name in &opened.marks_renewed {
+                report.find(Severity::Mendable, format!("файл {name} испорчен"));
             }
             if lock.is_ok() && opened.replayed > 0 && opened.tables_rebuilt.is_none() {
                 report.find(Severity::Note, "таблицы sled отстали от журнала");
@@ -180,6 +193,43 @@ fn check_map(store: Result<Store>, report: &mut FsckReport) {
     }
 }
 
+/// Bytes. A store is kept in memory, and its copy is read into memory.
+const LARGEST_BACKUP: u64 = 4 << 30;
+
+/// A backup says in its first bytes that it is one: what says something else is not read.
+fn check_size(backup: &Path) -> Result<()> {
+    let bad = |what: &str| {
+        Err(StoreError::BadFile { path: backup.display().to_string(), what: what.to_owned() })
+    };
+    let about = std::fs::metadata(backup).map_err(StoreError::io("прочитать", backup))?;
+    if !about.is_file() {
+        return bad("это не файл");
+    }
+    if about.len() > LARGEST_BACKUP {
+        return bad("больше 4 ГиБ");
+    }
+    let mut head = Vec::new();
+    File::open(backup)
+        .and_then(|file| file.take(FILE_HEADER as u64).read_to_end(&mut head))
+        .map_err(StoreError::io("прочитать", backup))?;
+    if format_stated(&head).is_some() {
+        Ok(())
+    } else {
+        bad("начало файла испорчено")
+    }
+}
+
+/// Makes of a backup the least that is a store.
+fn fill(backup: &Path, dir: &Path, lsn: u64) -> Result<()> {
+    let snapshots = snapshot_dir(dir);
+    RealDisk.create_dir(&snapshots).map_err(StoreError::io("создать каталог", &snapshots))?;
+    let bytes = RealDisk.read(backup).map_err(StoreError::io("прочитать", backup))?;
+    let path = numbered(&snapshots, lsn, "snapshot");
+    RealDisk.replace(&path, &[bytes]).map_err(StoreError::io("записать", &path))?;
+    // Last, so that a half-restored directory is no store.
+    write_format(&RealDisk, dir)
+}
+
 impl Store {
     /// Writes the whole store, its history included, into one checksummed file.
     ///
@@ -200,18 +250,22 @@ impl Store {
     /// the directory: a store is never overwritten.
     pub fn restore(backup: impl AsRef<Path>, dir: impl AsRef<Path>) -> Result<Self> {
         let (backup, dir) = (backup.as_ref(), dir.as_ref());
+        check_size(backup)?;
         let state = check_snapshot(&RealDisk, backup)?;
         let names = RealDisk.list(dir).map_err(StoreError::io("прочитать каталог", dir))?;
         if !names.is_empty() {
             return Err(StoreError::NotEmpty { dir: dir.display().to_string() });
         }
-        let snapshots = dir.join("snapshots");
-        RealDisk.create_dir(&snapshots).map_err(StoreError::io("создать каталог", &snapshots))?;
-        let bytes = RealDisk.read(backup).map_err(StoreError::io("прочитать", backup))?;
-        let path = snapshots.join(format!("{:020}.snapshot", state.lsn));
-        RealDisk.replace(&path, &[bytes]).map_err(StoreError::io("записать", &path))?;
-        // Last, so that a half-restored directory is no store.
-        write_format(&RealDisk, dir)?;
+        let was_there = dir.exists();
+        fill(backup, dir, state.lsn).inspect_err(|_| {
+            // Half a copy would only be in the way of the next attempt.
+            for part in ["snapshots", "FORMAT", "FORMAT.new"].map(|name| dir.join(name)) {
+                let _ = std::fs::remove_dir_all(&part).or_else(|_| std::fs::remove_file(&part));
+            }
+            if !was_there {
+                let _ = std::fs::remove_dir(dir);
+            }
+        })?;
         Ok(Self::open(dir)?.0)
     }
 

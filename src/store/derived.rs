@@ -26,9 +26,7 @@ impl Store {
     /// # Panics
     /// When `kind` is no plain word: it becomes a file's name.
     pub fn put_derived(&self, kind: &str, revision: u64, bytes: &[u8]) -> Result<()> {
-        if let Some(reason) = self.read_only() {
-            return Err(StoreError::ReadOnly { reason: reason.to_owned() });
-        }
+        self.vault.check_writable()?;
         let path = self.derived_path(kind);
         let dir = self.dir.join("derived");
         self.vault.disk().create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;

@@ -3,7 +3,7 @@
 //! **Invariant**: no other file of this folder writes a file, but for sled's own.
 
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 /// A file that is only appended to.
@@ -14,6 +14,13 @@ pub(crate) trait Appender: Send {
     fn cut(&mut self, length: u64) -> io::Result<()>;
 }
 
+/// A file that keeps its length and is written in place, by one writer.
+pub(crate) trait Placed: Send + Sync {
+    fn write_at(&self, place: u64, bytes: &[u8]) -> io::Result<()>;
+    /// What was written outlives a power cut once this returns.
+    fn sync(&self) -> io::Result<()>;
+}
+
 /// A file system as the store sees it.
 pub(crate) trait Disk: Send + Sync {
     fn create_dir(&self, dir: &Path) -> io::Result<()>;
@@ -22,24 +29,34 @@ pub(crate) trait Disk: Send + Sync {
     fn read(&self, path: &Path) -> io::Result<Vec<u8>>;
     /// Opens a file to append to, making it when it does not exist.
     fn appender(&self, path: &Path) -> io::Result<Box<dyn Appender>>;
+    /// Opens a file that is there, to write in place.
+    fn placed(&self, path: &Path) -> io::Result<Box<dyn Placed>>;
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()>;
     fn remove(&self, path: &Path) -> io::Result<()>;
     /// The directory's entries outlive a power cut once this returns.
     fn sync_dir(&self, dir: &Path) -> io::Result<()>;
 
+    fn remove_if_there(&self, path: &Path) -> io::Result<()> {
+        match self.remove(path) {
+            Err(e) if e.kind() != io::ErrorKind::NotFound => Err(e),
+            _ => Ok(()),
+        }
+    }
+
     /// Puts a file in place whole or not at all, power cut or no.
     fn replace(&self, path: &Path, parts: &[Vec<u8>]) -> io::Result<()> {
         let aside = aside_name(path);
         // An attempt that failed before may have left its beginning.
-        match self.remove(&aside) {
-            Err(e) if e.kind() != io::ErrorKind::NotFound => return Err(e),
-            _ => {}
-        }
+        self.remove_if_there(&aside)?;
         let mut file = self.appender(&aside)?;
-        parts.iter().try_for_each(|part| file.append(part))?;
-        file.sync()?;
+        let written =
+            parts.iter().try_for_each(|part| file.append(part)).and_then(|()| file.sync());
         drop(file);
-        self.rename(&aside, path)?;
+        if let Err(error) = written.and_then(|()| self.rename(&aside, path)) {
+            // On a full disk the beginning of a file is only in the way.
+            let _ = self.remove(&aside);
+            return Err(error);
+        }
         // A bare file name lies in the working directory.
         let parent = path.parent().filter(|p| !p.as_os_str().is_empty());
         self.sync_dir(parent.unwrap_or_else(|| Path::new(".")))
@@ -71,6 +88,18 @@ impl Appender for File {
     }
 }
 
+impl Placed for File {
+    fn write_at(&self, place: u64, bytes: &[u8]) -> io::Result<()> {
+        let mut file = self;
+        file.seek(SeekFrom::Start(place))?;
+        file.write_all(bytes)
+    }
+
+    fn sync(&self) -> io::Result<()> {
+        self.sync_data()
+    }
+}
+
 impl Disk for RealDisk {
     fn create_dir(&self, dir: &Path) -> io::Result<()> {
         fs::create_dir_all(dir)
@@ -94,6 +123,10 @@ impl Disk for RealDisk {
 
     fn appender(&self, path: &Path) -> io::Result<Box<dyn Appender>> {
         Ok(Box::new(OpenOptions::new().create(true).append(true).open(path)?))
+    }
+
+    fn placed(&self, path: &Path) -> io::Result<Box<dyn Placed>> {
+        Ok(Box::new(OpenOptions::new().write(true).open(path)?))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 use miette::Diagnostic;
 use thiserror::Error;
 
+use crate::units::is_input;
+
 /// A store that cannot be opened, read or written, or that refuses what it was asked to keep.
 #[derive(Debug, Error, Diagnostic)]
 pub enum StoreError {
@@ -54,6 +56,14 @@ pub enum StoreError {
         help("проверьте диск; восстановите хранилище из резервной копии: ortho restore")
     )]
     JournalCorrupt { path: String, offset: u64 },
+
+    /// The journal is whole as far as it goes, and does not go as far as was acknowledged.
+    #[error("журнал обрывается на транзакции {found}, а подтверждены были {known}")]
+    #[diagnostic(
+        code(store::journal_cut_short),
+        help("проверьте диск; восстановите хранилище из резервной копии: ortho restore")
+    )]
+    CutShort { found: u64, known: u64 },
 
     /// Neither the journal nor the tables are whole.
     #[error("хранилище «{dir}» повреждено: журнал: {journal}; таблицы: {tables}")]
@@ -109,7 +119,11 @@ pub enum StoreError {
     /// The store was opened for reading, or has become unsafe to write.
     #[error("хранилище открыто только для чтения: {reason}")]
     #[diagnostic(code(store::read_only), help("устраните причину и откройте хранилище снова"))]
-    ReadOnly { reason: String },
+    ReadOnly {
+        reason: String,
+        /// It was opened so; else the disk is at fault.
+        by_choice: bool,
+    },
 
     /// No such revision.
     #[error("правки {wanted} нет: последняя правка — {last}")]
@@ -154,6 +168,21 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// What was asked for is at fault, not the disk, the store's own files or the program.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        match self {
+            Self::Io { source, .. } => is_input(source.kind()),
+            Self::ReadOnly { by_choice, .. } => *by_choice,
+            Self::JournalCorrupt { .. }
+            | Self::CutShort { .. }
+            | Self::BothCorrupt { .. }
+            | Self::BadRecord { .. }
+            | Self::Tables { .. } => false,
+            _ => true,
+        }
+    }
+
     pub(crate) fn io(
         what: &'static str,
         path: &Path,

@@ -181,6 +181,14 @@ pub(crate) enum HeadError {
     Format(u32),
 }
 
+/// The format that the head of a journal or snapshot states, if that head is whole.
+pub(crate) fn format_stated(bytes: &[u8]) -> Option<u32> {
+    let (head, crc) = bytes.get(..FILE_HEADER)?.split_last_chunk::<4>()?;
+    let is_ours = head.starts_with(JOURNAL) || head.starts_with(SNAPSHOT);
+    let is_whole = is_ours && crc32fast::hash(head) == u32::from_be_bytes(*crc);
+    is_whole.then(|| u32::from_be_bytes(head[8..12].try_into().expect("four bytes")))
+}
+
 pub(crate) fn scan(bytes: &[u8], magic: &[u8; 8]) -> Result<Scan, HeadError> {
     let Some(head) = bytes.get(..FILE_HEADER) else { return Err(HeadError::Short) };
     let number = |at: usize| u32::from_be_bytes(head[at..at + 4].try_into().expect("four bytes"));

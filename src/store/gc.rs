@@ -17,6 +17,15 @@ use super::version::{Stamp, Version};
 /// Under this name the first revision that can still be read stands among the last ids.
 const FORGOTTEN: &str = "~forgotten";
 
+/// What forgetting came to.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Forgotten {
+    /// Versions of records dropped.
+    pub versions: u64,
+    /// Why the files of the store still hold them: no snapshot could be written. The next one will be without them.
+    pub not_freed: Option<String>,
+}
+
 impl Store {
     /// The earliest revision that can be read; 0 when nothing was forgotten.
     pub(super) fn first_revision(&self) -> Result<u64> {
@@ -24,14 +33,14 @@ impl Store {
         Ok(mark.map_or(0, |m| u64::from(m.last_id)))
     }
 
-    /// Drops what only revisions before `revision` can see, and writes a new snapshot without it. Returns how
-    /// many versions were dropped.
+    /// Drops what only revisions before `revision` can see, and writes a new snapshot without it. What is dropped
+    /// is dropped though no snapshot could be written.
     ///
     /// Readers of an older revision that are still in use may then miss records.
     ///
     /// # Errors
     /// [`StoreError::UnknownRevision`], [`StoreError::ReadOnly`], [`StoreError::Io`].
-    pub fn forget_before(&mut self, revision: u64, change: &Change) -> Result<u64> {
+    pub fn forget_before(&mut self, revision: u64, change: &Change) -> Result<Forgotten> {
         // Fails for a revision that is not there or is forgotten already.
         let reader = self.reader_at(revision)?;
         let first = u32::try_from(revision).map_err(|_too_large| StoreError::UnknownRevision {
@@ -78,8 +87,8 @@ impl Store {
         };
         self.put_log(&mut draft, &mark, &stamp)?;
         self.vault.commit(draft.writes)?;
-        self.checkpoint()?;
-        Ok(dropped)
+        let not_freed = self.checkpoint().err().map(|why| why.to_string());
+        Ok(Forgotten { versions: dropped, not_freed })
     }
 }
 

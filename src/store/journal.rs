@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 
 use super::disk::{Appender, Disk};
 use super::error::{Result, StoreError};
-use super::frame::{FORMAT, HeadError, JOURNAL, Payload, Scan, Tail, file_header, scan};
+use super::frame::{
+    FILE_HEADER, FORMAT, HeadError, JOURNAL, Payload, Scan, Tail, file_header, scan,
+};
 
 pub(super) struct Journal {
     pub(super) file: Box<dyn Appender>,
@@ -145,6 +147,11 @@ impl Log {
     /// Whether something stood in a journal of which nothing can be read any more.
     pub(super) fn lost_head(&self) -> bool {
         self.fault.is_some() && self.frames.is_empty()
+    }
+
+    /// Whether no file has its head: nothing tells that there ever was a transaction, or that there was none.
+    pub(super) fn is_headless(&self) -> bool {
+        self.frames.is_empty() && self.end < FILE_HEADER as u64
     }
 
     /// The last sequence number that is known of: a file that begins with 4 has had 3 before it.

@@ -16,7 +16,7 @@ use super::edits::{
 };
 use super::error::{Result, StoreError};
 use super::ids::{self, Known};
-use super::open::{Lock, SledShelf, check_format, format_is_whole, lock, write_format};
+use super::open::{Lock, Place, SledShelf, check_format, lock, write_format};
 use super::reader::{Reader, history_key, key_of_record, replica_index};
 use super::schema::Record;
 use super::sheet::Sheet;
@@ -53,17 +53,24 @@ impl Store {
     pub fn open(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
         let dir = dir.as_ref();
         let disk: Arc<dyn Disk> = Arc::new(RealDisk);
-        check_format(&*disk, dir)?;
+        let place = check_format(&*disk, dir)?;
         disk.create_dir(dir).map_err(StoreError::io("создать каталог", dir))?;
         let lock = lock(dir)?;
-        if !format_is_whole(&*disk, dir) {
-            write_format(&*disk, dir)?;
+        let mut marked = Ok(());
+        if place != Place::Store {
+            marked = write_format(&*disk, dir);
             let parent = dir.parent().filter(|p| !p.as_os_str().is_empty());
             let parent = parent.unwrap_or_else(|| Path::new("."));
             disk.sync_dir(parent).map_err(StoreError::io("записать каталог", parent))?;
         }
-        let mut shelf = SledShelf { dir: dir.to_owned() };
-        let (vault, report) = Vault::open(disk, dir, &mut shelf)?;
+        // A store that is there is told by its other files as well.
+        if place == Place::New {
+            marked?;
+        }
+        let (vault, mut report) = Vault::open(disk, dir, &mut SledShelf::new(dir))?;
+        if place == Place::Unmarked {
+            report.marks_renewed.push("FORMAT");
+        }
         Ok((Self::over(vault, dir, Some(lock))?, report))
     }
 
@@ -74,10 +81,10 @@ impl Store {
     pub fn open_read_only(dir: impl AsRef<Path>) -> Result<(Self, OpenReport)> {
         let dir = dir.as_ref();
         let disk: Arc<dyn Disk> = Arc::new(RealDisk);
-        if !check_format(&*disk, dir)? {
+        if check_format(&*disk, dir)? == Place::New {
             return Err(StoreError::Missing { dir: dir.display().to_string() });
         }
-        let (vault, report) = Vault::open_read_only(disk, dir)?;
+        let (vault, report) = Vault::open_read_only(disk, dir, &SledShelf::new(dir))?;
         Ok((Self::over(vault, dir, None)?, report))
     }
 

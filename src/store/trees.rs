@@ -1,21 +1,25 @@
 //! Where records stand on the disk by table and key: sled's trees.
 //!
 //! Readers read memory (see `memory`); sled keeps the same records for the next opening, and follows the journal
-//! (see `behind`). What it forgets or breaks comes back from journal and snapshot. Its `flush` does not reach the disk on Linux (0.34.7 asks for `sync_file_range`), it panics on
-//! broken pages, and it notices few flipped bits; so every call is guarded, every record bears a checksum of
-//! its own, and the whole is compared with the journal's digests when the store is opened.
+//! (see `behind`). What it forgets or breaks comes back from journal and snapshot. Its `flush` does not reach the disk
+//! on Linux (0.34.7 asks for `sync_file_range`), it panics on broken pages, it hangs on a full disk, and it notices few
+//! flipped bits; so every call goes through a [`Wall`], every record bears a checksum of its own, and the whole is
+//! compared with the journal's digests when the store is opened.
 //!
 //! **Invariant**: no other file names sled.
 
-use std::collections::BTreeMap;
-use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::collections::{BTreeMap, BTreeSet};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use super::cell::Bytes;
 use super::error::{Result, StoreError};
 use super::frame::{Digest, Digests, Op, decode_digests, encode_digests};
 use super::tables::Table;
+use super::wall::{Fault, Pulse, Wall};
 
 /// Old versions of records, by table, key and revision.
 pub(crate) const HISTORY: u8 = 200;
@@ -47,6 +51,9 @@ impl State {
     }
 }
 
+/// Key and value.
+pub(crate) type Pair = (Vec<u8>, Vec<u8>);
+
 /// Called with each key and value; returns whether to go on.
 pub(crate) type Visit<'a> = dyn FnMut(&[u8], &[u8]) -> Result<bool> + 'a;
 
@@ -56,7 +63,7 @@ pub(crate) trait Trees: Send + Sync {
     /// Visits the records whose keys begin with `prefix`, in the order of their keys.
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()>;
     /// The last record of a tree whose key begins with `prefix` and is not beyond `limit`.
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>>;
+    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<Pair>>;
     /// Applies the operations and notes the state, all or nothing.
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()>;
     fn state(&self) -> Result<State>;
@@ -79,9 +86,12 @@ pub(crate) fn digests(trees: &dyn Trees) -> Result<Digests> {
     Ok(all)
 }
 
-/// sled's trees in a directory.
+/// sled's trees in a directory, behind a [`Wall`]: whatever sled does, a call ends.
 pub(crate) struct SledTrees {
-    open: Option<Open>,
+    dir: PathBuf,
+    wall: Wall<Open>,
+    /// Goes after sled.
+    _scratch: Option<Scratch>,
 }
 
 struct Open {
@@ -90,46 +100,47 @@ struct Open {
     db: sled::Db,
 }
 
-impl Drop for SledTrees {
-    fn drop(&mut self) {
-        // The last handle flushes, and flushing broken pages panics.
-        let open = self.open.take();
-        let _ = guarded(|| {
-            drop(open);
-            Ok(())
-        });
-    }
-}
-
 const STATE_KEY: &[u8] = b"state";
 /// Beyond so many operations a transaction's own bookkeeping costs more than the work, and it writes in the
 /// order of a hash table, which suits no B-tree.
 const TRANSACTION_OPS: usize = 256;
+/// How long sled may show no progress: opening and closing, which show none, take some hundredths of a second.
+const PATIENCE: Duration = Duration::from_secs(5);
+/// Records that a scan hands over at once.
+const PIECE: usize = 1024;
 
-/// Runs a call into sled, turning its panics into errors.
-fn guarded<T>(call: impl FnOnce() -> std::result::Result<T, sled::Error>) -> Result<T> {
-    match catch_unwind(AssertUnwindSafe(call)) {
-        Ok(Ok(value)) => Ok(value),
-        Ok(Err(error)) => Err(StoreError::Tables { what: error.to_string() }),
-        Err(panic) => {
-            let text = panic
-                .downcast_ref::<String>()
-                .map(String::as_str)
-                .or_else(|| panic.downcast_ref::<&str>().copied());
-            Err(StoreError::Tables { what: text.unwrap_or("сбой sled").to_owned() })
-        }
+/// Directories in which a sled of this program was left behind, its lock held and perhaps still writing: none is
+/// opened there again before the program ends.
+static LEFT_BEHIND: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+fn left_behind() -> MutexGuard<'static, BTreeSet<PathBuf>> {
+    LEFT_BEHIND.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl From<sled::Error> for Fault {
+    fn from(error: sled::Error) -> Self {
+        // After a failed write sled's closing waits for a flush that never comes.
+        let is_final = matches!(error, sled::Error::Io(_));
+        Self { what: error.to_string(), is_final }
+    }
+}
+
+impl From<Fault> for StoreError {
+    fn from(fault: Fault) -> Self {
+        Self::Tables { what: fault.what }
     }
 }
 
 /// Waits for sled's lock a moment: the store's own is held, so whoever has sled's yet is a child of another thread
 /// that shares the file from its fork until it runs.
-fn open_patiently(config: &sled::Config) -> sled::Result<sled::Db> {
+fn open_patiently(config: &sled::Config, pulse: &Pulse) -> sled::Result<sled::Db> {
     const TRIES: u32 = 200;
     const PAUSE: Duration = Duration::from_millis(10);
     for _ in 0..TRIES {
         match config.open() {
             Err(sled::Error::Io(e)) if e.to_string().contains("could not acquire lock") => {
                 std::thread::sleep(PAUSE);
+                pulse.beat();
             }
             opened => return opened,
         }
@@ -138,38 +149,148 @@ fn open_patiently(config: &sled::Config) -> sled::Result<sled::Db> {
 }
 
 impl SledTrees {
+    /// # Errors
+    /// [`StoreError::Tables`]: sled refused, panicked, or did not come back in time.
     pub(crate) fn open(dir: &Path) -> Result<Self> {
-        guarded(|| {
+        Self::open_with(dir, None)
+    }
+
+    /// Opens a copy in the directory for temporary files, so that the trees themselves are not touched.
+    ///
+    /// # Errors
+    /// As [`SledTrees::open`]; when there are no trees, or no room for the copy.
+    pub(crate) fn open_copy(dir: &Path) -> Result<Self> {
+        let failed = |e: io::Error| StoreError::Tables { what: e.to_string() };
+        let scratch = Scratch::of(dir).map_err(failed)?;
+        let copied = scratch.0.clone();
+        Self::open_with(&copied, Some(scratch))
+    }
+
+    fn open_with(dir: &Path, scratch: Option<Scratch>) -> Result<Self> {
+        // Before sled makes it, the directory has no canonical name.
+        let _ = std::fs::create_dir_all(dir);
+        let name = dir.canonicalize().unwrap_or_else(|_| dir.to_owned());
+        if left_behind().contains(&name) {
+            return Err(StoreError::Tables {
+                what: "sled оставлен до конца программы".into()
+            });
+        }
+        let path = dir.to_owned();
+        let raised = Wall::raise(PATIENCE, move |pulse| {
             // No flushing in the background: the journal keeps what sled has yet in memory.
             let config =
-                sled::Config::new().path(dir).cache_capacity(64 << 20).flush_every_ms(None);
-            let db = open_patiently(&config)?;
-            let trees = tree_names()
-                .map(|(code, name)| Ok((code, db.open_tree(name)?)))
-                .collect::<sled::Result<_>>()?;
-            Ok(Self { open: Some(Open { trees, state: db.open_tree("~state")?, db }) })
-        })
-    }
-
-    fn open_trees(&self) -> &Open {
-        self.open.as_ref().expect("only dropping closes the trees")
-    }
-
-    fn tree(&self, tree: u8) -> Result<&sled::Tree> {
-        self.open_trees().trees.get(&tree).ok_or_else(|| StoreError::Tables {
-            what: format!("нет таблицы с номером {tree}"),
-        })
+                sled::Config::new().path(path).cache_capacity(64 << 20).flush_every_ms(None);
+            let db = open_patiently(&config, pulse)?;
+            let mut trees = BTreeMap::new();
+            for (code, name) in tree_names() {
+                trees.insert(code, db.open_tree(name)?);
+                pulse.beat();
+            }
+            Ok(Open { trees, state: db.open_tree("~state")?, db })
+        });
+        match raised {
+            Ok(wall) => Ok(Self { dir: name, wall, _scratch: scratch }),
+            Err(fault) => {
+                if fault.is_final {
+                    left_behind().insert(name);
+                }
+                Err(fault.into())
+            }
+        }
     }
 }
 
-impl SledTrees {
+impl Drop for SledTrees {
+    fn drop(&mut self) {
+        self.wall.close();
+        if self.wall.is_abandoned() {
+            left_behind().insert(self.dir.clone());
+        }
+    }
+}
+
+/// A copy of a directory, gone with this value.
+struct Scratch(PathBuf);
+
+impl Scratch {
+    fn of(dir: &Path) -> io::Result<Self> {
+        static NUMBER: AtomicU64 = AtomicU64::new(0);
+        let number = NUMBER.fetch_add(1, Ordering::Relaxed);
+        let name = format!("orthoframe-{}-{number}", std::process::id());
+        let scratch = Self(std::env::temp_dir().join(name));
+        std::fs::create_dir(&scratch.0)?;
+        copy_dir(dir, &scratch.0)?;
+        Ok(scratch)
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        // What cannot be removed is the system's to clear away.
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// Files and folders; sled has no others, and what is no file might never end.
+fn copy_dir(from: &Path, to: &Path) -> io::Result<()> {
+    for entry in std::fs::read_dir(from)? {
+        let entry = entry?;
+        let (kind, to) = (entry.file_type()?, to.join(entry.file_name()));
+        if kind.is_dir() {
+            std::fs::create_dir(&to)?;
+            copy_dir(&entry.path(), &to)?;
+        } else if kind.is_file() {
+            std::fs::copy(entry.path(), to)?;
+        }
+    }
+    Ok(())
+}
+
+impl Open {
+    fn tree(&self, tree: u8) -> std::result::Result<&sled::Tree, Fault> {
+        self.trees.get(&tree).ok_or_else(|| Fault::new(format!("нет таблицы с номером {tree}")))
+    }
+
     /// Many operations one after the other, the history first and the state last.
     ///
     /// A reader of an older revision finds in the history what it misses in the tables, as after a transaction;
     /// a crash midway leaves the old state, and opening applies the whole frame again.
-    fn apply_in_order(&self, batches: &[(&sled::Tree, Vec<&Op>)], state: &[u8]) -> Result<()> {
-        guarded(|| {
-            for (tree, ops) in batches.iter().rev() {
+    fn apply_in_order(
+        &self,
+        batches: &[(&sled::Tree, Vec<&Op>)],
+        state: &[u8],
+        pulse: &Pulse,
+    ) -> sled::Result<()> {
+        for (tree, ops) in batches.iter().rev() {
+            for op in ops {
+                match &op.value {
+                    Some(value) => tree.insert(op.key.as_slice(), value.as_slice())?,
+                    None => tree.remove(op.key.as_slice())?,
+                };
+                pulse.beat();
+            }
+        }
+        self.state.insert(STATE_KEY, state)?;
+        Ok(())
+    }
+
+    fn apply(&self, ops: &[Op], state: &[u8], pulse: &Pulse) -> std::result::Result<(), Fault> {
+        use sled::transaction::{TransactionError, Transactional};
+
+        let mut touched = BTreeMap::<u8, Vec<&Op>>::new();
+        for op in ops {
+            touched.entry(op.tree).or_default().push(op);
+        }
+        let mut trees =
+            touched.keys().map(|t| self.tree(*t)).collect::<std::result::Result<Vec<_>, _>>()?;
+        if ops.len() > TRANSACTION_OPS {
+            let batches: Vec<_> = trees.into_iter().zip(touched.into_values()).collect();
+            return Ok(self.apply_in_order(&batches, state, pulse)?);
+        }
+        trees.push(&self.state);
+        let done = trees.as_slice().transaction(|trees| {
+            let (last, trees) = trees.split_last().expect("the state's tree is always there");
+            for (tree, ops) in trees.iter().zip(touched.values()) {
                 for op in ops {
                     match &op.value {
                         Some(value) => tree.insert(op.key.as_slice(), value.as_slice())?,
@@ -177,13 +298,17 @@ impl SledTrees {
                     };
                 }
             }
-            self.open_trees().state.insert(STATE_KEY, state)?;
+            last.insert(STATE_KEY, state)?;
             Ok(())
-        })
+        });
+        match done {
+            Ok(()) | Err(TransactionError::Abort(())) => Ok(()),
+            Err(TransactionError::Storage(error)) => Err(error.into()),
+        }
     }
 }
 
-fn encode_state(state: &State) -> Vec<u8> {
+pub(super) fn encode_state(state: &State) -> Vec<u8> {
     let mut out = state.lsn.to_be_bytes().to_vec();
     encode_digests(&mut out, &state.digests);
     let crc = crc32fast::hash(&out);
@@ -203,74 +328,57 @@ fn decode_state(bytes: &[u8]) -> Option<State> {
 
 impl Trees for SledTrees {
     fn get(&self, tree: u8, key: &[u8]) -> Result<Option<Vec<u8>>> {
-        let tree = self.tree(tree)?;
-        guarded(|| Ok(tree.get(key)?.map(|value| value.to_vec())))
+        let key = key.to_vec();
+        Ok(self
+            .wall
+            .ask(move |open, _| Ok(open.tree(tree)?.get(key)?.map(|value| value.to_vec())))?)
     }
 
     fn scan(&self, tree: u8, prefix: &[u8], visit: &mut Visit) -> Result<()> {
-        let tree = self.tree(tree)?;
-        guarded(|| {
-            for record in tree.scan_prefix(prefix) {
+        let prefix = prefix.to_vec();
+        let pieces = move |open: &Open, give: &mut dyn FnMut(Vec<Pair>) -> bool| {
+            let mut piece = Vec::new();
+            for record in open.tree(tree)?.scan_prefix(prefix) {
                 let (key, value) = record?;
-                match visit(&key, &value) {
-                    Ok(true) => {}
-                    Ok(false) => break,
-                    Err(error) => return Ok(Err(error)),
+                piece.push((key.to_vec(), value.to_vec()));
+                if piece.len() == PIECE && !give(std::mem::take(&mut piece)) {
+                    return Ok(());
                 }
             }
-            Ok(Ok(()))
-        })?
+            give(piece);
+            Ok(())
+        };
+        let mut visit_all = |piece: Vec<Pair>| {
+            for (key, value) in &piece {
+                if !visit(key, value)? {
+                    return Ok(false);
+                }
+            }
+            Ok(true)
+        };
+        self.wall.each(pieces, &mut visit_all)?
     }
 
-    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<(Vec<u8>, Vec<u8>)>> {
-        let tree = self.tree(tree)?;
-        guarded(|| match tree.range(prefix..=limit).next_back() {
-            Some(record) => {
-                let (key, value) = record?;
-                Ok(Some((key.to_vec(), value.to_vec())))
+    fn last(&self, tree: u8, prefix: &[u8], limit: &[u8]) -> Result<Option<Pair>> {
+        let (prefix, limit) = (prefix.to_vec(), limit.to_vec());
+        Ok(self.wall.ask(move |open, _| {
+            match open.tree(tree)?.range(prefix..=limit).next_back() {
+                Some(record) => {
+                    let (key, value) = record?;
+                    Ok(Some((key.to_vec(), value.to_vec())))
+                }
+                None => Ok(None),
             }
-            None => Ok(None),
-        })
+        })?)
     }
 
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
-        use sled::transaction::{TransactionError, Transactional};
-
-        let mut touched = BTreeMap::<u8, Vec<&Op>>::new();
-        for op in &ops {
-            touched.entry(op.tree).or_default().push(op);
-        }
-        let mut trees = touched.keys().map(|t| self.tree(*t)).collect::<Result<Vec<_>>>()?;
         let state = encode_state(state);
-        if ops.len() > TRANSACTION_OPS {
-            let batches: Vec<_> = trees.into_iter().zip(touched.into_values()).collect();
-            return self.apply_in_order(&batches, &state);
-        }
-        trees.push(&self.open_trees().state);
-        guarded(|| {
-            let done = trees.as_slice().transaction(|trees| {
-                let (last, trees) = trees.split_last().expect("the state's tree is always there");
-                for (tree, ops) in trees.iter().zip(touched.values()) {
-                    for op in ops {
-                        match &op.value {
-                            Some(value) => tree.insert(op.key.as_slice(), value.as_slice())?,
-                            None => tree.remove(op.key.as_slice())?,
-                        };
-                    }
-                }
-                last.insert(STATE_KEY, state.as_slice())?;
-                Ok(())
-            });
-            match done {
-                Ok(()) => Ok(()),
-                Err(TransactionError::Storage(error)) => Err(error),
-                Err(TransactionError::Abort(())) => Ok(()),
-            }
-        })
+        Ok(self.wall.ask(move |open, pulse| open.apply(&ops, &state, pulse))?)
     }
 
     fn state(&self) -> Result<State> {
-        match guarded(|| self.open_trees().state.get(STATE_KEY))? {
+        match self.wall.ask(|open, _| Ok(open.state.get(STATE_KEY)?))? {
             None => Ok(State::default()),
             Some(bytes) => decode_state(&bytes).ok_or_else(|| StoreError::Tables {
                 what: "испорчена отметка о состоянии".into(),
@@ -279,6 +387,6 @@ impl Trees for SledTrees {
     }
 
     fn flush(&self) -> Result<()> {
-        guarded(|| self.open_trees().db.flush().map(|_| ()))
+        Ok(self.wall.ask(|open, _| Ok(open.db.flush().map(|_| ())?))?)
     }
 }

@@ -3,17 +3,22 @@
 //! A transaction is one frame of the journal, on the disk before it is acknowledged; then it is applied to the
 //! records in memory, which readers read, and sled's trees follow (see `behind`). Truth is the newest whole snapshot
 //! and the frames after it; the trees are an index of it, read and verified as a whole at each opening, which brings
-//! the two together:
+//! the two together. How far they must reach is known from a third place (see `head`): a journal that ends earlier is
+//! broken, though every frame in it be whole.
 //!
 //! | journal | trees | what is done |
 //! |---|---|---|
 //! | whole | whole | the frames that the trees lack are applied; a torn tail is cut off |
 //! | whole | broken, or not as their digests say | set aside, built anew from snapshot and journal |
+//! | whole | cannot be set aside or built anew | left alone; the store works without them |
 //! | broken | whole and not behind it | a new snapshot and a new journal are written from the trees |
 //! | broken | broken | refused, both named |
 //!
+//! What cannot be mended, on a full disk for one, leaves the store open for reading.
+//!
 //! **Invariant**: when [`Vault::commit`] returns `Ok`, the frame is on the disk; after it returned an error
-//! from the journal, nothing more is written until the store is opened again.
+//! from the journal, nothing more is written until the store is opened again. The trees decide nothing: whatever
+//! they do, a store whose snapshot and journal are whole opens and takes what it is given.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -22,6 +27,7 @@ use super::behind::Behind;
 use super::disk::Disk;
 use super::error::{Result, StoreError};
 use super::frame::{Digest, Digests, Op, encode_frame};
+use super::head::{Head, Known, Mark, read_head};
 use super::journal::{
     Journal, Log, begin_journal, journal_dir, numbered, numbered_files, snapshot_dir,
     snapshot_files,
@@ -45,6 +51,14 @@ pub struct OpenReport {
     pub tables_rebuilt: Option<String>,
     /// Why the journal was written anew from the tables.
     pub journal_renewed: Option<String>,
+    /// Why a store that is only read was read from the tables: what the journal lacks, an opening for writing mends.
+    pub read_from_tables: Option<String>,
+    /// Why the tables are not kept this time; journal and snapshots have everything.
+    pub tables_off: Option<String>,
+    /// Which of the small files `FORMAT` and `head` were lost or broken, and are written anew.
+    pub marks_renewed: Vec<&'static str>,
+    /// Why nothing can be written though the store was opened for writing.
+    pub not_writable: Option<String>,
 }
 
 impl OpenReport {
@@ -73,7 +87,10 @@ pub(crate) trait Shelf: Send {
     fn exists(&self) -> bool;
     /// Puts broken trees away, so that [`Shelf::open`] then gives empty ones.
     fn set_aside(&mut self) -> Result<()>;
+    /// Opens the trees without touching them, for one who only reads.
+    fn look(&self) -> Result<Arc<dyn Trees>>;
 }
+
 /// See the module.
 pub(crate) struct Vault {
     disk: Arc<dyn Disk>,
@@ -84,7 +101,9 @@ pub(crate) struct Vault {
     behind: Option<Behind>,
     state: State,
     journal: Option<Journal>,
-    read_only: Option<String>,
+    /// None in a store that is only read, or where the file cannot be written.
+    head: Option<Head>,
+    read_only: Option<ReadOnly>,
     /// Journal length at which the next snapshot is taken.
     checkpoint_at: u64,
     /// Counted over all journal files that a rebuild would have to read.
@@ -95,6 +114,24 @@ pub(crate) struct Vault {
 const CHECKPOINT_BYTES: u64 = 64 << 20;
 const SNAPSHOTS_KEPT: usize = 3;
 
+/// Why a store takes nothing.
+#[derive(Debug, Clone)]
+struct ReadOnly {
+    reason: String,
+    /// It was opened so.
+    by_choice: bool,
+}
+
+impl ReadOnly {
+    fn because(reason: String) -> Self {
+        Self { reason, by_choice: false }
+    }
+
+    fn error(&self) -> StoreError {
+        StoreError::ReadOnly { reason: self.reason.clone(), by_choice: self.by_choice }
+    }
+}
+
 /// Records brought to the end of the journal.
 struct Brought {
     memory: MemoryTrees,
@@ -102,6 +139,26 @@ struct Brought {
     /// Keys that the frames touched.
     touched: Vec<(u8, Vec<u8>)>,
     frames: u64,
+}
+
+/// What was read of a store's own files.
+struct Files<'f> {
+    disk: &'f dyn Disk,
+    dir: &'f Path,
+    known: &'f Known,
+    log: &'f Log,
+    /// Whether there were trees before this opening.
+    had_trees: bool,
+}
+
+/// What an opening for writing goes on with.
+struct Recovered {
+    memory: Arc<MemoryTrees>,
+    /// The trees that are to follow, or why none do.
+    trees: std::result::Result<Arc<dyn Trees>, String>,
+    /// Keys in which they differ from memory.
+    dirty: Vec<(u8, Vec<u8>)>,
+    state: State,
 }
 
 /// Where the records come from.
@@ -113,9 +170,18 @@ struct Found {
 
 /// Applies the frames after the records' own state, and checks what comes out of it against the digests. `counted`
 /// is what the records hold before, by their own bytes.
-fn replay(log: &Log, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
+fn replay(files: &Files, memory: MemoryTrees, mut counted: Digests, last: u64) -> Result<Brought> {
+    let log = files.log;
     let mut state = memory.state()?;
     let broken = |what: &str| StoreError::Tables { what: what.to_owned() };
+    // At the transaction that was acknowledged last, the store must hold what it held then.
+    let check = |state: &State| match files.known.mark() {
+        Some(mark) if mark.lsn == state.lsn && *mark != Mark::of(state) => {
+            Err(broken("записи не те, что были подтверждены"))
+        }
+        _ => Ok(()),
+    };
+    check(&state)?;
     if !log.reaches(state.lsn, last) {
         let empty = state.lsn == 0;
         return Err(broken(if empty {
@@ -129,6 +195,7 @@ fn replay(log: &Log, memory: MemoryTrees, mut counted: Digests, last: u64) -> Re
     for lsn in before + 1..=last {
         let payload = log.payload(lsn).ok_or_else(|| broken("кадр журнала не читается"))?;
         state.advance(lsn, payload.digests);
+        check(&state)?;
         for op in &payload.ops {
             let digest = counted.entry(op.tree).or_default();
             if let Some(old) = memory.get(op.tree, &op.key)? {
@@ -159,9 +226,12 @@ impl Vault {
             disk.create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;
         }
         disk.sync_dir(dir).map_err(StoreError::io("записать каталог", dir))?;
+        let known = read_head(&*disk, dir)?;
         let mut log = Log::read(&*disk, dir)?;
         let snapshots = snapshot_files(&*disk, dir)?;
-        if log.files.is_empty() && snapshots.is_empty() && !shelf.exists() {
+        let had_trees = shelf.exists();
+        let was_there = had_trees || known == Known::Broken || known.lsn() > 0;
+        if log.files.is_empty() && snapshots.is_empty() && !was_there {
             // The journal comes first: trees without one are then always trees that have lost it.
             begin_journal(&*disk, dir, 1)?;
             log = Log::read(&*disk, dir)?;
@@ -172,41 +242,80 @@ impl Vault {
             let synced = disk.appender(path).and_then(|mut file| file.sync());
             synced.map_err(StoreError::io("записать", path))?;
         }
-        let (trees, behind, state, mut report) = Self::recover(&*disk, dir, &log, shelf)?;
+        let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
+        let mut report = OpenReport::default();
+        let Recovered { memory, trees, dirty, state } = Self::recover(&files, shelf, &mut report)?;
+        // Without it the store works as well, and is only not told twice how far it must reach.
+        let head = Head::open(&*disk, dir, &known, &Mark::of(&state));
+        let head = head.inspect_err(|error| tracing::warn!(%error, "head is not written")).ok();
+        if known == Known::Broken {
+            report.marks_renewed.push("head");
+        }
+        report.tables_off = trees.as_ref().err().cloned();
+        let threaded = shelf.has_thread();
+        let behind = Behind::new(Arc::clone(&memory), trees, head.clone(), dirty, threaded)?;
         let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
         let mut vault = Self {
-            disk,
+            disk: Arc::clone(&disk),
             dir: dir.to_owned(),
-            trees,
+            trees: memory,
             behind: Some(behind),
             state,
             journal: None,
+            head,
             read_only: None,
             checkpoint_at: CHECKPOINT_BYTES,
             journal_bytes,
         };
-        vault.resume_journal(&log, &mut report)?;
+        if let Err(error) = vault.resume_journal(&log, &mut report) {
+            // What was acknowledged is here and can be read, though nothing can be added to it.
+            report.not_writable = Some(error.to_string());
+            vault.read_only = Some(ReadOnly::because(error.to_string()));
+        }
         Ok((vault, report))
     }
 
-    /// Reads a store without touching it: snapshot and journal into memory.
-    pub(crate) fn open_read_only(disk: Arc<dyn Disk>, dir: &Path) -> Result<(Self, OpenReport)> {
-        let unopened = StoreError::Tables {
-            what: "только для чтения не открываются".to_owned()
+    /// Reads a store without touching it: snapshot and journal into memory; where these are not whole, the trees.
+    pub(crate) fn open_read_only(
+        disk: Arc<dyn Disk>,
+        dir: &Path,
+        shelf: &dyn Shelf,
+    ) -> Result<(Self, OpenReport)> {
+        let known = read_head(&*disk, dir)?;
+        let log = Log::read(&*disk, dir)?;
+        let had_trees = shelf.exists();
+        let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
+        let unopened = StoreError::Tables { what: "нет".to_owned() };
+        let mut report = OpenReport::default();
+        let brought = match Self::find(&files, || Err(unopened)) {
+            Ok(found) => found.brought,
+            Err(why) => {
+                let found = Self::find(&files, || shelf.look())?;
+                report.read_from_tables = Some(match why {
+                    StoreError::BothCorrupt { journal, .. } => journal,
+                    other => other.to_string(),
+                });
+                found.brought
+            }
         };
-        let (vault, report) = Self::look(disk, dir, || Err(unopened))?;
-        // What an opening for writing would mend, this one does not.
-        Ok((vault, OpenReport { tables_rebuilt: None, journal_renewed: None, ..report }))
+        if report.read_from_tables.is_none() && log.fault.is_none() {
+            report.torn_bytes = log.torn;
+        }
+        report.fill(&brought.state, brought.frames);
+        Ok((Self::only_read(disk, dir, brought), report))
     }
 
     /// What an opening for writing would find and mend; nothing is mended.
     pub(crate) fn look(
         disk: Arc<dyn Disk>,
         dir: &Path,
+        had_trees: bool,
         open: impl FnOnce() -> Result<Arc<dyn Trees>>,
     ) -> Result<(Self, OpenReport)> {
+        let known = read_head(&*disk, dir)?;
         let log = Log::read(&*disk, dir)?;
-        let Found { brought, trees } = Self::find(&*disk, dir, &log, open)?;
+        let files = Files { disk: &*disk, dir, known: &known, log: &log, had_trees };
+        let Found { brought, trees } = Self::find(&files, open)?;
         let journal_renewed = journal_fault(&*disk, dir, &log, brought.state.lsn)?;
         let mut report = OpenReport {
             torn_bytes: if journal_renewed.is_some() { 0 } else { log.torn },
@@ -214,67 +323,76 @@ impl Vault {
             journal_renewed,
             ..OpenReport::default()
         };
+        if known == Known::Broken {
+            report.marks_renewed.push("head");
+        }
         report.fill(&brought.state, brought.frames);
-        let vault = Self {
+        Ok((Self::only_read(disk, dir, brought), report))
+    }
+
+    fn only_read(disk: Arc<dyn Disk>, dir: &Path, brought: Brought) -> Self {
+        Self {
             disk,
             dir: dir.to_owned(),
             trees: Arc::new(brought.memory),
             behind: None,
             state: brought.state,
             journal: None,
-            read_only: Some("так его открыли".into()),
+            head: None,
+            read_only: Some(ReadOnly {
+                reason: "так его открыли".into(), by_choice: true
+            }),
             checkpoint_at: u64::MAX,
             journal_bytes: 0,
-        };
-        Ok((vault, report))
+        }
     }
 
-    fn recover(
-        disk: &dyn Disk,
-        dir: &Path,
-        log: &Log,
-        shelf: &mut dyn Shelf,
-    ) -> Result<(Arc<dyn Trees>, Behind, State, OpenReport)> {
-        let mut report = OpenReport::default();
-        let Found { mut brought, trees } = Self::find(disk, dir, log, || shelf.open())?;
+    /// The records, and the trees that are to follow them.
+    fn recover(files: &Files, shelf: &mut dyn Shelf, report: &mut OpenReport) -> Result<Recovered> {
+        let Found { mut brought, trees } = Self::find(files, || shelf.open())?;
         let (trees, dirty) = match trees {
-            Ok(trees) => (trees, std::mem::take(&mut brought.touched)),
+            Ok(trees) => (Ok(trees), std::mem::take(&mut brought.touched)),
             Err(why) => {
-                shelf.set_aside()?;
-                report.tables_rebuilt = Some(why.to_string());
-                (shelf.open()?, brought.memory.keys())
+                let anew = shelf.set_aside().and_then(|()| shelf.open());
+                report.tables_rebuilt = anew.is_ok().then(|| why.to_string());
+                (anew, brought.memory.keys())
             }
         };
         let Brought { memory, state, frames, .. } = brought;
         report.fill(&state, frames);
-        let memory = Arc::new(memory);
-        let behind = Behind::new(Arc::clone(&memory), trees, dirty, shelf.has_thread())?;
-        Ok((memory, behind, state, report))
+        let trees = trees.map_err(|why| why.to_string());
+        Ok(Recovered { memory: Arc::new(memory), trees, dirty, state })
     }
 
     /// The records by the trees, or, when these do not hold, by snapshot and journal.
-    fn find(
-        disk: &dyn Disk,
-        dir: &Path,
-        log: &Log,
-        open: impl FnOnce() -> Result<Arc<dyn Trees>>,
-    ) -> Result<Found> {
+    fn find(files: &Files, open: impl FnOnce() -> Result<Arc<dyn Trees>>) -> Result<Found> {
+        let Files { disk, dir, log, .. } = *files;
         let snapshots = snapshot_files(disk, dir)?;
         let newest_snapshot = snapshots.last().map_or(0, |(lsn, _)| *lsn);
-        let last = log.last().max(newest_snapshot);
+        let last = log.last().max(newest_snapshot).max(files.known.lsn());
         let opened = open().and_then(|trees| {
             let seen = trees.state()?.lsn;
             let (memory, counted) = MemoryTrees::copy_of(&*trees)?;
-            Ok((trees, replay(log, memory, counted, last.max(seen))?))
+            Ok((trees, replay(files, memory, counted, last.max(seen))?))
+        });
+        // With neither snapshot nor journal, empty trees would be a silent loss of everything. The head of the first
+        // journal was on the disk before there were trees.
+        let was_emptied = files.had_trees && log.is_headless() && newest_snapshot == 0;
+        let opened = opened.and_then(|found| match found.1.state.lsn {
+            // sled makes new trees of broken ones: that they are empty then says nothing.
+            0 if was_emptied => Err(StoreError::Tables { what: "пусты".to_owned() }),
+            _ => Ok(found),
         });
         match opened {
             Ok((trees, brought)) => Ok(Found { brought, trees: Ok(trees) }),
-            // With neither snapshot nor journal, empty trees would be a silent loss of everything.
-            Err(why) if newest_snapshot == 0 && (log.files.is_empty() || log.lost_head()) => {
+            Err(why)
+                if newest_snapshot == 0
+                    && (log.files.is_empty() || log.lost_head() || was_emptied) =>
+            {
                 Err(both_corrupt(dir, log, &why, &why))
             }
             Err(why) => {
-                let brought = Self::from_files(disk, &snapshots, log, last)
+                let brought = Self::from_files(files, &snapshots, last)
                     .map_err(|also| both_corrupt(dir, log, &also, &why))?;
                 Ok(Found { brought, trees: Err(why) })
             }
@@ -282,24 +400,23 @@ impl Vault {
     }
 
     /// The records of the newest snapshot that is whole and from which the journal leads on.
-    fn from_files(
-        disk: &dyn Disk,
-        snapshots: &[(u64, PathBuf)],
-        log: &Log,
-        last: u64,
-    ) -> Result<Brought> {
+    fn from_files(files: &Files, snapshots: &[(u64, PathBuf)], last: u64) -> Result<Brought> {
+        let Files { disk, log, .. } = *files;
         let mut why = StoreError::Tables {
             what: "нет снимка, от которого ведёт журнал".to_owned(),
         };
         let empty = (0, PathBuf::new());
         for (lsn, path) in snapshots.iter().rev().chain([&empty]) {
             if !log.reaches(*lsn, last) {
+                if log.last() < files.known.lsn() {
+                    why = cut_short(log.last(), files.known.lsn());
+                }
                 continue;
             }
             let memory = MemoryTrees::default();
             let loaded = if *lsn == 0 { Ok(()) } else { load_snapshot(disk, path, &memory) };
             let counted = loaded.and_then(|()| digests(&memory));
-            match counted.and_then(|counted| replay(log, memory, counted, last)) {
+            match counted.and_then(|counted| replay(files, memory, counted, last)) {
                 Ok(found) => return Ok(found),
                 Err(error) => why = error,
             }
@@ -375,25 +492,28 @@ impl Vault {
     }
 
     pub(crate) fn read_only(&self) -> Option<&str> {
-        self.read_only.as_deref()
+        self.read_only.as_ref().map(|why| why.reason.as_str())
+    }
+
+    /// # Errors
+    /// [`StoreError::ReadOnly`].
+    pub(crate) fn check_writable(&self) -> Result<()> {
+        self.read_only.as_ref().map_or(Ok(()), |why| Err(why.error()))
     }
 
     /// One transaction: on the disk when this returns.
     pub(crate) fn commit(&mut self, changes: Vec<Change>) -> Result<()> {
-        if let Some(reason) = &self.read_only {
-            return Err(StoreError::ReadOnly { reason: reason.clone() });
-        }
-        if let Some(reason) = self.behind.as_ref().and_then(Behind::failure) {
-            // Nothing is lost: the journal has it all. But what cannot follow should not fall farther behind.
-            self.read_only = Some(reason.clone());
-            return Err(StoreError::ReadOnly { reason });
-        }
+        self.check_writable()?;
         let touched = self.digests_after(&changes);
         let ops: Vec<Op> = changes.into_iter().map(|c| c.op).collect();
         let lsn = self.state.lsn + 1;
         let frame = encode_frame(lsn, &ops, &touched);
         self.append(&frame)?;
         self.state.advance(lsn, touched);
+        // After the frame, so that it never says more than the journal has; see `head`.
+        if let Some(Err(error)) = self.head.as_ref().map(|head| head.note(&Mark::of(&self.state))) {
+            tracing::warn!(%error, "head is not written");
+        }
         if let Some(behind) = &self.behind {
             behind.apply(ops, &self.state)?;
         }
@@ -423,7 +543,7 @@ impl Vault {
             // After a failed sync nobody knows what the disk holds. Whatever of the frame is there goes, if it
             // can; and nothing is written after it.
             let _ = journal.file.cut(journal.length);
-            self.read_only = Some(format!("журнал не записывается ({error})"));
+            self.read_only = Some(ReadOnly::because(format!("журнал не записывается ({error})")));
             return Err(StoreError::io("записать", &journal.path)(error));
         }
         journal.length += frame.len() as u64;
@@ -444,12 +564,10 @@ impl Vault {
 
     /// Takes a snapshot, begins a new journal, and drops what three snapshots no longer need.
     pub(crate) fn checkpoint(&mut self) -> Result<()> {
-        if let Some(reason) = &self.read_only {
-            return Err(StoreError::ReadOnly { reason: reason.clone() });
-        }
-        // What a snapshot makes superfluous in the journal, sled must not miss.
-        if let Some(behind) = &self.behind {
-            behind.flush()?;
+        self.check_writable()?;
+        // What a snapshot makes superfluous in the journal, sled should not miss; if it does, it is built anew.
+        if let Some(Err(error)) = self.behind.as_ref().map(Behind::flush) {
+            tracing::warn!(%error, "sled misses what goes into a snapshot");
         }
         let size = self.write_snapshot()?;
         let empty = self.journal.as_ref().is_some_and(|j| {
@@ -457,7 +575,7 @@ impl Vault {
         });
         if !empty && let Err(error) = self.begin_journal() {
             // Two journals that both go on from here would not be told apart.
-            self.read_only = Some(error.to_string());
+            self.read_only = Some(ReadOnly::because(error.to_string()));
             return Err(error);
         }
         self.drop_old_files()?;
@@ -489,6 +607,15 @@ impl Vault {
     }
 }
 
+impl Drop for Vault {
+    fn drop(&mut self) {
+        // The journal is on the disk; the mark beside it should be too.
+        if let Some(Err(error)) = self.head.as_ref().map(Head::sync) {
+            tracing::debug!(%error, "head is not on the disk yet");
+        }
+    }
+}
+
 /// Why a journal does not lead to a state, if so.
 fn journal_fault(disk: &dyn Disk, dir: &Path, log: &Log, lsn: u64) -> Result<Option<String>> {
     let snapshots = snapshot_files(disk, dir)?;
@@ -503,6 +630,10 @@ fn journal_fault(disk: &dyn Disk, dir: &Path, log: &Log, lsn: u64) -> Result<Opt
     } else {
         None
     })
+}
+
+fn cut_short(found: u64, known: u64) -> StoreError {
+    StoreError::CutShort { found, known }
 }
 
 fn both_corrupt(dir: &Path, log: &Log, rebuild: &StoreError, trees: &StoreError) -> StoreError {

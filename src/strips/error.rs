@@ -552,6 +552,12 @@ impl RuleFault {
         Some((source.name(), line, column))
     }
 
+    /// The text and the byte in it: what orders faults as their lines do, without counting lines for each of them.
+    pub(super) fn place(&self) -> Option<(&str, usize)> {
+        let label = self.error.labels()?.next()?;
+        Some((self.source.as_ref()?.name(), label.offset()))
+    }
+
     #[must_use]
     pub fn is_warning(&self) -> bool {
         self.error.severity() == Some(Severity::Warning)

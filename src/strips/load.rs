@@ -1,5 +1,6 @@
 //! Reading rule files and scenarios with all that they include.
 
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::check;
@@ -12,7 +13,7 @@ use super::rule_text;
 use super::slip::slips;
 use super::syntax::{CostTerm, Document, Name};
 use super::task::Task;
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, FileFault, Source, read_text};
 
 /// No rule file that a person wrote is longer.
 pub const MAX_FILE_BYTES: u64 = 16 << 20;
@@ -65,12 +66,12 @@ impl Scenario {
         if faults.iter().all(is_whole)
             && let Err(RuleFaults(found)) = self.problem.resolve(&self.domain)
         {
-            for fault in found {
-                let (place, text) = (fault.position(), fault.to_string());
-                if !faults.iter().any(|f| f.position() == place && f.to_string() == text) {
-                    faults.push(fault);
-                }
-            }
+            let told = |fault: &RuleFault| {
+                let (name, offset) = fault.place().unzip();
+                (name.map(str::to_owned), offset, fault.to_string())
+            };
+            let mut known: HashSet<_> = faults.iter().map(told).collect();
+            faults.extend(found.into_iter().filter(|fault| known.insert(told(fault))));
         }
         in_order_of_texts(&mut faults);
         faults.truncate(MOST_FAULTS);
@@ -156,17 +157,17 @@ impl Scenario {
 /// such as the type that several objects share, once.
 fn in_order_of_texts(faults: &mut Vec<RuleFault>) {
     let mut texts: Vec<String> = Vec::new();
-    for (name, ..) in faults.iter().filter_map(RuleFault::position) {
+    for (name, _) in faults.iter().filter_map(RuleFault::place) {
         if !texts.iter().any(|known| known == name) {
             texts.push(name.to_owned());
         }
     }
     faults.sort_by_cached_key(|fault| {
-        let (name, line, column) = fault.position()?;
-        Some((texts.iter().position(|known| known == name), line, column))
+        let (name, offset) = fault.place()?;
+        Some((texts.iter().position(|known| known == name), offset))
     });
     faults.dedup_by(|later, earlier| {
-        later.error == earlier.error && later.position() == earlier.position()
+        later.error == earlier.error && later.place() == earlier.place()
     });
 }
 
@@ -187,29 +188,29 @@ impl Domain {
 /// The text of a file, if it is text and of a size that makes sense.
 pub(super) fn read_source(path: &Path) -> Result<Source, RuleFault> {
     let shown = path.display().to_string();
-    let refused = |error: std::io::Error| {
-        let reason = match error.kind() {
-            std::io::ErrorKind::NotFound => ("такого файла нет", "there is no such file").into(),
-            std::io::ErrorKind::PermissionDenied => {
+    let kind = |fault: &FileFault| match fault {
+        FileFault::Io(error) => Some(error.kind()),
+        _ => None,
+    };
+    let reason = match read_text(path, MAX_FILE_BYTES) {
+        Ok(text) => return Ok(Source::new(shown, text)),
+        Err(FileFault::TooLarge { bytes, limit }) => {
+            return Err(RuleFault::placeless(RuleError::TooLarge { path: shown, bytes, limit }));
+        }
+        Err(FileFault::NotText { at: offset }) => {
+            return Err(RuleFault::placeless(RuleError::NotText { path: shown, offset }));
+        }
+        Err(fault) => match kind(&fault) {
+            Some(std::io::ErrorKind::NotFound) => {
+                ("такого файла нет", "there is no such file").into()
+            }
+            Some(std::io::ErrorKind::PermissionDenied) => {
                 ("нет прав на чтение", "there is no permission to read it").into()
             }
-            _ => Bilingual::new(error.to_string(), error.to_string()),
-        };
-        RuleFault::placeless(RuleError::Unreadable { path: shown.clone(), reason })
+            _ => Bilingual::new(fault.to_string(), fault.english()),
+        },
     };
-    let bytes = std::fs::metadata(path).map_err(refused)?.len();
-    if bytes > MAX_FILE_BYTES {
-        let error = RuleError::TooLarge { path: shown, bytes, limit: MAX_FILE_BYTES };
-        return Err(RuleFault::placeless(error));
-    }
-    let bytes = std::fs::read(path).map_err(refused)?;
-    match String::from_utf8(bytes) {
-        Ok(text) => Ok(Source::new(shown, text)),
-        Err(error) => {
-            let offset = error.utf8_error().valid_up_to();
-            Err(RuleFault::placeless(RuleError::NotText { path: shown, offset }))
-        }
-    }
+    Err(RuleFault::placeless(RuleError::Unreadable { path: shown, reason }))
 }
 
 struct Loader {

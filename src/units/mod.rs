@@ -12,6 +12,7 @@
 
 mod bilingual;
 mod english;
+mod file;
 mod frame;
 mod id;
 mod language;
@@ -21,6 +22,7 @@ mod source;
 
 pub use bilingual::Bilingual;
 pub use english::{English, InEnglish};
+pub use file::{FileFault, is_input, read_file, read_text, write_file, write_file_with};
 pub use frame::{Frame, Point, Pose, Vector};
 pub use id::{AreaId, DomainId, DoorId, MapId, ObjectId, OrFrId, PlaceId, ReplicaId, TypeId};
 pub use language::Language;

@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use miette::{MietteError, MietteSpanContents, SourceCode, SourceSpan, SpanContents};
 
+use super::file::{FileFault, read_text};
+
 /// A text that was read, with the name that a person knows it by. Cheap to clone.
 ///
 /// miette counts columns in bytes; Cyrillic takes two a letter, so this type counts characters instead.
@@ -20,10 +22,20 @@ impl Source {
         Self { name: name.as_ref().into(), text: text.as_ref().into() }
     }
 
+    /// The text of a file of at most 64 MiB.
+    ///
     /// # Errors
-    /// Whatever the file system says; `InvalidData` when the file is not UTF-8.
-    pub fn read(path: &Path) -> std::io::Result<Self> {
-        Ok(Self::new(path.to_string_lossy(), std::fs::read_to_string(path)?))
+    /// [`FileFault`].
+    pub fn read(path: &Path) -> Result<Self, FileFault> {
+        Self::read_within(path, 64 << 20)
+    }
+
+    /// The text of a file of at most `limit` bytes.
+    ///
+    /// # Errors
+    /// [`FileFault`].
+    pub fn read_within(path: &Path, limit: u64) -> Result<Self, FileFault> {
+        Ok(Self::new(path.to_string_lossy(), read_text(path, limit)?))
     }
 
     #[must_use]

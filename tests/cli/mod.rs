@@ -1,6 +1,7 @@
 //! The program as it is run: answers, exit codes, and what wrong input comes to.
 
 mod faults;
+mod limits;
 mod map;
 mod plans;
 mod readme;

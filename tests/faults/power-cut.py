@@ -7,7 +7,7 @@ writer said was done. Every fifth round begins with a new store, the others go o
 
 Usage: sudo tests/faults/power-cut.py [ROUNDS]. STORE_TEST_BINARY names a test binary that is built already.
 """
-import fcntl, os, random, shutil, struct, subprocess, sys, tempfile, threading, time
+import fcntl, os, random, re, shutil, struct, subprocess, sys, tempfile, threading, time
 
 SHUTDOWN, NO_LOG_FLUSH = 0x8004587D, 2  # EXT4_IOC_SHUTDOWN
 
@@ -79,7 +79,8 @@ def main():
             if checker.returncode != 0:
                 print(said)
                 sys.exit(f"round {number}: FAILED, the disk is left mounted at {mount}")
-            known = int(said.split("at ", 1)[1].split()[0])
+            # sled's panics, which are caught, say where they are "at" as well.
+            known = int(re.search(r"^at (\d+) of", said, re.MULTILINE)[1])
         subprocess.run(["umount", mount], check=True)
     shutil.rmtree(work)
     print(f"{rounds} power cuts, {transactions} acknowledged transactions, none lost;"

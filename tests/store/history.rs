@@ -173,7 +173,7 @@ fn forgetting_takes_the_past_and_leaves_the_rest() {
     }
     let worlds: Vec<_> = (4..=6).map(|r| store.world_as_of(r).unwrap()).collect();
     let next = store.next_id(Table::AreaObjects).unwrap();
-    assert!(store.forget_before(4, &change("место нужно")).unwrap() > 0);
+    assert!(store.forget_before(4, &change("место нужно")).unwrap().versions > 0);
     drop(store);
     let mut store = open(dir.path());
     assert_eq!((4..=6).map(|r| store.world_as_of(r).unwrap()).collect::<Vec<_>>(), worlds);

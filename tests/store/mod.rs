@@ -1,6 +1,7 @@
 //! The store as its callers see it: import, history, durability, refusals.
 
 mod history;
+mod losses;
 mod readers;
 mod records;
 mod recovery;

@@ -54,7 +54,7 @@ pub(super) fn run(common: &Common, args: &EditArgs) -> Result<Answer, Failure> {
 }
 
 fn read(file: &Path) -> Result<Source, Failure> {
-    Source::read(file).map_err(|e| Failure::file(file, &e))
+    Source::read(file).map_err(|fault| Failure::file(file, &fault.into_io()))
 }
 
 fn view(edited: &Edited) -> serde_json::Value {

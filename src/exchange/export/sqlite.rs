@@ -56,6 +56,20 @@ pub enum SqliteError {
     Store(#[from] StoreError),
 }
 
+impl SqliteError {
+    /// What was asked for is at fault, not the disk.
+    #[must_use]
+    pub fn is_input(&self) -> bool {
+        use rusqlite::ErrorCode::{DiskFull, SystemIoFailure};
+        match self {
+            Self::Sqlite { source, .. } => {
+                !matches!(source.sqlite_error_code(), Some(DiskFull | SystemIoFailure))
+            }
+            _ => true,
+        }
+    }
+}
+
 /// Tables that an exchange holds: those of the map, and the derived ones.
 fn tables() -> impl Iterator<Item = Table> {
     Table::ALL.iter().copied().filter(|t| t.origin() != Origin::Log)
@@ -133,6 +147,22 @@ pub fn write_sqlite(path: &Path, reader: &Reader, world: &World) -> Result<(), S
     if path.exists() {
         return Err(SqliteError::Exists { path: shown });
     }
+    write_tables(path, reader, world).inspect_err(|_| {
+        // The beginning of a file is no export, and it would be in the way of the next one.
+        let _ = std::fs::remove_file(path);
+        let _ = std::fs::remove_file(journal_of(path));
+    })
+}
+
+/// SQLite's own journal, which it leaves where it could not go on.
+fn journal_of(path: &Path) -> std::path::PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push("-journal");
+    name.into()
+}
+
+fn write_tables(path: &Path, reader: &Reader, world: &World) -> Result<(), SqliteError> {
+    let shown = path.display().to_string();
     let failed = |source| SqliteError::Sqlite { path: shown.clone(), source };
     let derived = Sheet::derived(world)?;
     let mut connection = Connection::open(path).map_err(failed)?;
@@ -179,6 +209,8 @@ pub fn read_sqlite(path: &Path) -> Result<Sheet, SqliteError> {
     let limit = |what, limit| SqliteError::Limit { path: shown.clone(), what, limit };
     match std::fs::metadata(path) {
         Ok(data) if data.len() > LARGEST => return Err(limit("байт", LARGEST)),
+        // Opening a pipe could wait for ever.
+        Ok(data) if !data.is_file() => return Err(content("это не файл".to_owned())),
         Ok(_) => {}
         Err(e) => return Err(content(e.to_string())),
     }

@@ -22,12 +22,12 @@ use self::node::{Node, Span, Value};
 use self::read::{Draft, Origin};
 use super::World;
 use super::fault::{Fault, MapError, MapErrors, Record, Spot, Step};
-use crate::units::{Bilingual, Source};
+use crate::units::{Bilingual, FileFault, Source};
 
 pub use edit::{EditReading, NextIds, edit, kinds};
 pub use schema::json_schema;
 
-/// A text larger than this is no map: forty thousand replicas take some five megabytes.
+/// Bytes. A text larger than this is no map: forty thousand replicas take some five megabytes.
 const LIMIT: u64 = 64 << 20;
 /// Faults reported before the rest is only counted.
 const MOST_FAULTS: usize = 200;
@@ -118,21 +118,14 @@ impl Fault {
 #[must_use]
 pub fn read_file(path: &Path) -> Reading {
     let fail = |error| Reading { world: None, faults: MapErrors::of(error) };
-    let unreadable = |e: std::io::Error| {
-        let path = path.to_string_lossy().into_owned();
-        let message = Bilingual::new(e.to_string(), e.to_string());
-        fail(MapError::Unreadable { path, message })
-    };
-    match std::fs::metadata(path) {
-        Err(e) => return unreadable(e),
-        Ok(data) if data.len() > LIMIT => {
-            return fail(MapError::TooLarge { bytes: data.len(), limit: LIMIT });
-        }
-        Ok(_) => {}
-    }
-    match Source::read(path) {
+    match Source::read_within(path, LIMIT) {
         Ok(source) => read(&source, Format::of(path)),
-        Err(e) => unreadable(e),
+        Err(FileFault::TooLarge { bytes, limit }) => fail(MapError::TooLarge { bytes, limit }),
+        Err(fault) => {
+            let path = path.to_string_lossy().into_owned();
+            let message = Bilingual::new(fault.to_string(), fault.english());
+            fail(MapError::Unreadable { path, message })
+        }
     }
 }
 

@@ -93,12 +93,18 @@ fn parse_toml(text: &str) -> Result<Node, Vec<Misprint>> {
     Ok(Node { span, value: toml_table(table.into_inner()) })
 }
 
+/// Bytes that are parsed in search of further faults, at the most.
+const PARSED_AGAIN: usize = 8 << 20;
+
 /// The first fault of a text, and of what stands behind it the first again: of a bracket that is never closed the
 /// parser would tell with every line that follows.
 fn toml_faults(text: &str) -> Vec<Misprint> {
     let mut faults = Vec::new();
     let mut start = 0;
-    while faults.len() < MOST_FAULTS {
+    let mut parsed = 0;
+    // What a person wrote is read again behind each fault; of a text of megabytes the first faults are enough.
+    while faults.len() < MOST_FAULTS && parsed <= PARSED_AGAIN {
+        parsed += text.len() - start;
         let (_, errors) = DeTable::parse_recoverable(&text[start..]);
         let begins = |e: &toml::de::Error| e.span().map_or(0, |span| span.start);
         let Some(first) = errors.into_iter().min_by_key(begins) else { break };

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use crate::facts::{EvaluateError, FactError, Faults, Program};
 use crate::semantics::measure::Reach;
-use crate::units::Source;
+use crate::units::{FileFault, Source};
 
 /// The rule text that the crate brings along.
 pub const STANDARD: &str = include_str!("../../../rules/relations.dl");
@@ -174,13 +174,10 @@ impl RelationRules {
 
 fn text_of(path: &Path) -> Result<Source, RelationError> {
     let name = || path.to_string_lossy().into_owned();
-    let unreadable =
-        |e: std::io::Error| RelationError::Unreadable { path: name(), message: e.to_string() };
-    let bytes = std::fs::metadata(path).map_err(unreadable)?.len();
-    if bytes > MAX_FILE_BYTES {
-        return Err(RelationError::TooLarge { path: name(), bytes });
-    }
-    let source = Source::read(path).map_err(unreadable)?;
+    let source = Source::read_within(path, MAX_FILE_BYTES).map_err(|fault| match fault {
+        FileFault::TooLarge { bytes, .. } => RelationError::TooLarge { path: name(), bytes },
+        other => RelationError::Unreadable { path: name(), message: other.to_string() },
+    })?;
     if source.text().trim().is_empty() {
         return Err(RelationError::Empty { path: name() });
     }
