@@ -42,7 +42,9 @@ fn keeps_the_frame(name: &str, survey: &Survey, world: &World) {
             known += 1;
             let corners: Vec<&Point> = rings.iter().flatten().collect();
             let near = |p: &Point| corners.iter().any(|q| (*q - p).norm() < 1.0);
-            same += usize::from(room.outline.iter().filter(|p| near(p)).count() * 2 >= room.outline.len());
+            same += usize::from(
+                room.outline.iter().filter(|p| near(p)).count() * 2 >= room.outline.len(),
+            );
         }
         for spot in &level.spots {
             let at = |place: &orthoframe::map::Place| {
@@ -83,7 +85,12 @@ fn rooms_and_places_stand_where_the_file_has_them() {
             serde_json::from_str(file_text(&path).expect("readable").text()).expect("JSON");
         let corners: Vec<Point> =
             world.areas.keys().flat_map(|&a| on_the_map(&world, a)).flatten().collect();
-        for p in house["rooms"].as_array().unwrap().iter().flat_map(|r| r["floorPolygon"].as_array().unwrap()) {
+        for p in house["rooms"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .flat_map(|r| r["floorPolygon"].as_array().unwrap())
+        {
             let at = Point::new(p["x"].as_f64().unwrap() * 100.0, p["z"].as_f64().unwrap() * 100.0);
             assert!(corners.iter().any(|q| (q - at).norm() < 1.0), "{at}");
         }
@@ -104,7 +111,8 @@ fn rooms_and_places_stand_where_the_file_has_them() {
             m[2]["distance"][1].as_f64().unwrap() / (pixels(&m[0]) - pixels(&m[1])).norm()
         });
         let scales: Vec<f64> = measured.collect();
-        let scale = if scales.is_empty() { 0.05 } else { scales.iter().sum::<f64>() / scales.len() as f64 };
+        let scale =
+            if scales.is_empty() { 0.05 } else { scales.iter().sum::<f64>() / scales.len() as f64 };
         let mut known = 0;
         for vertex in vertices {
             let name = vertex[3].as_str().unwrap_or_default();
@@ -161,14 +169,18 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
         let route = answer.expect("places").route.expect("a way");
         let gate = metres(5.1, 2.45) * 100.0;
         let near = |legs: &[Point]| {
-            (0..=50).any(|t| (legs[0] + (legs[1] - legs[0]) * (f64::from(t) / 50.0) - gate).norm() < 40.0)
+            (0..=50).any(|t| {
+                (legs[0] + (legs[1] - legs[0]) * (f64::from(t) / 50.0) - gate).norm() < 40.0
+            })
         };
         assert!(route.points.windows(2).any(near), "{:?}", route.points);
         // Out again.
         let map = *world.maps.keys().next().expect("one floor");
         let grid = engine.export_grid(map, 5.0).expect("a grid");
-        let sheet = orthoframe::exchange::ros::sheet(&Source::new("again.yaml", &grid.yaml)).expect("ours");
-        let header = grid.pgm.iter().enumerate().filter(|(_, b)| **b == b'\n').nth(2).expect("a head").0 + 1;
+        let sheet =
+            orthoframe::exchange::ros::sheet(&Source::new("again.yaml", &grid.yaml)).expect("ours");
+        let header =
+            grid.pgm.iter().enumerate().filter(|(_, b)| **b == b'\n').nth(2).expect("a head").0 + 1;
         let columns: usize = String::from_utf8_lossy(&grid.pgm[..header])
             .split_whitespace()
             .nth(1)
@@ -186,7 +198,11 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
         std::fs::write(&written, engine.export_geojson().expect("written")).expect("written");
         let again = read(&written, &Options::default()).expect("ours").world;
         let rooms = |world: &World, p: Point| {
-            world.areas.keys().filter(|&&a| on_the_map(world, a).iter().any(|r| contains(r, p * 100.0))).count()
+            world
+                .areas
+                .keys()
+                .filter(|&&a| on_the_map(world, a).iter().any(|r| contains(r, p * 100.0)))
+                .count()
         };
         for p in [left, right, other, metres(5.1, 1.4)] {
             assert_eq!(rooms(&again, p), rooms(&world, p), "{p}");
@@ -199,7 +215,10 @@ fn a_grid_keeps_its_frame_through_import_and_export() {
             .map(|f| &f["geometry"]["coordinates"])
             .map(|c| Point::new(c[0].as_f64().unwrap(), c[1].as_f64().unwrap()))
             .collect();
-        assert!(nodes.len() >= 4 && nodes.iter().all(|&p| rooms(&world, p) > 0 || (p - gate / 100.0).norm() < 0.6));
+        assert!(
+            nodes.len() >= 4
+                && nodes.iter().all(|&p| rooms(&world, p) > 0 || (p - gate / 100.0).norm() < 0.6)
+        );
         // The map file says whose coordinates these are, and reads back.
         let toml = world.to_toml();
         assert!(toml.contains("flat.yaml"), "{toml}");

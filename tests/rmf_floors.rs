@@ -69,7 +69,10 @@ fn what_the_drawing_leaves_out_is_no_floor() {
     for floors in [format!("{whole}\n{holes}"), round.to_owned()] {
         let (world, survey) = world_of(&storey(&floors, wall));
         assert!(!is_floor(&world, well), "{floors}");
-        assert!(is_floor(&world, beside) && is_floor(&world, Point::new(2800.0, 3550.0)), "{floors}");
+        assert!(
+            is_floor(&world, beside) && is_floor(&world, Point::new(2800.0, 3550.0)),
+            "{floors}"
+        );
         assert_eq!(world.areas.len(), 2);
         let told: Vec<&str> = survey.notes.iter().map(|n| n.text.as_str()).collect();
         assert_eq!(told, ["по рисунку здесь нет пола: 9.0 м² у (24.50; 35.50) м"], "{floors}");
@@ -90,17 +93,17 @@ fn what_the_drawing_leaves_out_is_no_floor() {
 }
 
 #[test]
-fn a_doorway_that_nobody_drew_keeps_two_rooms() {
+fn a_doorway_that_nobody_drew_is_told_with_its_place() {
     let floors = "    floors:\n      - vertices: [0, 1, 2, 3]";
     let (world, survey) = world_of(&storey(floors, "      - [4, 5, {}]\n      - [6, 7, {}]"));
-    assert_eq!((world.areas.len(), world.doors.len()), (2, 1));
-    let door = world.doors.values().next().expect("a passage");
-    assert_eq!(world.door_areas(door.id).len(), 2);
-    assert!((door.width.get() - 90.0).abs() < 1.0, "{:?}", door.width);
+    assert_eq!(world.areas.len(), 1);
     let told: Vec<&str> = survey.notes.iter().map(|n| n.text.as_str()).collect();
-    let expected = "в стене проём без двери: сделан проход, и помещения разделены; 90 см у (24.45; 32.00) м";
-    assert_eq!(told, [expected]);
-    // Without the right half of the wall the two are one room, and that is told.
+    let place = "90 см у (24.45; 32.00) м";
+    assert_eq!(
+        told,
+        [format!("в стене проём без двери: помещения по обе стороны стали одним; {place}")]
+    );
+    // The right half of the wall is missing.
     let (world, survey) = world_of(&storey(floors, "      - [4, 5, {}]"));
     assert_eq!(world.areas.len(), 1);
     assert!(survey.notes.iter().any(|n| n.text.contains("600 см")), "{:?}", survey.notes);

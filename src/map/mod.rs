@@ -43,8 +43,8 @@ mod orthoframe;
 mod types;
 mod world;
 
-pub use check::{check, doubts};
 pub(crate) use check::plane;
+pub use check::{check, doubts};
 pub use device::{is_dark, is_on, is_open, switch};
 pub use door::{Door, DoorKind, DoorLeaf, DoorMount, DoorState, DoorStatus, HingeSide, OpensTo};
 pub use fault::{EnglishMapErrors, Fault, MapError, MapErrors, Record, Spot, Step};

@@ -26,7 +26,11 @@ fn an_impossible_map_is_told_and_strictly_refused() {
     let text = std::fs::read_to_string(rb2()).unwrap();
     let fast = place.write("fast.toml", text.replace("speed = 60", "speed = 0.6"));
     let told = place.run(&["check", &fast]).is(0);
-    assert!(told.out.contains("Карта исправна") && told.err.contains("map::metres"), "{}", told.err);
+    assert!(
+        told.out.contains("Карта исправна") && told.err.contains("map::metres"),
+        "{}",
+        told.err
+    );
     let view = place.json(&["check", &fast], 0);
     assert_eq!((&view["outcome"], &view["warnings"]), (&"sound".into(), &1.into()));
     assert_eq!(view["told"][0]["code"], "map::metres");

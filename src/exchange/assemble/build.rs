@@ -143,7 +143,8 @@ impl Maker<'_> {
             storeys.push(storey);
         }
         // Heights too are the file's where it has a floor at zero: that is the base.
-        let made = || survey.levels.iter().zip(&storeys).filter_map(|(l, s)| Some((l, s.as_ref()?)));
+        let made =
+            || survey.levels.iter().zip(&storeys).filter_map(|(l, s)| Some((l, s.as_ref()?)));
         let heights = made().map(|(level, _)| level.elevation.get());
         let zero = heights.reduce(|a, b| if b.abs() < a.abs() { b } else { a }).unwrap_or(0.0);
         let mut maps: Vec<DomainMap> = made()

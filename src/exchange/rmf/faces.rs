@@ -63,7 +63,7 @@ pub(super) struct Plan {
     /// Edges between faces on which nothing stands. A door in a wall that ends in the open would have one room on both
     /// sides; the loose ends of its wall are led across to the next wall, and rooms meet there by a passage.
     pub(super) open: Vec<(Point, Point)>,
-    /// Those of them that are gaps in a wall as narrow as a doorway, in which no door is drawn.
+    /// Gaps in a wall as narrow as a doorway, in which no door is drawn; the floor on both sides is one face.
     pub(super) gaps: Vec<(Point, Point)>,
     /// Gaps in a wall that are wider, so that the floor on both sides became one face.
     pub(super) wide: Vec<(Point, Point)>,
@@ -81,7 +81,7 @@ pub(super) fn faces(edges: &[Edge]) -> Plan {
     graph.lead_loose_ends();
     graph.split();
     graph.dedup();
-    let gaps = graph.close_gaps();
+    let gaps = graph.narrow_gaps();
     graph.part_doors();
     graph.span_doors();
     let wide = graph.wide_gaps();
@@ -389,8 +389,8 @@ impl Graph {
         ends.into_iter().map(|(a, b)| parts(a, b)).collect()
     }
 
-    /// Closes gaps in walls that are doorways which nobody drew: else the rooms on both sides would be one.
-    fn close_gaps(&mut self) -> Vec<(Point, Point)> {
+    /// Gaps as narrow as a doorway that would part rooms, all of them closed together.
+    fn narrow_gaps(&self) -> Vec<(Point, Point)> {
         if self.edges.len() > MOST_EDGES {
             return Vec::new();
         }
@@ -404,9 +404,6 @@ impl Graph {
             let mut kept = parting.into_iter();
             gaps.retain(|_| kept.next().unwrap_or(false));
         }
-        if !gaps.is_empty() {
-            *self = self.led(&gaps);
-        }
         gaps.iter().map(|&(end, q)| (self.points[end], q)).collect()
     }
 
@@ -416,7 +413,9 @@ impl Graph {
             return Vec::new();
         }
         let gaps = self.gaps(REACH);
-        let wide = gaps.into_iter().filter(|gap| self.parting(&[*gap]) == [true]);
+        let is_wide = |gap: &(usize, Point)| (gap.1 - self.points[gap.0]).norm() > DOORWAY;
+        let wide = gaps.into_iter().filter(is_wide);
+        let wide = wide.filter(|gap| self.parting(&[*gap]) == [true]);
         wide.map(|(end, q)| (self.points[end], q)).collect()
     }
 
@@ -442,7 +441,8 @@ impl Graph {
         leads.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         leads.truncate(MOST_LEADS);
         let led = |leads: &[(f64, usize, Point)]| {
-            let gaps: Vec<(usize, Point)> = leads.iter().map(|&(_, end, foot)| (end, foot)).collect();
+            let gaps: Vec<(usize, Point)> =
+                leads.iter().map(|&(_, end, foot)| (end, foot)).collect();
             self.led(&gaps)
         };
         let left = led(&leads).one_sided().0.len();
@@ -679,7 +679,7 @@ mod tests {
     }
 
     #[test]
-    fn an_undrawn_doorway_keeps_rooms_apart_and_a_wide_one_is_told() {
+    fn an_undrawn_doorway_is_told_and_a_wide_gap_too() {
         // A room above a corridor; the wall between them has a gap at x from `x0` to `x1`.
         let plan_of = |x0: f64, x1: f64, bend: f64| {
             plan(&[
@@ -694,11 +694,10 @@ mod tests {
         // In mid-wall, in a wall drawn askew, and in a corner where one side of the wall is missing.
         for (x0, x1, bend) in [(300.0, 390.0, 0.0), (300.0, 400.0, 12.0), (690.0, 799.0, 0.0)] {
             let plan = plan_of(x0, x1, bend);
-            assert_eq!(plan.faces.len(), 2, "{x0} {x1}");
-            assert_eq!((plan.open.len(), plan.gaps.len(), plan.wide.len()), (1, 1, 0), "{x0} {x1}");
+            assert_eq!(plan.faces.len(), 1, "{x0} {x1}");
+            assert_eq!((plan.open.len(), plan.gaps.len(), plan.wide.len()), (0, 1, 0), "{x0} {x1}");
             let (a, b) = plan.gaps[0];
             assert!(((b - a).norm() - (x1 - x0)).abs() < 5.0, "{a} {b}");
-            assert!(plan.loose.is_empty());
         }
         let wide = plan_of(200.0, 600.0, 0.0);
         assert_eq!((wide.faces.len(), wide.gaps.len()), (1, 0));

@@ -233,7 +233,7 @@ impl Reader {
     /// Doorways that nobody drew.
     fn gaps(&mut self, level: &str, plan: &faces::Plan) {
         let told = [
-            (&plan.gaps, "gap", "в стене проём без двери: сделан проход, и помещения разделены"),
+            (&plan.gaps, "gap", "в стене проём без двери: помещения по обе стороны стали одним"),
             (&plan.wide, "wide", "стена прервана: пол по обе стороны стал одним помещением"),
         ];
         for (gaps, sort, text) in told {

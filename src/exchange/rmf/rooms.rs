@@ -9,8 +9,8 @@ use crate::map::Properties;
 use crate::map::plane::{bounds, contains, doubled_area, edges};
 use crate::units::{Cm, Point};
 
-use super::{METRE, WALL};
 use super::faces::{Face, Plan};
+use super::{METRE, WALL};
 
 /// Open floor smaller than this is the edge of a drawing, cm².
 const LEAST_FLOOR: f64 = 20_000.0;
@@ -70,10 +70,13 @@ pub(super) fn rooms(
         let source = format!("{level}/face/{i}");
         let mut none: Vec<Region> = Vec::new();
         if !floors.is_empty() {
-            let bare = ring::subtract(face, &floors);
+            let drawn: Vec<Ring> = floors.iter().chain(&holes).cloned().collect();
+            let bare = ring::subtract(face, &drawn);
             none.extend(bare.into_iter().filter(|part| is_floor(part) && !is_driven(part)));
         }
-        none.extend(within(face, &holes).into_iter().filter(|hole| hole.area() >= ring::LEAST_AREA));
+        none.extend(
+            within(face, &holes).into_iter().filter(|hole| hole.area() >= ring::LEAST_AREA),
+        );
         if none.is_empty() {
             found.rooms.push((room(source, face), Some(i)));
             continue;

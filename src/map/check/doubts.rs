@@ -23,7 +23,7 @@ use super::plane::{
     Bounds, border_distance, bounds, contains, edges, intersection, middle, near_pairs,
     segment_distance, touch,
 };
-use super::{Short, at};
+use super::{OVERLAP, Short, at};
 
 /// A thing may sink so far into what bears it, or be so far from what it stands on or hangs on, cm: the widest that a
 /// profile allows.
@@ -39,8 +39,20 @@ const MOST_ALIKE: usize = 5;
 
 /// What the program and its own rules know of a kind of thing or room.
 const TRAITS: [&str; 14] = [
-    "bed", "container", "corridor", "device", "lift", "light", "movable", "person", "portable", "room",
-    "seat", "shelves", "stairs", "support",
+    "bed",
+    "container",
+    "corridor",
+    "device",
+    "lift",
+    "light",
+    "movable",
+    "person",
+    "portable",
+    "room",
+    "seat",
+    "shelves",
+    "stairs",
+    "support",
 ];
 /// The person whom the operator's tasks speak of, in either language.
 const OPERATOR: [&str; 2] = ["оператор", "operator"];
@@ -202,7 +214,8 @@ impl Doubter<'_> {
             ("speed", robot.speed, 2.5),
         ] {
             if value < least {
-                let what = Bilingual::new(format!("робот, {field}"), format!("the robot's {field}"));
+                let what =
+                    Bilingual::new(format!("робот, {field}"), format!("the robot's {field}"));
                 self.metres(what, &[value], Spot::of(Record::Robot).field(field));
             }
         }
@@ -261,7 +274,9 @@ impl Doubter<'_> {
                     if is_held[a] || !touch(&body.polygon, &other.polygon, BESIDE) {
                         continue;
                     }
-                    if stands(&things[a], body, other) {
+                    if stands(&things[a], body, other)
+                        && intersection(&body.polygon, &other.polygon).area > OVERLAP
+                    {
                         is_held[a] = true;
                     } else if hangs(body, other) || body.heights_meet(other, 0.0) {
                         neighbours.push((a, b));
@@ -318,9 +333,11 @@ impl Doubter<'_> {
             let mut taken: Vec<(f64, f64, usize)> = Vec::new();
             for (no, thing) in things.iter().enumerate() {
                 let tall = thing.bodies.iter().filter(|b| {
-                    b.bottom < robot.height.get().min(door.height.get()) && b.top > robot.step.get() + 1.0
+                    b.bottom < robot.height.get().min(door.height.get())
+                        && b.top > robot.step.get() + 1.0
                 });
-                taken.extend(tall.filter_map(|b| doorway.taken(b)).map(|(from, to)| (from, to, no)));
+                taken
+                    .extend(tall.filter_map(|b| doorway.taken(b)).map(|(from, to)| (from, to, no)));
             }
             taken.sort_by(|a, b| a.0.total_cmp(&b.0));
             let (mut free, mut reached) = (0.0_f64, 0.0_f64);
@@ -368,9 +385,8 @@ impl Doubter<'_> {
     /// Properties that the program understands, with values that it does not.
     fn marks(&mut self) {
         let world = self.world;
-        let doors: BTreeSet<String> = both_names(world.doors.values().map(|d| (&d.name, &d.name_en)));
-        let things: BTreeSet<String> =
-            both_names(world.replicas.values().map(|r| (&r.name, &r.name_en)));
+        let doors = Known::of(world.doors.values().flat_map(|d| [&d.name, &d.name_en]));
+        let things = Known::of(world.replicas.values().flat_map(|r| [&r.name, &r.name_en]));
         let is_operator = |name: &str| OPERATOR.contains(&name_key(name).as_str());
         for replica in world.replicas.values() {
             let record = Record::Replica(replica.id);
@@ -409,26 +425,25 @@ impl Doubter<'_> {
         properties: &Properties,
         mark: Mark,
         what: (&'static str, &'static str),
-        known: &BTreeSet<String>,
+        known: &Known<'_>,
     ) {
         let Some((property, value)) = mark.of(properties) else { return };
-        if known.contains(&name_key(value)) {
+        if known.keys.contains(&name_key(value)) {
             return;
         }
         let error = MapError::NamesNothing {
             property: property.to_owned(),
             what: what.into(),
             name: value.to_owned(),
-            nearest: nearest_name(value, known.iter().map(String::as_str)).map(str::to_owned),
+            nearest: nearest_name(value, known.names.iter().copied()).map(str::to_owned),
         };
         self.doubt(error, vec![Spot::of(record).field("properties").key(property)]);
     }
 
     /// Power is on or off; so is, or open or shut, the state of a device whose power is not told apart.
     fn switched(&mut self, record: Record, properties: &Properties, is_device: bool) {
-        let alone = |value: &str| {
-            Properties::from([(Mark::State.names()[1].to_owned(), value.to_owned())])
-        };
+        let alone =
+            |value: &str| Properties::from([(Mark::State.names()[1].to_owned(), value.to_owned())]);
         if let Some((name, value)) = Mark::Power.of(properties) {
             if is_on(&alone(value)).is_none() {
                 self.value(record, name, value, ON_OFF);
@@ -442,7 +457,13 @@ impl Doubter<'_> {
         }
     }
 
-    fn value(&mut self, record: Record, property: &str, value: &str, wanted: (&'static str, &'static str)) {
+    fn value(
+        &mut self,
+        record: Record,
+        property: &str,
+        value: &str,
+        wanted: (&'static str, &'static str),
+    ) {
         let error = MapError::UnknownState {
             property: property.to_owned(),
             value: value.to_owned(),
@@ -477,8 +498,18 @@ const ON_OFF: (&str, &str) = ("Включено или Выключено", "on 
 const STATES: (&str, &str) =
     ("Включено, Выключено, Открыто или Закрыто", "on, off, open or closed");
 
-fn both_names<'n>(names: impl Iterator<Item = (&'n String, &'n String)>) -> BTreeSet<String> {
-    names.flat_map(|(name, name_en)| [name_key(name), name_key(name_en)]).collect()
+/// The names of all things of a sort.
+struct Known<'n> {
+    names: Vec<&'n str>,
+    keys: BTreeSet<String>,
+}
+
+impl<'n> Known<'n> {
+    fn of(names: impl Iterator<Item = &'n String>) -> Self {
+        let names: Vec<&str> = names.map(String::as_str).filter(|name| !name.is_empty()).collect();
+        let keys = names.iter().map(|name| name_key(name)).collect();
+        Self { names, keys }
+    }
 }
 
 /// Every solid of every thing: which thing, which of its solids, and its box.
@@ -493,12 +524,16 @@ fn solids(things: &[Thing<'_>]) -> (Vec<(usize, usize)>, Vec<Bounds>) {
 fn clash((one, m): (&Thing<'_>, usize), (other, n): (&Thing<'_>, usize)) -> Option<Point> {
     let (a, b) = (&one.bodies[m], &other.bodies[n]);
     // People sit in what bears them.
-    if one.is_person || other.is_person || one.hollow[m] || other.hollow[n] || a.top.min(b.top) - a.bottom.max(b.bottom) <= DEPTH {
+    if one.is_person
+        || other.is_person
+        || one.hollow[m]
+        || other.hollow[n]
+        || a.top.min(b.top) - a.bottom.max(b.bottom) <= DEPTH
+    {
         return None;
     }
-    let stands = |upper: &Body, lower: &Body| {
-        upper.top > lower.top && lower.top - upper.bottom <= STANDING
-    };
+    let stands =
+        |upper: &Body, lower: &Body| upper.top > lower.top && lower.top - upper.bottom <= STANDING;
     if stands(a, b) || stands(b, a) {
         return None;
     }
@@ -514,9 +549,10 @@ fn clash((one, m): (&Thing<'_>, usize), (other, n): (&Thing<'_>, usize)) -> Opti
 /// Whether a solid is in another, which may be open above.
 fn is_within(inner: &Body, outer: &Body) -> bool {
     inner.bottom >= outer.bottom - BESIDE
-        && inner.polygon.iter().all(|&p| {
-            contains(&outer.polygon, p) || border_distance(&outer.polygon, p) <= BESIDE
-        })
+        && inner
+            .polygon
+            .iter()
+            .all(|&p| contains(&outer.polygon, p) || border_distance(&outer.polygon, p) <= BESIDE)
 }
 
 /// Whether a thing stands with one of its solids on or in a solid below. Any of its lowest will do: a bench may stand on

@@ -425,7 +425,9 @@ impl MapError {
                 );
             }
             Self::Metres { wanted, .. } => {
-                return format!("lengths on a map are centimetres; if these are metres, write {wanted}");
+                return format!(
+                    "lengths on a map are centimetres; if these are metres, write {wanted}"
+                );
             }
             Self::MoreAlike { .. } => "mend what is shown, and check the map again",
             Self::More { .. } => "mend what is shown, and check the map again",
