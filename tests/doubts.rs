@@ -242,7 +242,15 @@ fn a_thing_in_mid_air_is_told_and_one_on_the_floor_is_not() {
             world.replicas.clear();
             world.places.clear();
             world.robot.start = None;
-            let frame = Frame::new(middle.x, middle.y, z, orthoframe::units::Deg::ZERO);
+            // Its own middle in the middle of the room, away from the walls.
+            let corners = object.items.iter().flat_map(|item| {
+                full.orthoframe_of(item).corners().map(|p| item.frame.apply(p)).collect::<Vec<_>>()
+            });
+            let corners: Vec<_> = corners.collect();
+            let own = corners.iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords)
+                / corners.len() as f64;
+            let at = middle - own;
+            let frame = Frame::new(at.x, at.y, z, orthoframe::units::Deg::ZERO);
             let thing = Replica { area: room, ..replica(&full, object, frame) };
             world.replicas.insert(thing.id, thing);
             let has = |wanted| world.types.object.has_trait(object.object_type, wanted);

@@ -316,9 +316,7 @@ impl Settler<'_, '_> {
                 || noun.quantity != Quantity::Exactly
         };
         match nouns.find(several) {
-            Some(noun) => {
-                Err((Doubt::not_understood(&noun.text), self.bytes(&spot.phrase.words)))
-            }
+            Some(noun) => Err((Doubt::not_understood(&noun.text), self.bytes(&spot.phrase.words))),
             None => Ok(()),
         }
     }
