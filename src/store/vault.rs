@@ -256,7 +256,7 @@ impl Vault {
         let behind = Behind::new(Arc::clone(&memory), trees, head.clone(), dirty, threaded)?;
         let journal_bytes = log.files.iter().map(|(_, _, bytes)| bytes.len() as u64).sum();
         let mut vault = Self {
-            disk: Arc::clone(&disk),
+            disk,
             dir: dir.to_owned(),
             trees: memory,
             behind: Some(behind),
