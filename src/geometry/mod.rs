@@ -36,6 +36,7 @@ mod kept;
 mod leaf;
 mod lift;
 mod mesh;
+mod mouth;
 mod narrows;
 mod network;
 mod numbers;
