@@ -64,7 +64,7 @@ pub use faces::{Face, FaceKind, Faces};
 pub use floor::{FragmentFloor, SLACK};
 pub use grid::Region;
 pub use leaf::{LeafSpace, Leaves, Strike, clear_width, opening_of};
-pub use lift::{Leg, NoWay, Ride, across};
+pub use lift::{LIFT_WAIT, Leg, NoWay, Ride, across};
 pub use obstacle::{Blocker, Obstacle};
 pub use passframe::{Beyond, Border, Passframe, PassframeId, PassframeKind};
 pub use plan::{DoorStates, FloorPlan};

@@ -537,3 +537,73 @@ fn through(root: Point, right: Point, left: Point, goal: Point) -> f64 {
         straight.norm()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square floor of so many cells a side, 10 cm each, and one cell by itself. Wherever cells meet a way is said to
+    /// bend, as at the ends of doorways' lines.
+    struct Squares(u32);
+
+    impl Cells for Squares {
+        fn edges(&self, (_, cell): CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
+            let side = self.0;
+            if cell == side * side {
+                return;
+            }
+            let (x, y) = (cell % side, cell / side);
+            let corner =
+                |dx: u32, dy: u32| Point::new(f64::from(x + dx) * 10.0, f64::from(y + dy) * 10.0);
+            let beside = [
+                ((0, 0), (1, 0), (y > 0).then(|| cell - side)),
+                ((1, 0), (1, 1), (x + 1 < side).then(|| cell + 1)),
+                ((1, 1), (0, 1), (y + 1 < side).then(|| cell + side)),
+                ((0, 1), (0, 0), (x > 0).then(|| cell - 1)),
+            ];
+            for (right, left, to) in beside {
+                if let Some(to) = to.filter(|&to| from != Some((0, to))) {
+                    found.push(Edge {
+                        right: corner(right.0, right.1),
+                        left: corner(left.0, left.1),
+                        right_bends: true,
+                        left_bends: true,
+                        to: (0, to),
+                    });
+                }
+            }
+        }
+
+        fn only_edge(&self, _: CellKey, _: CellKey) -> Option<Edge> {
+            None
+        }
+    }
+
+    #[test]
+    fn no_search_turns_round_a_corner_for_ever() {
+        for side in [2, 3, 5, 8] {
+            let apart = (0, side * side);
+            // On a corner, on an edge, beside a corner by less than rounding, and within a cell.
+            for at in [(10.0, 10.0), (10.0, 14.0), (10.0 + 1e-9, 10.0), (10.0, 10.0 - 1e-5), (14.0, 13.0)] {
+                let start = Point::new(at.0, at.1);
+                let mut search = Search::default();
+                search.begin(start, Point::new(500.0, 500.0));
+                assert!(search.run(&Squares(side), (0, 0), apart).is_none());
+                let corners = (side as usize + 1).pow(2) + 1;
+                let edges = 4 * (side as usize).pow(2);
+                assert!(search.nodes.len() <= corners * edges, "{side}: {}", search.nodes.len());
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_from_a_corner_at_which_cells_meet_is_straight() {
+        for (from, goal) in [(0, (73.0, 61.0)), (1, (75.0, 75.0)), (9, (15.0, 78.0)), (8, (80.0, 10.0))] {
+            let (start, goal) = (Point::new(10.0, 10.0), Point::new(goal.0, goal.1));
+            let cell = |v: f64| ((v / 10.0) as u32).min(7);
+            let to = (0, cell(goal.y) * 8 + cell(goal.x));
+            let way = shortest(&Squares(8), start, (0, from), goal, to).expect("one floor");
+            assert!((way.length - (goal - start).norm()).abs() < 1e-6, "{}", way.length);
+        }
+    }
+}

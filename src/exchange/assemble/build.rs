@@ -427,6 +427,13 @@ impl Maker<'_> {
                 self.report.skipped(What::Lift, &lift.source, Why::LiftStops);
                 continue;
             }
+            let is_shaft = |&(_, area): &(MapId, AreaId)| {
+                ["lift", "stairs"].iter().any(|t| self.world.area_has_trait(area, t))
+            };
+            if !lift.is_told && !stops.iter().all(is_shaft) {
+                self.report.skipped(What::Lift, &lift.source, Why::NoLift);
+                continue;
+            }
             self.report.taken(What::Lift, 1);
             let name = names::tidy(if lift.name.is_empty() { &lift.source } else { &lift.name });
             let stops = stops.into_iter().map(|(_, area)| LiftStop { area }).collect();
