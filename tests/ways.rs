@@ -116,7 +116,9 @@ fn there_and_back_are_one_way() {
 /// The named pairs that once took all memory, in both directions.
 #[test]
 fn a_search_that_turned_round_a_corner_for_ever_ends() {
-    let Some(world) = world("osmag/SIST_1.osm") else { return };
+    let Some(world) = world("osmag/SIST_1.osm") else {
+        return;
+    };
     let area = |name: &str| {
         let mut areas = world.areas.values().filter(|a| a.name == name);
         areas.next().unwrap_or_else(|| panic!("{name}")).id
@@ -440,7 +442,9 @@ fn no_way_is_where_a_fill_of_the_floor_finds_none() {
                 // In each piece of each room the place with the most room.
                 let mut best: BTreeMap<(AreaId, u32), usize> = BTreeMap::new();
                 for (cell, &piece) in surely.iter().enumerate().filter(|c| *c.1 != 0) {
-                    let Some(Some(area)) = raster.area[cell] else { continue };
+                    let Some(Some(area)) = raster.area[cell] else {
+                        continue;
+                    };
                     let known = best.entry((area, piece)).or_insert(cell);
                     if raster.room[cell] > raster.room[*known] {
                         *known = cell;
@@ -513,7 +517,9 @@ fn a_way_to_a_room_ends_in_the_room() {
 
 #[test]
 fn a_room_without_a_door_is_told_so() {
-    let Some(world) = world("cases/ell.json") else { return };
+    let Some(world) = world("cases/ell.json") else {
+        return;
+    };
     let map = *world.maps.keys().next().expect("a map");
     let archive = world.areas.values().find(|a| a.name == "Archive").expect("a room").id;
     let plan = plan(&world, map, 25.0);

@@ -57,7 +57,7 @@ fn extent(scene: &Scene) -> String {
     format!("x {:.0}…{:.0}, y {:.0}…{:.0}", b.min.x, b.max.x, b.min.y, b.max.y)
 }
 
-/// Describes a pose; with its floor, also what the robot faces, if it is anything in particular.
+/// Describes a pose; with its floor, also what the robot faces.
 #[must_use]
 pub(super) fn describe(
     world: &World,
@@ -104,6 +104,7 @@ pub(super) fn describe(
             false => Facing::OtherWall,
         },
         Faced::Wall { .. } => Facing::Wall,
+        Faced::Inward => Facing::Inward,
     });
     Some(Whereabout { map, pose, terms, position })
 }
@@ -288,9 +289,11 @@ pub(super) enum Faced {
         /// Whether the robot is by it.
         own: bool,
     },
+    /// Nothing near.
+    Inward,
 }
 
-/// The first thing that a ray along the heading meets; none where nothing is near.
+/// The first thing that a ray along the heading meets.
 pub(super) fn faced(
     world: &World,
     relations: &Relations,
@@ -347,7 +350,7 @@ pub(super) fn faced(
             }
         }
     }
-    nearest.map(|(_, faced)| faced)
+    Some(nearest.map_or(Faced::Inward, |(_, faced)| faced))
 }
 
 /// A door seen from an Area, or from the first that it leads into where it stands elsewhere.

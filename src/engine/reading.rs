@@ -127,7 +127,7 @@ impl Region {
                 said.contains(&Entity::Replica(thing))
             }
             (SaidFacing::Leaf(said), Faced::Leaf(way)) => is_meant(said, way),
-            (SaidFacing::Wall, Faced::Wall { .. }) => true,
+            (SaidFacing::Wall, Faced::Wall { .. }) | (SaidFacing::Inward, Faced::Inward) => true,
             (SaidFacing::OwnWall, Faced::Wall { own }) => own,
             (SaidFacing::OtherWall, Faced::Wall { own }) => !own,
             _ => false,

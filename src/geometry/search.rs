@@ -584,7 +584,9 @@ mod tests {
         for side in [2, 3, 5, 8] {
             let apart = (0, side * side);
             // On a corner, on an edge, beside a corner by less than rounding, and within a cell.
-            for at in [(10.0, 10.0), (10.0, 14.0), (10.0 + 1e-9, 10.0), (10.0, 10.0 - 1e-5), (14.0, 13.0)] {
+            for at in
+                [(10.0, 10.0), (10.0, 14.0), (10.0 + 1e-9, 10.0), (10.0, 10.0 - 1e-5), (14.0, 13.0)]
+            {
                 let start = Point::new(at.0, at.1);
                 let mut search = Search::default();
                 search.begin(start, Point::new(500.0, 500.0));
@@ -598,7 +600,9 @@ mod tests {
 
     #[test]
     fn a_way_from_a_corner_at_which_cells_meet_is_straight() {
-        for (from, goal) in [(0, (73.0, 61.0)), (1, (75.0, 75.0)), (9, (15.0, 78.0)), (8, (80.0, 10.0))] {
+        for (from, goal) in
+            [(0, (73.0, 61.0)), (1, (75.0, 75.0)), (9, (15.0, 78.0)), (8, (80.0, 10.0))]
+        {
             let (start, goal) = (Point::new(10.0, 10.0), Point::new(goal.0, goal.1));
             let cell = |v: f64| ((v / 10.0) as u32).min(7);
             let to = (0, cell(goal.y) * 8 + cell(goal.x));

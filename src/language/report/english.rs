@@ -83,6 +83,7 @@ impl Facing {
             Self::Object(object) => format!("facing {}", object.english()),
             Self::Wall | Self::OwnWall => "facing the wall".into(),
             Self::OtherWall => "facing another wall".into(),
+            Self::Inward => "facing free space".into(),
         }
     }
 }

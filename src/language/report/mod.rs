@@ -80,6 +80,8 @@ pub enum Facing {
     OwnWall,
     /// Another than that.
     OtherWall,
+    /// Nothing near: free floor.
+    Inward,
 }
 
 /// How much a report says.

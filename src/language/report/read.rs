@@ -65,6 +65,8 @@ pub enum SaidFacing<T> {
     OtherWall,
     /// A leaf of a door that stands open.
     Leaf(SaidDoorway<T>),
+    /// Free floor.
+    Inward,
 }
 
 /// What a report says of a room to tell it from its namesakes.
@@ -339,6 +341,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         if self.one_of(&["стене"]).is_some() {
             return Some(SaidFacing::Wall);
         }
+        if self.maybe(|r| r.all_of("свободному месту")).is_some() {
+            return Some(SaidFacing::Inward);
+        }
         if self.one_of(&["створке"]).is_some() {
             return self.russian_doorway().map(SaidFacing::Leaf);
         }
@@ -498,6 +503,9 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         }
         if self.all_of("the wall").is_some() {
             return Some(SaidFacing::Wall);
+        }
+        if self.all_of("free space").is_some() {
+            return Some(SaidFacing::Inward);
         }
         if self.all_of("a leaf of").is_some() {
             return self.english_doorway().map(SaidFacing::Leaf);

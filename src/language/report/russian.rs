@@ -116,6 +116,7 @@ impl Facing {
             Self::OwnWall if told => "лицом к ней".into(),
             Self::Wall | Self::OwnWall => "лицом к стене".into(),
             Self::OtherWall => "лицом к другой стене".into(),
+            Self::Inward => "лицом к свободному месту".into(),
         }
     }
 }
