@@ -428,7 +428,9 @@ impl Maker<'_> {
                 continue;
             }
             let is_shaft = |&(_, area): &(MapId, AreaId)| {
-                ["lift", "stairs"].iter().any(|t| self.world.area_has_trait(area, t))
+                let area_type = self.world.areas.get(&area).and_then(|area| area.area_type);
+                let types = &self.types.lists.area;
+                ["lift", "stairs"].iter().any(|wanted| types.has_trait(area_type, wanted))
             };
             if !lift.is_told && !stops.iter().all(is_shaft) {
                 self.report.skipped(What::Lift, &lift.source, Why::NoLift);
