@@ -57,5 +57,6 @@ mod talk_ways;
 mod tight_floors;
 mod ugly_floors;
 mod views;
+mod ways;
 mod words;
 mod worlds;

@@ -152,7 +152,7 @@ fn who_stands_on_a_rug_is_told_so() {
     let said = [Language::Russian, Language::English].map(|l| found.position.say(l));
     assert_eq!(
         said,
-        ["Я нахожусь в Гостиной стоя на Ковре-4.", "I am in the living room standing on Rug 4."]
+        ["Я нахожусь в Гостиной, стоя на Ковре-4.", "I am in the living room, standing on Rug 4."]
     );
     for text in said {
         let region = engine.read_position(&text).unwrap();

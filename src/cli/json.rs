@@ -287,6 +287,7 @@ pub(super) fn whereabout(world: &World, found: &Whereabout) -> Value {
         Spot::InCorner => json!({"kind": "in_corner"}),
         Spot::AlongWall => json!({"kind": "along_wall"}),
         Spot::InMiddle => json!({"kind": "in_middle"}),
+        Spot::Inside => json!({"kind": "inside"}),
     };
     view["spot"] = spot;
     view

@@ -148,6 +148,16 @@ fn barrier(world: &World, barrier: &Barrier, language: Language) -> String {
                 format!("in {} the way is shut off by {}", room(*area, Case::Nominative), list(by))
             }
         },
+        Barrier::Doorless { area } => match russian {
+            true => format!(
+                "из {} нет ни двери, ни прохода в другие помещения",
+                room(*area, Case::Genitive)
+            ),
+            false => format!(
+                "no door or passage leads from {} to another room",
+                room(*area, Case::Nominative)
+            ),
+        },
         Barrier::Apart { areas } => match russian {
             true => format!(
                 "{} и {} не соединены ни дверью, ни проходом",

@@ -7,6 +7,8 @@
 //!        +--------------+        between the two doors.
 //! ```
 //!
+//! Where the way through an opening is straight, it is told straight, however obliquely the wall stands to it.
+//!
 //! Invariant: lengths add up to the route's, but for what small bends add; no landmark is told whose name is borne by
 //! another thing of its room.
 
@@ -28,6 +30,8 @@ const SMALL_BEND: f64 = 35.0;
 const BESIDE: f64 = 130.0;
 /// What stands this near to a bend tells where to turn, cm.
 const AT_BEND: f64 = 110.0;
+/// So far before and behind an opening a way is looked at to see whether it turns there, cm.
+const THROUGH: f64 = 50.0;
 /// Shorter stretches pass nothing worth a word, cm.
 const WORTH_TELLING: f64 = 60.0;
 /// So many landmarks a stretch.
@@ -70,7 +74,8 @@ impl Surroundings<'_> {
             let (sin, cos) = h.sin_cos();
             Vector::new(cos, sin)
         });
-        let mut passages = Vec::new();
+        // The part of the way in each Area, and the doorway by which it is left.
+        let mut pieces: Vec<(Vec<Point>, Option<&Doorway>)> = Vec::new();
         for (n, stage) in answer.stages.iter().enumerate() {
             let goes_on = n + 1 < answer.stages.len();
             let door = stage.leaves_by.filter(|_| goes_on).map(|d| &guide.floor.doorways()[d]);
@@ -79,14 +84,19 @@ impl Surroundings<'_> {
             let taken = crossing.map_or(line.len(), |(taken, _)| taken);
             piece.extend(&line[..taken]);
             piece.extend(crossing.map(|(_, at)| at));
-            let out = door.map(|door| way_through(door, stage.area));
-            let stretches = guide.stretches(stage.area, &piece, facing);
-            let last = last_direction(&piece).or(facing);
+            pieces.push((piece, door));
+            line = &line[taken..];
+            start = crossing.map(|(_, at)| at);
+        }
+        let mut passages = Vec::new();
+        for (n, (stage, (piece, door))) in answer.stages.iter().zip(&pieces).enumerate() {
+            let stretches = guide.stretches(stage.area, piece, facing);
+            let last = last_direction(piece).or(facing);
+            let straight = pieces.get(n + 1).and_then(|(next, _)| straight_through(piece, next));
+            let out = door.map(|door| straight.unwrap_or_else(|| way_through(door, stage.area)));
             let exit = door.zip(out).map(|(door, out)| guide.exit(door, last, out));
             let room = named(world, Entity::Area(stage.area));
             passages.push(Passage { room, stretches, exit });
-            line = &line[taken..];
-            start = crossing.map(|(_, at)| at);
             facing = out;
         }
         let goal = match &answer.end {
@@ -153,6 +163,33 @@ fn direction(a: Point, b: Point) -> Option<Vector> {
 
 fn last_direction(piece: &[Point]) -> Option<Vector> {
     plain(piece).windows(2).rev().find_map(|pair| direction(pair[0], pair[1]))
+}
+
+/// The direction in which a way passes straight from one part of it to the next; none where it turns there.
+fn straight_through(before: &[Point], after: &[Point]) -> Option<Vector> {
+    let into = last_direction(before)?;
+    let on = plain(after).windows(2).find_map(|pair| direction(pair[0], pair[1]))?;
+    let from = along(before.iter().rev(), THROUGH)?;
+    let through = direction(from, along(after.iter(), THROUGH)?)?;
+    let is_straight = |a: Vector, b: Vector| Turn::of(turn(a, b)) == Turn::Straight;
+    (is_straight(into, through) && is_straight(through, on) && is_straight(into, on))
+        .then_some(into)
+}
+
+/// The point so far along a line, in cm, or its end.
+fn along<'p>(line: impl Iterator<Item = &'p Point>, far: f64) -> Option<Point> {
+    let (mut left, mut at) = (far, None::<Point>);
+    for &next in line {
+        if let Some(from) = at {
+            let length = (next - from).norm();
+            if length >= left {
+                return Some(from + (next - from) * (left / length.max(1e-9)));
+            }
+            left -= length;
+        }
+        at = Some(next);
+    }
+    at
 }
 
 struct Guide<'e> {

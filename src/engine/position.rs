@@ -1,13 +1,13 @@
 //! Where a pose is, from the terms of geometry to a report in words (SPEC T4).
 
-use crate::geometry::{Bounds, FloorPlan, Owner, Scene, nearest_on_segment};
+use crate::geometry::{Blocker, Bounds, FloorPlan, Owner, Scene, nearest_on_segment};
 use crate::language::Language;
 use crate::language::names::english_name;
 use crate::language::report::read::{SaidDoorway, SaidMark, SaidPosition, SaidSpot};
 use crate::language::report::{
     Beside, Context, Doorway, Facing, Mark, Named, Opening, Position, Spot,
 };
-use crate::map::{Entity, Permeability, World};
+use crate::map::{DoorStatus, Entity, Permeability, World};
 use crate::semantics::{self, Nearness, Relations, Way, Whereabouts, whereabouts};
 use crate::units::{AreaId, DoorId, MapId, Point, Pose, ReplicaId, Vector, name_key};
 
@@ -36,7 +36,7 @@ impl Engine {
             self.relations()?,
             map,
             pose,
-            facing.then(|| self.floor(map)).transpose()?.map(|f| f.scene()),
+            facing.then(|| self.floor(map)).transpose()?,
         );
         match found {
             Some(found) => Ok(found),
@@ -57,14 +57,14 @@ fn extent(scene: &Scene) -> String {
     format!("x {:.0}…{:.0}, y {:.0}…{:.0}", b.min.x, b.max.x, b.min.y, b.max.y)
 }
 
-/// Describes a pose; with a scene, also what the robot faces.
+/// Describes a pose; with its floor, also what the robot faces.
 #[must_use]
 pub(super) fn describe(
     world: &World,
     relations: &Relations,
     map: MapId,
     pose: Pose,
-    scene: Option<&Scene>,
+    floor: Option<&FloorPlan>,
 ) -> Option<Whereabout> {
     let terms = whereabouts(
         world,
@@ -76,26 +76,28 @@ pub(super) fn describe(
     )?;
     let area = |id: AreaId| named(world, Entity::Area(id));
     let spot = match terms.spot {
-        semantics::Spot::InDoorway(way) => Spot::InDoorway(doorway(world, relations, way)),
-        semantics::Spot::AtDoor { way, .. } => Spot::AtDoor(doorway(world, relations, way)),
+        semantics::Spot::InDoorway(way) => Some(Spot::InDoorway(doorway(world, relations, way))),
+        semantics::Spot::AtDoor { way, .. } => Some(Spot::AtDoor(doorway(world, relations, way))),
         semantics::Spot::On { replica } => {
-            Spot::Object(Beside::On, named(world, Entity::Replica(replica)))
+            Some(Spot::Object(Beside::On, named(world, Entity::Replica(replica))))
         }
         semantics::Spot::NextTo { replica, .. } => {
-            Spot::Object(Beside::NextTo, named(world, Entity::Replica(replica)))
+            Some(Spot::Object(Beside::NextTo, named(world, Entity::Replica(replica))))
         }
-        semantics::Spot::InCorner => Spot::InCorner(None),
-        semantics::Spot::AlongWall => Spot::AlongWall(None),
-        semantics::Spot::InMiddle => Spot::InMiddle,
+        semantics::Spot::InCorner => Some(Spot::InCorner(None)),
+        semantics::Spot::AlongWall => Some(Spot::AlongWall(None)),
+        semantics::Spot::InMiddle => Some(Spot::InMiddle),
+        semantics::Spot::Inside => None,
     };
-    let mut position = Position::new(area(terms.area), [spot]);
+    let mut position = Position::new(area(terms.area), spot);
     let areas = namesakes(world, Entity::Area(terms.area), &[]);
     let telling = Telling { world, relations, map, area: terms.area, areas };
     position.context = telling.context(None);
     position.spot_context = telling.context(Some(&terms.spot));
-    let faced = scene.and_then(|scene| faced(world, relations, scene, terms.area, pose));
+    let faced = floor.and_then(|floor| faced(world, relations, floor, terms.area, pose));
     position.facing = faced.map(|faced| match faced {
         Faced::Door(way) => Facing::Door(doorway(world, relations, way)),
+        Faced::Leaf(way) => Facing::Leaf(doorway(world, relations, way)),
         Faced::Object(replica) => Facing::Object(named(world, Entity::Replica(replica))),
         Faced::Wall { own } if terms.spot == semantics::Spot::AlongWall => match own {
             true => Facing::OwnWall,
@@ -151,7 +153,7 @@ impl Telling<'_> {
             area: self.areas.clone(),
             within: floor.then(|| self.namesakes(Entity::Map(self.map))).into_iter().collect(),
             mark: mark.cloned(),
-            spot: spot.map(|spot| self.said(spot)),
+            spot: spot.and_then(|spot| self.said(spot)),
             facing: None,
         };
         regions(self.relations, &said).is_ok_and(|found| found.len() == 1)
@@ -193,7 +195,7 @@ impl Telling<'_> {
     }
 
     /// A spot in the terms in which its report is read back.
-    fn said(&self, spot: &semantics::Spot) -> SaidSpot<Entity> {
+    fn said(&self, spot: &semantics::Spot) -> Option<SaidSpot<Entity>> {
         let door = |way: Way| {
             let name = own_name(self.world, self.relations, way);
             let opening = if way.is_passage { Opening::Passage } else { Opening::Door };
@@ -204,7 +206,7 @@ impl Telling<'_> {
                 to: way.to.map(|to| self.namesakes(Entity::Area(to))),
             }
         };
-        match *spot {
+        Some(match *spot {
             semantics::Spot::InDoorway(way) => SaidSpot::InDoorway(door(way)),
             semantics::Spot::AtDoor { way, .. } => SaidSpot::AtDoor(door(way)),
             semantics::Spot::On { replica } => {
@@ -216,7 +218,8 @@ impl Telling<'_> {
             semantics::Spot::InCorner => SaidSpot::InCorner(None),
             semantics::Spot::AlongWall => SaidSpot::AlongWall(None),
             semantics::Spot::InMiddle => SaidSpot::InMiddle,
-        }
+            semantics::Spot::Inside => return None,
+        })
     }
 }
 
@@ -279,11 +282,14 @@ const FACING_RANGE: f64 = 250.0;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Faced {
     Door(Way),
+    /// An open leaf of a door.
+    Leaf(Way),
     Object(ReplicaId),
     Wall {
         /// Whether the robot is by it.
         own: bool,
     },
+    /// Nothing near.
     Inward,
 }
 
@@ -291,10 +297,11 @@ pub(super) enum Faced {
 pub(super) fn faced(
     world: &World,
     relations: &Relations,
-    scene: &Scene,
+    floor: &FloorPlan,
     area: AreaId,
     pose: Pose,
 ) -> Option<Faced> {
+    let scene = floor.scene();
     let (sin, cos) = pose.heading.sin_cos();
     let ray = Vector::new(cos, sin);
     let height = world.robot.height.get();
@@ -314,6 +321,22 @@ pub(super) fn faced(
             }
         }
     }
+    // One does not look through a door's leaf, nor through the leaf of a wardrobe.
+    let is_open = |door: DoorId| floor.door_state(world, door).status == DoorStatus::Open;
+    for obstacle in floor.fragment(area).into_iter().flat_map(|f| f.obstacles()) {
+        let what = match obstacle.blocker {
+            Blocker::DoorLeaf { door, .. } if is_open(door) => {
+                way_of(relations, door, area).map(Faced::Leaf)
+            }
+            Blocker::ReplicaLeaf { replica, .. } => Some(Faced::Object(replica)),
+            _ => None,
+        };
+        for (a, b) in obstacle.polygon.edges() {
+            if let (Some(what), Some(distance)) = (what, hit(pose.at, ray, a, b)) {
+                offer(distance, what);
+            }
+        }
+    }
     let placed = scene.areas.get(&area)?;
     for prism in &placed.prisms {
         let Owner::Area(area) = prism.owner else { continue };
@@ -330,19 +353,28 @@ pub(super) fn faced(
     Some(nearest.map_or(Faced::Inward, |(_, faced)| faced))
 }
 
+/// A door seen from an Area, or from the first that it leads into where it stands elsewhere.
+fn way_of(relations: &Relations, door: DoorId, area: AreaId) -> Option<Way> {
+    let own = |o: &&semantics::Opening| o.door == Some(door);
+    let sides = relations.openings().iter().filter(own);
+    let opening = sides.min_by_key(|o| (o.area != area, o.leads_to() != Some(area)))?;
+    Some(seen_from(opening, if opening.leads_to() == Some(area) { area } else { opening.area }))
+}
+
+/// An opening as it is seen from one of the Areas that it joins.
+fn seen_from(opening: &semantics::Opening, area: AreaId) -> Way {
+    let behind = opening.leads_to();
+    let to = if opening.area == area { behind } else { Some(opening.area) };
+    let is_passage = opening.permeability == Permeability::Permeable;
+    Way { door: opening.door, is_passage, from: area, to }
+}
+
 /// The opening of an Area whose middle is here, seen from that Area.
 fn way_through(relations: &Relations, area: AreaId, middle: Point) -> Option<Way> {
     let near =
         |o: &&semantics::Opening| (nalgebra::center(&o.ends.0, &o.ends.1) - middle).norm() < 1.0;
     let opening = relations.openings().iter().filter(near).min_by_key(|o| o.area != area)?;
-    let behind = opening.leads_to();
-    let to = if opening.area == area { behind } else { Some(opening.area) };
-    Some(Way {
-        door: opening.door,
-        is_passage: opening.permeability == Permeability::Permeable,
-        from: area,
-        to,
-    })
+    Some(seen_from(opening, area))
 }
 
 /// Distance along a ray to a segment.

@@ -120,12 +120,13 @@ impl Region {
     ) -> bool {
         let Some(facing) = &self.facing else { return true };
         let here = relations.measurements().area_at(self.map, pose.at).unwrap_or(self.area);
-        let Some(faced) = faced(world, relations, floor.scene(), here, pose) else { return false };
+        let Some(faced) = faced(world, relations, floor, here, pose) else { return false };
         match (facing, faced) {
             (SaidFacing::Door(said), Faced::Door(way)) => is_meant(said, way),
             (SaidFacing::Object(said), Faced::Object(thing)) => {
                 said.contains(&Entity::Replica(thing))
             }
+            (SaidFacing::Leaf(said), Faced::Leaf(way)) => is_meant(said, way),
             (SaidFacing::Wall, Faced::Wall { .. }) | (SaidFacing::Inward, Faced::Inward) => true,
             (SaidFacing::OwnWall, Faced::Wall { own }) => own,
             (SaidFacing::OtherWall, Faced::Wall { own }) => !own,

@@ -1,6 +1,6 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
-use crate::geometry::{Barrier, Eye, Method, NoRoute};
+use crate::geometry::{Barrier, Eye, Method, NoRoute, Ride};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
 use crate::language::names::english_name;
@@ -282,8 +282,7 @@ impl Senses for RobotSenses<'_> {
         let (map, pose) = self.engine.robot_pose()?;
         let around = self.engine.around().ok()?;
         let floor = (detail == Detail::Heading).then(|| around.floor(map)).transpose().ok()?;
-        let scene = floor.map(|f| f.scene());
-        let found = describe(self.world()?, self.relations()?, map, pose, scene)?;
+        let found = describe(self.world()?, self.relations()?, map, pose, floor)?;
         Some(found.position.say_in(language, detail))
     }
 
@@ -338,7 +337,8 @@ impl Senses for RobotSenses<'_> {
         let own = matches!(from, None | Some(Thing::Robot));
         let heading = self.engine.robot_pose().filter(|_| own).map(|(_, pose)| pose.heading);
         let sentences = around.journey_in_words(&journey, heading, language, detail);
-        Ok(Way { length, sentences: sentences.map_err(|e| e.to_string())? })
+        let riding = journey.rides.iter().map(Ride::seconds).sum();
+        Ok(Way { length, riding, sentences: sentences.map_err(|e| e.to_string())? })
     }
 
     fn visible(&self) -> Vec<ReplicaId> {

@@ -3,7 +3,8 @@
 //! An *area* is a closed way tagged `osmAG:type=area`; those of `osmAG:areaType=structure` only hold others and are no
 //! floor. A *passage* is a way tagged `osmAG:type=passage` along the opening, with the names or ids of the two areas in
 //! `osmAG:from` and `osmAG:to`. Latitude and longitude are laid flat about the root node. Rooms of one name on several
-//! levels that lie over one another are a flight of stairs or a shaft. An area that is drawn as a mere line still arrives:
+//! levels that lie over one another, and those that a passage joins from level to level, are a flight of stairs or a shaft if
+//! they are of a type that is; the file itself does not say. An area that is drawn as a mere line still arrives:
 //! its floor is what its passages enclose, else a strip. Ways of plain indoor tagging (`indoor=room`,
 //! `area`, `corridor`) are rooms too.
 
@@ -212,9 +213,11 @@ impl<'x> Reader<'x> {
             if let Some(parent) = tags.get("osmAG:parent") {
                 properties.insert("ЧАСТЬ".to_owned(), (*parent).to_owned());
             }
+            let own = tags.get("osmAG:areaType").filter(|kind| **kind != "room");
             let kind = ["room", "osmAG:roomType", "amenity", "highway"]
                 .into_iter()
                 .find_map(|key| tags.get(key))
+                .or(own)
                 .map_or_else(|| name.to_owned(), |kind| (*kind).to_owned());
             let room = self.survey.levels[at].rooms.len();
             let found = self.areas.len();
@@ -331,7 +334,8 @@ impl<'x> Reader<'x> {
                     } else {
                         let stops = vec![(a.level, a.room), (b.level, b.room)];
                         let name = a.name.to_owned();
-                        self.survey.lifts.push(Lift { source: id.to_owned(), name, stops });
+                        let source = id.to_owned();
+                        self.survey.lifts.push(Lift { source, name, stops, is_told: false });
                         continue;
                     }
                 }
@@ -403,7 +407,8 @@ impl<'x> Reader<'x> {
             }
             if stops.len() > 1 {
                 let name = name.to_owned();
-                self.survey.lifts.push(Lift { source: name.clone(), name, stops });
+                let source = name.clone();
+                self.survey.lifts.push(Lift { source, name, stops, is_told: false });
             }
         }
     }

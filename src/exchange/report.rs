@@ -186,6 +186,10 @@ pub enum Why {
     #[error("соединяет меньше двух этажей")]
     #[diagnostic(code(import::lift_stops))]
     LiftStops,
+    /// Rooms of several storeys that belong together.
+    #[error("соединяет этажи, но ни лифт это, ни лестница, файл не говорит; пути по нему нет")]
+    #[diagnostic(code(import::no_lift))]
+    NoLift,
     /// Rooms that no door joins with the others.
     #[error("дверями с остальными не соединено; положение задано связью глухих стен")]
     #[diagnostic(code(import::island))]

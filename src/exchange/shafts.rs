@@ -59,7 +59,7 @@ pub(super) fn join(survey: &mut Survey) {
             let lift = open.remove(&(below, other)).unwrap_or_else(|| {
                 let room = &survey.levels[below].rooms[other];
                 let (source, name) = (room.source.clone(), room.name.clone());
-                found.push(Lift { source, name, stops: vec![(below, other)] });
+                found.push(Lift { source, name, stops: vec![(below, other)], is_told: true });
                 found.len() - 1
             });
             found[lift].stops.push((level, no));

@@ -199,4 +199,7 @@ pub struct Lift {
     pub name: String,
     /// `(level, room)` for each level that it serves: the cabin's floor there is a room of that level.
     pub stops: Vec<(usize, usize)>,
+    /// Whether the file itself calls it a lift or stairs. Else only rooms of several storeys belong together somehow, and it is
+    /// one if all of them are of a type that is.
+    pub is_told: bool,
 }

@@ -36,8 +36,10 @@ pub enum Barrier {
     Gap { area: AreaId, width: f64, needed: f64, between: Vec<Blocker> },
     /// No gap at all: these things shut the way off.
     Enclosed { area: AreaId, by: Vec<Blocker> },
-    /// The Areas are not joined by any door or passage.
+    /// The Areas are not joined by any doors or passages.
     Apart { areas: [AreaId; 2] },
+    /// No door or passage leads from an Area to any other.
+    Doorless { area: AreaId },
 }
 
 /// There is no way.
@@ -45,7 +47,7 @@ pub enum Barrier {
 pub enum NoRoute {
     /// Between start and goal stands what is named, in the order of the way.
     #[error("пути нет: {text}")]
-    #[diagnostic(code(route::blocked), help("уберите препятствие или откройте дверь: {text}"))]
+    #[diagnostic(code(route::blocked), help("уберите препятствие или откройте дверь"))]
     Blocked { barriers: Vec<Barrier>, text: String },
     /// The robot fits nowhere near the start or the goal.
     #[error("пути нет: у начала или цели нет места, где робот помещается")]
@@ -91,6 +93,14 @@ pub(super) fn explain(plan: &FloorPlan, world: &World, from: CellKey, to: &[Cell
     if barriers.is_empty() {
         barriers = vec![enclosure(plan, start, &goals)];
     }
+    // Several doorways may be shut by one thing.
+    let mut told: Vec<Barrier> = Vec::new();
+    barriers.retain(|b| {
+        !told.contains(b) && {
+            told.push(b.clone());
+            true
+        }
+    });
     let text = barriers.iter().map(|b| b.describe(world)).collect::<Vec<_>>().join("; ");
     NoRoute::Blocked { barriers, text }
 }
@@ -421,21 +431,36 @@ fn is_lasting(plan: &FloorPlan, world: &World, barrier: &Barrier) -> bool {
         }),
         Barrier::Gap { between, .. } => !between.iter().any(moves),
         Barrier::Enclosed { by, .. } => !by.iter().any(moves),
-        Barrier::Low { .. } | Barrier::Step { .. } | Barrier::Apart { .. } => true,
+        Barrier::Low { .. }
+        | Barrier::Step { .. }
+        | Barrier::Apart { .. }
+        | Barrier::Doorless { .. } => true,
     }
 }
 
-/// Everything solid around a piece.
+/// The Fragments that doors and passages join to one, whatever their state, itself among them.
+fn joined(plan: &FloorPlan, from: u32) -> BTreeSet<u32> {
+    let (mut joined, mut open) = (BTreeSet::from([from]), vec![from]);
+    while let Some(number) = open.pop() {
+        for &(index, side) in plan.doorways_at(number) {
+            let next = plan.number(plan.doorways()[index].areas[1 - side]).map(|n| n as u32);
+            open.extend(next.filter(|&next| joined.insert(next)));
+        }
+    }
+    joined
+}
+
+/// What parts a piece from others where no barrier by itself does: there is no door, or everything solid around it.
 fn enclosure(plan: &FloorPlan, start: Piece, goals: &BTreeSet<Piece>) -> Barrier {
     let floor = plan.floor(start.0);
-    let in_same = goals.iter().find(|g| g.0 == start.0);
-    if let (None, Some(goal)) = (in_same, goals.first()) {
-        let other = plan.floor(goal.0);
-        let touches =
-            |n: &super::FragmentFloor| plan.doorways().iter().any(|d| d.index_of(n.area).is_some());
-        if !touches(floor) || !touches(other) {
-            return Barrier::Apart { areas: [floor.area, other.area] };
-        }
+    let near = joined(plan, start.0);
+    if let Some(goal) = goals.first().filter(|_| goals.iter().all(|g| !near.contains(&g.0))) {
+        let areas = [floor.area, plan.floor(goal.0).area];
+        let is_doorless = |number: u32| plan.doorways_at(number).is_empty();
+        return match [goal.0, start.0].into_iter().find(|&number| is_doorless(number)) {
+            Some(number) => Barrier::Doorless { area: plan.floor(number).area },
+            None => Barrier::Apart { areas },
+        };
     }
     let cells = &floor.cells;
     let mut by = Vec::new();
@@ -464,7 +489,10 @@ impl Barrier {
                 (needed - width).max(0.0)
             }
             Self::Low { height, needed, .. } => needed - height,
-            Self::Enclosed { .. } | Self::Step { .. } | Self::Apart { .. } => NO_GAP,
+            Self::Enclosed { .. }
+            | Self::Step { .. }
+            | Self::Apart { .. }
+            | Self::Doorless { .. } => NO_GAP,
         }
     }
 
@@ -514,6 +542,9 @@ impl Barrier {
             }
             Self::Enclosed { area: id, by } => {
                 format!("«{}»: путь загораживают {}", area(id), list(by))
+            }
+            Self::Doorless { area: id } => {
+                format!("«{}»: нет ни двери, ни прохода в другие помещения", area(id))
             }
             Self::Apart { areas } => {
                 format!(

@@ -28,8 +28,9 @@ use super::coverage::Coverage;
 use super::dead_zone::dead_zones;
 use super::doors::Doorway;
 use super::edging::Edging;
-use super::grid::{Contour, Grid, Outlines, Shapes, difference, intersection, overlays, smooth};
+use super::grid::{Contour, Grid, Outlines, Shapes, difference, overlays, smooth};
 use super::mesh::{Mesh, NONE};
+use super::mouth::{Mouths, beyond, not_own};
 use super::obstacle::{Obstacle, leaves_near, obstacles_near, walls};
 use super::offset::{grow, shrink};
 use super::on_demand::{Folded, OnDemand};
@@ -37,7 +38,7 @@ use super::passframe::{Beyond, Passframe, PassframeId, ids, passframes};
 use super::plan::DoorStates;
 use super::scene::{Prism, Scene};
 use super::storey::{Storey, THIN};
-use super::{Bounds, Polygon, Region, nearest_on_segment};
+use super::{Bounds, Region, nearest_on_segment};
 
 /// A passage exactly as wide as the robot is passable: so much is forgiven, in cm.
 pub const SLACK: f64 = 0.004;
@@ -158,9 +159,9 @@ impl FragmentFloor {
         obstacles.extend(leaves_near(site, area));
         let mut floor: Vec<Contour> = storey.floor.iter().map(|p| grid.contour(p)).collect();
         let mut beyond: Vec<Contour> = Vec::new();
+        floor.extend(Mouths::of(site, area, &open, reach).floor(&grid));
         for &(_, doorway, side) in &open {
-            floor.extend(stub(site, &grid, doorway, side, reach));
-            beyond.push(self::beyond(&grid, doorway, side, 0.0, reach));
+            beyond.extend(not_own(&grid, doorway, side, reach, &storey.floor));
         }
         let mut blocked: Vec<Contour> =
             obstacles.iter().map(|o| grid.contour(&o.polygon)).collect();
@@ -374,69 +375,8 @@ fn main_axis(prisms: &[Prism]) -> f64 {
     if best.2 < PARALLEL { 0.0 } else { best.2 }
 }
 
-impl Doorway {
-    /// The `s` of a line `depth` beyond the doorway's line, seen from an Area (0 or 1).
-    fn past(&self, side: usize, depth: f64) -> f64 {
-        self.gap / 2.0 + if side == 0 { depth } else { -depth }
-    }
-
-    fn beyond(&self, side: usize, from: f64, depth: f64) -> Polygon {
-        self.rectangle(self.past(side, from), self.past(side, depth), 0.5)
-    }
-
-    /// What a disc on the doorway's line can touch, on both sides.
-    pub(super) fn mouth(&self, reach: f64) -> Bounds {
-        let depth = self.gap / 2.0 + reach + 2.0;
-        self.rectangle(self.past(1, depth), self.past(0, depth), 0.0).bounds()
-    }
-}
-
-/// What lies so far beyond a doorway's line, in cm, or deeper, until behind the [`stub`].
-fn beyond(grid: &Grid, doorway: &Doorway, side: usize, from: f64, reach: f64) -> Contour {
-    let depth = doorway.gap / 2.0 + 2.0 * reach + 10.0;
-    grid.contour(&doorway.beyond(side, from, depth))
-}
-
 pub(super) fn contours(grid: &Grid, regions: &[Region]) -> Vec<Contour> {
     regions.iter().flat_map(Region::contours).map(|c| grid.contour(c)).collect()
-}
-
-/// The floor through an open doorway as far as a disc on its line reaches.
-fn stub(site: &Site<'_>, grid: &Grid, doorway: &Doorway, side: usize, reach: f64) -> Vec<Contour> {
-    let other = doorway.areas[1 - side];
-    let gap = doorway.rectangle(-THIN, doorway.gap + THIN, 0.0);
-    let depth = doorway.gap / 2.0 + reach + 2.0;
-    let ahead = doorway.rectangle(doorway.past(side, 0.0), doorway.past(side, depth), 0.0);
-    let near = ahead.bounds();
-    let mut holes = vec![gap.clone()];
-    let mut others = vec![other];
-    // Beyond a threshold that is less deep than the robot its next doorway counts too.
-    for (_, next, at) in site.doorways_of(other) {
-        let hole = next.rectangle(-THIN, next.gap + THIN, 0.0);
-        if hole.bounds().meets(&near) && next != doorway && site.is_open(next) {
-            holes.push(hole);
-            others.push(next.areas[1 - at]);
-        }
-    }
-    let areas = others.into_iter().filter_map(|a| site.scene.areas.get(&a));
-    let parts: Vec<Polygon> = areas.flat_map(|a| Storey::of(site, a).floor).collect();
-    if parts.iter().all(|p| p.is_convex(1e-9)) {
-        // Two convex polygons need no overlay.
-        let cut = holes.into_iter().chain(parts).map(|p| p.within_convex(&ahead));
-        return cut
-            .chain([gap])
-            .filter(|p| p.corners.len() > 2)
-            .map(|p| grid.contour(&p))
-            .collect();
-    }
-    // A long corridor need not be overlaid whole for one of its doors.
-    let parts = parts.into_iter().map(|p| p.clipped(&near.grown(1.0)));
-    let solid = holes.into_iter().chain(parts).filter(|p| p.corners.len() > 2);
-    let floor: Vec<Contour> = solid.map(|p| grid.contour(&p)).collect();
-    let mut cut: Vec<Contour> =
-        intersection(&floor, &[grid.contour(&ahead)]).into_iter().flatten().collect();
-    cut.push(grid.contour(&gap));
-    cut
 }
 
 /// The edges of the centre space that lie on open doorways.

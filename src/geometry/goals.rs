@@ -129,6 +129,7 @@ impl FloorPlan {
         Some(Goal { anchor: Anchor { at, cell: (number, cell), moved: None }, heading })
     }
 
+    /// Inside an Area: just behind each of its doorways that can be reached. Every goal lies in the Area.
     fn area_goals(
         &self,
         world: &World,
@@ -155,8 +156,11 @@ impl FloorPlan {
             })
             .collect();
         if goals.is_empty() {
+            // No way leads there: what bars it is looked for up to a place in the room itself.
             let middle = self.scene().areas[&area].prisms.first().map(|p| p.polygon.centroid());
-            goals = middle.map_or_else(Vec::new, |p| self.point_goals(None, p, None));
+            let rest = middle.and_then(|middle| self.rest(number, middle));
+            let anchor = rest.map(|(at, cell)| Anchor::at(at, (number, cell)));
+            goals.extend(anchor.map(|anchor| Goal { anchor, heading: None }));
         }
         Ok(goals)
     }

@@ -21,6 +21,13 @@ use super::doors::Doorway;
 use super::plan::{DoorStates, FloorPlan};
 use super::route::{Method, Route, Target};
 
+/// Seconds until a lift comes when it is called.
+pub const LIFT_WAIT: f64 = 20.0;
+/// Seconds that a lift takes to shut its doors, start and stop.
+const LIFT_STOP: f64 = 10.0;
+/// How fast a lift rides, in cm a second.
+const LIFT_SPEED: f64 = 100.0;
+
 /// A ride from one stop to another.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ride {
@@ -32,6 +39,14 @@ pub struct Ride {
     pub rise: f64,
 }
 
+impl Ride {
+    /// How long it takes, from the call on, in seconds.
+    #[must_use]
+    pub fn seconds(&self) -> f64 {
+        LIFT_WAIT + LIFT_STOP + self.rise.abs() / LIFT_SPEED
+    }
+}
+
 /// A way over one Map, and the ride that follows it; none after the last.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
@@ -41,11 +56,6 @@ pub struct Leg {
     pub passed: Passed,
     pub ride: Option<Ride>,
 }
-
-/// What waiting for a lift costs, in cm of way: half a minute.
-const WAIT: f64 = 1500.0;
-/// What a ride costs for every cm of height, in cm of way.
-const CLIMB: f64 = 0.5;
 
 /// A place where a lift can be boarded and left.
 struct Stop {
@@ -130,7 +140,8 @@ pub fn across(
             if one.lift == other.lift {
                 let rise = other.height - one.height;
                 let ride = Ride { lift: one.lift, from: one.area, to: other.area, rise };
-                graph.add_edge(nodes[i], nodes[j], (WAIT + CLIMB * rise.abs(), Edge::Ride(ride)));
+                let meanwhile = ride.seconds() * world.robot.speed;
+                graph.add_edge(nodes[i], nodes[j], (meanwhile, Edge::Ride(ride)));
             } else if one.map == other.map {
                 drive(&mut graph, nodes[i], nodes[j], one.at, Target::Point(other.at));
             }

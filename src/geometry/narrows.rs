@@ -26,9 +26,10 @@ use crate::units::{Point, Vector};
 
 use super::buckets::Buckets;
 use super::dead_zone::jamb;
-use super::floor::{FragmentFloor, SLACK};
+use super::floor::FragmentFloor;
 use super::grid::{Contour, Grid, difference, overlay};
 use super::mesh::Mesh;
+use super::mouth::thick;
 use super::network::Piece;
 use super::obstacle::Blocker;
 use super::plan::FloorPlan;
@@ -314,20 +315,6 @@ fn strip(&(p, q): &(Point, Point), grid: &Grid) -> Polygon {
     let aside = Vector::new(-along.y, along.x) * half;
     let (p, q) = (p - along * half, q + along * half);
     Polygon::new(vec![p - aside, q - aside, q + aside, p + aside])
-}
-
-/// A wall as a cut through the floor, longer only where another wall goes on.
-fn thick((a, b): (Point, Point), walls: &[(Point, Point)], grid: &Grid) -> Polygon {
-    let along = (b - a).normalize();
-    let half = (SLACK / 4.0).max(2.0 / grid.scale);
-    let goes_on = |p: Point| {
-        let meets = |q: Point| (q - p).norm() < PLAY;
-        walls.iter().filter(|w| meets(w.0) || meets(w.1)).count() > 1
-    };
-    let longer = |p: Point| if goes_on(p) { half } else { 0.0 };
-    let (a, b) = (a - along * longer(a), b + along * longer(b));
-    let aside = Vector::new(-along.y, along.x) * half;
-    Polygon::new(vec![a - aside, b - aside, b + aside, a + aside])
 }
 
 /// What the points on the rim of a Fragment's floor belong to.

@@ -191,40 +191,71 @@ pub(super) fn leaves_near(site: &Site<'_>, area: AreaId) -> Vec<Obstacle> {
 
 /// The Area's sides without its doorways, and the doorways' jambs.
 pub(super) fn walls(site: &Site<'_>, placed: &PlacedArea) -> Vec<(Point, Point)> {
-    let all: Vec<usize> = (0..placed.prisms.len()).collect();
-    let model = &site.world.areas[&placed.id];
+    let everywhere = Bounds {
+        min: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+        max: Point::new(f64::INFINITY, f64::INFINITY),
+    };
     let mut walls = Vec::new();
-    for side in sides(placed, &all) {
-        let reference = |d: &Doorway, at: usize| {
-            let id = &site.world.orthoframe_of(&model.items[side.item]).base[side.side].id;
-            d.sides[at].item == model.items[side.item].id && d.sides[at].side == *id
-        };
-        let doorway = site.doorways_of(placed.id).find(|(_, d, at)| reference(d, *at));
-        let along = (side.end - side.start).try_normalize(0.0).unwrap_or_else(Vector::zeros);
-        let length = (side.end - side.start).norm();
-        let mut pieces = Vec::new();
-        if let Some((_, d, at)) = doorway {
+    for (side, doorway) in solid_sides(site, placed, &everywhere) {
+        if let Some((d, at)) = doorway {
             let face = if at == 0 { 0.0 } else { d.gap };
-            let (a, b) = d.line();
-            let place = |p: Point| (p - side.start).dot(&along).clamp(0.0, length);
-            let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
-            pieces.push((0.0, low));
-            pieces.push((high, length));
             for t in [d.span().0, d.span().1] {
                 walls.push((d.at(t, face), d.at(t, d.gap / 2.0)));
             }
-        } else if side.permeability == Permeability::Impermeable || !is_inner(placed, &side) {
-            pieces.push((0.0, length));
         }
-        walls.extend(
-            pieces
-                .into_iter()
-                .filter(|(a, b)| b - a > 1e-6)
-                .map(|(a, b)| (side.start + along * a, side.start + along * b)),
-        );
+        walls.extend(beside(&side, doorway.map(|d| d.0)));
     }
     walls.retain(|(a, b)| (b - a).norm() > 1e-6);
     walls
+}
+
+/// The Area's sides that come into a zone, without its open doorways.
+pub(super) fn walls_in(site: &Site<'_>, placed: &PlacedArea, zone: &Bounds) -> Vec<(Point, Point)> {
+    let sides = solid_sides(site, placed, zone).into_iter();
+    let open = |d: &&Doorway| site.is_open(d);
+    sides.flat_map(|(side, door)| beside(&side, door.map(|d| d.0).filter(open))).collect()
+}
+
+/// What a side leaves beside a doorway in it.
+fn beside(side: &Side, doorway: Option<&Doorway>) -> Vec<(Point, Point)> {
+    let along = (side.end - side.start).try_normalize(0.0).unwrap_or_else(Vector::zeros);
+    let length = (side.end - side.start).norm();
+    let pieces = doorway.map_or(vec![(0.0, length)], |d| {
+        let (a, b) = d.line();
+        let place = |p: Point| (p - side.start).dot(&along).clamp(0.0, length);
+        let (low, high) = (place(a).min(place(b)), place(a).max(place(b)));
+        vec![(0.0, low), (high, length)]
+    });
+    let pieces = pieces.into_iter().filter(|(a, b)| b - a > 1e-6);
+    pieces.map(|(a, b)| (side.start + along * a, side.start + along * b)).collect()
+}
+
+/// The Area's sides near a zone that are walls, each with the doorway that is in it and which of the doorway's sides it is.
+fn solid_sides<'s>(
+    site: &Site<'s>,
+    placed: &PlacedArea,
+    zone: &Bounds,
+) -> Vec<(Side, Option<(&'s Doorway, usize)>)> {
+    let all: Vec<usize> = (0..placed.prisms.len()).collect();
+    let model = &site.world.areas[&placed.id];
+    let near = |s: &Side| Bounds::of([s.start, s.end]).grown(0.1).meets(zone);
+    let sides = sides(placed, &all).into_iter().filter(near);
+    let with_doorway = sides.map(|side| {
+        let id = &site.world.orthoframe_of(&model.items[side.item]).base[side.side].id;
+        let is_here = |d: &Doorway, at: usize| {
+            d.sides[at].item == model.items[side.item].id && d.sides[at].side == *id
+        };
+        let own = site.by_area.get(&placed.id).map_or(&[][..], Vec::as_slice).iter();
+        let mut own = own.map(|&(doorway, at)| (&site.doorways[doorway], at));
+        let doorway = own.find(|(d, at)| is_here(d, *at));
+        (side, doorway)
+    });
+    let is_wall = |(side, doorway): &(Side, Option<_>)| {
+        doorway.is_some()
+            || side.permeability == Permeability::Impermeable
+            || !is_inner(placed, side)
+    };
+    with_doorway.filter(is_wall).collect()
 }
 
 /// Whether a side lies between two items of the Area.

@@ -224,14 +224,19 @@ impl FloorPlan {
     /// there: a pocket between things is no place to be sent to.
     #[must_use]
     pub fn standing_in(&self, area: AreaId, p: Point) -> Option<Point> {
-        let cells = &self.fragment(area)?.cells;
+        self.rest(self.number(area)? as u32, p).map(|(at, _)| at)
+    }
+
+    /// As [`Self::standing_in`], with the cell.
+    pub(super) fn rest(&self, number: u32, p: Point) -> Option<(Point, u32)> {
+        let cells = &self.floor(number).cells;
         let mut pieces: BTreeMap<u32, f64> = BTreeMap::new();
         for cell in cells.cells() {
             *pieces.entry(cells.component(cell)).or_default() += cells.polygon(cell).signed_area();
         }
         let (largest, _) = pieces.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let inside = |cell: u32| cells.component(cell) == largest;
-        cells.nearest(p, inside).map(|(at, _)| at)
+        cells.nearest(p, inside)
     }
 
     /// The robot's centre at `p`, or as near as it fits; in a region of the floor if one is named.

@@ -5,7 +5,13 @@
 //! taken in the order of the least length that a way through them can have, so the first way that reaches the
 //! goal is the shortest of all; no graph of sight lines is built beforehand.
 //!
-//! **Invariant**: every way found lies in the cells; none is shorter.
+//! A way bends at corners of cells alone, so there are finitely many roots, and what a root sees through an edge does not
+//! depend on the way that the sight took there: of two nodes of one root and one edge the one that sees no more is
+//! dropped ([`Search::is_known`]). Without that, the search would turn for ever round a corner at which cells meet on
+//! all sides, as the end of a doorway's line may be, since that corner lies in line with every edge there.
+//!
+//! **Invariant**: every way found lies in the cells; none is shorter. No root looks twice through the same stretch of an
+//! edge, so that every search ends, and what it remembers is bounded by corners and edges.
 
 use std::cell::RefCell;
 use std::cmp::Reverse;
@@ -59,7 +65,26 @@ struct SearchNode {
     cell: CellKey,
     from: CellKey,
     is_final: bool,
+    /// The node before it in [`Search::known`] that has the same root and edge.
+    alike: u32,
 }
+
+impl SearchNode {
+    /// Whether all that another node of the same root and edge can lead to is found through this one.
+    fn covers(&self, other: &Self) -> bool {
+        let sees = |p: Point| {
+            (p - nearest_on_segment(p, self.right, self.left)).norm_squared() < SNAP * SNAP
+        };
+        self.spent <= other.spent + EPSILON
+            && (self.right_bends || !other.right_bends)
+            && (self.left_bends || !other.left_bends)
+            && sees(other.right)
+            && sees(other.left)
+    }
+}
+
+/// The last of a chain of nodes.
+const NO_NODE: u32 = u32::MAX;
 
 /// A bend of a way under construction.
 #[derive(Debug, Clone, Copy)]
@@ -122,6 +147,8 @@ struct Search {
     /// What the cell that is looked at leads to.
     fresh: Vec<SearchNode>,
     nodes: Vec<SearchNode>,
+    /// The node that came last of each root's place and each edge, told by the cells on its two sides.
+    known: HashMap<(u32, CellKey, CellKey), u32, BuildHasherDefault<PlaceHasher>>,
     /// The foremost of the nodes that came last; often it goes before all others, and never sees the heap.
     next: Option<Waiting>,
     open: BinaryHeap<Reverse<Waiting>>,
@@ -157,6 +184,7 @@ impl Search {
         self.best.clear();
         self.best.push(0.0);
         self.nodes.clear();
+        self.known.clear();
         self.next = None;
         self.open.clear();
     }
@@ -255,13 +283,32 @@ impl Search {
             cell: edge.to,
             from,
             is_final: false,
+            alike: NO_NODE,
         });
+    }
+
+    /// Whether all that a node sees was seen from the same root through the same edge already; else it is the next to
+    /// wait, and known from now on.
+    fn is_known(&mut self, node: &mut SearchNode) -> bool {
+        let place = self.roots[node.root as usize].place;
+        let number = self.nodes.len() as u32;
+        let last = self.known.entry((place, node.from, node.cell)).or_insert(NO_NODE);
+        let before = |&n: &u32| Some(self.nodes[n as usize].alike).filter(|&n| n != NO_NODE);
+        let mut alike = std::iter::successors(Some(*last).filter(|&n| n != NO_NODE), before);
+        if alike.any(|n| self.nodes[n as usize].covers(node)) {
+            return true;
+        }
+        node.alike = std::mem::replace(last, number);
+        false
     }
 
     /// Lets what was found wait for its turn.
     fn queue(&mut self) {
         let mut fresh = std::mem::take(&mut self.fresh);
-        for node in fresh.drain(..) {
+        for mut node in fresh.drain(..) {
+            if self.is_known(&mut node) {
+                continue;
+            }
             let at = self.root(&node);
             self.wait(node.spent + through(at, node.right, node.left, self.goal), node);
         }
@@ -351,7 +398,9 @@ impl Search {
         let seen_right = if r_right { meet(at, right, r, l) } else { r };
         let seen_left = if l_left { meet(at, left, r, l) } else { l };
         let is_seen = (seen_left - seen_right).norm_squared() > EPSILON * EPSILON;
-        is_seen.then(|| SearchNode {
+        // What is in line with the root is looked at more closely; see [`Self::expand_cone`].
+        let is_plain = is_seen && !((r_right || l_left) && is_flat(at, seen_right, seen_left));
+        is_plain.then(|| SearchNode {
             right: seen_right,
             left: seen_left,
             right_bends: edge.right_bends && seen_right == r,
@@ -374,7 +423,11 @@ impl Search {
                 let seen_right = if r_right { meet(at, right, r, l) } else { r };
                 let seen_left = if l_left { meet(at, left, r, l) } else { l };
                 if (seen_left - seen_right).norm_squared() > EPSILON * EPSILON {
-                    self.push(node.spent, node.root, edge, seen_right, seen_left, node.cell);
+                    // In line with the root only rounding cuts an edge: its ends alone are corners to bend at.
+                    let is_cut = r_right || l_left;
+                    let is_whole = is_cut && is_flat(at, seen_right, seen_left);
+                    let (right, left) = if is_whole { (r, l) } else { (seen_right, seen_left) };
+                    self.push(node.spent, node.root, edge, right, left, node.cell);
                 }
             }
             // An edge may end in the bend itself, and then leads off from it to the other side.
@@ -437,6 +490,10 @@ impl Search {
 struct PlaceHasher(u64);
 
 impl Hasher for PlaceHasher {
+    fn write_u32(&mut self, word: u32) {
+        self.write_u64(u64::from(word));
+    }
+
     fn write_u64(&mut self, word: u64) {
         self.0 = (self.0.rotate_left(5) ^ word).wrapping_mul(0x517c_c1b7_2722_0a95);
     }
@@ -478,5 +535,79 @@ fn through(root: Point, right: Point, left: Point, goal: Point) -> f64 {
         over(left)
     } else {
         straight.norm()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A square floor of so many cells a side, 10 cm each, and one cell by itself. Wherever cells meet a way is said to
+    /// bend, as at the ends of doorways' lines.
+    struct Squares(u32);
+
+    impl Cells for Squares {
+        fn edges(&self, (_, cell): CellKey, from: Option<CellKey>, found: &mut Vec<Edge>) {
+            let side = self.0;
+            if cell == side * side {
+                return;
+            }
+            let (x, y) = (cell % side, cell / side);
+            let corner =
+                |dx: u32, dy: u32| Point::new(f64::from(x + dx) * 10.0, f64::from(y + dy) * 10.0);
+            let beside = [
+                ((0, 0), (1, 0), (y > 0).then(|| cell - side)),
+                ((1, 0), (1, 1), (x + 1 < side).then(|| cell + 1)),
+                ((1, 1), (0, 1), (y + 1 < side).then(|| cell + side)),
+                ((0, 1), (0, 0), (x > 0).then(|| cell - 1)),
+            ];
+            for (right, left, to) in beside {
+                if let Some(to) = to.filter(|&to| from != Some((0, to))) {
+                    found.push(Edge {
+                        right: corner(right.0, right.1),
+                        left: corner(left.0, left.1),
+                        right_bends: true,
+                        left_bends: true,
+                        to: (0, to),
+                    });
+                }
+            }
+        }
+
+        fn only_edge(&self, _: CellKey, _: CellKey) -> Option<Edge> {
+            None
+        }
+    }
+
+    #[test]
+    fn no_search_turns_round_a_corner_for_ever() {
+        for side in [2, 3, 5, 8] {
+            let apart = (0, side * side);
+            // On a corner, on an edge, beside a corner by less than rounding, and within a cell.
+            for at in
+                [(10.0, 10.0), (10.0, 14.0), (10.0 + 1e-9, 10.0), (10.0, 10.0 - 1e-5), (14.0, 13.0)]
+            {
+                let start = Point::new(at.0, at.1);
+                let mut search = Search::default();
+                search.begin(start, Point::new(500.0, 500.0));
+                assert!(search.run(&Squares(side), (0, 0), apart).is_none());
+                let corners = (side as usize + 1).pow(2) + 1;
+                let edges = 4 * (side as usize).pow(2);
+                assert!(search.nodes.len() <= corners * edges, "{side}: {}", search.nodes.len());
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_from_a_corner_at_which_cells_meet_is_straight() {
+        for (from, goal) in
+            [(0, (73.0, 61.0)), (1, (75.0, 75.0)), (9, (15.0, 78.0)), (8, (80.0, 10.0))]
+        {
+            let (start, goal) = (Point::new(10.0, 10.0), Point::new(goal.0, goal.1));
+            let cell = |v: f64| ((v / 10.0) as u32).min(7);
+            let to = (0, cell(goal.y) * 8 + cell(goal.x));
+            let way = shortest(&Squares(8), start, (0, from), goal, to).expect("one floor");
+            assert!((way.length - (goal - start).norm()).abs() < 1e-6, "{}", way.length);
+        }
     }
 }

@@ -13,7 +13,7 @@ use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
 use crate::geometry::{
-    Bounds, Doorway, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
+    Bounds, Doorway, LIFT_WAIT, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
 };
 use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
@@ -408,7 +408,7 @@ impl Drive for Simulator {
         (map, pose): (MapId, Pose),
     ) -> Result<(), Refusal> {
         self.map = map;
-        self.advance(LIFT_STOP + ride.rise.abs() / LIFT_SPEED, pose);
+        self.advance(ride.seconds() - LIFT_WAIT, pose);
         self.rebuild();
         self.open_for_lift(door)
     }
@@ -496,12 +496,6 @@ impl Drive for Simulator {
     }
 }
 
-/// Seconds until a lift comes when it is called.
-const LIFT_WAIT: f64 = 20.0;
-/// Seconds that a lift takes to shut its doors, start and stop.
-const LIFT_STOP: f64 = 10.0;
-/// How fast a lift rides, in cm a second.
-const LIFT_SPEED: f64 = 100.0;
 /// Seconds to press a button.
 const SWITCH_TIME: f64 = 3.0;
 /// Seconds to call a person.

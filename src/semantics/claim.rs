@@ -62,7 +62,10 @@ pub fn claim_holds(
             body.outline.iter().any(|part| part.distance_to(at) <= near.object)
         }),
         Claim::InCorner => by_walls(world, measured, area, at, near) == Spot::InCorner,
-        Claim::AlongWall => by_walls(world, measured, area, at, near) != Spot::InMiddle,
+        Claim::AlongWall => {
+            let spot = by_walls(world, measured, area, at, near);
+            matches!(spot, Spot::InCorner | Spot::AlongWall)
+        }
         Claim::InMiddle => by_walls(world, measured, area, at, near) == Spot::InMiddle,
     }
 }

@@ -1,7 +1,7 @@
 //! Where a pose is, in terms that people use (SPEC T4): data for a report, the words are made elsewhere.
 //!
 //! The Area first, then the strongest of: in the doorway, at the door, next to an object that is the only one of its
-//! kind there, in the corner, along the wall, in the middle.
+//! kind there, in the corner, along the wall, in the middle. Where none of these holds, the Area alone is said.
 
 use crate::geometry::contact::Footprint;
 use crate::map::{Permeability, World};
@@ -10,7 +10,7 @@ use crate::units::{AreaId, Deg, DoorId, MapId, Point, Pose, ReplicaId, Vector};
 use super::body::Body;
 use super::measure::{Located, Measurements};
 use super::openings::{Opening, joins_own_items, outward_normal};
-use crate::geometry::nearest_on_segment;
+use crate::geometry::{Polygon, nearest_on_segment};
 
 /// Distances, in cm from the robot's middle, that decide between the descriptions.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -22,11 +22,20 @@ pub struct Nearness {
     pub wall: f64,
     /// The thickest wall through which a doorway leads.
     pub wall_thickness: f64,
+    /// In the middle: within the Area's outline shrunk to this share about its centroid, no wall being near. No length.
+    pub middle: f64,
 }
 
 impl Default for Nearness {
     fn default() -> Self {
-        Self { doorway: 15.0, door: 130.0, object: 70.0, wall: 70.0, wall_thickness: 60.0 }
+        Self {
+            doorway: 15.0,
+            door: 130.0,
+            object: 70.0,
+            wall: 70.0,
+            wall_thickness: 60.0,
+            middle: 0.4,
+        }
     }
 }
 
@@ -61,6 +70,8 @@ pub enum Spot {
     InCorner,
     AlongWall,
     InMiddle,
+    /// Somewhere in the Area, of which nothing more can be said.
+    Inside,
 }
 
 /// A pose put into terms.
@@ -200,10 +211,31 @@ pub(super) fn by_walls(
     let opposite = |u: &Vector, v: &Vector| u.dot(v) < -0.866;
     let corner = walls.iter().any(|u| walls.iter().any(|v| turned(u, v) && !opposite(u, v)));
     match walls.len() {
-        0 => Spot::InMiddle,
+        0 if in_middle(world, area, p, near) => Spot::InMiddle,
+        0 => Spot::Inside,
         _ if corner => Spot::InCorner,
         _ => Spot::AlongWall,
     }
+}
+
+/// Whether a point lies in the middle of an Area: away from its centroid by no more than a share of the way from there to
+/// its rim. An Area whose centroid lies outside it, like an L, has no middle.
+fn in_middle(world: &World, area: AreaId, p: Point, near: &Nearness) -> bool {
+    let Some((_, frame)) = world.placement(area) else { return false };
+    let parts: Vec<Polygon> = world.areas[&area]
+        .items
+        .iter()
+        .map(|item| {
+            let place = frame.compose(&item.frame);
+            let base = &world.orthoframe_of(item).base;
+            Polygon::new(base.iter().map(|side| place.apply(side.start)).collect())
+        })
+        .collect();
+    let whole: f64 = parts.iter().map(Polygon::signed_area).sum();
+    let moments = parts.iter().map(|part| part.centroid().coords * part.signed_area());
+    let centroid = Point::from(moments.fold(Vector::zeros(), |sum, m| sum + m) / whole);
+    let holds = |at: Point| parts.iter().any(|part| part.contains(at, 1e-6));
+    whole > 0.0 && holds(centroid) && holds(centroid + (p - centroid) / near.middle)
 }
 
 /// Solid sides of an Area that bound it, in the Map's frame.

@@ -436,6 +436,15 @@ impl Maker<'_> {
                 self.report.skipped(What::Lift, &lift.source, Why::LiftStops);
                 continue;
             }
+            let is_shaft = |&(_, area): &(MapId, AreaId)| {
+                let area_type = self.world.areas.get(&area).and_then(|area| area.area_type);
+                let types = &self.types.lists.area;
+                ["lift", "stairs"].iter().any(|wanted| types.has_trait(area_type, wanted))
+            };
+            if !lift.is_told && !stops.iter().all(is_shaft) {
+                self.report.skipped(What::Lift, &lift.source, Why::NoLift);
+                continue;
+            }
             self.report.taken(What::Lift, 1);
             let name = names::tidy(if lift.name.is_empty() { &lift.source } else { &lift.name });
             let stops = stops.into_iter().map(|(_, area)| LiftStop { area }).collect();

@@ -265,6 +265,7 @@ mod tests {
                 source: "s".into(),
                 name: "лестница".into(),
                 stops: vec![(0, 1), (1, 0)],
+                is_told: true,
             }],
             ..Survey::default()
         };

@@ -24,7 +24,8 @@ impl Reader {
             let levels: BTreeSet<usize> = stops.iter().map(|s| s.0).collect();
             if levels.len() > 1 && levels.len() == stops.len() {
                 let name = self.tongue.name(feature).unwrap_or_default();
-                self.survey.lifts.push(Lift { source: feature.id.clone(), name, stops });
+                let source = feature.id.clone();
+                self.survey.lifts.push(Lift { source, name, stops, is_told: true });
             }
         }
         shafts::join(&mut self.survey);

@@ -495,7 +495,8 @@ impl Reader {
                 }
             }
         }
-        self.survey.lifts.push(Lift { source: name.to_owned(), name: name.to_owned(), stops });
+        let (source, name) = (name.to_owned(), name.to_owned());
+        self.survey.lifts.push(Lift { source, name, stops, is_told: true });
     }
 }
 

@@ -96,6 +96,8 @@ pub trait Senses {
 pub struct Way {
     /// cm
     pub length: f64,
+    /// How long lifts are waited for and ridden on it, in seconds.
+    pub riding: f64,
     pub sentences: Vec<String>,
 }
 

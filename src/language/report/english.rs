@@ -17,7 +17,8 @@ impl Position {
             Some(Spot::InDoorway(door)) => doorway_in_english(door),
             Some(Spot::AtDoor(door)) => format!("{at} at {}", door.english()),
             Some(Spot::Object(beside, object)) => {
-                format!("{at} {} {}", beside_in_english(*beside), object.english())
+                let comma = if *beside == Beside::On { "," } else { "" };
+                format!("{at}{comma} {} {}", beside_in_english(*beside), object.english())
             }
             Some(Spot::InCorner(thing)) => format!("in the corner of {of}{}", near(thing)),
             Some(Spot::AlongWall(thing)) => {
@@ -78,11 +79,11 @@ impl Facing {
         match self {
             _ if self.is_told(spot) => "facing it".into(),
             Self::Door(door) => format!("facing {}", door.english()),
+            Self::Leaf(door) => format!("facing a leaf of {}", door.english()),
             Self::Object(object) => format!("facing {}", object.english()),
             Self::Wall | Self::OwnWall => "facing the wall".into(),
             Self::OtherWall => "facing another wall".into(),
-            Self::Inward if matches!(spot, Some(Spot::InMiddle)) => "facing free space".into(),
-            Self::Inward => "facing the middle".into(),
+            Self::Inward => "facing free space".into(),
         }
     }
 }

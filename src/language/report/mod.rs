@@ -71,6 +71,8 @@ impl Spot {
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Facing {
     Door(Doorway),
+    /// A leaf of a door that stands open.
+    Leaf(Doorway),
     Object(Named),
     /// Some wall, where it was not said that the robot is by one.
     Wall,
@@ -78,7 +80,7 @@ pub enum Facing {
     OwnWall,
     /// Another than that.
     OtherWall,
-    /// Into the free middle of the Area.
+    /// Nothing near: free floor.
     Inward,
 }
 

@@ -63,6 +63,9 @@ pub enum SaidFacing<T> {
     /// That by which it is said to be, and another than that.
     OwnWall,
     OtherWall,
+    /// A leaf of a door that stands open.
+    Leaf(SaidDoorway<T>),
+    /// Free floor.
     Inward,
 }
 
@@ -338,10 +341,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         if self.one_of(&["стене"]).is_some() {
             return Some(SaidFacing::Wall);
         }
-        if self.one_of(&["середине"]).is_some()
-            || self.maybe(|r| r.all_of("свободному месту")).is_some()
-        {
+        if self.maybe(|r| r.all_of("свободному месту")).is_some() {
             return Some(SaidFacing::Inward);
+        }
+        if self.one_of(&["створке"]).is_some() {
+            return self.russian_doorway().map(SaidFacing::Leaf);
         }
         if self.one_of(&["ней", "нему", "ним"]).is_some() {
             return SaidFacing::it(spot);
@@ -500,8 +504,11 @@ impl<T: Clone + Eq + Hash> Reader<'_, T> {
         if self.all_of("the wall").is_some() {
             return Some(SaidFacing::Wall);
         }
-        if self.all_of("the middle").is_some() || self.all_of("free space").is_some() {
+        if self.all_of("free space").is_some() {
             return Some(SaidFacing::Inward);
+        }
+        if self.all_of("a leaf of").is_some() {
+            return self.english_doorway().map(SaidFacing::Leaf);
         }
         if self.all_of("it").is_some() {
             return SaidFacing::it(spot);

@@ -31,6 +31,9 @@ impl Position {
             Some(Spot::InDoorway(door)) => doorway_in_russian(door),
             Some(Spot::AtDoor(door)) => format!("{at} у {}", door.russian(Case::Genitive)),
             Some(Spot::Object(beside, object)) => {
+                // «в Ванной, стоя на Ковре-1»: what one does besides is set off.
+                let is_set_off = *beside == Beside::On && !at.ends_with(',');
+                let at = if is_set_off { at + "," } else { at };
                 format!("{at} {}", beside_in_russian(*beside, &object.russian))
             }
             Some(Spot::InCorner(thing)) => format!("в углу {of}{}", near(thing)),
@@ -105,6 +108,7 @@ impl Facing {
         match self {
             Self::Door(door) if told => format!("лицом к {}", door.pronoun()),
             Self::Door(door) => format!("лицом к {}", door.russian(Case::Dative)),
+            Self::Leaf(door) => format!("лицом к створке {}", door.russian(Case::Genitive)),
             Self::Object(object) if told => format!("лицом к {}", pronoun(&object.russian)),
             Self::Object(object) => {
                 format!("лицом {}", russian::with(Preposition::K, Case::Dative, &object.russian))
@@ -112,10 +116,7 @@ impl Facing {
             Self::OwnWall if told => "лицом к ней".into(),
             Self::Wall | Self::OwnWall => "лицом к стене".into(),
             Self::OtherWall => "лицом к другой стене".into(),
-            Self::Inward if matches!(spot, Some(Spot::InMiddle)) => {
-                "лицом к свободному месту".into()
-            }
-            Self::Inward => "лицом к середине".into(),
+            Self::Inward => "лицом к свободному месту".into(),
         }
     }
 }

@@ -96,7 +96,7 @@ impl Knowledge<'_> {
         })
     }
 
-    /// How long the robot drives, at its speed and without stops.
+    /// How long the robot is on its way: at its speed and without stops, but for the lifts that it rides.
     pub(super) fn duration(&self, from: Option<&Noun>, to: &Noun) -> Result<Draft, Doubt> {
         let from = from.map(|noun| self.one(noun)).transpose()?;
         let to = self.one(to)?;
@@ -108,13 +108,24 @@ impl Knowledge<'_> {
             }
         };
         let speed = self.world.robot.speed;
-        let seconds = way.length / speed;
+        let seconds = way.length / speed + way.riding;
         let (far, lang) = (length(way.length, self.language), self.language);
         let takes = duration(seconds, lang);
         let at = length(speed, lang);
-        let text = match self.is_russian() {
-            true => format!("ехать около {takes}: путь {far} по {at} в секунду, без остановок"),
-            false => format!("about {takes}: {far} of way at {at} a second, without stops"),
+        let rides = duration(way.riding, lang);
+        let text = match (way.riding > 0.0, self.is_russian()) {
+            (false, true) => {
+                format!("ехать около {takes}: путь {far} по {at} в секунду, без остановок")
+            }
+            (false, false) => {
+                format!("about {takes}: {far} of way at {at} a second, without stops")
+            }
+            (true, true) => format!(
+                "ехать около {takes}: путь {far} по {at} в секунду и лифт, около {rides} с ожиданием"
+            ),
+            (true, false) => format!(
+                "about {takes}: {far} of way at {at} a second, and about {rides} of waiting for lifts and riding"
+            ),
         };
         Ok(Draft::new(Said::Found, text).about(&[to]).number(seconds.round()))
     }
