@@ -119,6 +119,10 @@ pub(crate) fn told(survey: &Survey) -> String {
     for remark in &survey.remarks {
         out += &format!("\n! {}: {}", remark.source, remark.text);
     }
+    for told in &survey.told {
+        let (taken, found) = (told.count.taken, told.count.found);
+        out += &format!("\n! {:?} {}: {} ({taken} из {found})", told.deed, told.source, told.text);
+    }
     out + "\n"
 }
 

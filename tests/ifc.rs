@@ -511,7 +511,7 @@ fn every_element_of_the_file_is_in_the_report() {
     let mut m = Model::metres();
     let storey = m.storey("1", 0.0);
     let attic = m.storey("2", 300.0);
-    m.space(storey, "hall", &rect(0.0, 0.0, 1000.0, 1000.0));
+    m.space(storey, "hall", &rect(-200.0, -200.0, 1200.0, 1200.0));
     let place = m.placement(Some(storey.1), [0.0; 3], 0.0);
     m.add(&format!("IFCSPACE('void',$,'v',$,$,#{place},$,$,.ELEMENT.,.INTERNAL.,$)"));
     let body = |m: &mut Model, x: f64, y: f64| {

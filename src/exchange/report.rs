@@ -1,6 +1,7 @@
 //! What came of an import: how much was read, what was mended, what was left out, and why.
 //!
-//! **Invariant.** Every record of the file that does not arrive as it stands has a note with the file's own id.
+//! **Invariant.** Every record of the file that does not arrive as it stands has a note with the file's own id; a whole
+//! class of which nothing is made has one with the name of the class and how many there are.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -211,22 +211,24 @@ impl Shapes<'_> {
         if line.len() < 2 || !(1e-9..1e9).contains(&radius) {
             return None;
         }
-        self.charge(line.len() * 8);
-        let disk = |i: usize| -> Line {
-            let (before, after) = (line[i.saturating_sub(1)], line[(i + 1).min(line.len() - 1)]);
-            let along = (after - before).try_normalize(1e-12).unwrap_or_else(Vector3::z);
+        self.charge(line.len() * 16);
+        let mut faces = Vec::new();
+        // Each straight piece by itself, as wide as the disk up to its very ends.
+        for piece in line.windows(2) {
+            let Some(along) = (piece[1] - piece[0]).try_normalize(1e-12) else { continue };
             let aside = if along.z.abs() < 0.9 { Vector3::z() } else { Vector3::x() };
             let u = along.cross(&aside).normalize();
             let v = along.cross(&u);
-            let corner = |k: u32| {
-                let (sin, cos) = (f64::from(k) / 8.0 * std::f64::consts::TAU).sin_cos();
-                place.apply(line[i] + (u * cos + v * sin) * radius)
+            let disk = |at: Point3<f64>| -> Rings {
+                let corner = |k: u32| {
+                    let (sin, cos) = (f64::from(k) / 8.0 * std::f64::consts::TAU).sin_cos();
+                    place.apply(at + (u * cos + v * sin) * radius)
+                };
+                vec![(0..8).map(corner).collect()]
             };
-            (0..8).map(corner).collect()
-        };
-        let mut faces = vec![vec![disk(0)], vec![disk(line.len() - 1)]];
-        for i in 1..line.len() {
-            faces.extend(between(&vec![disk(i - 1)], &vec![disk(i)]));
+            let (from, to) = (disk(piece[0]), disk(piece[1]));
+            faces.extend(between(&from, &to));
+            faces.extend([from, to]);
         }
         Some(Body::of(faces))
     }

@@ -156,7 +156,9 @@ impl Reader<'_> {
             ("IFCTRANSPORTELEMENT", _) => "lift",
             _ => "stairs",
         };
-        let name = self.word(id, record);
+        // Its name says more than the form of its run does: `Stair:Residential:151086`.
+        let name = record.at(2).text().or(record.at(4).text()).unwrap_or(kind);
+        let name = name.split(':').next().unwrap_or_default().trim().chars().take(100).collect();
         Some(Way { source: source(record, id), name, kind, bodies, floor, low, high })
     }
 

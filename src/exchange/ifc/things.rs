@@ -189,7 +189,7 @@ impl Reader<'_> {
     }
 
     /// What a thing is: `M_Desk:1525 x 762mm:123456` is a Desk.
-    pub(super) fn word(&self, id: u32, thing: &Instance) -> String {
+    fn word(&self, id: u32, thing: &Instance) -> String {
         let said = |w: &&str| !NO_WORD.contains(w);
         let own_type = self.type_of(id);
         let of_type = own_type.and_then(|t| {
