@@ -201,8 +201,24 @@ fn heard(engine: &Engine, order: &str) -> Option<String> {
 #[test]
 fn no_word_of_an_order_is_passed_over() {
     const NOT_MEANT: [&str; 18] = [
-        "не", "not", "don't", "instead", "вместо", "rather", "no", "нет", "точнее", "если", "if",
-        "until", "пока", "когда", "when", "unless", "leave", "как",
+        "не",
+        "not",
+        "don't",
+        "instead",
+        "вместо",
+        "rather",
+        "no",
+        "нет",
+        "точнее",
+        "если",
+        "if",
+        "until",
+        "пока",
+        "когда",
+        "when",
+        "unless",
+        "leave",
+        "как",
     ];
     let flat = crate::worlds::rb2();
     let golden = [
@@ -218,9 +234,8 @@ fn no_word_of_an_order_is_passed_over() {
         let orders = text.lines().filter(|line| !line.starts_with("    ") && !line.is_empty());
         for order in orders {
             let words: Vec<&str> = order.split(' ').collect();
-            let key = |word: &&str| {
-                word.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase()
-            };
+            let key =
+                |word: &&str| word.trim_matches(|c: char| !c.is_alphanumeric()).to_lowercase();
             let words_of = words.iter().map(key).collect::<Vec<_>>();
             let not_meant = words_of.iter().any(|word| NOT_MEANT.contains(&word.as_str()));
             if not_meant || order.contains(name) || preamble(order).is_some() {
@@ -290,7 +305,8 @@ fn a_number_or_value_that_nothing_has_is_no_small_word() {
         assert!(flat.understand(order).is_err(), "{order}: {:?}", flat.understand(order));
     }
     // What its name says is no number too many.
-    for order in ["Принеси красную чашку 2", "Принеси книгу 4", "Подъедь к шкафу 2"] {
+    for order in ["Принеси красную чашку 2", "Принеси книгу 4", "Подъедь к шкафу 2"]
+    {
         assert!(flat.understand(order).is_ok(), "{order}: {:?}", flat.understand(order).err());
     }
 }
@@ -340,7 +356,13 @@ fn neither_half_of_an_order_is_passed_over() {
         ),
         (
             crate::worlds::rb2(),
-            &["switch on Lamp 1", "switch off Lamp 2", "bring Cup 1", "go to Room Z", "open Door KY"],
+            &[
+                "switch on Lamp 1",
+                "switch off Lamp 2",
+                "bring Cup 1",
+                "go to Room Z",
+                "open Door KY",
+            ],
             &[" and ", ", but ", ". "],
         ),
     ];

@@ -315,7 +315,8 @@ fn every_order_is_answered() {
 #[test]
 fn why_of_a_name_that_does_not_exist_says_so() {
     let place = Place::with_rb2();
-    for fact in ["ON_TOP_OF(Чашка-99, Стол-1)", "НАХОДИТСЯ_ВНУТРИ(Стол-1, Комната-Ю)"] {
+    for fact in ["ON_TOP_OF(Чашка-99, Стол-1)", "НАХОДИТСЯ_ВНУТРИ(Стол-1, Комната-Ю)"]
+    {
         for extra in [&[][..], &["--not"]] {
             let told = place.run(&[&["why", fact], extra].concat()).is(2);
             assert!(told.err.contains("на карте нет имени"), "{fact}: {}", told.err);

@@ -31,14 +31,13 @@ mod time;
 mod verbs;
 mod vocabulary;
 
-pub(in crate::language) use hints::{
-    awaited, has_haunt, is_of_another, says_whither,
-};
+pub(in crate::language) use hints::{awaited, has_haunt, is_of_another, says_whither};
 pub use hints::{in_time, is_command, is_order, is_too_long, preamble, without_clock};
 pub use misheard::Misheard;
 pub(in crate::language) use spoken::lost;
 pub(in crate::language) use verbs::{
-    Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words, without_verbs,
+    Sort, clauses, gathered, gathered_of, is_known, link_at, link_before, small_words,
+    without_verbs,
 };
 pub use verbs::{has_verb, likely_verb};
 

@@ -161,9 +161,9 @@ impl Asker<'_> {
         }
         let sentence = Sentence::new(text, &self.mind.lexicon);
         let told = sentence.content(&self.mind.lexicon);
-        told.into_iter().find(|words| words.clone().any(|n| lost.contains(&sentence.keys[n]))).map(
-            |words| sentence.said(&words).to_owned(),
-        )
+        told.into_iter()
+            .find(|words| words.clone().any(|n| lost.contains(&sentence.keys[n])))
+            .map(|words| sentence.said(&words).to_owned())
     }
 
     /// «Дай что-нибудь почитать», "something to cut an apple with": with the nearest portable thing of that use.
