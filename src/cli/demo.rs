@@ -299,6 +299,10 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
         let why = unfinished(world, ending, answer, lang);
         told.push_str(&format!("\n{} {stays}. {why}", thing.unwrap_or_default()));
     }
+    if answer.not_begun > 0 {
+        let rest = "\nОстальное из этого задания не начато.";
+        told.push_str(lang.pick(rest, "\nThe rest of this order was not begun."));
+    }
     told
 }
 

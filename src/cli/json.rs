@@ -337,6 +337,9 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
         let left = answer.left.iter().map(|(goal, _)| json!(goal.args)).collect::<Vec<_>>();
         view["left"] = json!(left);
     }
+    if answer.not_begun > 0 {
+        view["not_begun"] = json!(answer.not_begun);
+    }
     if let Some(position) = &answer.reported {
         view["ru"] = json!(position.say(Language::Russian));
         view["en"] = json!(position.say(Language::English));

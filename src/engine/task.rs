@@ -87,6 +87,8 @@ pub struct TaskAnswer {
     pub ending: TaskEnding,
     /// What was to be tidied and stays where it is, with the ending of each; the others are in their places.
     pub left: Vec<(GoalFact, TaskEnding)>,
+    /// How many goals of the sentence were not begun, since one before them was out of reach.
+    pub not_begun: usize,
     /// Whether it was told to tidy: «Убери со стола».
     pub tidies: bool,
     /// Whether it was only told to stop: each task runs to its end before the next is heard, so nothing was under way.
@@ -265,6 +267,7 @@ impl Engine {
             seconds: last.time,
             ending,
             left,
+            not_begun: goals.len() - begun,
             tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
             stops: matches!(commands, [Command::Stop]),
             reported: reported.and_then(Result::ok).map(|found| found.position),

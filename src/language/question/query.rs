@@ -425,6 +425,30 @@ impl Noun {
         Self { head: Head { things: Some(things), ..Head::default() }, ..Self::default() }
     }
 
+    /// A noun that this one names beside itself, with a number that tells nothing there: "nearest to the 5 beds". Of what
+    /// a room has the number counts, and "between the two doors" names both.
+    pub(super) fn idle_count(&self) -> Option<&Self> {
+        let counts = |noun: &Self, meant: Option<u64>| {
+            let told = noun.count.filter(|_| noun.best.is_none());
+            told.is_some_and(|n| n > 1 && Some(n) != meant) || noun.quantity != Quantity::Exactly
+        };
+        let of_places = self.restrictions.iter().flat_map(|restriction| {
+            let pair = restriction.rel == Rel::Between && restriction.anchors.len() == 1;
+            let meant = pair.then_some(2);
+            let had = matches!(restriction.rel, Rel::Has | Rel::Bears);
+            restriction.anchors.iter().map(move |anchor| (anchor, meant, had))
+        });
+        let anchor = self.best.as_ref().and_then(|best| best.anchor.as_deref());
+        let compared = [self.like.as_ref().map(|(_, other)| &**other), anchor];
+        let beyond = self.beyond.as_ref().map(|(_, other)| &**other);
+        let others = compared.into_iter().flatten().chain(beyond).chain(&self.except);
+        let mut all = of_places.chain(others.map(|noun| (noun, None, false)));
+        all.find_map(|(noun, meant, had)| match !had && counts(noun, meant) {
+            true => Some(noun),
+            false => noun.idle_count(),
+        })
+    }
+
     /// Does something to this noun and to all that it names.
     pub(super) fn each(&mut self, act: &mut dyn FnMut(&mut Self)) {
         act(self);

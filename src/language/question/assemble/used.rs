@@ -122,6 +122,13 @@ impl Frame<'_, '_> {
         if !serving && self.undone.is_some() {
             return self.undone.clone();
         }
+        let mut idle = None;
+        query.each_noun(&mut |noun| {
+            idle = idle.take().or(noun.idle_count().map(|n| n.text.clone()))
+        });
+        if idle.is_some() {
+            return idle;
+        }
         let used = Used::of(query);
         // "On what do cats fry eggs?" is not asked of eggs alone.
         let own = |deed: u16| uses::sorts(deed).flat_map(|sort| self.lexicon.kinds_of_sort(sort));

@@ -399,6 +399,10 @@ impl<'t> Sentence<'t> {
                 Modifier::All => noun.all = true,
                 Modifier::Other => noun.other = true,
                 Modifier::Same => noun.same = true,
+                // Of two numbers, or two orders, one would be forgotten.
+                Modifier::Number(_) if noun.count.is_some() => return fail(input),
+                Modifier::Rank(_) if noun.rank.is_some() => return fail(input),
+                Modifier::Best(_) if noun.best.is_some() => return fail(input),
                 Modifier::Number(count) => noun.count = Some(count),
                 Modifier::Value(value, negated) => {
                     noun.filters.push(Filter::new(value, negated));

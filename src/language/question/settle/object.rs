@@ -89,6 +89,10 @@ impl Settler<'_, '_> {
         let doors = sort == Sort::Door && self.are_doors(noun);
         for spot in spots {
             self.counts_nothing(spot)?;
+            // "from the desk and the shelf": it is on one of them.
+            if let (Some(second), true) = (spot.nouns.get(1), spot.rel != Rel::Between) {
+                return Err((Doubt::not_understood(&second.noun.text), self.bytes(&second.words)));
+            }
             let mut anchor = with(&spot.phrase.noun, &spot.within);
             if let (Some(place), true) = (more.place, spot.phrase.pronoun.is_some()) {
                 anchor.head = Head { things: Some(vec![place]), ..Head::default() };
@@ -148,6 +152,7 @@ impl Settler<'_, '_> {
         }
         let lights = |kind| self.knowledge.lexicon().kind(kind).extension == Extension::Lighting;
         let of_light = noun.head.named.is_empty() && noun.head.kinds.iter().any(|k| lights(*k));
+        self.without_idle_count(noun, &phrase.words)?;
         if noun.quantity != Quantity::Exactly {
             return Err((Doubt::not_understood(&noun.text), at));
         }

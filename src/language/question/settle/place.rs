@@ -7,7 +7,7 @@ use super::{Edit, Settler};
 use crate::language::command::{self, Sort};
 use crate::language::question::Doubt;
 use crate::language::question::grammar::{Item, Phrase};
-use crate::language::question::query::{Head, Noun, Quantity, Rel, Restriction, Thing};
+use crate::language::question::query::{Head, Noun, Rel, Restriction, Thing};
 use crate::language::words::{Case, Language};
 use crate::map::Entity;
 use crate::units::AreaId;
@@ -305,18 +305,23 @@ impl Settler<'_, '_> {
         self.one(noun, within, &found, at)
     }
 
-    /// One place is meant by a place: «на два стола» is none.
+    /// One place is meant by a place: «на два стола» is none, and of two that are joined each would be needed.
     pub(super) fn counts_nothing(&self, spot: &Spot<'_>) -> Result<(), (Doubt, Range<usize>)> {
-        let anchors = spot.within.iter().flat_map(|r| &r.anchors);
-        let mut nouns = spot.nouns.iter().map(|p| &p.noun).chain(anchors);
-        let between = spot.rel == Rel::Between;
-        let several = |noun: &&Noun| {
-            let count = noun.count.unwrap_or(1);
-            count != 1 && !(between && count == 2) && noun.best.is_none()
-                || noun.quantity != Quantity::Exactly
-        };
-        match nouns.find(several) {
-            Some(noun) => Err((Doubt::not_understood(&noun.text), self.bytes(&spot.phrase.words))),
+        let anchors = spot.nouns.iter().map(|p| p.noun.clone()).collect();
+        let place = Restriction { rel: spot.rel, anchors, negated: false };
+        let restrictions = std::iter::once(place).chain(spot.within.iter().cloned()).collect();
+        self.without_idle_count(&Noun { restrictions, ..Noun::default() }, &spot.phrase.words)
+    }
+
+    /// # Errors
+    /// A number of the description counts nothing: «ближайший к 5 кроватям».
+    pub(super) fn without_idle_count(
+        &self,
+        noun: &Noun,
+        words: &Range<usize>,
+    ) -> Result<(), (Doubt, Range<usize>)> {
+        match noun.idle_count() {
+            Some(idle) => Err((Doubt::not_understood(&idle.text), self.bytes(words))),
             None => Ok(()),
         }
     }
