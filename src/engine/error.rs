@@ -435,11 +435,9 @@ impl RequestError {
                 "I put things onto, into or beside what is named, or in rooms, and not under, behind, in front or to one side of {}.",
                 called(name)
             ),
-            Self::NotThere { thing, place } => format!(
-                "{} is not where you say: {}.",
-                capitalized(&called(thing)),
-                called(place)
-            ),
+            Self::NotThere { thing, place } => {
+                format!("{} is not where you say: {}.", capitalized(&called(thing)), called(place))
+            }
             Self::NoCharger => "The map has no place to charge.".to_owned(),
             Self::NoStart => "The map does not tell where the robot belongs.".to_owned(),
             Self::NoLift => "There is no lift on this floor.".to_owned(),

@@ -483,9 +483,9 @@ impl Engine {
                 let joins = relations.joins();
                 let joined = joins.iter().filter(|join| join.door == Some(door));
                 let sides = joined.flat_map(|join| [join.from, join.to]);
-                return Ok(sides.into_iter().any(|side| {
-                    Entity::Area(side) == place || on_map(side) == Some(place)
-                }));
+                return Ok(sides
+                    .into_iter()
+                    .any(|side| Entity::Area(side) == place || on_map(side) == Some(place)));
             }
             Entity::Map(_) => None,
         };
