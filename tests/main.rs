@@ -8,6 +8,7 @@ mod corridor;
 mod corridor_floors;
 mod corridor_lattice;
 mod datalog_files;
+mod deeds;
 mod doors;
 mod doubts;
 mod drawings;

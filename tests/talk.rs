@@ -278,7 +278,7 @@ fn templates(engine: &Engine, score: &mut Score) {
             None => a.said == Said::Unknown,
         });
         for (phrase, relations) in [
-            ("on", &[("ON_TOP_OF", false)][..]),
+            ("on", &[][..]),
             ("above", &[("ABOVE", false), ("UNDER", true)]),
             ("under", &[("UNDER", false), ("ON_TOP_OF", true), ("ABOVE", true)]),
             (
@@ -292,6 +292,21 @@ fn templates(engine: &Engine, score: &mut Score) {
                     let (x, y) = if *swapped { (b, a) } else { (a, b) };
                     if y == *thing {
                         expected.insert(x);
+                    }
+                }
+            }
+            // What stands on it, and what lies on or in a thing there that can be carried away, and so on.
+            if phrase == "on" {
+                let mut open: Vec<String> = facts(engine, "ON_TOP_OF")
+                    .into_iter()
+                    .filter(|(_, y)| y == thing)
+                    .map(|(x, _)| x)
+                    .collect();
+                let holds = facts(engine, "LIES_ON_OR_IN");
+                while let Some(under) = open.pop() {
+                    if expected.insert(under.clone()) && has_trait(world, &under, "portable") {
+                        let over = holds.iter().filter(|(_, y)| *y == under);
+                        open.extend(over.map(|(x, _)| x.clone()));
                     }
                 }
             }

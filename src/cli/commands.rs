@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, parse_pose,
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, opens_in_words, parse_pose,
     ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
@@ -288,7 +288,7 @@ pub(super) fn route(
         RouteMethod::Paper => Method::Paper,
     };
     let journey = engine.journey(from, to, method)?;
-    let world = engine.world()?;
+    let world = engine.world_now()?;
     let found = journey.legs.iter().all(|leg| leg.route.is_ok());
     let language = common.lang.language();
     if common.json {
@@ -306,6 +306,8 @@ pub(super) fn route(
             parts.push(text::route(world, engine.floor(leg.map)?, leg, common.lang));
             parts.extend(journey.rides.get(k).map(|r| ride_in_words(world, r, language)));
         }
+        let opens = opens_in_words(world, &journey.opens, language);
+        parts.extend(Some(opens).filter(|told| !told.is_empty()));
         let head = common.lang.pick("Чтобы открыть путь:", "To open a way:");
         let advice = journey.advice.as_ref().map(|a| a.in_words(world, language));
         parts.extend(advice.map(|a| format!("{head} {a}.")));

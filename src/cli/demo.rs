@@ -13,6 +13,7 @@ use crate::graphplan::Outcome;
 use crate::language::Language;
 use crate::language::command::{in_time, is_order};
 use crate::language::question::{Conditional, conditional};
+use crate::map::Entity;
 use crate::robot::Directive;
 use crate::semantics::predicate;
 use crate::units::write_file;
@@ -293,6 +294,20 @@ fn ending(world: &World, answer: &TaskAnswer, lang: Lang) -> String {
         },
         ending => unfinished(world, ending, answer, lang),
     };
+    for (thing, sure) in &answer.unsure {
+        let name = name_in(world, world.name(Entity::Replica(*thing)), lang.language());
+        let percent = (sure * 100.0).round();
+        told.push_str(&match lang {
+            Lang::Ru => format!(
+                "\nГде {name}, я не был уверен (уверенность {percent:.0} %), поэтому сначала искал."
+            ),
+            Lang::En => {
+                format!(
+                    "\nI was not sure where {name} was ({percent:.0}% sure), so I looked first."
+                )
+            }
+        });
+    }
     for (goal, ending) in &answer.left {
         let thing = goal.args.first().map(|name| name_in(world, name, lang.language()));
         let stays = lang.pick("осталось не на месте", "is not in its place");

@@ -7,7 +7,7 @@ use clap::{Args, Subcommand};
 
 use crate::engine::{
     Drawing, Engine, Lens, Method, RequestError, TaskAnswer, directive_in_words, face_in_words,
-    no_way_in_words, parse_pose, ride_in_words,
+    no_way_in_words, opens_in_words, parse_pose, ride_in_words,
 };
 use crate::language::Language;
 use crate::robot::Directive;
@@ -186,8 +186,10 @@ fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
 fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure> {
     let engine = open(common)?;
     let language = common.lang.language();
-    let world = engine.world()?;
+    let world = engine.world_now()?;
     let journey = engine.journey(from, to, Method::Shortest)?;
+    let opens = opens_in_words(world, &journey.opens, language);
+    Some(opens).filter(|told| !told.is_empty()).iter().for_each(|told| note(told));
     let mut storeys: Vec<Storey> = Vec::new();
     let mut directives = Vec::new();
     for (k, leg) in journey.legs.iter().enumerate() {

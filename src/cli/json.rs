@@ -220,8 +220,13 @@ pub(super) fn face(world: &World, view: &FaceInView, language: Language) -> Valu
 
 /// A single leg as [`route`] gives it; several as a list of those, with the rides between them.
 pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> Value {
+    let opens: Vec<&str> =
+        journey.opens.iter().map(|door| world.name(Entity::Door(*door))).collect();
     if let [leg] = &journey.legs[..] {
         let mut view = route(world, leg, language);
+        if !opens.is_empty() {
+            view["opens"] = json!(opens);
+        }
         if let Some(advice) = &journey.advice {
             view["advice"] = json!(advice.in_words(world, language));
             view["remedy"] = remedy(world, &advice.remedy);
@@ -237,12 +242,16 @@ pub(super) fn journey(world: &World, journey: &Journey, language: Language) -> V
         })
     };
     let length = |leg: &RouteAnswer| leg.route.as_ref().map_or(0.0, |r| r.length);
-    json!({
+    let mut view = json!({
         "outcome": "route",
         "length_cm": round(journey.legs.iter().map(length).sum()),
         "legs": journey.legs.iter().map(|leg| route(world, leg, language)).collect::<Vec<_>>(),
         "rides": journey.rides.iter().map(ride).collect::<Vec<_>>(),
-    })
+    });
+    if !opens.is_empty() {
+        view["opens"] = json!(opens);
+    }
+    view
 }
 
 fn way(world: &World, route: &Route, chain: &[(AreaId, PassframeId)]) -> Value {

@@ -49,7 +49,7 @@ impl Engine {
         answer: &RouteAnswer,
         heading: Option<Deg>,
     ) -> Result<Option<Directions>, Error> {
-        self.surveyed().directions(answer, heading)
+        self.around()?.directions(answer, heading)
     }
 }
 

@@ -249,6 +249,14 @@ pub enum RequestError {
     )]
     Shut { name: String },
 
+    /// A thing that is behind doors that are shut.
+    #[error("«{thing}» лежит в «{container}», а там закрыто, и дверцы мебели робот не открывает")]
+    #[diagnostic(
+        code(engine::shut_in),
+        help("откройте сами и скажите карте: ortho edit state ДВЕРЦА open")
+    )]
+    ShutIn { thing: String, container: String },
+
     /// Nothing in a room can take a thing.
     #[error("«{area}»: «{thing}» там некуда положить")]
     #[diagnostic(code(engine::no_space), help("назовите, на что положить"))]
@@ -448,6 +456,11 @@ impl RequestError {
                 let name = capitalized(&called(name));
                 format!("{name} is shut, and the robot does not open doors of furniture.")
             }
+            Self::ShutIn { thing, container } => format!(
+                "{} is in {}, which is shut, and the robot does not open doors of furniture.",
+                capitalized(&called(thing)),
+                called(container)
+            ),
             Self::NoSpace { thing, area } => {
                 let (thing, area) = (called(thing), called(area));
                 format!("In {area} there is nothing that {thing} could be put on.")

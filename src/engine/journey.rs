@@ -1,13 +1,16 @@
 //! Ways over several floors, in legs and rides, and what would open a way where there is none.
 
-use crate::geometry::{Leg, Method, Remedy, Ride, Target, across};
+use std::collections::BTreeMap;
+
+use crate::geometry::{FloorPlan, Leg, Method, Remedy, Ride, Target, across};
 use crate::language::Language;
 use crate::language::report::{Detail, Named};
 use crate::map::{Entity, World};
-use crate::units::{Deg, MapId, Point};
+use crate::units::{Deg, DoorId, MapId, Point};
 
 use super::advice::Advice;
 use super::lexicon::named;
+use super::opening::opens_in_words;
 use super::route::{End, Located, RouteAnswer};
 use super::surroundings::Surroundings;
 use super::{Engine, Error};
@@ -19,21 +22,24 @@ pub struct Journey {
     pub legs: Vec<RouteAnswer>,
     /// The rides between them, one fewer.
     pub rides: Vec<Ride>,
+    /// Doors that are shut, not locked, and to be opened on the way, in its order; none where there is a way without.
+    pub opens: Vec<DoorId>,
     /// The smallest change that would open a way where there is none.
     pub advice: Option<Advice>,
 }
 
 impl Engine {
-    /// A way between two places given by name or as `X,Y`; lifts are ridden where they lie on different maps.
+    /// A way between two places given by name or as `X,Y`, in the world as it is believed to be now; lifts are ridden
+    /// where they lie on different maps, and doors opened that are only shut.
     ///
     /// # Errors
     /// A name that means nothing. No way at all is an answer, not an error.
     pub fn journey(&self, from: &str, to: &str, method: Method) -> Result<Journey, Error> {
         let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
-        self.surveyed().journey_between((from, start), (to, goal), method)
+        self.around()?.journey_between((from, start), (to, goal), method)
     }
 
-    /// A journey over the map as sentences: those of its legs, and of the rides between them. `heading` is how one
+    /// A journey as sentences: those of its legs, and of the rides between them. `heading` is how one
     /// stands at its beginning, where that is known.
     ///
     /// # Errors
@@ -45,7 +51,7 @@ impl Engine {
         language: Language,
         detail: Detail,
     ) -> Result<Vec<String>, Error> {
-        self.surveyed().journey_in_words(journey, heading, language, detail)
+        self.around()?.journey_in_words(journey, heading, language, detail)
     }
 }
 
@@ -72,15 +78,26 @@ impl Surroundings<'_> {
             Target::Door { door, area: own } if own != area => Some(Target::Door { door, area }),
             _ => None,
         });
+        let others: Vec<Target> = others.collect();
         let length = |legs: &Vec<Leg>| legs.iter().map(|leg| leg.route.length).sum::<f64>();
-        let found = others.fold(across(world, floors, ends.0, ends.1, method), |best, target| {
-            let side = across(world, floors, ends.0, (goal.map, target), method);
-            match (&best, &side) {
-                (Ok(a), Ok(b)) if length(b) < length(a) => side,
-                (Err(_), Ok(_)) => side,
-                _ => best,
-            }
-        });
+        let find = |world: &World, floors: &BTreeMap<MapId, FloorPlan>| {
+            let first = across(world, floors, ends.0, ends.1, method);
+            others.iter().fold(first, |best, target| {
+                let side = across(world, floors, ends.0, (goal.map, *target), method);
+                match (&best, &side) {
+                    (Ok(a), Ok(b)) if length(b) < length(a) => side,
+                    (Err(_), Ok(_)) => side,
+                    _ => best,
+                }
+            })
+        };
+        let (found, opens) = match find(world, floors) {
+            Ok(found) => (Ok(found), Vec::new()),
+            Err(no) => match self.by_opening(find)? {
+                Some((found, opens)) => (Ok(found), opens),
+                None => (Err(no), Vec::new()),
+            },
+        };
         match found {
             Ok(found) => {
                 let rides: Vec<Ride> = found.iter().filter_map(|leg| leg.ride.clone()).collect();
@@ -91,7 +108,7 @@ impl Surroundings<'_> {
                     RouteAnswer::new(leg.map, from, to, Ok((leg.passed, leg.route)))
                 };
                 let legs = found.into_iter().enumerate().map(leg).collect();
-                Ok(Journey { legs, rides, advice: None })
+                Ok(Journey { legs, rides, opens, advice: None })
             }
             Err(no) => {
                 let advice = floors.get(&no.map).and_then(|floor| {
@@ -102,7 +119,7 @@ impl Surroundings<'_> {
                     (alone || opens()).then(|| Advice::of(world, floor, remedy))
                 });
                 let leg = RouteAnswer::new(no.map, from, (to, goal.end), Err(no.why));
-                Ok(Journey { legs: vec![leg], rides: vec![], advice })
+                Ok(Journey { legs: vec![leg], rides: vec![], opens, advice })
             }
         }
     }
@@ -146,6 +163,9 @@ impl Surroundings<'_> {
                 sentences.push(ride_in_words(world, ride, language));
             }
         }
+        sentences.extend(
+            Some(opens_in_words(world, &journey.opens, language)).filter(|told| !told.is_empty()),
+        );
         Ok(sentences)
     }
 }

@@ -30,6 +30,8 @@ pub struct Now {
     pub held: Option<Replica>,
     /// With the people's names.
     pub handed_over: Vec<(Replica, String)>,
+    /// What lies on or in these, each with the thing with which it goes.
+    pub aboard: Vec<(Replica, ReplicaId)>,
     /// Whether the robot stands where its last task left it; else it stands at the map's start.
     pub goes_on: bool,
 }
@@ -42,12 +44,14 @@ impl Engine {
     pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
         let memory = self.memory()?;
         let mut world = self.believed(&memory, at)?;
-        let (mut held, mut handed_over) = (None, Vec::new());
+        let (mut held, mut handed_over, mut aboard) = (None, Vec::new(), Vec::new());
+        let carriers = self.carriers(&world, &memory.carried)?;
         for (thing, holder) in memory.carried {
-            match world.replicas.remove(&thing) {
-                Some(replica) if holder.is_empty() => held = Some(replica),
-                Some(replica) => handed_over.push((replica, holder)),
-                None => {}
+            let Some(replica) = world.replicas.remove(&thing) else { continue };
+            match carriers.get(&thing) {
+                Some(carrier) => aboard.push((replica, *carrier)),
+                None if holder.is_empty() => held = Some(replica),
+                None => handed_over.push((replica, holder)),
             }
         }
         // A map that was replaced since may not have this place any more.
@@ -59,7 +63,34 @@ impl Engine {
         let goes_on = last.is_some();
         let start = last.or_else(|| starting_pose(&world));
         let (map, pose) = start.ok_or(RequestError::RobotNowhere)?;
-        Ok(Now { world, map, pose, held, handed_over, goes_on })
+        Ok(Now { world, map, pose, held, handed_over, aboard, goes_on })
+    }
+
+    /// Of things that are carried, those that lie on or in others of them, each with the one that carries it and is itself
+    /// carried by none: as they lay when they were taken up. What is carried keeps its last place in `world`.
+    pub(super) fn carriers(
+        &self,
+        world: &World,
+        carried: &BTreeMap<ReplicaId, String>,
+    ) -> Result<BTreeMap<ReplicaId, ReplicaId>, Error> {
+        if carried.len() < 2 {
+            return Ok(BTreeMap::new());
+        }
+        let relations = self.relations_of(world)?;
+        let mut carriers = BTreeMap::new();
+        for (&carrier, holder) in carried {
+            let along = relations.goes_with(carrier);
+            let own = along.into_iter().filter(|thing| carried.get(thing) == Some(holder));
+            carriers.extend(own.map(|thing| (thing, carrier)));
+        }
+        let root = |mut at: ReplicaId| {
+            for _ in 0..carriers.len() {
+                let Some(next) = carriers.get(&at) else { break };
+                at = *next;
+            }
+            at
+        };
+        Ok(carriers.values().zip(carriers.keys()).map(|(c, thing)| (*thing, root(*c))).collect())
     }
 
     /// The map with the doors, devices and places of things as they are believed to be; what is carried still in it.
@@ -74,8 +105,9 @@ impl Engine {
             let reader = store.reader();
             for id in reader.observed()? {
                 let Some(replica) = world.replicas.get_mut(&id) else { continue };
+                // Also within the step by which a place counts as the surveyed one: what lies on a tray goes with it.
                 let belief = reader.belief(replica, at)?;
-                if !belief.is_surveyed && self.world()?.areas.contains_key(&belief.place.area) {
+                if self.world()?.areas.contains_key(&belief.place.area) {
                     (replica.area, replica.frame) = (belief.place.area, belief.place.frame);
                 }
             }
@@ -145,9 +177,9 @@ impl Engine {
     /// The name means nothing, or no place; the disk refused.
     pub fn place_robot(&mut self, name: &str, change: &Change) -> Result<(), Error> {
         let there = self.locate_name(name)?;
-        self.present.take();
-        let floor = self.floor(there.map)?;
+        let floor = self.around()?.floor(there.map)?;
         let at = floor.standing_at(there.at).ok_or(RequestError::RobotNowhere)?;
+        self.present.take();
         let pose = Pose { at, heading: Deg::ZERO };
         let store = self.writable()?;
         Ok(store.put_robot_pose(there.map, &pose, &change.user, change.at)?)
@@ -195,6 +227,10 @@ impl After {
         let mut carried: BTreeMap<ReplicaId, String> =
             belief.handed_over.iter().map(|(thing, to)| (thing.id, to.clone())).collect();
         carried.extend(belief.held.iter().map(|thing| (thing.id, String::new())));
+        for (thing, carrier) in &belief.aboard {
+            let holder = carried.get(carrier).cloned().unwrap_or_default();
+            carried.insert(thing.id, holder);
+        }
         let mut moved = BTreeMap::new();
         for (id, is) in &belief.world.replicas {
             let was = before.world.replicas.get(id);
@@ -206,6 +242,7 @@ impl After {
             moved.insert(*id, None);
         }
         let holding = belief.held.iter().chain(belief.handed_over.iter().map(|(thing, _)| thing));
+        let holding = holding.chain(belief.aboard.iter().map(|(thing, _)| thing));
         let devices = belief
             .world
             .replicas

@@ -25,6 +25,8 @@ pub(super) struct Present {
     pub(super) relations: Relations,
     /// Who has what was taken off the map; an empty name for the robot itself.
     pub(super) holders: BTreeMap<ReplicaId, String>,
+    /// Of what was taken off the map, what lies on or in another such thing, with that thing.
+    pub(super) carriers: BTreeMap<ReplicaId, ReplicaId>,
     mind: OnceCell<Mind>,
     floors: OnceCell<BTreeMap<MapId, FloorPlan>>,
 }
@@ -78,6 +80,7 @@ impl Engine {
         }
         let surveyed = self.world()?;
         let mut world = self.believed(&memory, std::time::SystemTime::now().into())?;
+        let carriers = self.carriers(&world, &memory.carried)?;
         let gone: Vec<_> =
             memory.carried.keys().filter_map(|id| world.replicas.remove(id)).collect();
         if gone.is_empty() && world == *surveyed {
@@ -89,6 +92,7 @@ impl Engine {
             world,
             relations,
             holders: memory.carried,
+            carriers,
             mind: OnceCell::new(),
             floors: OnceCell::new(),
         }))

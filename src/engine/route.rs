@@ -50,17 +50,19 @@ pub struct Located {
 }
 
 impl Engine {
-    /// A way between two places given by name or as `X,Y`.
+    /// A way between two places given by name or as `X,Y`, over the floor as it is believed to be now, doors as they
+    /// stand: see [`Engine::journey`] for one that opens doors and rides lifts.
     ///
     /// # Errors
     /// A name that means nothing, or places on different maps. No way at all is an answer, not an error.
     pub fn route(&self, from: &str, to: &str, method: Method) -> Result<RouteAnswer, Error> {
-        let world = self.world()?;
+        let around = self.around()?;
+        let world = around.world()?;
         let (start, goal) = (self.locate_name(from)?, self.locate_name(to)?);
         if start.map != goal.map {
             return Err(RequestError::OtherMap { from: from.to_owned(), to: to.to_owned() }.into());
         }
-        let floor = self.floor(start.map)?;
+        let floor = around.floor(start.map)?;
         let route = floor.route(world, start.at, goal.target, method);
         let route = route.map(|route| (floor.passed(&route), route));
         Ok(RouteAnswer::new(start.map, from, (to, goal.end), route))
@@ -83,7 +85,7 @@ impl Engine {
     /// # Errors
     /// It lies in no Area.
     pub fn locate_point(&self, map: MapId, at: Point) -> Result<Located, Error> {
-        self.surveyed().locate_point(map, at)
+        self.around()?.locate_point(map, at)
     }
 
     /// Where an entity is, as an end of a way.
@@ -91,7 +93,7 @@ impl Engine {
     /// # Errors
     /// It is something where one cannot stand.
     pub fn locate_entity(&self, entity: Entity) -> Result<Located, Error> {
-        self.surveyed().locate_entity(entity)
+        self.around()?.locate_entity(entity)
     }
 }
 
@@ -112,7 +114,7 @@ impl RouteAnswer {
 }
 
 /// The Areas of a way and the doorways between them.
-fn stages(passed: &Passed) -> Vec<Stage> {
+pub(super) fn stages(passed: &Passed) -> Vec<Stage> {
     let mut areas: Vec<AreaId> = passed.chain.iter().map(|(area, _)| *area).collect();
     areas.dedup();
     let leaves_by = passed.doorways.iter().copied().map(Some).chain(std::iter::repeat(None));

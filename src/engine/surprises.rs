@@ -40,6 +40,13 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             Language::Russian => format!("{}: «{thing}» не видно", said(Entity::Area(*area))),
             Language::English => format!("{thing} is not seen in {}", said(Entity::Area(*area))),
         },
+        Surprise::NoReturn { door, area } => {
+            let (door, room) = (said(Entity::Door(*door)), said(Entity::Area(*area)));
+            language.pick(
+                format!("закрыв {door}, робот не сможет открыть её снова из «{room}»: там ему негде встать"),
+                format!("once {door} is shut, the robot could not open it again from {room}: it has no place to stand there"),
+            )
+        }
         Surprise::Unknown { name } => match language {
             Language::Russian => format!("на карте нет «{name}»"),
             Language::English => format!("the map has no \"{name}\""),
@@ -75,6 +82,11 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
             Refusal::NotHeld(id) => {
                 told("«{}» нет в руке", "{} is not in the hand", Obstruction::Replica(id))
             }
+            Refusal::Shut(id) => told(
+                "«{}»: дверцы закрыты, а дверцы мебели робот не открывает",
+                "{} is shut, and the robot does not open doors of furniture",
+                Obstruction::Replica(id),
+            ),
             Refusal::NoRoom(id) => told(
                 "на «{}» нет свободного места",
                 "there is no room on {}",

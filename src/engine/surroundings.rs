@@ -1,6 +1,7 @@
 //! One state of the world with what was derived of it: the map as surveyed, or what is believed to be so now.
 //!
-//! Ways and places are told of the one or the other by the same code: `ortho route` of the map, a dialogue of what is.
+//! Ways and places are told, asked for and driven in one state of the world: as it is believed to be now, where the robot
+//! or an observation knows it otherwise than the survey.
 
 use std::collections::BTreeMap;
 
@@ -22,9 +23,12 @@ pub(super) struct Surroundings<'e> {
 }
 
 impl Engine {
-    /// The map as it was surveyed.
-    pub(super) fn surveyed(&self) -> Surroundings<'_> {
-        Surroundings { engine: self, now: None }
+    /// The world as it is believed to be now: the map, with what the robot did and what was seen.
+    ///
+    /// # Errors
+    /// There is no map.
+    pub fn world_now(&self) -> Result<&World, Error> {
+        self.around()?.world()
     }
 
     /// The world as it is believed to be now.

@@ -355,6 +355,14 @@ impl Senses for RobotSenses<'_> {
         self.engine.present().ok()??.holders.get(&thing).cloned()
     }
 
+    fn carrier(&self, thing: ReplicaId) -> Option<ReplicaId> {
+        self.engine.present().ok()??.carriers.get(&thing).copied()
+    }
+
+    fn doubted(&self, thing: ReplicaId) -> Option<f64> {
+        self.holder(thing).is_none().then(|| self.engine.doubted(thing)).flatten()
+    }
+
     fn held(&self) -> Vec<ReplicaId> {
         let Ok(Some(now)) = self.engine.present() else { return Vec::new() };
         let own = now.holders.iter().filter(|(_, holder)| holder.is_empty());

@@ -18,7 +18,7 @@ use crate::robot::{
     Simulator, Station, Surprise, facts_of_map,
 };
 use crate::semantics::{Profile, Relations, derive, predicate};
-use crate::units::{MapId, Point, Pose};
+use crate::units::{MapId, Point, Pose, ReplicaId};
 
 use super::memory::{After, Now};
 use super::position::describe;
@@ -95,6 +95,8 @@ pub struct TaskAnswer {
     pub stops: bool,
     /// Where the robot stands, when it was told to report and no directive ends with a report.
     pub reported: Option<Position>,
+    /// Things of which it was not sure where they are, and looked for before all else, each with how sure it was, 0..=1.
+    pub unsure: Vec<(ReplicaId, f64)>,
     /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
     pub after: Option<After>,
 }
@@ -163,6 +165,7 @@ impl Engine {
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
         belief.handed_over.clone_from(&now.handed_over);
+        belief.aboard.clone_from(&now.aboard);
         let Station::Place(here) = belief.station.clone() else {
             return Err(RequestError::RobotNowhere.into());
         };
@@ -173,17 +176,35 @@ impl Engine {
         });
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
-        let goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
+        let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
+        self.not_shut_in(commands, &goals, relations)?;
+        let unsure = self.unsure_of(commands, &goals, now)?;
+        // Of what it is not sure where it is, it looks first.
+        for (thing, _) in unsure.iter().rev() {
+            let name = self.world()?.name(Entity::Replica(*thing)).to_owned();
+            belief.sought.insert(name.clone(), BTreeSet::new());
+            goals.insert(
+                0,
+                vec![GoalFact { predicate: predicate::FOUND.to_owned(), args: vec![name] }],
+            );
+        }
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
-        let mut drive = Simulator::new(truth, map, start).holding(now.held.clone());
+        let in_hand = now.held.as_ref().map(|held| held.id);
+        let aboard = now.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
+        let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
+        let mut drive = Simulator::new(truth, map, start).holding(now.held.clone(), aboard);
         let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
         let is_lit = facts_of_map(&now.world, relations)
             .iter()
             .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
-        for command in commands {
-            let Command::Find(what) = command else { continue };
-            let Entity::Replica(id) = what.id else { continue };
-            let name = self.world()?.name(what.id).to_owned();
+        let sought = commands.iter().filter_map(|command| match command {
+            Command::Find(what) => Some(what.id),
+            _ => None,
+        });
+        let unsure_ones = unsure.iter().map(|(thing, _)| Entity::Replica(*thing));
+        for what in sought.chain(unsure_ones) {
+            let Entity::Replica(id) = what else { continue };
+            let name = self.world()?.name(what).to_owned();
             let in_hand = !now.world.replicas.contains_key(&id);
             if in_hand || (is_lit && drive.sees(id).is_some()) {
                 belief.found.insert(name);
@@ -263,7 +284,7 @@ impl Engine {
             end: last.pose,
             end_map: last.map,
             reports,
-            replans: plans - begun,
+            replans: usize::saturating_sub(plans, begun),
             seconds: last.time,
             ending,
             left,
@@ -272,6 +293,7 @@ impl Engine {
             stops: matches!(commands, [Command::Stop]),
             reported: reported.and_then(Result::ok).map(|found| found.position),
             after: Some(After::of(self.world()?, now, &mission)),
+            unsure,
         })
     }
 
@@ -504,7 +526,7 @@ impl Engine {
     /// Of several things the one nearest to the robot, in its own room before all others; the first where it is not
     /// known how far they are.
     fn nearest(&self, all: &[Entity]) -> Option<Entity> {
-        let relations = self.relations().ok()?;
+        let relations = self.around().ok()?.relations().ok()?;
         let (map, pose) = self.robot_pose()?;
         let here = relations.measurements().area_at(map, pose.at);
         let away = |entity: &Entity| match entity {

@@ -23,7 +23,7 @@ impl Engine {
         language: Language,
         detail: Detail,
     ) -> Result<Vec<String>, Error> {
-        self.surveyed().route_in_words(answer, heading, language, detail)
+        self.around()?.route_in_words(answer, heading, language, detail)
     }
 }
 

@@ -134,6 +134,23 @@ impl FloorPlan {
         (self.with_doors(world, &states), struck)
     }
 
+    /// Whether a robot whose centre stands here can open a door all the way: its leaves strike nothing, and not the robot.
+    #[must_use]
+    pub fn opens_from(&self, world: &World, door: DoorId, at: Point) -> bool {
+        /// Contacts shallower than this are rounding, cm.
+        const SKIN: f64 = 0.01;
+        let Some(model) = world.doors.get(&door) else { return false };
+        let openings = (opening_of(self.door_state(world, door)), 100.0);
+        let radius = self.robot().radius.get() - SKIN;
+        let strikes_robot = self.doorways_of(door).any(|doorway| {
+            let leaves = doorway.leaves(model);
+            let mut ways =
+                leaves.swept(openings).into_iter().chain(leaves.obstacles(DoorState::OPEN));
+            ways.any(|way| way.contains(at, radius))
+        });
+        !strikes_robot && self.strike(world, door).is_none()
+    }
+
     /// What a door's leaves strike first when it is opened: things, and leaves of other doors.
     fn strike(&self, world: &World, door: DoorId) -> Option<Strike<Blocker>> {
         let model = world.doors.get(&door)?;

@@ -17,9 +17,9 @@ pub fn is_open(properties: &Properties) -> Option<bool> {
     let state = Mark::State.of(properties)?.1.to_lowercase();
     match state.as_str() {
         "open" => Some(true),
-        "closed" | "shut" => Some(false),
+        "closed" | "shut" | "locked" => Some(false),
         word if word.starts_with("откры") => Some(true),
-        word if word.starts_with("закры") => Some(false),
+        word if word.starts_with("закры") || word.starts_with("запер") => Some(false),
         _ => None,
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::geometry::{DoorStates, FloorPlan, Scene};
 use crate::map::{DoorState, DoorStatus, Entity, Mark, Replica, World, switch};
 use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt, RobotState};
-use crate::semantics::{Relations, lifts, predicate, storey_name};
+use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
 use super::drive::Sighting;
@@ -53,10 +53,14 @@ pub struct Belief {
     pub station: Station,
     pub held: Option<Replica>,
     pub handed_over: Vec<(Replica, String)>,
+    /// What lies on or in things that are held or were handed over, each with the thing with which it goes.
+    pub aboard: Vec<(Replica, ReplicaId)>,
     pub people: Vec<Person>,
     pub spots: Vec<Spot>,
     /// Places and doors that proved to have no way to them from within an Area.
     pub unreachable: Vec<(AreaId, String)>,
+    /// Doors that could not be opened again from within an Area once they are shut.
+    pub no_return: Vec<(AreaId, String)>,
     /// What is to be found, with the Areas where it proved not to be.
     pub sought: BTreeMap<String, BTreeSet<AreaId>>,
     /// What is or was in view since the mission began, or known to be in a hand.
@@ -101,9 +105,11 @@ impl Belief {
             station: Station::Place(place),
             held: None,
             handed_over: Vec::new(),
+            aboard: Vec::new(),
             people: Vec::new(),
             spots,
             unreachable: Vec::new(),
+            no_return: Vec::new(),
             sought: BTreeMap::new(),
             found: BTreeSet::new(),
             homes: Vec::new(),
@@ -197,7 +203,7 @@ impl Belief {
         });
         // What is in no place of the map is still a key.
         let away = self.held.iter().chain(self.handed_over.iter().map(|(thing, _)| thing));
-        for thing in away {
+        for thing in away.chain(self.aboard.iter().map(|(thing, _)| thing)) {
             if let Some((_, door)) = Mark::KeyOf.of(&thing.properties) {
                 let door = self.entity(door, |e| matches!(e, Entity::Door(_)).then_some(e));
                 let door = door.map(|e| self.world.name(e));
@@ -216,6 +222,11 @@ impl Belief {
                 let args = [(person.name.as_str(), "человек"), (door, "дверь")];
                 all.push(fact(predicate::PERSON_HAS_KEY, &args));
             }
+        }
+        for (area, door) in &self.no_return {
+            let args =
+                [(door.as_str(), "дверь"), (self.world.name(Entity::Area(*area)), "помещение")];
+            all.push(fact(predicate::NO_RETURN, &args));
         }
         for (thing, home) in &self.homes {
             let args = [(thing.as_str(), "предмет"), (home.as_str(), "объект")];
@@ -276,6 +287,13 @@ impl Belief {
         news
     }
 
+    /// Notes that a door could not be opened again from within an Area; whether it was news.
+    pub(super) fn no_return_by(&mut self, area: AreaId, door: String) -> bool {
+        let news = !self.no_return.contains(&(area, door.clone()));
+        self.no_return.push((area, door));
+        news
+    }
+
     pub(super) fn switch(&mut self, device: ReplicaId, on: bool) {
         if let Some(replica) = self.world.replicas.get_mut(&device) {
             switch(&mut replica.properties, on);
@@ -331,21 +349,32 @@ impl Belief {
         true
     }
 
-    /// Takes a thing off the floor and into the hand.
-    pub(super) fn pick_up(&mut self, thing: ReplicaId) {
-        if let Some(replica) = self.world.replicas.remove(&thing) {
-            self.held = Some(replica);
-            self.rebuild(&[thing]);
+    /// Takes a thing off the floor and into the hand, and with it what lies on it and in it.
+    pub(super) fn pick_up(&mut self, thing: ReplicaId, with: &BTreeSet<ReplicaId>) {
+        let Some(replica) = self.world.replicas.remove(&thing) else { return };
+        self.held = Some(replica);
+        let mut changed = vec![thing];
+        for id in with {
+            if let Some(replica) = self.world.replicas.remove(id) {
+                self.aboard.push((replica, thing));
+                changed.push(*id);
+            }
         }
+        self.rebuild(&changed);
     }
 
-    /// Puts the thing in the hand down at a frame of an Area.
+    /// Puts the thing in the hand down at a frame of an Area, and with it what lies on it and in it.
     pub(super) fn set_down(&mut self, area: AreaId, frame: Frame) {
-        if let Some(replica) = self.held.take() {
-            let id = replica.id;
-            self.world.replicas.insert(id, Replica { area, frame, ..replica });
-            self.rebuild(&[id]);
+        let Some(replica) = self.held.take() else { return };
+        let id = replica.id;
+        let mut changed = vec![id];
+        for (thing, _) in self.aboard.extract_if(.., |(_, carrier)| *carrier == id) {
+            changed.push(thing.id);
+            let frame = frame_aboard(&self.world, &replica, &thing, &frame);
+            self.world.replicas.insert(thing.id, Replica { area, frame, ..thing });
         }
+        self.world.replicas.insert(id, Replica { area, frame, ..replica });
+        self.rebuild(&changed);
     }
 
     pub(super) fn scene(&self) -> &Scene {
@@ -355,6 +384,13 @@ impl Belief {
     pub(super) fn entity<T>(&self, name: &str, pick: impl Fn(Entity) -> Option<T>) -> Option<T> {
         self.world.find(name).into_iter().find_map(pick)
     }
+}
+
+/// Where a thing lies, in the frame of an Area, once its carrier lies there at a frame: both were taken up together.
+pub(super) fn frame_aboard(world: &World, carrier: &Replica, thing: &Replica, to: &Frame) -> Frame {
+    let home = |area| world.placement(area).map_or(Frame::IDENTITY, |(_, frame)| frame);
+    let (from, own) = (home(carrier.area), home(thing.area));
+    carried_to((&carrier.frame, &from), (&thing.frame, &own), to)
 }
 
 /// What the Map knows for a plan, the robot left out.

@@ -37,6 +37,8 @@ pub enum Refusal {
     NotHeld(ReplicaId),
     /// The support has no free place for it.
     NoRoom(ReplicaId),
+    /// It is in something that is shut.
+    Shut(ReplicaId),
 }
 
 impl Refusal {
@@ -49,7 +51,7 @@ impl Refusal {
                 Some(Obstruction::Door(door))
             }
             Self::OutOfReach(thing) | Self::NotThere(thing) => Some(Obstruction::Replica(thing)),
-            Self::HandFull(_) | Self::NotHeld(_) | Self::NoRoom(_) => None,
+            Self::HandFull(_) | Self::NotHeld(_) | Self::NoRoom(_) | Self::Shut(_) => None,
         }
     }
 }
@@ -107,7 +109,7 @@ pub trait Drive {
         arrival: (MapId, Pose),
     ) -> Result<(), Refusal>;
 
-    /// Takes a thing into the hand.
+    /// Takes a thing into the hand, with what lies on it and in it.
     ///
     /// # Errors
     /// [`Refusal`]; the hand is then as it was.
@@ -125,11 +127,11 @@ pub trait Drive {
     /// [`Refusal`]; the hand is then as it was.
     fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal>;
 
-    /// Takes back what a person who stands by was given.
+    /// Takes back what a person who stands by was given, with what went along.
     ///
     /// # Errors
     /// [`Refusal`]; the hand is then as it was.
-    fn take_back(&mut self, thing: Replica) -> Result<(), Refusal>;
+    fn take_back(&mut self, thing: Replica, with: Vec<Replica>) -> Result<(), Refusal>;
 
     /// Switches a device on or off.
     ///

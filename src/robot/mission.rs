@@ -1,10 +1,10 @@
 //! A mission: a goal, planned, driven directive by directive, and planned anew when the world is not as believed (X2).
 
-use crate::geometry::{Method, NoRoute, Ride, Route, Target};
+use crate::geometry::{DoorStates, Method, NoRoute, Ride, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
-use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, derive, lifts};
+use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, cargo, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -16,6 +16,7 @@ use super::directive::{Deed, Directive};
 use super::drive::{Bump, Drive, Refusal, Sighting};
 use super::idle::without_idle;
 use super::placing::{spot_in, spot_on, spot_on_floor};
+use super::rehearsal::{Known, rehearse};
 use super::solve::{Solved, solve_again};
 
 /// One fact that is to hold in the end.
@@ -85,6 +86,8 @@ pub enum Surprise {
     Unknown { name: String },
     /// A thing that is sought is in view of no place of this Area.
     NotSeen { thing: String, area: AreaId },
+    /// Once it is shut, the robot has no place in this Area from which it could open the door again.
+    NoReturn { door: DoorId, area: AreaId },
 }
 
 /// How a mission ended.
@@ -107,7 +110,7 @@ impl Surprise {
         let is_jammed =
             |refusal: &Refusal| matches!(refusal, Refusal::DoorJammed { by: Some(_), .. });
         match self {
-            Self::NoWay { .. } => true,
+            Self::NoWay { .. } | Self::NoReturn { .. } => true,
             Self::Refused { refusal, .. } => is_jammed(refusal),
             _ => false,
         }
@@ -128,7 +131,7 @@ pub enum MissionError {
 }
 
 /// Plans and carries out goals on a belief of its own.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Mission<'r> {
     pub belief: Belief,
     domain: &'r Domain,
@@ -191,6 +194,8 @@ impl<'r> Mission<'r> {
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
     ///
+    /// A plan is begun only when it could be carried out in the world as it is believed to be: see [`rehearse`].
+    ///
     /// Every surprise must teach something (a door's state, a thing's place, a way that is none), of which
     /// there is only so much; so the mission ends.
     ///
@@ -205,26 +210,54 @@ impl<'r> Mission<'r> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
+        // The first plan that was not begun; told where there is no other.
+        let mut refused: Option<Planned> = None;
+        let stuck = |refused: Option<Planned>, surprise, tell: &mut dyn FnMut(&Event<'_>)| {
+            if let Some(planned) = &refused {
+                tell(&Event::Planned(planned));
+            }
+            Ok(Ending::Stuck(surprise))
+        };
         loop {
-            let (planned, now_learned) = self.plan_again(goal, learned.as_ref())?;
+            let (planned, now_learned) = match (self.plan_again(goal, learned.as_ref()), given_up) {
+                // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
+                (Err(MissionError::Rules(_)), Some(surprise)) => {
+                    return stuck(refused, surprise, tell);
+                }
+                (planned, before) => {
+                    given_up = before;
+                    planned?
+                }
+            };
             // The rules do not tell what is in the way where a way was given up, only that there is none.
             if let (Outcome::NoPlan { .. }, Some(surprise)) =
                 (&planned.solved.outcome, given_up.take())
             {
-                return Ok(Ending::Stuck(surprise));
+                return stuck(refused, surprise, tell);
             }
-            tell(&Event::Planned(&planned));
             let Outcome::Plan(plan) = &planned.solved.outcome else {
+                tell(&Event::Planned(&planned));
                 return Ok(Ending::NoPlan(Box::new(planned)));
             };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
+            self.places.clone_from(&planned.places);
+            self.joins.clone_from(&planned.joins);
+            self.lifts.clone_from(&planned.lifts);
+            if let Err((known, surprise)) = rehearse(self, &directives) {
+                refused.get_or_insert(planned);
+                if !self.take_over(known) {
+                    return stuck(refused, surprise, tell);
+                }
+                given_up = Some(surprise);
+                learned = now_learned.and_then(|learned| learned.after(&[]));
+                continue;
+            }
+            refused = None;
+            tell(&Event::Planned(&planned));
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
             }
             moved = true;
-            self.places.clone_from(&planned.places);
-            self.joins.clone_from(&planned.joins);
-            self.lifts.clone_from(&planned.lifts);
             let Err((done, surprise)) = self.carry_out(&directives, drive, tell) else {
                 return Ok(Ending::Done);
             };
@@ -237,7 +270,7 @@ impl<'r> Mission<'r> {
     }
 
     /// Carries out directives in order until one fails: how many were done, and why that one was not.
-    fn carry_out(
+    pub(super) fn carry_out(
         &mut self,
         directives: &[&Directive],
         drive: &mut dyn Drive,
@@ -323,13 +356,16 @@ impl<'r> Mission<'r> {
         let given = self.belief.handed_over.iter().position(|(thing, _)| thing.name == *name);
         if let Some(at) = given {
             let thing = self.belief.handed_over[at].0.clone();
-            drive.take_back(thing).map_err(|r| refused(r, drive))?;
+            let with = self.belief.aboard.iter().filter(|(_, carrier)| *carrier == thing.id);
+            let with = with.map(|(thing, _)| thing.clone()).collect();
+            drive.take_back(thing, with).map_err(|r| refused(r, drive))?;
             self.belief.held = Some(self.belief.handed_over.remove(at).0);
             return Ok(());
         }
         let thing = self.replica(name)?;
+        let with = cargo(&self.belief.world, self.relations, self.belief.scene(), thing);
         self.within_reach(thing, drive, leg, |drive| drive.take(thing))?;
-        self.belief.pick_up(thing);
+        self.belief.pick_up(thing, &with.unwrap_or_default());
         // The place beside what lay on the floor goes with it; the robot still stands there.
         if let Station::Place(place) = &self.belief.station
             && place.strip_prefix(PLACE_BESIDE) == Some(name)
@@ -458,9 +494,30 @@ impl<'r> Mission<'r> {
             DoorStatus::Closed => DoorState::CLOSED,
             DoorStatus::Locked => DoorState::LOCKED,
         };
+        let area = self.belief.area;
+        if state.status != DoorStatus::Open && !self.could_open_again(door, area) {
+            return Err(Surprise::NoReturn { door, area });
+        }
         drive.set_door(door, state).map_err(|r| refused(r, drive))?;
         self.belief.set_door(door, state);
         Ok(())
+    }
+
+    /// Whether the robot, where it stands, could open a door again once it is shut: it gets to the place before the door on
+    /// its own side, and stands there out of the way of the leaves.
+    fn could_open_again(&self, door: DoorId, area: AreaId) -> bool {
+        let belief = &self.belief;
+        let Some(model) = belief.world.doors.get(&door) else { return true };
+        if model.state.status != DoorStatus::Open {
+            return true;
+        }
+        let shut = DoorStates::from([(door, DoorState::CLOSED)]);
+        let floor = belief.floor().with_doors(&belief.world, &shut);
+        let (from, before) = (belief.pose.at, Target::Door { door, area });
+        let areas = Some(&[area][..]);
+        let way = floor.route_within(&belief.world, from, before, Method::Shortest, areas);
+        let stand = way.ok().and_then(|way| way.points.last().copied());
+        stand.is_some_and(|at| floor.opens_from(&belief.world, door, at))
     }
 
     fn put(
@@ -525,7 +582,25 @@ impl<'r> Mission<'r> {
             }
             Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
             Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
+            Surprise::NoReturn { door, area } => {
+                let door = self.belief.world.name(Entity::Door(*door)).to_owned();
+                self.belief.no_return_by(*area, door)
+            }
             _ => false,
+        }
+    }
+
+    /// Takes over what a rehearsal found that the rules did not know; whether it was news.
+    fn take_over(&mut self, known: Known) -> bool {
+        match known {
+            Known::NoWay(area, name) => {
+                let way = (area, name);
+                let news = !self.belief.unreachable.contains(&way);
+                self.belief.unreachable.push(way);
+                news
+            }
+            Known::NoReturn(area, door) => self.belief.no_return_by(area, door),
+            Known::Nothing => false,
         }
     }
 

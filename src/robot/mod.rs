@@ -11,6 +11,7 @@ mod eye;
 mod idle;
 mod mission;
 mod placing;
+mod rehearsal;
 mod seek;
 mod simulator;
 mod solve;

@@ -6,6 +6,9 @@ use crate::units::{AreaId, Deg, Frame, Point, Pose, ReplicaId, Vector};
 
 /// Free air kept round a thing that is set down, cm.
 const MARGIN: f64 = 1.0;
+/// What lies on a surface and is no thicker takes no room there, cm: as near a support is held to touch (the threshold
+/// «support gap up» of a surveyed map).
+const FLAT: f64 = 2.0;
 /// Step of the search over a roof, cm.
 const STEP: f64 = 2.5;
 
@@ -169,10 +172,10 @@ fn spot(
         [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
             .map(|(sx, sy)| Point::new(c.x + sx * half.x, c.y + sy * half.y))
     };
-    let fits = |at: Vector, surface: &Surface<'_>| {
+    let fits = |at: Vector, surface: &Surface<'_>, foot: f64| {
         let bounds =
             Bounds { min: shape.bounds.min + at, max: shape.bounds.max + at }.grown(MARGIN);
-        let (bottom, top) = (surface.height, surface.height + height);
+        let (bottom, top) = (foot, foot + height);
         // A hollow thing is not in its own way.
         let is_solid = |r: &PlacedReplica, p: &Prism| {
             surface.within.is_none() || r.id != support.id || !is_hollow(p)
@@ -184,6 +187,19 @@ fn spot(
             .flat_map(|r| r.prisms.iter().filter(move |p| is_solid(r, p)))
             .all(|p| p.top <= bottom + 1e-6 || p.bottom >= top || !p.bounds.meets(&bounds))
     };
+    // A placemat takes no room: what stands wholly on it stands on the table.
+    let on_mat = |c: Point, surface: &Surface<'_>| {
+        let lies_flat = |p: &&Prism| {
+            p.roof_permeability == Permeability::Impermeable
+                && (p.bottom - surface.height).abs() <= FLAT
+                && p.top > surface.height
+                && p.top <= surface.height + FLAT
+                && corners(c).iter().all(|&corner| p.polygon.contains(corner, 1e-6))
+        };
+        let others = scene.replicas.values().filter(|r| r.id != thing && r.id != support.id);
+        let prisms = others.flat_map(|r| &r.prisms).filter(lies_flat);
+        prisms.map(|p| p.top).max_by(f64::total_cmp)
+    };
     surfaces.iter().find_map(|surface| {
         let holds = |c: Point| {
             let roofed = |p: &Prism| {
@@ -194,18 +210,27 @@ fn spot(
                     && surface.within.is_none_or(|w| w.polygon.contains(p, 1e-6))
             }) && !surface.within.is_some_and(roofed)
         };
-        grid(surface.polygon.bounds())
-            .filter(|&c| holds(c) && fits(c - middle, surface))
-            .min_by(|a, b| (a - from).norm().total_cmp(&(b - from).norm()))
-            .map(|c| {
-                let origin = area.frame.invert(Point::origin() + (c - middle));
-                Frame::new(
-                    origin.x,
-                    origin.y,
-                    surface.height - shape.bottom - area.frame.z.get(),
-                    Deg::ZERO - area.frame.angle,
-                )
-            })
+        let nearest = |spots: Vec<(Point, f64)>| {
+            spots
+                .into_iter()
+                .min_by(|(a, _), (b, _)| (a - from).norm().total_cmp(&(b - from).norm()))
+        };
+        let spots = || grid(surface.polygon.bounds()).filter(|&c| holds(c));
+        // The bare surface before a mat on it.
+        let bare = spots().filter(|&c| fits(c - middle, surface, surface.height));
+        let spot = nearest(bare.map(|c| (c, surface.height)).collect()).or_else(|| {
+            let mats = spots().filter_map(|c| Some((c, on_mat(c, surface)?)));
+            nearest(mats.filter(|(c, top)| fits(c - middle, surface, *top)).collect())
+        });
+        spot.map(|(c, foot)| {
+            let origin = area.frame.invert(Point::origin() + (c - middle));
+            Frame::new(
+                origin.x,
+                origin.y,
+                foot - shape.bottom - area.frame.z.get(),
+                Deg::ZERO - area.frame.angle,
+            )
+        })
     })
 }
 

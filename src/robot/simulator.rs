@@ -6,7 +6,9 @@
 //! in a turn (exact between the end points, no time steps), independent of the free floor that the route was made
 //! from. Time is simulated; nothing is random, so a run repeats itself.
 
+use std::collections::BTreeSet;
 use std::f64::consts::TAU;
+use std::sync::LazyLock;
 
 use parry2d_f64::math::{Pose as ShapePose, Vector as ShapeVector};
 use parry2d_f64::query::{ShapeCastOptions, cast_shapes};
@@ -16,11 +18,15 @@ use crate::geometry::{
     Bounds, Doorway, LIFT_WAIT, Leaves, Owner, Polygon, Prism, Ride, Scene, doorways, opening_of,
 };
 use crate::map::{Door, DoorState, DoorStatus, Permeability, Replica, RobotProfile, World, switch};
+use crate::semantics::{RelationRules, cargo, shut_around};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
+use super::belief::frame_aboard;
 use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 use super::eye::View;
 
+/// What rests on what in the simulated world.
+static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
 /// How far the arm reaches beyond the footprint, cm.
 const ARM_REACH: f64 = 90.0;
 /// Contacts shallower than this are rounding of coordinates, not bumps, cm.
@@ -52,6 +58,8 @@ pub struct Simulator {
     pose: Pose,
     time: f64,
     held: Option<Replica>,
+    /// What lies on and in the thing in the hand.
+    aboard: Vec<Replica>,
     edges: Vec<Edge>,
     doorways: Vec<Doorway>,
     trace: Vec<Moment>,
@@ -70,6 +78,7 @@ impl Simulator {
             pose,
             time: 0.0,
             held: None,
+            aboard: Vec::new(),
             edges: Vec::new(),
             doorways: Vec::new(),
             trace: vec![Moment { time: 0.0, map, pose }],
@@ -79,15 +88,28 @@ impl Simulator {
         simulator
     }
 
-    /// The same robot with a thing in its hand, which then is not in its world.
+    /// The same robot with a thing in its hand and what lies on that, which then are not in its world.
     #[must_use]
-    pub fn holding(mut self, thing: Option<Replica>) -> Self {
-        if let Some(thing) = &thing {
+    pub fn holding(mut self, thing: Option<Replica>, aboard: Vec<Replica>) -> Self {
+        for thing in thing.iter().chain(&aboard) {
             self.truth.replicas.remove(&thing.id);
         }
-        self.held = thing;
+        (self.held, self.aboard) = (thing, aboard);
         self.rebuild();
         self
+    }
+
+    /// What lies on and in a thing, by the rules that the crate brings along: in the simulated world things rest on each
+    /// other as they do there, whatever rules a map is read by.
+    fn cargo(&self, thing: ReplicaId) -> BTreeSet<ReplicaId> {
+        let scene = Scene::of(&self.truth, self.map);
+        cargo(&self.truth, &NATURE, &scene, thing).unwrap_or_default()
+    }
+
+    /// The shut thing in which a thing is.
+    fn shut_in(&self, thing: ReplicaId) -> Option<ReplicaId> {
+        let scene = Scene::of(&self.truth, self.map);
+        shut_around(&self.truth, &NATURE, &scene, thing).ok()?
     }
 
     /// Every moment at which the motion changed.
@@ -420,6 +442,12 @@ impl Drive for Simulator {
         if !self.reaches(thing)? {
             return Err(Refusal::OutOfReach(thing));
         }
+        if let Some(around) = self.shut_in(thing) {
+            return Err(Refusal::Shut(around));
+        }
+        for id in self.cargo(thing) {
+            self.aboard.extend(self.truth.replicas.remove(&id));
+        }
         self.held = self.truth.replicas.remove(&thing);
         self.rebuild();
         self.advance(GRASP_TIME, self.pose);
@@ -428,20 +456,26 @@ impl Drive for Simulator {
 
     fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame) -> Result<(), Refusal> {
         let replica = self.let_go(thing)?;
+        for carried in std::mem::take(&mut self.aboard) {
+            let frame = frame_aboard(&self.truth, &replica, &carried, &frame);
+            self.truth.replicas.insert(carried.id, Replica { area, frame, ..carried });
+        }
         self.truth.replicas.insert(thing, Replica { area, frame, ..replica });
         self.rebuild();
         Ok(())
     }
 
     fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
-        self.let_go(thing).map(|_| ())
+        self.let_go(thing)?;
+        self.aboard.clear();
+        Ok(())
     }
 
-    fn take_back(&mut self, thing: Replica) -> Result<(), Refusal> {
+    fn take_back(&mut self, thing: Replica, with: Vec<Replica>) -> Result<(), Refusal> {
         if let Some(held) = &self.held {
             return Err(Refusal::HandFull(held.id));
         }
-        self.held = Some(thing);
+        (self.held, self.aboard) = (Some(thing), with);
         self.advance(GRASP_TIME, self.pose);
         Ok(())
     }

@@ -45,6 +45,7 @@
 
 mod ask;
 mod body;
+mod cargo;
 mod claim;
 mod feed;
 mod grid;
@@ -59,6 +60,7 @@ mod relations;
 mod view;
 
 pub use ask::Extent;
+pub use cargo::{cargo, carried_to, shut_around};
 pub use claim::{Claim, claim_bounds, claim_holds};
 pub use lifts::{Lift, lifts, storey_name};
 pub use measure::{

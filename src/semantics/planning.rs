@@ -88,7 +88,13 @@ pub const PLACE_BESIDE: &str = "Место-у-";
 /// Facts for a plan from the Map as it is.
 #[must_use]
 pub fn initial(world: &World, relations: &Relations, state: &RobotState) -> Initial {
-    let mut writer = Writer { world, relations, facts: BTreeSet::new(), places: BTreeMap::new() };
+    let mut writer = Writer {
+        world,
+        relations,
+        facts: BTreeSet::new(),
+        places: BTreeMap::new(),
+        shut: relations.all_shut_in(),
+    };
     let lifts = lifts(world, relations);
     writer.doors(&lifts);
     writer.storeys(&lifts);
@@ -121,6 +127,8 @@ struct Writer<'a> {
     relations: &'a Relations,
     facts: BTreeSet<InitialFact>,
     places: BTreeMap<String, (AreaId, PlaceSource)>,
+    /// What is in something that is shut.
+    shut: BTreeSet<ReplicaId>,
 }
 
 impl Writer<'_> {
@@ -302,11 +310,12 @@ impl Writer<'_> {
         root: ReplicaId,
         area: AreaId,
     ) {
-        if self.relations.bears_something(id) {
+        // Behind doors that are shut nothing can be taken.
+        if self.shut.contains(&id) {
             return;
         }
-        // On a plate on the table is on the table: the plate itself may be carried away. In a box is in the box, which
-        // is not carried while it holds something.
+        // On a plate on the table is on the table: the plate itself may be carried away. In a box is in the box; what is
+        // in it or on it goes with it.
         let bears =
             |s: &&ReplicaId| !self.world.has_trait(**s, "portable") || self.is_container(**s);
         match chain.iter().find(bears) {
@@ -517,6 +526,7 @@ links = [{ from = "a.C", to = "b.E" }, { from = "a.F", to = "c.B" }]
                 ПРЕДМЕТ_НАХОДИТСЯ-В-ПОЗИЦИИ(предмет Ключ, место Место-у-Ключ)
                 ПРЕДМЕТ_НАХОДИТСЯ-НА(предмет Лекарство, объект Тумба-1)
                 ПРЕДМЕТ_НАХОДИТСЯ-НА(предмет Пилюля, объект Тумба-2)
+                ПРЕДМЕТ_НАХОДИТСЯ-НА(предмет Поднос, объект Тумба-2)
                 РОБОТ-НАХОДИТСЯ-В(помещение А)
                 РОБОТ-НАХОДИТСЯ-В-ПОЗИЦИИ(место Точка)
                 РУКА-СВОБОДНА()

@@ -19,6 +19,8 @@ pub const PLACE_IN: &str = "ПОЗИЦИЯ_НАХОДИТСЯ-В";
 pub const PLACE_BY: &str = "ПОЗИЦИЯ_НАХОДИТСЯ-У";
 /// (дверь, помещение)
 pub const DOOR_IN: &str = "ДВЕРЬ_НАХОДИТСЯ-В";
+/// (дверь, помещение): from there it cannot be opened again once it is shut
+pub const NO_RETURN: &str = "ДВЕРЬ-НЕ-ОТКРЫТЬ-ИЗ";
 /// (дверь)
 pub const DOOR_HAS_LEAF: &str = "ДВЕРЬ_ИМЕЕТ-СТВОРКУ";
 /// (дверь, помещение, помещение)

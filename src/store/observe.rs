@@ -118,6 +118,8 @@ impl Opinion {
         (self.last_seen, self.missed) = (Some(self.at), None);
         if is_same(&seen, &self.place) {
             self.confidence = 1.0 - (1.0 - self.confidence) * (1.0 - sure);
+            // Where exactly, the last look knows best.
+            self.place = seen;
         } else if sure >= self.confidence * (1.0 - sure) {
             (self.place, self.confidence, self.since) = (seen, sure, self.at);
         } else {

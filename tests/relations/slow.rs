@@ -426,6 +426,7 @@ proptest! {
         let shapes: Vec<Shape> = things.iter().map(shape).collect();
         let relations = derive(&world, &RULES, Profile::Surveyed).expect("rules end");
         let judged = judge(&shapes);
+        super::stacks::check_closures(&world, &relations);
         for (wanted, pairs) in [(true, &judged.holds), (false, &judged.fails)] {
             for (name, a, b) in pairs {
                 let (x, y) = (format!("вещь-{a}"), format!("вещь-{b}"));

@@ -1,9 +1,78 @@
 //! What stands on, hangs over, lies under or in what.
 
+use std::collections::BTreeSet;
+
 use expect_test::expect;
-use orthoframe::semantics::{Profile, derive};
+use orthoframe::map::{Entity, World};
+use orthoframe::semantics::{Profile, Relations, derive};
 
 use super::{RULES, check, list, room};
+
+type Pairs = BTreeSet<(String, String)>;
+
+fn pairs(relations: &Relations, name: &str) -> Pairs {
+    let tuples = relations.tuples(name).unwrap_or_else(|e| panic!("{e}"));
+    tuples.into_iter().map(|t| (t[0].to_string(), t[1].to_string())).collect()
+}
+
+/// BORNE_BY and GOES_WITH against the obvious slow way: step by step up every stack.
+pub(super) fn check_closures(world: &World, relations: &Relations) {
+    let is_portable = |name: &str| {
+        let replica = |e| if let Entity::Replica(id) = e { Some(id) } else { None };
+        let id = world.find(name).into_iter().find_map(replica);
+        id.is_some_and(|id| world.has_trait(id, "portable"))
+    };
+    let (holds, on_top) = (pairs(relations, "LIES_ON_OR_IN"), pairs(relations, "ON_TOP_OF"));
+    let (mut borne, mut goes) = (Pairs::new(), Pairs::new());
+    for replica in world.replicas.values() {
+        let anchor = &replica.name;
+        let over = |under: &str| -> Vec<String> {
+            holds.iter().filter(|(_, y)| y == under).map(|(x, _)| x.clone()).collect()
+        };
+        let mut open: Vec<String> =
+            on_top.iter().filter(|(_, y)| y == anchor).map(|(x, _)| x.clone()).collect();
+        while let Some(thing) = open.pop() {
+            if is_portable(&thing) {
+                open.extend(over(&thing));
+            }
+            borne.insert((thing, anchor.clone()));
+        }
+        let mut open = if is_portable(anchor) { over(anchor) } else { Vec::new() };
+        while let Some(thing) = open.pop() {
+            open.extend(over(&thing));
+            goes.insert((thing, anchor.clone()));
+        }
+    }
+    assert_eq!(pairs(relations, "BORNE_BY"), borne);
+    assert_eq!(pairs(relations, "GOES_WITH"), goes);
+}
+
+/// A cup on a saucer on a tray is on the table under them too; the table on the carpet lends it to nothing.
+#[test]
+fn what_lies_on_a_tray_is_on_the_table() {
+    check(
+        r#"
+{ name = "ковёр", object = "carpet", at = [150, 150] },
+{ name = "стол", object = "table", at = [200, 200, 1] },
+{ name = "поднос", object = "tray", at = [220, 210, 76], angle = 10 },
+{ name = "блюдце", object = "saucer", at = [240, 225, 78] },
+{ name = "чашка", object = "cup", at = [242, 228, 80] },
+"#,
+        "BORNE_BY GOES_WITH",
+        &expect![[r#"
+            BORNE_BY: блюдце, поднос
+            BORNE_BY: блюдце, стол
+            BORNE_BY: поднос, стол
+            BORNE_BY: стол, ковёр
+            BORNE_BY: чашка, блюдце
+            BORNE_BY: чашка, поднос
+            BORNE_BY: чашка, стол
+            GOES_WITH: блюдце, поднос
+            GOES_WITH: чашка, блюдце
+            GOES_WITH: чашка, поднос
+        "#]],
+    );
+}
 
 const STACK: &str = "ON_TOP_OF ABOVE UNDER INSIDE";
 

@@ -83,6 +83,10 @@ pub trait Senses {
     fn visible(&self) -> Vec<ReplicaId>;
     /// Who has a thing that was taken off the map; an empty name for the robot itself.
     fn holder(&self, thing: ReplicaId) -> Option<String>;
+    /// On or in which thing a thing lies that was taken off the map together with it.
+    fn carrier(&self, thing: ReplicaId) -> Option<ReplicaId>;
+    /// How sure it is where a thing is, 0..=1, where that is too little to be told as a fact.
+    fn doubted(&self, thing: ReplicaId) -> Option<f64>;
     /// What the robot carries.
     fn held(&self) -> Vec<ReplicaId>;
     /// What was observed of a thing, the oldest first.

@@ -170,7 +170,7 @@ impl Knowledge<'_> {
     /// What a thing stands on instead, or how far the two are apart.
     fn elsewhere(&self, fact: &Fact) -> Option<String> {
         let (a, b) = (self.thing(fact.args.first()?)?, self.thing(fact.args.get(1)?)?);
-        if matches!(fact.relation.as_str(), "ON_TOP_OF" | "INSIDE") {
+        if matches!(fact.relation.as_str(), "ON_TOP_OF" | "BORNE_BY" | "INSIDE") {
             let place = self.short_place(a, &mut Vec::new());
             return Some(format!(
                 "{} {} {place}",
@@ -465,7 +465,7 @@ impl Knowledge<'_> {
 /// The preposition that tells a relation.
 fn relation_word(relation: &str) -> Option<Rel> {
     match relation {
-        "ON_TOP_OF" => Some(Rel::On),
+        "ON_TOP_OF" | "BORNE_BY" => Some(Rel::On),
         "INSIDE" => Some(Rel::In),
         "UNDER" => Some(Rel::Under),
         "ABOVE" => Some(Rel::Above),

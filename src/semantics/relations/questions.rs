@@ -1,5 +1,6 @@
 //! What is asked of derived relations.
 
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
@@ -149,6 +150,53 @@ impl Relations {
     #[must_use]
     pub fn bears_something(&self, id: ReplicaId) -> bool {
         self.bearing.range((id, ReplicaId(0))..).next().is_some_and(|(lower, _)| *lower == id)
+    }
+
+    /// What directly holds a thing: its support, else the tightest of what it lies in.
+    #[must_use]
+    pub fn lies_on_or_in(&self, id: ReplicaId) -> Option<ReplicaId> {
+        self.second_of("LIES_ON_OR_IN", id).next()
+    }
+
+    /// What shut thing a thing is in.
+    #[must_use]
+    pub fn shut_in(&self, id: ReplicaId) -> Option<ReplicaId> {
+        self.second_of("SHUT_IN", id).min()
+    }
+
+    /// All that is in something shut.
+    #[must_use]
+    pub fn all_shut_in(&self) -> BTreeSet<ReplicaId> {
+        let tuples = self.derived().tuples("SHUT_IN").into_iter().flatten();
+        tuples.filter_map(|t| self.symbols.replica_of(t.symbol(0))).collect()
+    }
+
+    /// All that is carried along with a thing.
+    #[must_use]
+    pub fn goes_with(&self, carrier: ReplicaId) -> BTreeSet<ReplicaId> {
+        let Ok(tuples) = self.derived().tuples("GOES_WITH") else { return BTreeSet::new() };
+        let pairs = tuples.filter_map(|t| {
+            let replica = |column| self.symbols.replica_of(t.symbol(column));
+            replica(0).zip(replica(1))
+        });
+        pairs.filter(|(_, with)| *with == carrier).map(|(thing, _)| thing).collect()
+    }
+
+    /// A threshold of the rule text, of this profile; none where it names none.
+    #[must_use]
+    pub fn threshold(&self, name: &str) -> Option<i64> {
+        let tuples = self.tuples("threshold").ok()?;
+        tuples.into_iter().find_map(|tuple| match &tuple[..] {
+            [Value::Symbol(own), Value::Number(value)] if &**own == name => Some(*value),
+            _ => None,
+        })
+    }
+
+    /// The other ends of the pairs in which a thing stands first.
+    fn second_of(&self, relation: &'static str, id: ReplicaId) -> impl Iterator<Item = ReplicaId> {
+        let tuples = self.derived().tuples(relation).into_iter().flatten();
+        let of = tuples.filter(move |t| self.symbols.replica_of(t.symbol(0)) == Some(id));
+        of.filter_map(|t| self.symbols.replica_of(t.symbol(1)))
     }
 
     /// Doors and passages between Areas, both ways.

@@ -247,11 +247,35 @@ impl Knowledge<'_> {
                 _ => name,
             }
         };
+        let borne: Vec<Thing> = noun
+            .restrictions
+            .iter()
+            .filter(|r| r.rel == Rel::On && !r.negated)
+            .flat_map(|r| r.anchors.iter().filter_map(|a| self.find(a, true).ok()))
+            .flatten()
+            .filter(|t| t.replica().is_some())
+            .collect();
+        if !borne.is_empty() && found.len() <= 12 {
+            let parts: Vec<String> = found.iter().map(|t| self.with_bearer(*t, &borne)).collect();
+            return enumerate(&parts, self.language);
+        }
         if (anchor.is_none() && from.is_none()) || found.len() > 12 {
             return self.list(&found);
         }
         let parts: Vec<String> = found.iter().map(detail).collect();
         enumerate(&parts, self.language)
+    }
+
+    /// «Чашка-1 (на Подносе-1)»: what lies on the table by something that lies on it.
+    fn with_bearer(&self, thing: Thing, asked: &[Thing]) -> String {
+        let own = self.borne_by(thing).first().copied().filter(|own| !asked.contains(own));
+        let by = own.filter(|own| asked.iter().any(|a| self.related(Rel::On, *a).contains(own)));
+        match by {
+            Some(own) => {
+                format!("{} ({})", self.name(thing), self.place(self.on_or_in(thing, own), &[own]))
+            }
+            None => self.name(thing),
+        }
     }
 
     /// The things that places of a description name.

@@ -15,6 +15,7 @@ mod serving;
 mod size;
 mod state;
 mod together;
+mod unsure;
 mod usable;
 mod way;
 
@@ -175,6 +176,7 @@ impl Knowledge<'_> {
         if let Some(untold) = self.untold(query) {
             draft.text = format!("{}; {untold}", draft.text.trim_end_matches('.'));
         }
+        let draft = self.hedged(query, draft);
         let mut topic = draft.things.clone();
         topic.extend(draft.topic);
         Ok(Answer {

@@ -57,7 +57,12 @@ impl Knowledge<'_> {
         facts: &mut Vec<Fact>,
     ) -> String {
         if let Some(holder) = thing.replica().and_then(|id| self.senses.holder(id)) {
-            return self.in_hand(&holder);
+            let hand = self.in_hand(&holder);
+            let carrier = thing.replica().and_then(|id| self.senses.carrier(id));
+            let Some(carrier) = carrier.map(|id| Thing::Entity(Entity::Replica(id))) else {
+                return hand;
+            };
+            return format!("{} {hand}", self.place(self.on_or_in(thing, carrier), &[carrier]));
         }
         if let Thing::Entity(Entity::Area(id)) = thing {
             return self.storeys_of(id);
@@ -93,10 +98,13 @@ impl Knowledge<'_> {
     /// Whether a thing lies in or on what bears it. What sinks into a sofa lies on it all the same.
     pub(in crate::language::question) fn on_or_in(&self, thing: Thing, support: Thing) -> Rel {
         let holds = |rel: Rel| self.tuple(rel, thing, support).map(|(relation, _, _)| relation);
+        let carried = thing.replica().is_some_and(|id| self.senses.holder(id).is_some());
         let has = |wanted| support.replica().is_some_and(|id| self.world.has_trait(id, wanted));
         let upon =
             !has("container") && (holds(Rel::On) == Some("ON_TOP_OF") || has("seat") || has("bed"));
-        if holds(Rel::In).is_some() && !upon { Rel::In } else { Rel::On }
+        // What is carried stands in no facts any more.
+        let within = holds(Rel::In).is_some() || (carried && has("container"));
+        if within && !upon { Rel::In } else { Rel::On }
     }
 
     /// «на L1 и L2»: the storey of a room, the storeys of a lift.
@@ -467,11 +475,7 @@ impl Knowledge<'_> {
                 .about(&[thing]));
         }
         let mut found = match rel {
-            Rel::On => {
-                let id = thing.replica();
-                let support = id.and_then(|id| self.relations.support_of(id));
-                support.map(|s| Thing::Entity(Entity::Replica(s))).into_iter().collect()
-            }
+            Rel::On => self.borne_by(thing),
             Rel::In if what.is_some_and(|w| self.is_of_storeys(w)) => {
                 let area = self.area_of(thing);
                 let map = area.and_then(|a| self.world.placement(a)).map(|(m, _)| m);
@@ -488,6 +492,10 @@ impl Knowledge<'_> {
             let kinds =
                 self.find(&Noun { plural: true, indefinite: true, ..what.clone() }, true)?;
             found.retain(|t| kinds.contains(t));
+        }
+        // Of a tray and the table under it, what it lies on itself.
+        if rel == Rel::On {
+            found.truncate(1);
         }
         let facts: Vec<Fact> = found.iter().filter_map(|y| self.fact(rel, thing, *y)).collect();
         if thing == Thing::Robot && !found.is_empty() {

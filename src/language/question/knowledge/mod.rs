@@ -52,8 +52,12 @@ const fn swapped(relation: &'static str) -> Basis {
 
 /// The relations that a preposition stands for; what any of them gives counts.
 pub(super) fn bases(rel: Rel) -> &'static [Basis] {
-    const ON: &[Basis] =
-        &[basis("ON_TOP_OF"), Basis { relation: "INSIDE", swapped: false, of_support: true }];
+    // On a tray that stands on the table is on the table too.
+    const ON: &[Basis] = &[
+        basis("ON_TOP_OF"),
+        basis("BORNE_BY"),
+        Basis { relation: "INSIDE", swapped: false, of_support: true },
+    ];
     const IN: &[Basis] = &[basis("INSIDE")];
     const UNDER: &[Basis] = &[basis("UNDER"), swapped("ON_TOP_OF"), swapped("ABOVE")];
     const ABOVE: &[Basis] = &[basis("ABOVE"), swapped("UNDER")];
@@ -67,7 +71,7 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
     const FACING: &[Basis] = &[swapped("IN_FRONT_OF")];
     const LEANING: &[Basis] = &[basis("LEANING_AGAINST")];
     const HAS: &[Basis] = &[swapped("INSIDE")];
-    const BEARS: &[Basis] = &[swapped("ON_TOP_OF"), swapped("INSIDE")];
+    const BEARS: &[Basis] = &[swapped("ON_TOP_OF"), swapped("BORNE_BY"), swapped("INSIDE")];
     match rel {
         Rel::On => ON,
         Rel::In | Rel::Of => IN,
@@ -96,8 +100,9 @@ pub(super) fn bases(rel: Rel) -> &'static [Basis] {
     }
 }
 
-const RELATIONS: [&str; 11] = [
+const RELATIONS: [&str; 12] = [
     "ON_TOP_OF",
+    "BORNE_BY",
     "INSIDE",
     "UNDER",
     "ABOVE",

@@ -182,8 +182,21 @@ impl Knowledge<'_> {
                 }
             }
         }
+        if matches!(rel, Rel::On | Rel::In) {
+            found.extend(self.aboard(anchor));
+        }
         found.sort_unstable();
         found
+    }
+
+    /// What lies on or in a thing that is carried: it stands in no relation to anything else.
+    fn aboard(&self, carrier: Thing) -> Vec<Thing> {
+        let Some(carrier) = carrier.replica().filter(|id| self.senses.holder(*id).is_some()) else {
+            return Vec::new();
+        };
+        let all = self.world.replicas.keys();
+        let own = all.filter(|id| self.senses.carrier(**id) == Some(carrier));
+        own.map(|id| Thing::Entity(Entity::Replica(*id))).collect()
     }
 
     /// The tuple that makes a relation hold: its name in the rule text and its arguments in order.
@@ -331,6 +344,16 @@ impl Knowledge<'_> {
             && y.replica().is_some_and(|id| !self.world.has_trait(id, "shelves"))
             && self.on_or_in(x, y) == Rel::In;
         matches!(rel, Rel::On | Rel::In) && !within && self.support_chain(x).contains(&y)
+    }
+
+    /// What a thing lies on or in itself, and on what it lies by that, the nearest first.
+    pub(in crate::language::question) fn borne_by(&self, thing: Thing) -> Vec<Thing> {
+        let mut chain = self.support_chain(thing);
+        let mut is_first = true;
+        chain.retain(|under| {
+            std::mem::take(&mut is_first) || self.tuple(Rel::On, thing, *under).is_some()
+        });
+        chain
     }
 
     /// What a thing stands on or lies in, what that stands on, and so on.

@@ -1,0 +1,105 @@
+//! What is known beforehand of the things of an order: that they are behind doors that are shut, and how sure it is where
+//! they are.
+//!
+//! Invariant: a place in which the robot is less sure than the rule text asks (the threshold «belief told») is never
+//! told, or acted upon, as a fact.
+
+use std::time::SystemTime;
+
+use crate::language::command::Command;
+use crate::map::Entity;
+use crate::robot::GoalFact;
+use crate::semantics::{Relations, predicate};
+use crate::units::ReplicaId;
+
+use super::memory::Now;
+use super::task::thing_of;
+use super::{Engine, Error, RequestError};
+
+/// Where the rule text names none: likelier than not.
+const TOLD_FROM: f64 = 0.5;
+
+impl Engine {
+    /// How sure the robot is of where a thing is, 0..=1, where that is less than what is told as a fact.
+    pub(super) fn doubted(&self, thing: ReplicaId) -> Option<f64> {
+        let reader = self.store.as_ref()?.reader();
+        let replica = self.world.as_ref()?.replicas.get(&thing)?;
+        let belief = reader.belief(replica, SystemTime::now().into()).ok()?;
+        let relations = self.relations().ok()?;
+        let told = relations.threshold("belief told").map_or(TOLD_FROM, |t| t as f64 / 1000.0);
+        (belief.confidence < told).then_some(belief.confidence)
+    }
+
+    /// The things that an order speaks of and a goal is about, of which the robot is not sure where they are.
+    pub(super) fn unsure_of(
+        &self,
+        commands: &[Command<Entity>],
+        goals: &[Vec<GoalFact>],
+        now: &Now,
+    ) -> Result<Vec<(ReplicaId, f64)>, Error> {
+        // A rule file that knows no searching cannot be asked to search.
+        if self.rules.robot.predicate(predicate::FOUND).is_none() {
+            return Ok(Vec::new());
+        }
+        let mut unsure: Vec<(ReplicaId, f64)> = Vec::new();
+        for id in self.carried_by(commands, goals)? {
+            let lies_somewhere = now.world.replicas.contains_key(&id);
+            if let Some(sure) = self.doubted(id).filter(|_| lies_somewhere)
+                && unsure.iter().all(|(other, _)| *other != id)
+            {
+                unsure.push((id, sure));
+            }
+        }
+        Ok(unsure)
+    }
+
+    /// That nothing that is to be carried is behind doors that are shut.
+    ///
+    /// # Errors
+    /// [`RequestError::ShutIn`].
+    pub(super) fn not_shut_in(
+        &self,
+        commands: &[Command<Entity>],
+        goals: &[Vec<GoalFact>],
+        relations: &Relations,
+    ) -> Result<(), Error> {
+        let world = self.world()?;
+        for id in self.carried_by(commands, goals)? {
+            if let Some(around) = relations.shut_in(id) {
+                let name = |id| world.name(Entity::Replica(id)).to_owned();
+                let (thing, container) = (name(id), name(around));
+                return Err(RequestError::ShutIn { thing, container }.into());
+            }
+        }
+        Ok(())
+    }
+
+    /// The things that commands order to be carried, where something is to be done for that.
+    fn carried_by(
+        &self,
+        commands: &[Command<Entity>],
+        goals: &[Vec<GoalFact>],
+    ) -> Result<Vec<ReplicaId>, Error> {
+        let world = self.world()?;
+        let carries = |command: &&Command<Entity>| {
+            matches!(
+                command,
+                Command::Bring { .. }
+                    | Command::Take { .. }
+                    | Command::Put { .. }
+                    | Command::SetDown { .. }
+                    | Command::PutBack(_)
+            )
+        };
+        let things = commands.iter().filter(carries).filter_map(thing_of);
+        let is_wanted = |id: &ReplicaId| {
+            let name = world.name(Entity::Replica(*id));
+            goals.iter().flatten().any(|fact| fact.args.first().is_some_and(|arg| arg == name))
+        };
+        let replicas = things.filter_map(|entity| match entity {
+            Entity::Replica(id) if world.has_trait(id, "portable") => Some(id),
+            _ => None,
+        });
+        Ok(replicas.filter(is_wanted).collect())
+    }
+}

@@ -1,0 +1,67 @@
+//! A plan tried out before its first motion, in the world as it is believed to be.
+//!
+//! The rules know rooms and doors, and nothing of the floor: that a cupboard stands before the door, that a leaf strikes a
+//! chair, that the table has no room left. What the mission would find out on its way is found out here, by the same code,
+//! in a simulated world that is the belief itself; so that a plan that is begun fails for what was not known alone.
+//!
+//! **Invariant**: neither the mission nor the vehicle is changed by it.
+
+use crate::map::{DoorStatus, Entity};
+use crate::units::AreaId;
+
+use super::directive::{Deed, Directive};
+use super::drive::Refusal;
+use super::mission::{Mission, Surprise};
+use super::simulator::Simulator;
+
+/// What is to be held against a plan that the rules allow.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum Known {
+    /// From within an Area no way leads to a place or through a door.
+    NoWay(AreaId, String),
+    /// From within an Area a door could not be opened again.
+    NoReturn(AreaId, String),
+    /// Nothing that the rules could be told.
+    Nothing,
+}
+
+/// Tries directives in order; those from the first look for a thing on depend on what is seen, and are not tried.
+///
+/// # Errors
+/// Why one of them cannot be carried out, and what the next plan must know of it.
+pub(super) fn rehearse(
+    mission: &Mission<'_>,
+    directives: &[&Directive],
+) -> Result<(), (Known, Surprise)> {
+    let seeks = |d: &&&Directive| d.deeds().iter().any(|deed| matches!(deed, Deed::Seek(_)));
+    let known = directives.iter().position(|d| seeks(&d)).unwrap_or(directives.len());
+    if known == 0 {
+        return Ok(());
+    }
+    let mut trial = mission.clone();
+    let belief = &trial.belief;
+    let in_hand = belief.held.as_ref().map(|held| held.id);
+    let aboard = belief.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
+    let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
+    let mut drive = Simulator::new(belief.world.clone(), belief.map, belief.pose)
+        .holding(belief.held.clone(), aboard);
+    let Err((_, surprise)) = trial.carry_out(&directives[..known], &mut drive, &mut |_| {}) else {
+        return Ok(());
+    };
+    let area = trial.belief.area;
+    let name = |door| trial.belief.world.name(Entity::Door(door)).to_owned();
+    let known = match &surprise {
+        Surprise::NoWay { to, .. } => Known::NoWay(area, to.clone()),
+        Surprise::NoReturn { door, area } => Known::NoReturn(*area, name(*door)),
+        Surprise::Refused { refusal: Refusal::DoorJammed { door, .. }, .. } => {
+            let state = trial.belief.world.doors.get(door).map(|d| d.state.status);
+            // What stands open and cannot be shut from here may be from its other side, and is a way all the same.
+            match state {
+                Some(DoorStatus::Open) => Known::NoReturn(area, name(*door)),
+                _ => Known::NoWay(area, name(*door)),
+            }
+        }
+        _ => Known::Nothing,
+    };
+    Err((known, surprise))
+}
