@@ -37,6 +37,7 @@ pub use report::{Count, Deed, Note, Report, What, Why};
 pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 pub use survey::{
-    Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing, Told,
+    Feet, Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
+    Told,
 };
 pub use synonyms::{Found, Meaning, Synonyms, Vocabulary};

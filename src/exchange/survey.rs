@@ -22,6 +22,8 @@ pub struct Survey {
     /// Kinds of things, shared by all levels.
     pub kinds: Vec<Kind>,
     pub lifts: Vec<Lift>,
+    /// How near the feet of its things are to what they stand on.
+    pub feet: Feet,
     /// What the reader left out or had to assume, for the report.
     pub remarks: Vec<Remark>,
     /// What became of records of the file that stand in none of the lists above, or stand there otherwise than in the
@@ -40,6 +42,25 @@ pub struct Told {
     pub text: String,
     /// Records that the lists of the survey do not hold; none where they do.
     pub count: Count,
+}
+
+/// Of the things that a file has standing on something: how many there are, and how many of them stand above it or are
+/// sunk into it by more than a person's measuring would be off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Feet {
+    pub off: usize,
+    pub of: usize,
+}
+
+impl Feet {
+    /// Whether the boxes are a detector's, or lie round meshes. What a person measures is within 2 cm in 19 of 20 cases:
+    /// boxes are loose where more are off than by two standard deviations of that.
+    #[must_use]
+    pub fn are_loose(self) -> bool {
+        const SHARE: f64 = 0.05;
+        let of = self.of as f64;
+        self.off as f64 > of * SHARE + 2.0 * (of * SHARE * (1.0 - SHARE)).sqrt()
+    }
 }
 
 /// What a reader left out, mended or had to assume.

@@ -266,8 +266,7 @@ mod tests {
                 name: "лестница".into(),
                 stops: vec![(0, 1), (1, 0)],
             }],
-            remarks: Vec::new(),
-            told: Vec::new(),
+            ..Survey::default()
         };
         let mut report = Report::default();
         let world = assemble(&survey, &Synonyms::built_in(), &mut report).expect("a world");

@@ -207,7 +207,25 @@ impl Crate {
         self.volume() > ROOMIER * thing.volume()
             && thing.bottom >= self.bottom - STANDS
             && thing.bottom < self.top - SUNK
+            && !self.bears_sunk(thing)
             && !self.is_over_floor(thing)
+    }
+
+    /// Whether a thing stands on the top of this one, as well as boxes tell.
+    pub(super) fn bears(&self, thing: &Self) -> bool {
+        let gap = thing.bottom - self.top;
+        (-SUNK..=STANDS).contains(&gap) || self.bears_sunk(thing)
+    }
+
+    /// Nothing sticks out through a closed top: what seems to is a box that reaches too deep, however it is off. A sink
+    /// is set into a counter.
+    fn bears_sunk(&self, thing: &Self) -> bool {
+        let is_closed = matches!(self.build, Build::Table | Build::Case | Build::Block);
+        let is_set_in = thing.build == Build::Envelope;
+        // What reaches down to where this one stands is beside it, or has its foot on the same floor.
+        let is_above = thing.bottom > self.bottom + SUNK && thing.top > self.top + SUNK;
+        let gap = thing.bottom - self.top;
+        is_closed && !is_set_in && is_above && (-STANDS..-SUNK).contains(&gap)
     }
 
     /// Whether a thing beneath this table or seat stands on the floor that this stands on.
@@ -247,6 +265,24 @@ pub(super) fn levels(things: &[Crate]) -> Vec<Vec<f64>> {
         }
     }
     found.into_iter().map(distinct).collect()
+}
+
+/// Which open vessels have something standing on top of them and nothing that sticks out of them: they are closed.
+pub(super) fn closed(things: &[Crate]) -> Vec<bool> {
+    let near = Neighbours::of(things);
+    let mut is_trodden = vec![false; things.len()];
+    let mut is_heaped = vec![false; things.len()];
+    for thing in things.iter().filter(|t| t.build != Build::Hung) {
+        for i in around(things, &near, thing).filter(|&i| things[i].build == Build::Bowl) {
+            let vessel = &things[i];
+            let gap = thing.bottom - vessel.top;
+            is_trodden[i] |= gap.abs() <= SUNK;
+            is_heaped[i] |= gap < -SUNK
+                && thing.bottom >= vessel.bottom - STANDS
+                && thing.top > vessel.top + SUNK;
+        }
+    }
+    is_trodden.into_iter().zip(is_heaped).map(|(trodden, heaped)| trodden && !heaped).collect()
 }
 
 /// Which boxes hold another box wholly: no solid body does.

@@ -70,9 +70,8 @@ pub fn read_pyrobosim(
         name: params.and_then(|p| text(p, "name")).unwrap_or_default().to_owned(),
         levels: vec![Level { source: "0".to_owned(), ..reader.level }],
         kinds: reader.kinds,
-        lifts: Vec::new(),
         remarks: reader.remarks,
-        told: Vec::new(),
+        ..Survey::default()
     })
 }
 
