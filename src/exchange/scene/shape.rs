@@ -207,25 +207,12 @@ impl Crate {
         self.volume() > ROOMIER * thing.volume()
             && thing.bottom >= self.bottom - STANDS
             && thing.bottom < self.top - SUNK
-            && !self.bears_sunk(thing)
             && !self.is_over_floor(thing)
     }
 
     /// Whether a thing stands on the top of this one, as well as boxes tell.
     pub(super) fn bears(&self, thing: &Self) -> bool {
-        let gap = thing.bottom - self.top;
-        (-SUNK..=STANDS).contains(&gap) || self.bears_sunk(thing)
-    }
-
-    /// Nothing sticks out through a closed top: what seems to is a box that reaches too deep, however it is off. A sink
-    /// is set into a counter.
-    fn bears_sunk(&self, thing: &Self) -> bool {
-        let is_closed = matches!(self.build, Build::Table | Build::Case | Build::Block);
-        let is_set_in = thing.build == Build::Envelope;
-        // What reaches down to where this one stands is beside it, or has its foot on the same floor.
-        let is_above = thing.bottom > self.bottom + SUNK && thing.top > self.top + SUNK;
-        let gap = thing.bottom - self.top;
-        is_closed && !is_set_in && is_above && (-STANDS..-SUNK).contains(&gap)
+        (-SUNK..=STANDS).contains(&(thing.bottom - self.top))
     }
 
     /// Whether a thing beneath this table or seat stands on the floor that this stands on.
