@@ -396,6 +396,7 @@ fn drawn(system: &CorridorSystem, way: &Directions, variant: Variant) -> String 
         vertices: vertices.collect(),
         arcs: arcs.collect(),
         notes: way.ru.clone(),
+        ..CorridorDrawing::default()
     })
 }
 

@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 
 use orthoframe::corridor::{CorridorError, CorridorSystem, Variant, directions};
 use orthoframe::map::{
-    Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, TypeEntry,
-    TypeLists, World,
+    Area, BaseVector, Domain, DomainMap, Item, Map, MapItem, Orthoframe, Permeability, Profile,
+    TypeEntry, TypeLists, World,
 };
 use orthoframe::units::{AreaId, Cm, Deg, DomainId, Frame, MapId, OrFrId, Point, TypeId};
 
@@ -144,6 +144,7 @@ pub(crate) fn empty_world() -> World {
         name: "Здание".into(),
         name_en: String::new(),
         description: String::new(),
+        profile: Profile::Surveyed,
         maps: vec![DomainMap { map: MapId(1), frame: Frame::IDENTITY, is_base: true }],
         lifts: Vec::new(),
     };

@@ -44,6 +44,7 @@ impl Builder {
             name: "Домейн".into(),
             name_en: "Domain".into(),
             description: String::new(),
+            profile: Profile::Surveyed,
             maps: vec![DomainMap { map: MapId(1), frame: Frame::IDENTITY, is_base: true }],
             lifts: vec![],
         };

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use orthoframe::map::{
     Area, BaseVector, Case, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     Face, Gender, HingeSide, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, OpensTo,
-    Orthoframe, Permeability, Place, Properties, Replica, RobotProfile, SideRef, TypeEntry,
-    TypeKind, TypeLists, World,
+    Orthoframe, Permeability, Place, Profile, Properties, Replica, RobotProfile, SideRef,
+    TypeEntry, TypeKind, TypeLists, World,
 };
 use orthoframe::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
@@ -90,6 +90,7 @@ pub(crate) fn world(seed: u64) -> World {
             name: dice.word() + "дом",
             name_en: dice.text(),
             description: dice.text(),
+            profile: Profile::ALL[dice.below(2)],
             maps: Vec::new(),
             lifts: Vec::new(),
         },

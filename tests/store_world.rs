@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use orthoframe::map::{
     Area, BaseVector, Case, Domain, DomainMap, Door, DoorKind, DoorLeaf, DoorMount, DoorState,
     Face, Forms, Gender, HingeSide, Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object,
-    OpensTo, Orthoframe, Permeability, Place, Properties, Replica, RobotProfile, SideRef,
+    OpensTo, Orthoframe, Permeability, Place, Profile, Properties, Replica, RobotProfile, SideRef,
     TypeEntry, TypeList, TypeLists, World,
 };
 use orthoframe::units::{
@@ -106,6 +106,7 @@ pub(crate) fn world(seed: u64, size: u32) -> World {
             name: dice.text(),
             name_en: dice.text(),
             description: dice.text(),
+            profile: Profile::Detected,
             maps: Vec::new(),
             lifts: Vec::new(),
         },

@@ -8,6 +8,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 use crate::engine::ImportFormat;
 use crate::engine::When;
 use crate::graphplan::Limits;
+use crate::map::Profile;
 use crate::robot::Wanted;
 
 use super::draw::DrawArgs;
@@ -360,10 +361,18 @@ pub(super) struct ImportArgs {
     /// Synonym table laid over the built-in one; `import-synonyms.toml` of the rules directory when absent
     #[arg(long, value_name = "FILE")]
     pub synonyms: Option<PathBuf>,
+    /// How exactly the things were measured, "surveyed" or "detected"; by what the file shows when absent
+    #[arg(long, value_name = "PROFILE", value_parser = profile)]
+    pub profile: Option<Profile>,
     /// The file is an SQLite base of the store's tables, as `ortho export --sqlite` writes it
     #[cfg(feature = "sqlite")]
-    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms"])]
+    #[arg(long, conflicts_with_all = ["strict", "format", "assets", "synonyms", "profile"])]
     pub sqlite: bool,
+}
+
+fn profile(name: &str) -> Result<Profile, String> {
+    Profile::named(name)
+        .ok_or_else(|| format!("one of: {}", Profile::ALL.map(Profile::name).join(", ")))
 }
 
 fn import_format(key: &str) -> Result<ImportFormat, String> {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, opens_in_words, parse_pose,
-    ride_in_words, uncertain_names,
+    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, opens_in_words,
+    parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase, english};

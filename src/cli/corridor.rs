@@ -5,7 +5,9 @@ use std::path::Path;
 use serde_json::json;
 
 use crate::corridor::{CorridorSystem, Directions, Measure, Variant, directions, figure};
-use crate::draw::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
+use crate::draw::{
+    CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
+};
 use crate::engine::{Error, check_map};
 use crate::units::Source;
 
@@ -56,13 +58,48 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
         Lang::En => format!("{}: variant {}", system.name, way.variant.number()),
     };
     let notes = if common.lang == Lang::Ru { way.ru } else { way.en };
+    let told = |list: &[(u8, [&str; 2])]| {
+        let line = |(code, [ru, en]): &(u8, [&str; 2])| {
+            (code.to_string(), common.lang.pick(*ru, *en).to_owned())
+        };
+        list.iter().map(line).collect()
+    };
+    let sign = |(sign, [ru, en]): &(CorridorSign, [&str; 2])| {
+        (*sign, common.lang.pick(*ru, *en).to_owned())
+    };
     Ok(corridor_svg(&CorridorDrawing {
         title,
         vertices: vertices.collect(),
         arcs: arcs.collect(),
+        codes: told(&CODES),
+        signs: SIGNS.iter().map(sign).collect(),
         notes,
     }))
 }
+
+/// The codes of paper 4, table 1, in words.
+const CODES: [(u8, [&str; 2]); 9] = [
+    (1, ["перекрёсток", "crossing"]),
+    (2, ["Т-образное соединение", "T-junction"]),
+    (3, ["ответвление направо", "branch right"]),
+    (4, ["ответвление налево", "branch left"]),
+    (5, ["поворот направо", "turn right"]),
+    (6, ["поворот налево", "turn left"]),
+    (11, ["дверь справа", "door on the right"]),
+    (12, ["дверь слева", "door on the left"]),
+    (13, ["дверь прямо", "door ahead"]),
+];
+
+const SIGNS: [(CorridorSign, [&str; 2]); 5] = [
+    (CorridorSign::Entrance, ["вход в помещение", "entrance of a room"]),
+    (CorridorSign::Junction, ["соединение коридоров", "junction of corridors"]),
+    (
+        CorridorSign::Arc,
+        ["дуга с кодом того, к чему ведёт", "arc with the code of what it leads to"],
+    ),
+    (CorridorSign::Way, ["путь", "the way"]),
+    (CorridorSign::UTurn, ["разворот", "U-turn"]),
+];
 
 fn solve(common: &Common, args: &CorridorArgs) -> Result<(CorridorSystem, Directions), Failure> {
     let mut system = match (&args.file, &args.map) {

@@ -38,7 +38,7 @@ pub(super) struct DrawArgs {
 enum What {
     /// Rooms, doors, furniture
     Map {
-        /// A map or a room; may be left out when there is only one map
+        /// A map or a room; every storey has a sheet of its own when left out
         name: Option<String>,
     },
     /// The same with free floor, dead zones and Passframes
@@ -156,15 +156,18 @@ type Storey = (MapId, Vec<(usize, Vec<Point>)>);
 fn sheets(common: &Common, what: &What) -> Result<Vec<String>, Failure> {
     let language = common.lang.language();
     let plain = Drawing { language, ..Drawing::default() };
-    let plan = |name: &Option<String>, sheet: Drawing| -> Result<String, Failure> {
+    let plan = |name: &Option<String>, sheet: &Drawing| -> Result<Vec<String>, Failure> {
         let engine = open(common)?;
-        let (map, only) = engine.sheet_named(name.as_deref())?;
-        Ok(engine.draw(map, &Drawing { only, ..sheet })?)
+        let sheets = engine.sheets_named(name.as_deref())?.into_iter();
+        let draw = |(map, only)| engine.draw(map, &Drawing { only, ..sheet.clone() });
+        Ok(sheets.map(draw).collect::<Result<_, _>>()?)
     };
     let sheet = match what {
-        What::Map { name } => plan(name, plain)?,
-        What::Floor { name } => plan(name, Drawing { floor: true, ..plain })?,
-        What::Network { name } => plan(name, Drawing { floor: true, network: true, ..plain })?,
+        What::Map { name } => return plan(name, &plain),
+        What::Floor { name } => return plan(name, &Drawing { floor: true, ..plain }),
+        What::Network { name } => {
+            return plan(name, &Drawing { floor: true, network: true, ..plain });
+        }
         What::Object { name } => open(common)?.draw_object(name, language)?,
         What::Corridor(args) => super::corridor::draw(common, args)?,
         What::View(view) => draw_view(common, view)?,
@@ -215,9 +218,11 @@ fn journey(common: &Common, from: &str, to: &str) -> Result<Vec<String>, Failure
         }
     }
     let directives = if journey.legs.len() > 1 { directives } else { Vec::new() };
+    let last = journey.legs.last().map(|leg| leg.map);
     let sheet = |(map, legs): Storey| {
-        let directives = directives.clone();
-        Ok(engine.draw(map, &Drawing { legs, directives, language, ..Drawing::default() })?)
+        let (directives, has_goal) = (directives.clone(), last == Some(map));
+        let drawing = Drawing { legs, directives, has_goal, language, ..Drawing::default() };
+        Ok(engine.draw(map, &drawing)?)
     };
     storeys.into_iter().map(sheet).collect()
 }
@@ -343,10 +348,12 @@ fn driven(common: &Common, engine: &Engine, answer: &TaskAnswer) -> Result<Vec<S
     };
     let directives: Vec<_> =
         answer.reports.iter().map(|r| (r.number, told(&r.directive))).collect();
+    let last = answer.reports.last().map(|report| report.map);
     let sheet = |(map, legs): Storey| {
         let drawing = Drawing {
             floor: true,
             legs,
+            has_goal: last == Some(map),
             directives: directives.clone(),
             robot: Some(answer.start).filter(|_| map == answer.map),
             language: common.lang.language(),

@@ -24,6 +24,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
         strict: args.strict,
         assets: args.assets.clone(),
         synonyms: args.synonyms.clone().or(beside_rules),
+        profile: args.profile,
     };
     // The file is read before the store is opened or made, so that a faulty one leaves no trace.
     let read = read_building(&args.file, &options)?;
@@ -42,6 +43,7 @@ pub(super) fn run(common: &Common, args: &ImportArgs) -> Result<Answer, Failure>
             "changed": counts.changed,
             "deleted": counts.deleted,
             "warnings": imported.warnings.faults.len(),
+            "profile": world.domain.profile.name(),
             "world": size(world),
             "report": imported.reading.to_json(),
         })

@@ -1,5 +1,7 @@
 //! A sheet with the Map's coordinates: cm, y up.
 
+use std::collections::HashSet;
+
 use svg::node::element::{
     Circle, Group, Line, Path, Rectangle, Style as StyleSheet, Text, Title, path::Data,
 };
@@ -108,6 +110,11 @@ pub(super) struct Canvas {
     /// Of the picture, as it is shown unscaled.
     pixels: f64,
     nodes: Group,
+    /// What the next shapes show: the class for style sheets and pages.
+    class: &'static str,
+    /// Of the record that they show.
+    of: Option<String>,
+    ids: HashSet<String>,
 }
 
 impl Canvas {
@@ -118,7 +125,32 @@ impl Canvas {
             bounds,
             pixels: width.clamp(600.0, 1600.0),
             nodes: Group::new().set("font-family", format!("{FAMILY}, Arial, sans-serif")),
+            class: "",
+            of: None,
+            ids: HashSet::new(),
         }
+    }
+
+    /// The next shapes are of this class, and show no record of the Map.
+    pub(super) fn mark(&mut self, class: &'static str) {
+        (self.class, self.of) = (class, None);
+    }
+
+    /// The next shapes are of this class and show this record: the first bears its id, `thing-17`, further ones name it
+    /// as `data-of`, since an id stands once in a document.
+    pub(super) fn mark_of(&mut self, class: &'static str, record: String) {
+        (self.class, self.of) = (class, Some(record));
+    }
+
+    fn add<N: Node>(&mut self, mut node: N) {
+        if !self.class.is_empty() {
+            node.assign("class", self.class);
+        }
+        if let Some(of) = &self.of {
+            let name = if self.ids.insert(of.clone()) { "id" } else { "data-of" };
+            node.assign(name, of.as_str());
+        }
+        self.nodes.append(node);
     }
 
     /// So many pixels wide, whatever the sheet's own size.
@@ -143,7 +175,7 @@ impl Canvas {
         if let Some(title) = title {
             path = path.add(Title::new(title));
         }
-        self.nodes.append(path);
+        self.add(path);
     }
 
     pub(super) fn polygon(&mut self, polygon: &Polygon, style: Style, title: Option<&str>) {
@@ -153,7 +185,7 @@ impl Canvas {
     pub(super) fn polyline(&mut self, points: &[Point], style: Style) {
         let mut path = Path::new().set("d", self.trace(Data::new(), points));
         style.apply(&mut path);
-        self.nodes.append(path);
+        self.add(path);
     }
 
     fn trace(&self, data: Data, points: &[Point]) -> Data {
@@ -169,14 +201,14 @@ impl Canvas {
             .set("fill", color)
             .set("stroke", color)
             .set("stroke-width", "1");
-        self.nodes.append(path);
+        self.add(path);
     }
 
     /// A line of any colour.
     pub(super) fn stroke(&mut self, a: Point, b: Point, color: &str, width: f64) {
         let ((x1, y1), (x2, y2)) = (self.at(a), self.at(b));
         let line = Line::new().set("x1", x1).set("y1", y1).set("x2", x2).set("y2", y2);
-        self.nodes.append(
+        self.add(
             line.set("stroke", color)
                 .set("stroke-width", number(width))
                 .set("stroke-linecap", "round"),
@@ -187,14 +219,14 @@ impl Canvas {
         let ((x1, y1), (x2, y2)) = (self.at(a), self.at(b));
         let mut line = Line::new().set("x1", x1).set("y1", y1).set("x2", x2).set("y2", y2);
         style.apply(&mut line);
-        self.nodes.append(line);
+        self.add(line);
     }
 
     pub(super) fn circle(&mut self, center: Point, radius: f64, style: Style) {
         let (x, y) = self.at(center);
         let mut circle = Circle::new().set("cx", x).set("cy", y).set("r", number(radius));
         style.apply(&mut circle);
-        self.nodes.append(circle);
+        self.add(circle);
     }
 
     pub(super) fn rectangle(&mut self, bounds: Bounds, style: Style, rounding: f64) {
@@ -206,7 +238,7 @@ impl Canvas {
             .set("height", number(bounds.max.y - bounds.min.y))
             .set("rx", number(rounding));
         style.apply(&mut rectangle);
-        self.nodes.append(rectangle);
+        self.add(rectangle);
     }
 
     /// A line of text at the height of `p`.
@@ -214,6 +246,7 @@ impl Canvas {
         let (x, y) = self.at(p);
         let size = lettering.size;
         let anchor = if lettering.anchor == Anchor::Middle { "middle" } else { "start" };
+        let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let mut node = Text::new(text)
             .set("x", x)
             // The baseline lies about a third of the size below the middle of the letters.
@@ -235,7 +268,7 @@ impl Canvas {
         if lettering.turn != 0.0 {
             node = node.set("transform", format!("rotate({} {x} {y})", number(-lettering.turn)));
         }
-        self.nodes.append(node);
+        self.add(node);
     }
 
     /// The sheet as SVG text, one unit a centimetre, with the paper under it.

@@ -1,11 +1,19 @@
 //! A schematic drawing of a corridor road graph, as SVG: vertices, arcs both ways, labels (paper 4, figs. 2-3).
 //!
-//! The caller gives plain points and texts; nothing here knows how a road graph is made.
+//! The caller gives plain points and texts; nothing here knows how a road graph is made. The drawing keeps which vertex
+//! is left of and above which, not the distances: empty stretches are shortened and crowded ones stretched until no mark
+//! lies on another, so that letters stay a fair share of the sheet however long the corridor is.
+//!
+//! **Invariant.** No mark lies on another, no two texts overlap, and the sheet holds them all.
 
 use std::collections::BTreeSet;
-use std::fmt::Write as _;
 
+use crate::geometry::{Bounds, Polygon};
 use crate::units::{Point, Vector};
+
+use super::canvas::{Anchor, Canvas, Lettering, Style};
+use super::font::text_width;
+use super::labels::{Labels, around};
 
 /// How a vertex is drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -46,65 +54,194 @@ pub struct CorridorDrawing {
     pub title: String,
     pub vertices: Vec<CorridorVertex>,
     pub arcs: Vec<CorridorArc>,
-    /// Lines below the drawing: the legend, the commands.
+    /// What the labels of arcs mean: those of this drawing are listed.
+    pub codes: Vec<(String, String)>,
+    /// What the marks and lines mean, in the order of [`CorridorSign`]; none leaves the sign out of the legend.
+    pub signs: Vec<(CorridorSign, String)>,
+    /// Lines below the drawing: the commands.
     pub notes: Vec<String>,
 }
 
-const MARGIN: f64 = 70.0;
+/// What the legend explains besides codes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum CorridorSign {
+    Entrance,
+    Junction,
+    Arc,
+    Way,
+    UTurn,
+}
+
 const RADIUS: f64 = 15.0;
 const LINE: f64 = 20.0;
+const LETTER: f64 = 13.0;
 /// Arcs keep to the right of the line between their vertices by this much.
 const LANE: f64 = 6.0;
-/// The shortest distance between two vertices.
-const SPACING: f64 = 92.0;
-const LARGEST: f64 = 4000.0;
+/// Marks stand so far apart at least; what is joined by an arc, farther, for its arrow and code.
+const APART: f64 = 2.0 * RADIUS + 10.0;
+const JOINED: f64 = 2.0 * RADIUS + 36.0;
+/// An empty stretch is no longer than this.
+const LONGEST: f64 = 120.0;
+/// How often crowds are looked at.
+const MOST_LOOKS: usize = 50;
+const INK: &str = "#22303c";
+const WAY: &str = "#c0392b";
+const ARC: &str = "#5b6770";
+const FAINT: &str = "#aab4bb";
+const DOOR: &str = "#2c5f8a";
+const CORRIDOR: Style = Style::line("#edf0f2", 44.0);
+const ENTRANCE: Style = Style::fill("#ffffff").outlined(DOOR, 2.0);
+const JUNCTION: Style = Style::fill("#fff3d6").outlined("#b9770e", 2.0);
 
 /// The drawing as an SVG document.
 #[must_use]
 pub fn corridor_svg(drawing: &CorridorDrawing) -> String {
     let points = placed(drawing);
-    let (width, height) =
-        points.iter().fold((0.0_f64, 0.0_f64), |(w, h), p| (w.max(p.x), h.max(p.y)));
-    let longest = drawing.notes.iter().chain([&drawing.title]).map(|n| n.chars().count()).max();
-    let text_width = longest.unwrap_or(0) as f64 * 7.6 + 60.0;
-    let width = (width + MARGIN).max(text_width);
-    let top = height + MARGIN + 4.0;
-    let height = top + LINE * drawing.notes.len() as f64 + 12.0;
-    let mut svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"DejaVu Sans, Arial, sans-serif\">\n\
-         <rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n\
-         <defs>{}{}{}</defs>\n",
-        arrow("a", "#5b6770"),
-        arrow("w", "#c0392b"),
-        arrow("f", "#aab4bb"),
-    );
-    text(
-        &mut svg,
-        30.0,
-        30.0,
-        "font-size=\"17\" font-weight=\"bold\" fill=\"#22303c\"",
-        &drawing.title,
-    );
+    let plan = Bounds::of(points.iter().copied().chain([Point::origin()])).grown(RADIUS);
+    // Names are placed first: how far they reach is how large the sheet must be.
+    let codes = codes(drawing, &points);
+    let names = names(drawing, &points, &codes);
+    let frames = names.iter().map(|name| &name.frame).chain(codes.iter().map(|code| &code.frame));
+    let reach = frames.fold(plan, |all, frame| all.union(frame)).grown(24.0);
+    let left = reach.min.x;
+    let lines = key_lines(drawing, reach.max.x - left);
+    let texts = drawing.notes.iter().chain(lines.iter().flat_map(|l| l.iter().map(|e| &e.text)));
+    let widest = texts.map(|t| text_width(t, LETTER, false) + 40.0).fold(0.0, f64::max);
+    let title_width = text_width(&drawing.title, 17.0, true);
+    let rows = lines.len() + drawing.notes.len() + usize::from(!drawing.notes.is_empty());
+    let mut sheet = reach;
+    sheet.max.x = sheet.max.x.max(left + widest.max(title_width).max(360.0) + 30.0);
+    sheet.max.y += 40.0;
+    sheet.min.y -= LINE * rows as f64 + 16.0;
+    let sheet = Bounds { min: sheet.min - Vector::new(16.0, 0.0), max: sheet.max };
+    let mut canvas = Canvas::new(sheet).wide(sheet.max.x - sheet.min.x);
+    let start = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
+    let head = Point::new(left, sheet.max.y - 24.0);
+    canvas.mark("heading");
+    canvas.text(head, &drawing.title, start(Lettering::bold(17.0, INK)));
+    canvas.mark("corridor");
     for (a, b) in corridors(drawing) {
-        let (p, q) = (points[a], points[b]);
-        let _ = writeln!(
-            svg,
-            "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"#edf0f2\" stroke-width=\"44\" stroke-linecap=\"round\"/>",
-            p.x, p.y, q.x, q.y
-        );
+        canvas.segment(points[a], points[b], CORRIDOR);
     }
-    for arc in &drawing.arcs {
-        draw_arc(&mut svg, &points, arc);
+    for (n, arc) in drawing.arcs.iter().enumerate() {
+        draw_arc(&mut canvas, &points, n, arc);
+    }
+    canvas.mark("code");
+    for Code { text, frame, color } in &codes {
+        let at = nalgebra::center(&frame.min, &frame.max);
+        canvas.text(at, text, Lettering::plain(LETTER, color));
     }
     for (vertex, at) in drawing.vertices.iter().zip(&points) {
-        draw_vertex(&mut svg, vertex, *at);
+        draw_vertex(&mut canvas, vertex, *at);
     }
-    for (line, note) in drawing.notes.iter().enumerate() {
-        let y = top + LINE * line as f64;
-        text(&mut svg, 30.0, y, "font-size=\"13\" fill=\"#3d4a55\"", note);
+    for Name { text, frame } in &names {
+        canvas.mark("name");
+        let at = nalgebra::center(&frame.min, &frame.max);
+        canvas.text(at, text, Lettering::bold(LETTER, DOOR));
     }
-    svg.push_str("</svg>\n");
-    svg
+    let mut y = reach.min.y - LINE / 2.0;
+    for line in &lines {
+        for entry in line {
+            entry.draw(&mut canvas, Point::new(left, y));
+        }
+        y -= LINE;
+    }
+    y -= LINE / 2.0;
+    canvas.mark("note");
+    for note in &drawing.notes {
+        canvas.text(Point::new(left, y), note, start(Lettering::plain(LETTER, "#3d4a55")));
+        y -= LINE;
+    }
+    canvas.into_svg(&drawing.title)
+}
+
+/// An entry of the legend, so far to the right of its line's start.
+struct KeyEntry {
+    x: f64,
+    sign: Option<CorridorSign>,
+    /// The code itself, where it is one.
+    code: String,
+    text: String,
+}
+
+impl KeyEntry {
+    const SIGN: f64 = 34.0;
+
+    fn width(code: &str, text: &str) -> f64 {
+        Self::SIGN + text_width(code, LETTER, true) + text_width(text, LETTER, false) + 26.0
+    }
+
+    fn draw(&self, canvas: &mut Canvas, line: Point) {
+        let at = line + Vector::new(self.x, 0.0);
+        let middle = at + Vector::new(Self::SIGN / 2.0 - 4.0, 0.0);
+        let (a, b) = (middle - Vector::new(12.0, 0.0), middle + Vector::new(12.0, 0.0));
+        match self.sign {
+            Some(CorridorSign::Entrance) => {
+                canvas.mark("key entrance");
+                canvas.circle(middle, 7.0, ENTRANCE);
+            }
+            Some(CorridorSign::Junction) => {
+                canvas.mark("key junction");
+                canvas.rectangle(around(middle, 14.0, 14.0), JUNCTION, 3.0);
+            }
+            Some(CorridorSign::Arc) => {
+                canvas.mark("key arc");
+                arrow(canvas, (a, b), ARC, 1.3);
+            }
+            Some(CorridorSign::Way) => {
+                canvas.mark("key way");
+                arrow(canvas, (a, b), WAY, 2.6);
+            }
+            Some(CorridorSign::UTurn) => {
+                canvas.mark("key u-turn");
+                arrow(canvas, (a, b), FAINT, 1.0);
+            }
+            None => {}
+        }
+        canvas.mark("key");
+        let style = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
+        let mut x = Self::SIGN;
+        if !self.code.is_empty() {
+            x = 0.0;
+            canvas.text(at, &self.code, style(Lettering::bold(LETTER, ARC)));
+            x += text_width(&self.code, LETTER, true) + 6.0;
+        }
+        canvas.text(at + Vector::new(x, 0.0), &self.text, style(Lettering::plain(LETTER, INK)));
+    }
+}
+
+/// The legend in lines of at most `width`: what is drawn, and the codes that stand at arcs.
+fn key_lines(drawing: &CorridorDrawing, width: f64) -> Vec<Vec<KeyEntry>> {
+    let has_mark = |mark| drawing.vertices.iter().any(|v| v.mark == mark);
+    let arcs = |wanted: &dyn Fn(&CorridorArc) -> bool| drawing.arcs.iter().any(wanted);
+    let is_drawn = |sign| match sign {
+        CorridorSign::Entrance => has_mark(CorridorMark::Entrance),
+        CorridorSign::Junction => has_mark(CorridorMark::Junction),
+        CorridorSign::Arc => arcs(&|a| !a.on_way && !a.faint),
+        CorridorSign::Way => arcs(&|a| a.on_way),
+        CorridorSign::UTurn => arcs(&|a| a.faint && !a.on_way),
+    };
+    let signs = drawing.signs.iter().filter(|(sign, _)| is_drawn(*sign));
+    let signs = signs.map(|(sign, text)| (Some(*sign), String::new(), text.clone()));
+    let used: BTreeSet<&str> = drawing.arcs.iter().map(|a| a.label.as_str()).collect();
+    let codes = drawing.codes.iter().filter(|(code, _)| used.contains(code.as_str()));
+    let codes = codes.map(|(code, text)| (None, code.clone(), text.clone()));
+    let mut lines: Vec<Vec<KeyEntry>> = Vec::new();
+    let mut x = f64::INFINITY;
+    for (sign, code, text) in signs.chain(codes) {
+        let wide = KeyEntry::width(&code, &text);
+        // A code begins no line of signs, so that each reads by itself.
+        let begins = code.is_empty() != lines.last().is_none_or(|l| l[0].code.is_empty());
+        if begins || x + wide > width.max(700.0) {
+            x = 0.0;
+            lines.push(Vec::new());
+        }
+        if let Some(line) = lines.last_mut() {
+            line.push(KeyEntry { x, sign, code, text });
+        }
+        x += wide;
+    }
+    lines
 }
 
 /// Pairs of vertices that are joined both ways: there runs a corridor. Each pair once.
@@ -115,125 +252,279 @@ fn corridors(drawing: &CorridorDrawing) -> Vec<(usize, usize)> {
     ways.iter().copied().filter(|&(a, b)| a < b && ways.contains(&(b, a))).collect()
 }
 
-/// Points of the page: scaled so that the nearest vertices stand apart, +y downwards.
+/// Points of the page, +y upwards: in the order of the vertices along both axes, and none on another.
 fn placed(drawing: &CorridorDrawing) -> Vec<Point> {
     let finite = |p: Point| if p.x.is_finite() && p.y.is_finite() { p } else { Point::origin() };
-    let points: Vec<Point> = drawing.vertices.iter().map(|v| finite(v.at)).collect();
-    let mut nearest = f64::INFINITY;
-    for (i, p) in points.iter().enumerate() {
-        for q in &points[i + 1..] {
-            let gap = (p - q).norm();
-            if gap > 1e-6 {
-                nearest = nearest.min(gap);
+    let mut points: Vec<Point> = drawing.vertices.iter().map(|v| finite(v.at)).collect();
+    let count = points.len();
+    let joined: BTreeSet<(usize, usize)> = drawing
+        .arcs
+        .iter()
+        .filter(|a| a.from < count && a.to < count && a.from != a.to)
+        .map(|a| (a.from.min(a.to), a.from.max(a.to)))
+        .collect();
+    // The usual arc gets the length that it needs.
+    let lengths = joined.iter().map(|&(a, b)| (points[a] - points[b]).norm());
+    let mut lengths: Vec<f64> = lengths.filter(|l| *l > 1e-6 && l.is_finite()).collect();
+    lengths.sort_by(f64::total_cmp);
+    let scale = lengths.get(lengths.len() / 2).map_or(1.0, |usual| JOINED / usual);
+    points.iter_mut().for_each(|p| *p = Point::from(p.coords * scale));
+    shorten(&mut points, |p| &mut p.x);
+    shorten(&mut points, |p| &mut p.y);
+    // Doors that face each other across the corridor stand on its two sides.
+    let at = points.clone();
+    for (i, vertex) in drawing.vertices.iter().enumerate() {
+        let Some(out) = vertex.name_towards.try_normalize(1e-9) else { continue };
+        let faces = |j: usize| {
+            let other = drawing.vertices[j].name_towards;
+            j != i && (at[i] - at[j]).norm() < APART && other.dot(&out) < 1e-9
+        };
+        if (0..count).any(faces) {
+            points[i] += out * (APART / 2.0);
+        }
+    }
+    spread(&mut points, &joined);
+    points
+}
+
+/// Makes the stretches along one axis in which no vertex stands no longer than [`LONGEST`].
+fn shorten(points: &mut [Point], along: fn(&mut Point) -> &mut f64) {
+    let mut order: Vec<usize> = (0..points.len()).collect();
+    let mut value: Vec<f64> = points.iter_mut().map(|p| *along(p)).collect();
+    order.sort_by(|&i, &j| value[i].total_cmp(&value[j]));
+    let drawn = value.clone();
+    let mut by = 0.0;
+    for pair in order.windows(2) {
+        let gap = drawn[pair[1]] - drawn[pair[0]];
+        by += (gap - LONGEST).max(0.0);
+        value[pair[1]] = drawn[pair[1]] - by;
+    }
+    for (p, v) in points.iter_mut().zip(value) {
+        *along(p) = v;
+    }
+}
+
+/// Opens the plane between marks that stand too near each other: all that lies beyond moves away, so that no two that
+/// stood apart come nearer.
+fn spread(points: &mut [Point], joined: &BTreeSet<(usize, usize)>) {
+    // Each opening keeps what is apart; a second look finds what moved with one of a crowd.
+    let mut is_settled = false;
+    let mut looks = 0;
+    while !is_settled && looks < MOST_LOOKS {
+        is_settled = true;
+        looks += 1;
+        let pairs = (0..points.len()).flat_map(|i| (i + 1..points.len()).map(move |j| (i, j)));
+        for (i, j) in pairs.collect::<Vec<_>>() {
+            let least = if joined.contains(&(i, j)) { JOINED } else { APART };
+            let off = points[j] - points[i];
+            if off.norm() >= least - 1e-9 {
+                continue;
+            }
+            is_settled = false;
+            let is_level = off.x.abs() >= off.y.abs();
+            let along = |p: &Point| if is_level { p.x } else { p.y };
+            let (one, other) = (along(&points[i]), along(&points[j]));
+            let missing = least - (one - other).abs();
+            // Of two in one place the later one gives way, and all that is beyond with it.
+            let (near, far) = if one > other { (j, i) } else { (i, j) };
+            let from = along(&points[far]);
+            let is_beyond = |n: &usize| *n == far || *n != near && along(&points[*n]) > from + 1e-9;
+            let moved: Vec<usize> = (0..points.len()).filter(is_beyond).collect();
+            for n in moved {
+                if is_level {
+                    points[n].x += missing;
+                } else {
+                    points[n].y += missing;
+                }
             }
         }
     }
-    let bounds = crate::geometry::Bounds::of(points.iter().copied());
-    let extent = (bounds.max.x - bounds.min.x).max(bounds.max.y - bounds.min.y).max(1e-6);
-    let scale = (SPACING / nearest.min(extent)).min(LARGEST / extent);
-    points
-        .iter()
-        .map(|p| {
-            let x = (p.x - bounds.min.x) * scale + MARGIN;
-            let y = (bounds.max.y - p.y) * scale + MARGIN + 26.0;
-            Point::new(x, y)
-        })
-        .collect()
 }
 
-fn arrow(id: &str, colour: &str) -> String {
-    format!(
-        "<marker id=\"{id}\" viewBox=\"0 0 8 8\" refX=\"7\" refY=\"4\" markerWidth=\"8\" markerHeight=\"8\" markerUnits=\"userSpaceOnUse\" orient=\"auto\"><path d=\"M0,0.8 L8,4 L0,7.2 z\" fill=\"{colour}\"/></marker>"
-    )
+/// A name beside its mark.
+struct Name<'d> {
+    text: &'d str,
+    frame: Bounds,
 }
 
-fn draw_arc(svg: &mut String, points: &[Point], arc: &CorridorArc) {
-    let (Some(&a), Some(&b)) = (points.get(arc.from), points.get(arc.to)) else { return };
-    let gap = (b - a).norm();
-    if gap < 1e-6 {
-        return;
-    }
-    let along = (b - a) / gap;
-    // To the right of the way, on a page whose y runs down.
-    let aside = Vector::new(-along.y, along.x) * LANE;
-    let inset = along * (RADIUS * 0.95).min(gap * 0.4);
-    let (p, q) = (a + aside + inset, b + aside - inset);
-    let (colour, width, marker) = match (arc.on_way, arc.faint) {
-        (true, _) => ("#c0392b", 2.6, "w"),
-        (false, false) => ("#5b6770", 1.3, "a"),
-        (false, true) => ("#aab4bb", 1.0, "f"),
-    };
-    let _ = writeln!(
-        svg,
-        "<line x1=\"{:.1}\" y1=\"{:.1}\" x2=\"{:.1}\" y2=\"{:.1}\" stroke=\"{colour}\" stroke-width=\"{width}\" marker-end=\"url(#{marker})\"/>",
-        p.x, p.y, q.x, q.y
-    );
-    let middle = nalgebra::center(&p, &q) + aside * 1.45;
-    let style =
-        format!("font-size=\"10.5\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"{colour}\"");
-    text(svg, middle.x, middle.y, &style, &arc.label);
-}
-
-fn draw_vertex(svg: &mut String, vertex: &CorridorVertex, at: Point) {
-    let (x, y) = (at.x, at.y);
-    let shape = match vertex.mark {
-        CorridorMark::Entrance => format!(
-            "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{RADIUS}\" fill=\"#ffffff\" stroke=\"#2c5f8a\" stroke-width=\"2\"/>"
-        ),
-        CorridorMark::Junction => format!(
-            "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{d}\" height=\"{d}\" rx=\"4\" fill=\"#fff3d6\" stroke=\"#b9770e\" stroke-width=\"2\"/>",
-            x - RADIUS,
-            y - RADIUS,
-            d = 2.0 * RADIUS
-        ),
-    };
-    let _ = writeln!(svg, "{shape}");
-    let style = "font-size=\"13\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"#22303c\"";
-    text(svg, x, y, style, &vertex.label);
-    let towards = vertex.name_towards;
-    let unit = if towards.norm() > 1e-9 { towards.normalize() } else { Vector::new(0.0, -1.0) };
-    let chars = vertex.name.chars().count() as f64;
-    // A name needs more room sideways than up and down.
-    let reach = RADIUS + 15.0 + unit.x.abs() * (chars * 4.0 - 2.0).max(0.0);
-    let style = "font-size=\"13\" font-weight=\"bold\" text-anchor=\"middle\" dy=\"0.35em\" fill=\"#2c5f8a\"";
-    text(svg, x + unit.x * reach, y - unit.y * reach, style, &vertex.name);
-}
-
-fn text(svg: &mut String, x: f64, y: f64, style: &str, content: &str) {
-    if content.is_empty() {
-        return;
-    }
-    let mut safe = String::with_capacity(content.len());
-    for c in content.chars() {
-        match c {
-            '&' => safe.push_str("&amp;"),
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            c if c.is_control() => safe.push(' '),
-            c => safe.push(c),
+/// Names beside their marks, on the side of the room where they find place, else around it, else farther away.
+fn names<'d>(drawing: &'d CorridorDrawing, points: &[Point], codes: &[Code<'_>]) -> Vec<Name<'d>> {
+    let mut taken: Vec<Bounds> =
+        points.iter().map(|at| around(*at, 2.0 * RADIUS + 4.0, 2.0 * RADIUS + 4.0)).collect();
+    taken.extend(codes.iter().map(|code| code.frame));
+    let mut names = Vec::new();
+    for (vertex, at) in drawing.vertices.iter().zip(points) {
+        if vertex.name.is_empty() {
+            continue;
+        }
+        let towards = vertex.name_towards.try_normalize(1e-9).unwrap_or(Vector::new(0.0, -1.0));
+        let (width, height) = (text_width(&vertex.name, LETTER, true) + 4.0, LETTER * 1.25);
+        let aside = Vector::new(-towards.y, towards.x);
+        let ways = [towards, towards + aside, towards - aside, -towards, aside, -aside];
+        let free = (0..40).find_map(|step| {
+            let away = RADIUS + 4.0 + 0.5 * LETTER * f64::from(step);
+            ways.iter().find_map(|way| {
+                let way = way.normalize();
+                let reach = Vector::new(way.x * width, way.y * height) / 2.0;
+                let frame = around(at + way * away + reach, width, height);
+                (!taken.iter().any(|t| t.meets(&frame))).then_some(frame)
+            })
+        });
+        if let Some(frame) = free {
+            taken.push(frame);
+            names.push(Name { text: &vertex.name, frame });
         }
     }
-    let _ = writeln!(svg, "<text x=\"{x:.1}\" y=\"{y:.1}\" {style}>{safe}</text>");
+    names
+}
+
+/// A line with a head at its end.
+fn arrow(canvas: &mut Canvas, (a, b): (Point, Point), color: &'static str, width: f64) {
+    let Some(along) = (b - a).try_normalize(1e-9) else { return };
+    let aside = Vector::new(-along.y, along.x) * 3.2;
+    let neck = b - along * 7.0;
+    canvas.segment(a, neck, Style::line(color, width));
+    canvas.polygon(&Polygon::new(vec![b, neck + aside, neck - aside]), Style::fill(color), None);
+}
+
+/// Where an arc is drawn: to the right of the way from mark to mark.
+fn lane(points: &[Point], arc: &CorridorArc) -> Option<(Point, Point)> {
+    let (&a, &b) = (points.get(arc.from)?, points.get(arc.to)?);
+    let gap = (b - a).norm();
+    if gap < 1e-6 {
+        return None;
+    }
+    let along = (b - a) / gap;
+    let aside = Vector::new(along.y, -along.x) * LANE;
+    let inset = along * (RADIUS * 0.95).min(gap * 0.4);
+    Some((a + aside + inset, b + aside - inset))
+}
+
+/// How an arc is drawn: class, colour and width.
+fn look(arc: &CorridorArc) -> (&'static str, &'static str, f64) {
+    match (arc.on_way, arc.faint) {
+        (true, _) => ("way", WAY, 2.6),
+        (false, false) => ("arc", ARC, 1.3),
+        (false, true) => ("u-turn", FAINT, 1.0),
+    }
+}
+
+/// The label of an arc beside it.
+struct Code<'d> {
+    text: &'d str,
+    frame: Bounds,
+    color: &'static str,
+}
+
+/// Labels on the right of their arcs, as near as there is place.
+fn codes<'d>(drawing: &'d CorridorDrawing, points: &[Point]) -> Vec<Code<'d>> {
+    let mut labels = Labels::new(LETTER);
+    for at in points {
+        labels.take(around(*at, 2.0 * RADIUS, 2.0 * RADIUS));
+    }
+    let mut codes = Vec::new();
+    for arc in drawing.arcs.iter().filter(|arc| !arc.label.is_empty()) {
+        let Some((p, q)) = lane(points, arc) else { continue };
+        let Some(along) = (q - p).try_normalize(1e-9) else { continue };
+        let out = Vector::new(along.y, -along.x);
+        let (long, tall) = (text_width(&arc.label, LETTER, false), LETTER * 1.1);
+        let reach = ((out.x * long).abs() + (out.y * tall).abs()) / 2.0;
+        let spots = (0..12).flat_map(|step| [0.5, 0.35, 0.65, 0.2, 0.8].map(|share| (step, share)));
+        let frame = |(step, share): (i32, f64)| {
+            around(p + (q - p) * share + out * (4.0 + reach + f64::from(step) * 5.0), long, tall)
+        };
+        if let Some(frame) = spots.map(frame).find(|frame| labels.is_open(frame)) {
+            labels.take(frame);
+            codes.push(Code { text: &arc.label, frame, color: look(arc).1 });
+        }
+    }
+    codes
+}
+
+fn draw_arc(canvas: &mut Canvas, points: &[Point], number: usize, arc: &CorridorArc) {
+    let Some(ends) = lane(points, arc) else { return };
+    let (class, color, width) = look(arc);
+    canvas.mark_of(class, format!("arc-{number}"));
+    arrow(canvas, ends, color, width);
+}
+
+fn draw_vertex(canvas: &mut Canvas, vertex: &CorridorVertex, at: Point) {
+    let id = format!("vertex-{}", vertex.label);
+    match vertex.mark {
+        CorridorMark::Entrance => {
+            canvas.mark_of("entrance", id);
+            canvas.circle(at, RADIUS, ENTRANCE);
+        }
+        CorridorMark::Junction => {
+            canvas.mark_of("junction", id);
+            canvas.rectangle(around(at, 2.0 * RADIUS, 2.0 * RADIUS), JUNCTION, 4.0);
+        }
+    }
+    canvas.mark("number");
+    // Three signs and more are set smaller, to stay within the mark.
+    let room = 2.0 * RADIUS - 5.0;
+    let size = LETTER * (room / text_width(&vertex.label, LETTER, false).max(1.0)).min(1.0);
+    canvas.text(at, &vertex.label, Lettering { halo: false, ..Lettering::plain(size, INK) });
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    #[test]
-    fn odd_input_gives_a_drawing_all_the_same() {
-        assert!(corridor_svg(&CorridorDrawing::default()).ends_with("</svg>\n"));
-        let vertex = |x: f64| CorridorVertex {
-            at: Point::new(x, 0.0),
+    fn vertex(x: f64, y: f64, towards: (f64, f64)) -> CorridorVertex {
+        CorridorVertex {
+            at: Point::new(x, y),
             mark: CorridorMark::Entrance,
             label: "<1&".into(),
-            name: "\u{1}".into(),
-            name_towards: Vector::zeros(),
-        };
+            name: "Помещение\u{1}".into(),
+            name_towards: Vector::new(towards.0, towards.1),
+        }
+    }
+
+    #[test]
+    fn odd_input_gives_a_drawing_all_the_same() {
+        assert!(corridor_svg(&CorridorDrawing::default()).ends_with("</svg>"));
         let arc = CorridorArc { from: 0, to: 9, label: String::new(), on_way: false, faint: false };
-        let vertices = vec![vertex(f64::NAN), vertex(0.0), vertex(1e300)];
+        let vertices = vec![
+            vertex(f64::NAN, 0.0, (0.0, 0.0)),
+            vertex(0.0, 0.0, (0.0, 0.0)),
+            vertex(1e300, 0.0, (0.0, 0.0)),
+        ];
         let drawing = CorridorDrawing { vertices, arcs: vec![arc], ..CorridorDrawing::default() };
         let svg = corridor_svg(&drawing);
         assert!(svg.contains("&lt;1&amp;") && !svg.contains("NaN") && !svg.contains('\u{1}'));
+    }
+
+    /// A corridor of 100 m with doors every few decimetres here and every ten metres there, many face to face.
+    #[test]
+    fn no_mark_stands_on_another_and_the_sheet_stays_small() {
+        let stations = [0.0, 0.3, 0.6, 10.0, 10.0, 10.1, 40.0, 40.0, 41.0, 100.0];
+        for turn in [0.0_f64, 0.4, 1.0] {
+            let (sin, cos) = turn.sin_cos();
+            let at = |n: usize, x: f64| {
+                let out = if n % 2 == 0 { 1.0 } else { -1.0 };
+                vertex(x * cos, x * sin, (-sin * out, cos * out))
+            };
+            let vertices: Vec<_> = stations.iter().enumerate().map(|(n, x)| at(n, *x)).collect();
+            let arcs = (1..vertices.len()).flat_map(|n| [(n - 1, n), (n, n - 1)]);
+            let arcs = arcs.map(|(from, to)| CorridorArc {
+                from,
+                to,
+                label: "11".into(),
+                on_way: false,
+                faint: false,
+            });
+            let drawing =
+                CorridorDrawing { arcs: arcs.collect(), vertices, ..CorridorDrawing::default() };
+            let points = placed(&drawing);
+            for (i, p) in points.iter().enumerate() {
+                for q in &points[i + 1..] {
+                    assert!((p - q).norm() >= APART - 1e-6, "{points:?}");
+                }
+            }
+            let size = Bounds::of(points.iter().copied());
+            let longest = (size.max - size.min).amax();
+            assert!(longest < 1400.0, "{longest}");
+        }
     }
 }

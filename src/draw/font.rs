@@ -29,7 +29,8 @@ const CYRILLIC: [u16; 64] = [
 const BOLD_OVER_REGULAR: f64 = 1.115;
 
 /// Width of a line of text, in the unit of `size`. Signs outside the tables count as an average letter.
-pub(super) fn text_width(text: &str, size: f64, bold: bool) -> f64 {
+#[must_use]
+pub fn text_width(text: &str, size: f64, bold: bool) -> f64 {
     let advance = |c: char| {
         let at = |table: &[u16], first: u32| {
             (c as u32).checked_sub(first).and_then(|i| table.get(i as usize).copied())

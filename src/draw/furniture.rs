@@ -321,17 +321,16 @@ pub(super) fn draw<'a>(
         prisms.iter().enumerate().map(|(i, (r, _))| (r.id, i)).collect();
     for (i, (placed, prism)) in prisms.iter().enumerate() {
         let replica = &world.replicas[&placed.id];
-        let style = if placed.bottom >= OVERHEAD {
-            HANGING
-        } else {
-            furniture_style(prism, replica.move_prob > 0)
-        };
+        let kind = Looseness::of(world, placed);
+        let style = kind.style(prism);
+        canvas.mark_of(kind.class(), format!("thing-{}", placed.id.0));
         canvas.polygon(&prism.polygon, style.thick(pen), Some(&replica.name));
         if last[&placed.id] == i {
             let object = &world.objects[&replica.object];
             let shown = sign(world, object).filter(|s| s.always || placed.prisms.len() == 1);
             if let Some(sign) = shown {
                 let square = Square::of(world, object, placed);
+                canvas.mark("sign");
                 for stroke in sign.strokes {
                     square.draw(canvas, stroke, SIGN.thick(pen));
                 }
@@ -344,16 +343,64 @@ const SIGN: Style = Style::line("#8a7a5c", 0.8).faint(0.9);
 pub(super) const HANGING: Style = Style::line("#8a7a5c", 0.9).dashed(5.0, 3.0);
 pub(super) const FIXED: Style = Style::fill("#e0cba6").outlined("#8a7a5c", 0.9);
 pub(super) const MOVABLE: Style = Style::fill("#cfd6c4").outlined("#8a7a5c", 0.9);
+pub(super) const PORTABLE: Style = Style::fill("#c9d8e6").outlined("#8a7a5c", 0.9);
 
-/// Wood for furniture, cooler for what can be moved about; flat boards lighter than solid blocks.
-fn furniture_style(prism: &Prism, movable: bool) -> Style {
-    let fill = match (movable, prism.top - prism.bottom > 5.0) {
-        (false, true) => "#e0cba6",
-        (false, false) => "#efe2c8",
-        (true, true) => "#cfd6c4",
-        (true, false) => "#dfe4d8",
-    };
-    Style::fill(fill).outlined("#8a7a5c", 0.9).faint(0.92)
+/// How a thing stands, by the traits of its type.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Looseness {
+    /// Furniture: neither of the others.
+    Fixed,
+    /// With the trait `movable`.
+    Movable,
+    /// With the trait `portable`.
+    Portable,
+    /// Over people's heads, whatever its traits.
+    Overhead,
+}
+
+impl Looseness {
+    pub(super) const ALL: [Self; 4] = [Self::Fixed, Self::Movable, Self::Portable, Self::Overhead];
+
+    pub(super) fn of(world: &World, placed: &PlacedReplica) -> Self {
+        match () {
+            () if placed.bottom >= OVERHEAD => Self::Overhead,
+            () if world.has_trait(placed.id, "movable") => Self::Movable,
+            () if world.has_trait(placed.id, "portable") => Self::Portable,
+            () => Self::Fixed,
+        }
+    }
+
+    pub(super) fn class(self) -> &'static str {
+        match self {
+            Self::Fixed => "thing",
+            Self::Movable => "thing movable",
+            Self::Portable => "thing portable",
+            Self::Overhead => "thing overhead",
+        }
+    }
+
+    pub(super) fn key(self) -> (Style, &'static str) {
+        match self {
+            Self::Fixed => (FIXED, "key thing"),
+            Self::Movable => (MOVABLE, "key thing movable"),
+            Self::Portable => (PORTABLE, "key thing portable"),
+            Self::Overhead => (HANGING, "key thing overhead"),
+        }
+    }
+
+    /// Wood for furniture, cooler for what is loose; flat boards lighter than solid blocks.
+    fn style(self, prism: &Prism) -> Style {
+        let fill = match (self, prism.top - prism.bottom > 5.0) {
+            (Self::Overhead, _) => return HANGING,
+            (Self::Fixed, true) => "#e0cba6",
+            (Self::Fixed, false) => "#efe2c8",
+            (Self::Movable, true) => "#cfd6c4",
+            (Self::Movable, false) => "#dfe4d8",
+            (Self::Portable, true) => "#c9d8e6",
+            (Self::Portable, false) => "#dde7f0",
+        };
+        Style::fill(fill).outlined("#8a7a5c", 0.9).faint(0.92)
+    }
 }
 
 #[cfg(test)]

@@ -136,6 +136,11 @@ impl Labels {
         }
     }
 
+    /// Whether nothing stands there.
+    pub(super) fn is_open(&self, frame: &Bounds) -> bool {
+        self.is_free(frame)
+    }
+
     fn is_free(&self, frame: &Bounds) -> bool {
         let on_sheet = self.sheet.is_none_or(|s| s.contains(frame.min) && s.contains(frame.max));
         on_sheet
@@ -173,7 +178,7 @@ impl Labels {
     }
 
     /// The name of a room within its outline, clear of furniture as far as may be; smaller, in two lines or upright
-    /// where it would not fit otherwise. A second line, such as the room's area, stands below it where there is space.
+    /// where it would not fit otherwise. A second line, such as the room's area, stands below it. Says whether it found place.
     pub(super) fn in_room(
         &mut self,
         canvas: &mut Canvas,
@@ -182,7 +187,7 @@ impl Labels {
         text: &str,
         below: &str,
         style: Lettering,
-    ) {
+    ) -> bool {
         let bounds = room.bounds();
         let spots = spots(room, bounds);
         // The second line is smaller, as long as it can be read.
@@ -217,9 +222,10 @@ impl Labels {
                 }
             }
         }
-        let Some((_, placed)) = best else { return };
+        let Some((_, placed)) = best else { return false };
         if below.is_empty() {
-            return self.put(canvas, text, &placed);
+            self.put(canvas, text, &placed);
+            return true;
         }
         let size = placed.lettering.size;
         let down = if placed.lettering.turn > 0.0 { Vector::x() } else { -Vector::y() };
@@ -227,6 +233,7 @@ impl Labels {
         let small = Lettering { size: second(size), bold: false, ..name.lettering };
         canvas.text(name.at + down * (size * 0.5 + second(size) * 0.75), below, small);
         self.put(canvas, text, &name);
+        true
     }
 
     /// The name of a thing: on it where it fits, rather beside what stands upon it than over that; else near it on the

@@ -19,7 +19,10 @@ mod plan;
 mod rooms;
 mod view;
 
-pub use corridor::{CorridorArc, CorridorDrawing, CorridorMark, CorridorVertex, corridor_svg};
+pub use corridor::{
+    CorridorArc, CorridorDrawing, CorridorMark, CorridorSign, CorridorVertex, corridor_svg,
+};
+pub use font::text_width;
 pub use object::object_svg;
 #[cfg(feature = "pictures")]
 pub use picture::{PngError, png};

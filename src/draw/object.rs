@@ -173,12 +173,14 @@ pub fn object_svg(world: &World, object: &Object, language: Language) -> String 
     let mut canvas = Canvas::new(sheet).wide((sheet.max.x - sheet.min.x) / pen);
     let left = Point::new(sheet.min.x + 30.0 * pen, sheet.max.y - 34.0 * pen);
     let start = |style: Lettering| Lettering { anchor: Anchor::Start, halo: false, ..style };
+    canvas.mark("heading");
     canvas.text(left, title, start(Lettering::bold(heading, INK)));
     let note = language.pick("Размеры в сантиметрах", "Dimensions in centimetres");
     canvas.text(left - Vector::new(0.0, 24.0 * pen), note, start(Lettering::plain(letter, HIDDEN)));
     for ((view, mut silhouettes), offset) in views.into_iter().zip(shown).zip(offsets) {
         let extent = extents[view as usize];
         draw_view(&mut canvas, view, &mut silhouettes, offset, pen);
+        canvas.mark("caption");
         let above = Point::new(extent.min.x, extent.max.y) + offset + Vector::new(0.0, 16.0 * pen);
         canvas.text(above, view.title(language), start(Lettering::plain(letter, HIDDEN)));
     }
@@ -270,11 +272,13 @@ fn draw_view(
     let line = 1.5 * pen;
     for s in silhouettes.iter() {
         let fill = if is_open(s) { "#f3ead8" } else { "#e6d3b1" };
+        canvas.mark_of("part", format!("part-{}", s.body.id));
         canvas.polygon(
             &placed(&s.outline),
             Style::fill(fill).outlined(OUTLINE, line),
             Some(&s.body.id),
         );
+        canvas.mark("edge");
         for &(a, b) in &s.inner {
             canvas.segment(a + offset, b + offset, Style::line(OUTLINE, line * 0.7));
         }
@@ -282,6 +286,7 @@ fn draw_view(
             leaves(canvas, s, offset, pen);
         }
     }
+    canvas.mark("edge");
     for s in silhouettes.iter().filter(|s| is_open(s)) {
         canvas.polygon(&placed(&s.outline), Style::line(OUTLINE, line * 1.3), None);
     }
@@ -304,6 +309,7 @@ fn draw_view(
             nearer.iter().any(|s| s.outline.edges().any(|e| on(*a, e) && on(*b, e)))
         };
         if !nearer.is_empty() {
+            canvas.mark("hidden");
             let dashes = Style::line(HIDDEN, line * 0.6).dashed(5.0 * pen, 3.5 * pen);
             for (a, b) in hidden.outline.edges().filter(|edge| !is_seen(edge)) {
                 canvas.segment(a + offset, b + offset, dashes);
@@ -311,21 +317,46 @@ fn draw_view(
         }
     }
     let mut labels = Labels::new(11.0 * pen).spaced(4.0 * pen);
-    for s in silhouettes.iter() {
-        let bounds = s.outline.bounds();
+    canvas.mark("letter");
+    for (letters, bounds) in lettered(silhouettes) {
         let frame = Bounds { min: bounds.min + offset, max: bounds.max + offset };
         labels.on_thing(
             canvas,
             &Ground { bounds: frame, upon: &[], slant: None },
-            &s.body.id,
+            &letters,
             Lettering::bold(11.0 * pen, "#7a5c2e"),
             None,
         );
     }
 }
 
+/// The letters of the parts with what each stands on. Parts of which one covers the other from this side share one
+/// label, the nearest first: «C, B, A», for letters side by side would be those of parts side by side.
+fn lettered(silhouettes: &[Silhouette<'_>]) -> Vec<(String, Bounds)> {
+    /// Outlines that differ less look like one, cm.
+    const SAME: f64 = 0.5;
+    let mut groups: Vec<(Vec<&Silhouette<'_>>, Bounds)> = Vec::new();
+    for s in silhouettes {
+        let bounds = s.outline.bounds();
+        let is_same = |other: &Bounds| {
+            (bounds.min - other.min).amax() < SAME && (bounds.max - other.max).amax() < SAME
+        };
+        match groups.iter_mut().find(|(_, other)| is_same(other)) {
+            Some((group, _)) => group.push(s),
+            None => groups.push((vec![s], bounds)),
+        }
+    }
+    let letters = |(mut group, bounds): (Vec<&Silhouette<'_>>, Bounds)| {
+        group.sort_by(|a, b| a.near.total_cmp(&b.near).then(a.body.id.cmp(&b.body.id)));
+        let ids: Vec<&str> = group.iter().map(|s| s.body.id.as_str()).collect();
+        (ids.join(", "), bounds)
+    };
+    groups.into_iter().map(letters).collect()
+}
+
 /// The leaves of a furniture door, with the dashes that run to the hinges.
 fn leaves(canvas: &mut Canvas, s: &Silhouette<'_>, offset: Vector, pen: f64) {
+    canvas.mark("leaf");
     let bounds = s.outline.bounds();
     let (low, high) = (bounds.min + offset, bounds.max + offset);
     for (_, leaves) in &s.body.doors {
@@ -419,6 +450,7 @@ impl Ruler {
         turn: f64,
     ) {
         let pen = self.pen;
+        canvas.mark("dimension");
         let thin = Style::line(DIMENSION, 0.8 * pen);
         let size = 11.0 * pen;
         let beyond = |mark: f64| {

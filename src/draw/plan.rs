@@ -7,13 +7,15 @@ use crate::geometry::{
     Bounds, FloorPlan, PlacedArea, PlacedReplica, Polygon, Prism, Region, Scene,
 };
 use crate::map::{DoorStatus, Permeability, RobotProfile, World};
-use crate::units::{AreaId, Language, Point, Pose, ReplicaId, Vector};
+use crate::units::{AreaId, DoorId, Language, PlaceId, Point, Pose, ReplicaId, Vector};
 
 use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
 use super::furniture;
 use super::labels::{Ground, Labels, Slant, around};
-use super::legend::{Entry, Legend, List, scale_bar, scale_bar_width};
+use super::legend::{
+    Entry, Legend, List, Sample, arrow_head, diamond, goal, scale_bar, scale_bar_width,
+};
 use super::rooms;
 
 /// Free floor and its partition, as the drawing needs them.
@@ -82,6 +84,8 @@ pub struct RouteLayer {
     /// The directives by number, listed beside the plan.
     pub directives: Vec<(usize, String)>,
     pub start: Option<Pose>,
+    /// Whether the way ends on this sheet.
+    pub has_goal: bool,
 }
 
 /// A door leaf where it stands, and the way of its tip from shut to open, on to the hinge.
@@ -90,6 +94,7 @@ pub struct DoorGlyph {
     pub leaf: Polygon,
     pub arc: Vec<Point>,
     pub status: DoorStatus,
+    pub door: DoorId,
 }
 
 /// What is seen from a pose: the stretches of faces that are in view, within the angle of view.
@@ -114,8 +119,21 @@ pub struct PlanDrawing<'a> {
     pub route: RouteLayer,
     pub view: ViewLayer,
     /// Points with a name: «Точка-А».
-    pub places: Vec<(Point, String)>,
+    pub places: Vec<(PlaceId, Point, String)>,
     pub language: Language,
+}
+
+/// Where what stands below a plan begins, and how large the sheet is.
+struct Layout {
+    /// Of the rooms.
+    extent: Bounds,
+    /// Of the rooms and the leaves that swing out of them.
+    whole: Bounds,
+    /// Where names may stand.
+    names: Bounds,
+    sheet: Bounds,
+    legend: Legend,
+    list: List,
 }
 
 const LEAF: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.2);
@@ -124,12 +142,20 @@ const SWING: Style = Style::line("#8c887d", 0.9).dashed(3.0, 3.0);
 const PASSFRAME: Style = Style::fill("#e4f1e3").outlined("#69a869", 0.9);
 const DEAD_ZONE: Style = Style::fill("#e8a39b").faint(0.75);
 const NETWORK: Style = Style::line("#7a4fa3", 1.3);
+const THROUGH: Style = Style::line(DOORWAY, 1.6);
 const VERTEX: Style = Style::fill("#7a4fa3");
+const START: Style = Style::fill("#ffffff").outlined("#1f5fbf", 2.6);
 const ROUTE: Style = Style::line("#1f5fbf", 4.0);
+const BADGE: Style = Style::fill("#1f5fbf").outlined("#ffffff", 1.6);
 const SIGHT: Style = Style::fill("#ffd766").faint(0.35);
 const SEEN: Style = Style::line("#e07b00", 3.4);
 /// From this pen on a sheet shows a large building: some twenty metres.
 const LARGE: f64 = 1.5;
+/// The smallest letter of a sheet, as a share of its longer side: 7 pixels of 1600, 2 mm on a sheet of A3.
+const READABLE: f64 = 0.0045;
+/// That letter, in pens: the name of a thing where it is set smallest.
+const SMALLEST_LETTER: f64 = 8.0;
+const HEADING: f64 = 18.0;
 const INK: &str = "#2b2a27";
 const PLACE: &str = "#b3261e";
 const DOORWAY: &str = "#b3261e";
@@ -147,55 +173,79 @@ impl PlanDrawing<'_> {
     }
 
     /// The drawing as SVG text.
+    ///
+    /// Letters and lines grow with the building, but slower, so that a hospital's rooms keep their names, and never so
+    /// slowly that the smallest letter is less than [`READABLE`] of the sheet.
     #[must_use]
     pub fn to_svg(&self) -> String {
+        /// How often the pen is made broader; each time the sheet grows by less.
+        const MOST: usize = 6;
         let rooms = self.areas().flat_map(|a| &a.prisms);
         let mut extent = rooms.fold(Bounds::EMPTY, |b, prism| b.union(&prism.bounds));
         if extent.min.x > extent.max.x {
             extent = Bounds::of([Point::origin()]).grown(100.0);
         }
-        let longest = (extent.max.x - extent.min.x).max(extent.max.y - extent.min.y);
-        // Letters and lines grow with the building, but slower, so that a hospital's rooms keep their names.
-        let pen = (longest / 1000.0).max(0.35).sqrt();
+        let mut pen = ((extent.max - extent.min).amax() / 1000.0).max(0.35).sqrt();
+        let mut layout = self.layout(extent, pen);
+        for _ in 0..MOST {
+            let needed = (layout.sheet.max - layout.sheet.min).amax() * READABLE / SMALLEST_LETTER;
+            if pen >= needed {
+                break;
+            }
+            pen = needed * 1.02;
+            layout = self.layout(extent, pen);
+        }
+        self.sheet(&layout, pen)
+    }
+
+    /// Where everything stands with letters and lines of this size.
+    fn layout(&self, extent: Bounds, pen: f64) -> Layout {
         // A leaf that swings out of the rooms is shown whole, and what stands below the plan keeps clear of it.
-        let doors: Vec<&DoorGlyph> =
-            self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())).collect();
-        let leaves = doors.iter().flat_map(|d| d.leaf.corners.iter().chain(&d.arc));
+        let shown = self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds()));
+        let leaves = shown.flat_map(|d| d.leaf.corners.iter().chain(&d.arc));
         let whole = extent.union(&Bounds::of(leaves.copied()));
-        let legend = self.legend(whole, pen);
+        let legend = self.legend(extent, whole, pen);
         // Names are placed before the sheet's size is known, which hangs on how many are listed below the plan.
         let names = whole.grown(30.0 * pen);
         let numbered = self.labels(&mut Canvas::new(whole), names, pen);
         let mut sheet = whole.grown(34.0 * pen);
-        sheet.max.x = sheet.max.x.max(sheet.min.x + 640.0 * pen).max(legend.right() + 20.0 * pen);
+        let heading = self.heading().map_or(0.0, |text| text_width(text, HEADING, true) + 60.0);
+        sheet.max.x = sheet.max.x.max(sheet.min.x + heading.max(640.0) * pen);
+        sheet.max.x = sheet.max.x.max(legend.right() + 20.0 * pen);
         let list = Point::new(whole.min.x, whole.min.y - legend.height() - 24.0 * pen);
         let list = List::new(numbered, list, sheet.max.x - 20.0 * pen - whole.min.x, pen);
+        sheet.max.x = sheet.max.x.max(list.right() + 20.0 * pen);
         sheet.min.y -= legend.height() + list.height() + 22.0 * pen;
-        let heading = self.heading();
-        if heading.is_some() {
+        if self.heading().is_some() {
             sheet.max.y += 30.0 * pen;
         }
+        Layout { whole, names, sheet, legend, list, extent }
+    }
+
+    fn sheet(&self, layout: &Layout, pen: f64) -> String {
+        let Layout { whole, names, sheet, legend, list, extent } = layout;
         let width = sheet.max.x - sheet.min.x;
-        let mut canvas = Canvas::new(sheet).wide((width / pen).clamp(760.0, 4000.0));
+        let mut canvas = Canvas::new(*sheet).wide((width / pen).clamp(760.0, 4000.0));
         for area in self.areas() {
             rooms::floor(&mut canvas, self.world, area, pen);
         }
         self.floor(&mut canvas, pen);
         furniture::draw(&mut canvas, self.world, self.things(), pen);
         rooms::walls(&mut canvas, self.world, self.areas(), pen);
-        for door in doors {
+        for door in self.doors.iter().filter(|d| extent.meets(&d.leaf.bounds())) {
             draw_door(&mut canvas, door, pen);
         }
         self.network(&mut canvas, pen);
         self.view(&mut canvas, pen);
         self.route(&mut canvas, pen);
-        self.labels(&mut canvas, names, pen);
-        if let Some(heading) = heading {
+        self.labels(&mut canvas, *names, pen);
+        if let Some(heading) = self.heading() {
             let lettering = Lettering {
                 anchor: Anchor::Start,
                 halo: false,
-                ..Lettering::bold(18.0 * pen, INK)
+                ..Lettering::bold(HEADING * pen, INK)
             };
+            canvas.mark("heading");
             canvas.text(Point::new(whole.min.x, whole.max.y + 44.0 * pen), heading, lettering);
         }
         let below = Point::new(whole.min.x, whole.min.y - 42.0 * pen);
@@ -225,25 +275,30 @@ impl PlanDrawing<'_> {
     }
 
     fn floor(&self, canvas: &mut Canvas, pen: f64) {
+        canvas.mark("passframe");
         for (cell, id) in &self.floor.passframes {
+            let number = id.split(' ').next().unwrap_or_default();
+            canvas.mark_of("passframe", format!("passframe-{number}"));
             canvas.polygon(cell, PASSFRAME.thick(pen), Some(id));
         }
+        canvas.mark("dead-zone");
         for zone in &self.floor.dead_zones {
             canvas.polygons(zone.contours().map(|c| c.corners.as_slice()), DEAD_ZONE, None);
         }
     }
 
     fn network(&self, canvas: &mut Canvas, pen: f64) {
+        canvas.mark("network");
         for edge in &self.network.edges {
             canvas.polyline(edge, NETWORK.thick(pen));
         }
         for [from, at, to] in &self.network.doors {
-            canvas.polyline(&[*from, *at, *to], Style::line(DOORWAY, 1.6).thick(pen));
-            let r = 4.5 * pen;
-            let corners =
-                [(r, 0.0), (0.0, r), (-r, 0.0), (0.0, -r)].map(|(x, y)| at + Vector::new(x, y));
-            canvas.polygon(&Polygon::new(corners.into()), Style::fill(DOORWAY), None);
+            canvas.mark("doorway-edge");
+            canvas.polyline(&[*from, *at, *to], THROUGH.thick(pen));
+            canvas.mark("doorway");
+            canvas.polygon(&diamond(*at, 4.5 * pen), Style::fill(DOORWAY), None);
         }
+        canvas.mark("vertex");
         for vertex in &self.network.vertices {
             canvas.circle(*vertex, 3.2 * pen, VERTEX);
         }
@@ -254,8 +309,10 @@ impl PlanDrawing<'_> {
         if self.view.fan.len() >= 2 {
             let mut outline = vec![eye.at];
             outline.extend(&self.view.fan);
+            canvas.mark("sight");
             canvas.polygon(&Polygon::new(outline), SIGHT, None);
         }
+        canvas.mark("seen");
         for &(a, b) in &self.view.seen {
             canvas.segment(a, b, SEEN.thick(pen));
         }
@@ -264,17 +321,31 @@ impl PlanDrawing<'_> {
 
     fn route(&self, canvas: &mut Canvas, pen: f64) {
         // What is done without driving is a leg of one point.
-        for (_, leg) in self.route.legs.iter().filter(|(_, leg)| leg.len() > 1) {
+        for (number, leg) in self.route.legs.iter().filter(|(_, leg)| leg.len() > 1) {
+            canvas.mark_of("route", format!("leg-{number}"));
             canvas.polyline(leg, ROUTE.thick(pen));
+            for head in arrows(leg, pen) {
+                canvas.polygon(&head, Style::fill("#1f5fbf"), None);
+            }
+        }
+        if let Some(end) = self.goal() {
+            canvas.mark("goal");
+            goal(canvas, end, pen);
         }
         match (self.route.start, self.route.legs.first().and_then(|(_, leg)| leg.first())) {
             (Some(pose), _) => robot(canvas, pose, &self.world.robot, pen),
             (None, Some(&first)) => {
-                let ring = Style::fill("#ffffff").outlined("#1f5fbf", 2.6).thick(pen);
-                canvas.circle(first, 5.5 * pen, ring);
+                canvas.mark("start");
+                canvas.circle(first, 5.5 * pen, START.thick(pen));
             }
             (None, None) => {}
         }
+    }
+
+    /// Where the way ends.
+    fn goal(&self) -> Option<Point> {
+        let end = || self.route.legs.iter().rev().find_map(|(_, leg)| leg.last()).copied();
+        end().filter(|_| self.route.has_goal)
     }
 
     /// Numbers of the directives at the ends of their legs; those that end near one point share a badge.
@@ -288,16 +359,20 @@ impl PlanDrawing<'_> {
             }
         }
         let size = 11.0 * pen;
+        canvas.mark("badge");
+        // A way of one leg needs no number, and its goal stays in sight.
+        if self.route.directives.is_empty() {
+            return;
+        }
         for (at, numbers) in badges {
             let numbers: Vec<String> = numbers.iter().map(usize::to_string).collect();
             let text = numbers.join(" · ");
-            let frame = around(
-                at,
-                (text_width(&text, size, true) + 10.0 * pen).max(18.0 * pen),
-                18.0 * pen,
-            );
-            let style = Style::fill("#1f5fbf").outlined("#ffffff", 1.6).thick(pen);
-            canvas.rectangle(frame, style, 9.0 * pen);
+            // At the goal the badge stands above its sign.
+            let lifted = self.goal().is_some_and(|end| (end - at).norm() < 20.0 * pen);
+            let at = if lifted { at + Vector::new(0.0, 20.0 * pen) } else { at };
+            let wide = (text_width(&text, size, true) + 10.0 * pen).max(18.0 * pen);
+            let frame = around(at, wide, 18.0 * pen);
+            canvas.rectangle(frame, BADGE.thick(pen), 9.0 * pen);
             canvas.text(at, &text, Lettering { halo: false, ..Lettering::bold(size, "#ffffff") });
             labels.take(frame);
         }
@@ -320,7 +395,8 @@ impl PlanDrawing<'_> {
         for door in &self.doors {
             labels.take(door.leaf.bounds());
         }
-        for (p, _) in &self.places {
+        for (id, p, _) in &self.places {
+            canvas.mark_of("place", format!("place-{}", id.0));
             canvas.circle(*p, 3.2 * pen, Style::fill(PLACE));
             labels.take(around(*p, 7.0 * pen, 7.0 * pen));
         }
@@ -329,9 +405,14 @@ impl PlanDrawing<'_> {
             let wide = 2.0 * robot_reach(&self.world.robot, pen);
             labels.take(around(pose.at, wide, wide));
         }
-        for (p, name) in &self.places {
+        if let Some(end) = self.goal() {
+            labels.take(around(end, 20.0 * pen, 20.0 * pen));
+        }
+        canvas.mark("name");
+        for (_, p, name) in &self.places {
             labels.beside(canvas, *p, name, Lettering::bold(12.0 * pen, PLACE));
         }
+        let mut small_rooms = Vec::new();
         for placed in self.areas() {
             let area_of = |prism: &Prism| prism.polygon.signed_area();
             let Some(prism) = placed.prisms.iter().max_by(|a, b| area_of(a).total_cmp(&area_of(b)))
@@ -343,14 +424,21 @@ impl PlanDrawing<'_> {
             let area = &self.world.areas[&placed.id];
             let name = self.named(&area.name, &area.name_en);
             let size = self.square_metres(placed.prisms.iter().map(area_of).sum());
-            labels.in_room(
-                canvas,
-                &prism.polygon,
-                &furniture,
-                name,
-                &size,
-                Lettering::bold(20.0 * pen, INK),
-            );
+            let style = Lettering::bold(20.0 * pen, INK);
+            // Without its size rather than without its name; a closet in a large building bears a number.
+            let is_named = labels.in_room(canvas, &prism.polygon, &furniture, name, &size, style)
+                || labels.in_room(canvas, &prism.polygon, &furniture, name, "", style);
+            if !is_named {
+                small_rooms.push((prism, name));
+            }
+        }
+        let mut numbered = Vec::new();
+        for (prism, name) in small_rooms {
+            let number = (numbered.len() + 1).to_string();
+            let style = Lettering::bold(20.0 * pen, INK);
+            if labels.in_room(canvas, &prism.polygon, &[], &number, "", style) {
+                numbered.push(name.to_owned());
+            }
         }
         let crowded = if pen < LARGE { self.crowded() } else { BTreeSet::new() };
         let mut things: Vec<_> = self.things().collect();
@@ -376,7 +464,7 @@ impl PlanDrawing<'_> {
             }
         }
         if !self.route.legs.is_empty() {
-            return Vec::new();
+            return numbered;
         }
         let row = |b: &Bounds| (-b.max.y / (40.0 * pen)).floor();
         nameless.sort_by(|(a, ..), (b, ..)| {
@@ -384,7 +472,6 @@ impl PlanDrawing<'_> {
             let right = a.bounds.min.x.total_cmp(&b.bounds.min.x);
             a.area.cmp(&b.area).then(down).then(right).then(a.id.cmp(&b.id))
         });
-        let mut numbered = Vec::new();
         for (thing, upon, name) in nameless {
             let number = (numbered.len() + 1).to_string();
             let ground = Ground { bounds: thing.bounds, upon: &upon, slant: None };
@@ -430,50 +517,71 @@ impl PlanDrawing<'_> {
         self.language.pick(format!("{} м²", metres.replace('.', ",")), format!("{metres} m²"))
     }
 
-    fn legend(&self, above: Bounds, pen: f64) -> Legend {
+    fn legend(&self, rooms: Bounds, above: Bounds, pen: f64) -> Legend {
         let mut entries = Vec::new();
-        let said = |russian: &str, english: &str| self.language.pick(russian, english).to_owned();
-        if !self.places.is_empty() {
-            entries.push(Entry::Dot(Style::fill(PLACE), said("место", "place")));
-        }
-        if !self.network.vertices.is_empty() {
-            entries.push(Entry::Dot(VERTEX, said("сеть Пассфреймов", "Passframe network")));
-        }
-        if !self.network.doors.is_empty() {
-            entries.push(Entry::Dot(Style::fill(DOORWAY), said("проём", "doorway")));
-        }
-        if self.route.start.is_some() || self.view.eye.is_some() {
-            entries.push(Entry::Dot(ROBOT, said("робот", "robot")));
-        }
-        let mut entry = |style: Style, russian: &str, english: &str| {
-            entries.push(Entry::Swatch(style, said(russian, english)));
+        let mut entry = |is_shown: bool, sample: Sample, class: &'static str, words: [&str; 2]| {
+            if is_shown {
+                let text = self.language.pick(words[0], words[1]).to_owned();
+                entries.push(Entry::Sign(sample, class, text));
+            }
         };
-        let movable = |r: &PlacedReplica| self.world.replicas[&r.id].move_prob > 0;
-        let overhead = |r: &PlacedReplica| r.bottom >= furniture::OVERHEAD;
-        if self.things().any(|r| !movable(r) && !overhead(r)) {
-            entry(furniture::FIXED, "мебель", "furniture");
+        let dot = |style| Sample::Dot(style);
+        let (network, route) = (&self.network, &self.route);
+        entry(!self.places.is_empty(), dot(Style::fill(PLACE)), "key place", ["место", "place"]);
+        let vertex = ["вершина сети Пассфреймов", "vertex of the Passframe network"];
+        entry(!network.vertices.is_empty(), dot(VERTEX), "key vertex", vertex);
+        let edge = ["переход между Пассфреймами", "crossing between Passframes"];
+        entry(!network.edges.is_empty(), Sample::Stroke(NETWORK), "key network", edge);
+        let through = ["переход через проём", "crossing through a doorway"];
+        let has_doors = !network.doors.is_empty();
+        entry(has_doors, Sample::Stroke(THROUGH), "key doorway-edge", through);
+        let diamond = Sample::Diamond(Style::fill(DOORWAY));
+        entry(has_doors, diamond, "key doorway", ["проём", "doorway"]);
+        let has_robot = route.start.is_some() || self.view.eye.is_some();
+        entry(has_robot, dot(ROBOT), "key robot", ["робот", "robot"]);
+        let has_way = route.legs.iter().any(|(_, leg)| leg.len() > 1);
+        entry(has_way, Sample::Arrow(ROUTE), "key route", ["маршрут", "route"]);
+        let has_start = !route.legs.is_empty() && route.start.is_none();
+        entry(has_start, dot(START), "key start", ["начало", "start"]);
+        entry(self.goal().is_some(), Sample::Goal, "key goal", ["цель", "goal"]);
+        let has_badges = !route.directives.is_empty() && !route.legs.is_empty();
+        entry(has_badges, dot(BADGE), "key badge", ["номер директивы", "number of a directive"]);
+        for kind in furniture::Looseness::ALL {
+            let (style, class) = kind.key();
+            let words = match kind {
+                furniture::Looseness::Fixed => ["мебель", "furniture"],
+                furniture::Looseness::Movable => ["подвижное", "movable"],
+                furniture::Looseness::Portable => ["переносное", "portable"],
+                furniture::Looseness::Overhead => ["под потолком", "overhead"],
+            };
+            let is_shown = self.things().any(|r| furniture::Looseness::of(self.world, r) == kind);
+            entry(is_shown, Sample::Fill(style), class, words);
         }
-        if self.things().any(|r| movable(r) && !overhead(r)) {
-            entry(furniture::MOVABLE, "подвижное", "movable");
+        let has_cells = !self.floor.passframes.is_empty();
+        entry(has_cells, Sample::Fill(PASSFRAME), "key passframe", ["Пассфреймы", "Passframes"]);
+        let has_dead = !self.floor.dead_zones.is_empty();
+        let dead = ["мёртвые зоны", "dead zones"];
+        entry(has_dead, Sample::Fill(DEAD_ZONE), "key dead-zone", dead);
+        let has_eye = self.view.eye.is_some();
+        let has_fan = has_eye && self.view.fan.len() >= 2;
+        entry(has_fan, Sample::Fill(SIGHT), "key sight", ["обозреваемый пол", "floor in view"]);
+        let has_seen = has_eye && !self.view.seen.is_empty();
+        entry(has_seen, Sample::Stroke(SEEN), "key seen", ["видимые грани", "faces in view"]);
+        let marks = rooms::marks(self.world, self.areas());
+        for (class, sample, words) in marks {
+            entry(true, sample, class, words);
         }
-        if self.things().any(overhead) {
-            entry(furniture::HANGING, "под потолком", "overhead");
-        }
-        if !self.floor.passframes.is_empty() {
-            entry(PASSFRAME, "Пассфреймы", "Passframes");
-        }
-        if !self.floor.dead_zones.is_empty() {
-            entry(DEAD_ZONE, "мёртвые зоны", "dead zones");
-        }
-        if !self.route.legs.is_empty() {
-            entry(Style::fill("#1f5fbf"), "маршрут", "route");
-        }
-        if self.view.eye.is_some() {
-            entry(SIGHT.outlined("#e07b00", 1.0), "видно", "in view");
-        }
-        if self.doors.iter().any(|d| d.status == DoorStatus::Locked) {
-            entry(LOCKED, "заперто", "locked");
-        }
+        let is_shown = |d: &&DoorGlyph| rooms.meets(&d.leaf.bounds());
+        let doors = || self.doors.iter().filter(is_shown);
+        let status = |locked: bool| doors().any(|d| (d.status == DoorStatus::Locked) == locked);
+        entry(status(false), Sample::Fill(LEAF), "key door", ["дверь", "door"]);
+        entry(
+            doors().any(|d| !d.arc.is_empty()),
+            Sample::Stroke(SWING),
+            "key swing",
+            ["ход створки", "way of a leaf"],
+        );
+        entry(status(true), Sample::Fill(LOCKED), "key door locked", ["заперто", "locked"]);
         for (number, directive) in &self.route.directives {
             entries.push(Entry::Line(format!("{number}. {directive}")));
         }
@@ -486,11 +594,42 @@ impl PlanDrawing<'_> {
     }
 }
 
+/// Heads of arrows along a way: on every stretch that is long enough for one, and about as far apart as it is long.
+fn arrows(way: &[Point], pen: f64) -> Vec<Polygon> {
+    let mut heads = Vec::new();
+    let mut since = 40.0 * pen;
+    for pair in way.windows(2) {
+        let length = (pair[1] - pair[0]).norm();
+        let mut at = (90.0 * pen - since).max(14.0 * pen);
+        while at < length - 14.0 * pen {
+            heads.push(arrow_head((pair[0], pair[1]), at / length, pen));
+            since = -at;
+            at += 90.0 * pen;
+        }
+        since += length;
+    }
+    // A short way has its direction all the same.
+    if heads.is_empty()
+        && let Some((a, b)) = way
+            .windows(2)
+            .map(|p| (p[0], p[1]))
+            .max_by(|a, b| (a.1 - a.0).norm().total_cmp(&(b.1 - b.0).norm()))
+    {
+        heads.push(arrow_head((a, b), 0.5, pen));
+    }
+    heads
+}
+
 fn draw_door(canvas: &mut Canvas, door: &DoorGlyph, pen: f64) {
     if !door.arc.is_empty() {
+        canvas.mark("swing");
         canvas.polyline(&door.arc, SWING.thick(pen));
     }
-    let style = if door.status == DoorStatus::Locked { LOCKED } else { LEAF };
+    let (style, class) = match door.status {
+        DoorStatus::Locked => (LOCKED, "door locked"),
+        DoorStatus::Open | DoorStatus::Closed => (LEAF, "door"),
+    };
+    canvas.mark_of(class, format!("door-{}", door.door.0));
     canvas.polygon(&door.leaf, style.thick(pen), None);
 }
 
@@ -501,6 +640,7 @@ fn robot_reach(profile: &RobotProfile, pen: f64) -> f64 {
 }
 
 fn robot(canvas: &mut Canvas, pose: Pose, profile: &RobotProfile, pen: f64) {
+    canvas.mark("robot");
     let (sin, cos) = pose.heading.sin_cos();
     let at = |p: Point| pose.at + Vector::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos);
     let style = ROBOT.thick(pen);

@@ -7,13 +7,14 @@ use crate::map::{Permeability, World};
 use crate::units::{Point, Vector};
 
 use super::canvas::{Canvas, Style};
+use super::legend::Sample;
 
-const ROOM: Style = Style::fill("#faf7f0");
-const WALL: Style = Style::line("#3b3a36", 7.0);
-const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed(6.0, 5.0);
-const GLASS: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.0);
-const PANE: Style = Style::line("#5aa0c8", 1.2);
-const STAIRS: Style = Style::line("#b9b2a2", 1.2);
+pub(super) const ROOM: Style = Style::fill("#faf7f0");
+pub(super) const WALL: Style = Style::line("#3b3a36", 7.0);
+pub(super) const PASSAGE: Style = Style::line("#a9a498", 1.2).dashed(6.0, 5.0);
+pub(super) const GLASS: Style = Style::fill("#ffffff").outlined("#3b3a36", 1.0);
+pub(super) const PANE: Style = Style::line("#5aa0c8", 1.2);
+pub(super) const STAIRS: Style = Style::line("#b9b2a2", 1.2);
 /// Depth of a step as it is drawn, cm.
 const TREAD: f64 = 28.0;
 
@@ -21,20 +22,60 @@ const TREAD: f64 = 28.0;
 pub(super) fn floor(canvas: &mut Canvas, world: &World, area: &PlacedArea, pen: f64) {
     let kind = world.types.area.get(world.areas[&area.id].area_type);
     let is = |words: &[&str]| kind.is_some_and(|kind| kind.is_called(words));
-    let (lift, stairs) =
-        (is(&["lift", "elevator"]), is(&["stairs", "stair", "staircase", "stairwell"]));
+    let (lift, stairs) = (is(LIFT), is(FLIGHT));
     for prism in &area.prisms {
+        canvas.mark_of("room", format!("room-{}", area.id.0));
         canvas.polygon(&prism.polygon, ROOM, None);
         let lines = match (lift, stairs) {
             (true, _) => cross(&prism.polygon),
             (_, true) => steps(&prism.polygon, TREAD * pen),
             _ => Vec::new(),
         };
+        canvas.mark(if lift { "lift" } else { "stairs" });
         for (a, b) in lines {
             canvas.segment(a, b, STAIRS.thick(pen));
         }
     }
 }
+
+/// The signs of walls, openings, stairs and lifts that stand on a plan of these rooms: class, sample, words.
+pub(super) fn marks<'a>(
+    world: &World,
+    areas: impl Iterator<Item = &'a PlacedArea>,
+) -> Vec<(&'static str, Sample, [&'static str; 2])> {
+    let [mut wall, mut window, mut passage, mut lift, mut stairs] = [false; 5];
+    for area in areas {
+        let kind = world.types.area.get(world.areas[&area.id].area_type);
+        let is_lift = kind.is_some_and(|kind| kind.is_called(LIFT));
+        lift |= is_lift;
+        stairs |= !is_lift && kind.is_some_and(|kind| kind.is_called(FLIGHT));
+        for (item, prism) in area.prisms.iter().enumerate() {
+            let base = &world.orthoframes[&prism.orthoframe].base;
+            for (((a, b), side), vector) in prism.polygon.edges().zip(prism.sides.iter()).zip(base)
+            {
+                match side.permeability {
+                    Permeability::Impermeable if world.is_window(vector) => window = true,
+                    Permeability::Impermeable => wall = true,
+                    _ => passage |= !is_within(area, item, a, b),
+                }
+            }
+        }
+    }
+    let all = [
+        (wall, "key wall", Sample::Stroke(WALL), ["стена", "wall"]),
+        (window, "key window", Sample::Stroke(PANE), ["окно", "window"]),
+        (passage, "key passage", Sample::Stroke(PASSAGE), ["проём, проход", "opening"]),
+        (stairs, "key stairs", Sample::Stroke(STAIRS), ["ступени", "stairs"]),
+        (lift, "key lift", Sample::Stroke(STAIRS), ["лифт: крест", "lift: a cross"]),
+    ];
+    all.into_iter()
+        .filter(|m| m.0)
+        .map(|(_, class, sample, words)| (class, sample, words))
+        .collect()
+}
+
+const LIFT: &[&str] = &["lift", "elevator"];
+const FLIGHT: &[&str] = &["stairs", "stair", "staircase", "stairwell"];
 
 /// Along the longest side of a room, as unit vector, with the room's box in these axes: start and size.
 fn long_box(room: &Polygon) -> Option<(Point, Vector, Vector)> {
@@ -110,11 +151,16 @@ pub(super) fn walls<'a>(
             {
                 match side.permeability {
                     Permeability::Impermeable if world.is_window(vector) => {
+                        canvas.mark("window");
                         window(canvas, a, b, pen);
                     }
-                    Permeability::Impermeable => canvas.segment(a, b, WALL.thick(pen)),
+                    Permeability::Impermeable => {
+                        canvas.mark("wall");
+                        canvas.segment(a, b, WALL.thick(pen));
+                    }
                     Permeability::Permeable | Permeability::Conditional => {
                         if !is_within(area, item, a, b) && is_new(a, b) {
+                            canvas.mark("passage");
                             canvas.segment(a, b, PASSAGE.thick(pen));
                         }
                     }

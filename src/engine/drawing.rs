@@ -6,7 +6,7 @@ use crate::draw::{
 };
 use crate::geometry::{Doorway, FloorPlan, PlacedArea, Sight};
 use crate::map::{Entity, Object, World};
-use crate::units::{AreaId, Language, MapId, Point, Pose, Vector, nearest_name};
+use crate::units::{AreaId, Language, MapId, PlaceId, Point, Pose, Vector, nearest_name};
 
 use super::{Engine, Error, RequestError};
 
@@ -23,6 +23,8 @@ pub struct Drawing {
     pub legs: Vec<(usize, Vec<Point>)>,
     /// The directives by number, listed below the plan.
     pub directives: Vec<(usize, String)>,
+    /// Whether the way ends on this sheet.
+    pub has_goal: bool,
     /// Where the robot stands.
     pub robot: Option<Pose>,
     /// What is in view from a pose.
@@ -66,12 +68,27 @@ impl Engine {
                 legs: drawing.legs.clone(),
                 directives: drawing.directives.clone(),
                 start: drawing.robot,
+                has_goal: drawing.has_goal,
             },
             view: drawing.view.map(|lens| view_layer(world, floor, lens)).unwrap_or_default(),
             places: places(world, map, only, drawing.language),
             language: drawing.language,
         };
         Ok(drawing.to_svg())
+    }
+
+    /// The sheets of this name: a room, a map, or without a name every map of the building, the lowest first.
+    ///
+    /// # Errors
+    /// Nothing that can be drawn as a plan bears the name.
+    pub fn sheets_named(&self, name: Option<&str>) -> Result<Vec<(MapId, Option<AreaId>)>, Error> {
+        let world = self.world()?;
+        if name.is_some() || world.domain.maps.len() < 2 {
+            return Ok(vec![self.sheet_named(name)?]);
+        }
+        let mut storeys: Vec<_> = world.domain.maps.iter().collect();
+        storeys.sort_by(|a, b| a.frame.z.get().total_cmp(&b.frame.z.get()));
+        Ok(storeys.into_iter().map(|placed| (placed.map, None)).collect())
     }
 
     /// The map, or the room of a map, of this name; without a name, the only map.
@@ -151,7 +168,12 @@ fn door_glyphs(world: &World, floor: &FloorPlan, only: Option<AreaId>) -> Vec<Do
         let status = door.state.status;
         leaves
             .into_iter()
-            .map(|leaf| DoorGlyph { leaf, arc: arcs.next().unwrap_or_default(), status })
+            .map(|leaf| DoorGlyph {
+                leaf,
+                arc: arcs.next().unwrap_or_default(),
+                status,
+                door: door.id,
+            })
             .collect()
     };
     let between = floor.doorways().iter().filter(|d| only.is_none_or(|a| d.areas.contains(&a)));
@@ -234,7 +256,7 @@ fn places(
     map: MapId,
     only: Option<AreaId>,
     language: Language,
-) -> Vec<(Point, String)> {
+) -> Vec<(PlaceId, Point, String)> {
     let placements = world.placements();
     let shown = world.places.values().filter(|p| only.is_none_or(|a| a == p.area));
     shown
@@ -242,7 +264,7 @@ fn places(
             let &(on, frame) = placements.get(&place.area)?;
             let english = language == Language::English && !place.name_en.is_empty();
             let name = if english { &place.name_en } else { &place.name };
-            (on == map).then(|| (frame.apply(place.at), name.clone()))
+            (on == map).then(|| (place.id, frame.apply(place.at), name.clone()))
         })
         .collect()
 }

@@ -88,11 +88,13 @@ pub enum RequestError {
     #[error("эта сборка не умеет писать PNG")]
     #[diagnostic(code(draw::no_png), help("соберите с `--features pictures` или запишите SVG"))]
     NoPng,
-    /// A way over several storeys, and one place to draw it.
-    #[error("путь идёт по {count} этажам, у каждого свой лист")]
+    /// Several storeys, and one place to draw them.
+    #[error("этажей {count}, у каждого свой лист")]
     #[diagnostic(
         code(draw::many_sheets),
-        help("назовите файл: -o way.svg; следующие листы – way-2.svg и дальше")
+        help(
+            "назовите файл: -o plan.svg; следующие листы – plan-2.svg и дальше; или назовите этаж"
+        )
     )]
     ManySheets { count: usize },
     /// A file that no drawing can become.

@@ -98,7 +98,7 @@ use crate::geometry::{DoorStates, FloorPlan};
 use crate::language::FormIndex;
 use crate::language::question::Mind;
 use crate::map::{Entity, MapErrors, read_file};
-use crate::semantics::{Profile, derive};
+use crate::semantics::derive;
 use crate::store::{ImportReport, OpenReport, Store, StoreError};
 use crate::units::{MapId, nearest_name};
 
@@ -259,7 +259,7 @@ impl Engine {
         let relations = match self.kept_relations(world) {
             Some(relations) => relations,
             None => {
-                let relations = derive(world, &self.rules.relations, Profile::Surveyed)?;
+                let relations = derive(world, &self.rules.relations, world.domain.profile)?;
                 self.keep_relations(&relations);
                 relations
             }
@@ -270,7 +270,7 @@ impl Engine {
     /// The relations that the store keeps for its map as it stands, under these rules.
     fn kept_relations(&self, world: &World) -> Option<Relations> {
         let bytes = self.store.as_ref()?.get_derived(RELATIONS)?;
-        Relations::restore(world, &self.rules.relations, Profile::Surveyed, &bytes)
+        Relations::restore(world, &self.rules.relations, world.domain.profile, &bytes)
     }
 
     /// Keeps relations for the next start. They can be derived again, so that a store that cannot take them does no

@@ -11,7 +11,7 @@ use std::collections::BTreeMap;
 use crate::geometry::FloorPlan;
 use crate::language::question::Mind;
 use crate::map::World;
-use crate::semantics::{Profile, Relations, derive};
+use crate::semantics::{Relations, derive};
 use crate::units::{MapId, ReplicaId};
 
 use super::{Engine, Error};
@@ -105,6 +105,6 @@ impl Engine {
         if relations.follow_world(self.world()?, world)? {
             return Ok(relations);
         }
-        Ok(derive(world, &self.rules.relations, Profile::Surveyed)?)
+        Ok(derive(world, &self.rules.relations, world.domain.profile)?)
     }
 }

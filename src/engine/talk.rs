@@ -11,7 +11,7 @@ use crate::language::question::{
 use crate::language::report::Detail;
 use crate::map::{DoorStatus, Entity, World};
 use crate::robot::starting_pose;
-use crate::semantics::{Profile, Relations, derive};
+use crate::semantics::{Relations, derive};
 use crate::store::Seen;
 use crate::units::{MapId, Pose, ReplicaId};
 
@@ -391,7 +391,7 @@ impl Senses for RobotSenses<'_> {
             if now.is_some_and(|n| n.area == old.area && n.frame == old.frame) {
                 continue;
             }
-            let Ok(relations) = derive(&world, &self.engine.rules.relations, Profile::Surveyed)
+            let Ok(relations) = derive(&world, &self.engine.rules.relations, world.domain.profile)
             else {
                 continue;
             };

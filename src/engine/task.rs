@@ -17,7 +17,7 @@ use crate::robot::{
     Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, MissionError, Person, Planned,
     Simulator, Station, Surprise, facts_of_map,
 };
-use crate::semantics::{Profile, Relations, derive, predicate};
+use crate::semantics::{Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose, ReplicaId};
 
 use super::memory::{After, Now};
@@ -550,7 +550,7 @@ impl Engine {
         // Most directives leave the world as the Map has it, and its relations are derived already.
         let position = match self.relations() {
             Ok(relations) if self.world.as_ref() == Some(&belief.world) => say(relations),
-            _ => derive(&belief.world, &self.rules.relations, Profile::Surveyed)
+            _ => derive(&belief.world, &self.rules.relations, belief.world.domain.profile)
                 .ok()
                 .and_then(|r| say(&r)),
         };

@@ -59,6 +59,14 @@ pub enum ReadError {
     #[diagnostic(code(exchange::too_many), help("разделите здание на несколько файлов"))]
     TooMany { format: &'static str, what: &'static str, limit: usize },
 
+    /// Things whose sizes stand in a second file, which is not there or is of other things.
+    #[error("{format}: размеров нет ни у одной вещи из {count}: {what}")]
+    #[diagnostic(
+        code(exchange::no_sizes),
+        help("положите asset-database.json рядом с файлом дома или назовите её: --assets ФАЙЛ")
+    )]
+    NoSizes { format: &'static str, what: &'static str, count: usize },
+
     /// It reads well, but there is no building in it.
     #[error("{format}: {what}")]
     #[diagnostic(

@@ -38,6 +38,7 @@ pub use rmf::read as read_rmf;
 pub use scene::{Assets, SceneFormat, read_procthor, read_pyrobosim, read_thor, read_virtualhome};
 use survey::zero_of;
 pub use survey::{
-    Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing, Told,
+    Feet, Kind, Lane, Level, Lift, Opening, OpeningKind, Part, Remark, Room, Spot, Survey, Thing,
+    Told,
 };
 pub use synonyms::{Found, Meaning, Synonyms, Vocabulary};

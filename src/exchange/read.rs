@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::map::{self, MapErrors, World};
+use crate::map::{self, MapErrors, Profile, World};
 use crate::units::Source;
 
 use super::report::{What, Why};
 use super::scene::{self, Assets, SceneFormat};
 use super::{
-    ImportError, ReadError, Report, Survey, Synonyms, assemble, geojson, ifc, input, osmag, rmf,
-    ros,
+    Feet, ImportError, ReadError, Report, Survey, Synonyms, assemble, geojson, ifc, input, osmag,
+    rmf, ros,
 };
 
 /// A format that is read.
@@ -184,6 +184,8 @@ pub struct Options {
     pub assets: Option<PathBuf>,
     /// A synonym table laid over the built-in one.
     pub synonyms: Option<PathBuf>,
+    /// How exactly the things were measured; by what the file itself shows when None.
+    pub profile: Option<Profile>,
 }
 
 /// What came of a file.
@@ -251,10 +253,13 @@ pub fn read(path: &Path, options: &Options) -> Result<Imported, ImportError> {
         let known: Vec<&str> = READERS.iter().map(|r| r.title).collect();
         ImportError::UnknownFormat { path: path.display().to_string(), known: known.join(", ") }
     })?;
-    let imported = match READERS.iter().find(|r| r.format == format) {
+    let mut imported = match READERS.iter().find(|r| r.format == format) {
         None => own(path, &input)?,
         Some(reader) => foreign(reader, &input, options)?,
     };
+    if let Some(profile) = options.profile {
+        imported.world.domain.profile = profile;
+    }
     if options.strict && !imported.report.is_clean() {
         return Err(ImportError::Strict { report: Box::new(imported.report) });
     }
@@ -311,6 +316,14 @@ fn foreign(reader: &Reader, input: &Input<'_>, options: &Options) -> Result<Impo
     for note in &survey.notes {
         report.noted(What::Record, &note.source, Why::Other { text: note.text.clone() });
     }
-    let world = assemble(&survey, &synonyms, &mut report)?;
+    let mut world = assemble(&survey, &synonyms, &mut report)?;
+    let feet = survey.feet;
+    if feet.are_loose() {
+        world.domain.profile = Profile::Detected;
+        if options.profile.is_none() {
+            let Feet { off, of } = feet;
+            report.noted(What::Building, &name, Why::LooseBoxes { off, of });
+        }
+    }
     Ok(Imported { world, report, warnings: MapErrors { source: None, faults: Vec::new() } })
 }

@@ -107,10 +107,14 @@ pub enum Why {
     #[error("повторяет «{other}»")]
     #[diagnostic(code(import::room_twice))]
     RoomTwice { other: String },
-    /// Subtraction cut a room apart.
-    #[error("разрезано наложением; оставлена наибольшая часть")]
+    /// Subtraction cut pieces off a room that are too narrow to be floor.
+    #[error("разрезано наложением; части уже 20 см отброшены")]
     #[diagnostic(code(import::room_cut))]
     RoomCut,
+    /// Subtraction cut a room apart.
+    #[error("разрезано наложением на {parts}; каждая часть стала помещением")]
+    #[diagnostic(code(import::room_parted))]
+    RoomParted { parts: usize },
     /// A hole outside of its room, or without area.
     #[error("вырез в контуре непригоден")]
     #[diagnostic(code(import::bad_hole))]
@@ -211,6 +215,13 @@ pub enum Why {
     #[error("записи вида «{kind}» не переносятся")]
     #[diagnostic(code(import::not_carried))]
     NotCarried { kind: String },
+    /// Boxes that a person's measuring would not have given.
+    #[error(
+        "коробки неточны: у вещей {off} из {of} низ дальше 2 см от того, на чём они стоят; взят профиль «detected» \
+         (другой: --profile surveyed)"
+    )]
+    #[diagnostic(code(import::loose_boxes))]
+    LooseBoxes { off: usize, of: usize },
     /// What a reader has to tell beyond these.
     #[error("{text}")]
     #[diagnostic(code(import::other))]

@@ -25,6 +25,8 @@ pub struct Survey {
     pub lifts: Vec<Lift>,
     /// Whose coordinates these are, in words; what lies at the zero point where that is not the file's own zero.
     pub frame: String,
+    /// How near the feet of its things are to what they stand on.
+    pub feet: Feet,
     /// What the reader left out or had to assume, for the report.
     pub remarks: Vec<Remark>,
     /// What became of records of the file that stand in none of the lists above, or stand there otherwise than in the
@@ -50,6 +52,25 @@ pub struct Told {
 /// The words for a plane that touches the globe: x runs east and y north from here, degrees.
 pub(super) fn zero_of(lat: f64, lon: f64) -> String {
     format!("начало координат: {lat:.8}° с. ш., {lon:.8}° в. д.; x на восток, y на север")
+}
+
+/// Of the things that a file has standing on something: how many there are, and how many of them stand above it or are
+/// sunk into it by more than a person's measuring would be off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Feet {
+    pub off: usize,
+    pub of: usize,
+}
+
+impl Feet {
+    /// Whether the boxes are a detector's, or lie round meshes. What a person measures is within 2 cm in 19 of 20 cases:
+    /// boxes are loose where more are off than by two standard deviations of that.
+    #[must_use]
+    pub fn are_loose(self) -> bool {
+        const SHARE: f64 = 0.05;
+        let of = self.of as f64;
+        self.off as f64 > of * SHARE + 2.0 * (of * SHARE * (1.0 - SHARE)).sqrt()
+    }
 }
 
 /// What a reader left out, mended or had to assume.

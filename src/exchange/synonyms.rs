@@ -1,13 +1,16 @@
 //! Foreign words for rooms, things and places, and what they are called here: `rules/import-synonyms.toml`.
 //!
-//! A word is looked up by its parts: `OfficeChair_Black-3` is *office chair black 3*, and the longest run of parts
-//! that the table knows wins, the last of equally long ones (*office chair* before *chair*, the head of an English
-//! compound stands last). Letters are compared without case, numbers are left aside.
+//! A word is looked up by its parts: `OfficeChair_Black-3` is *office chair black 3*. Letters are compared without case,
+//! numbers are left aside. Of a room the longest run of parts that the table knows wins, the last of equally long ones:
+//! *Anna's bedroom* is a bedroom. A thing is never told by a part of its word, for a *shower glass* is no glass, a *coat
+//! rack* no rack and a *cup holder* no cup: the whole word stands in the table, or it is a *head* (a noun of which every
+//! compound is one: any *… chair* is a chair) with words before it or a maker's name behind a hyphen (`Chair-Breuer`), or words of the table's `plain` list are beside it,
+//! which say how a thing looks and never what it is.
 //!
 //! **Invariant.** Names of one list are distinct; a user's table is laid over the built-in one: entries of the same
 //! name are replaced field by field, words of both stay, and of one word the later meaning holds.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 use std::path::Path;
 
 use serde::Deserialize;
@@ -55,6 +58,8 @@ struct List {
     /// The parts of a phrase run together (`bed room` is `bedroom`) → meaning, and a size of its own.
     by_phrase: HashMap<String, (usize, Option<[f64; 3]>)>,
     longest: usize,
+    /// Phrases of which every compound that ends in one is such a thing.
+    heads: HashSet<String>,
 }
 
 /// The synonym table in force.
@@ -62,6 +67,8 @@ struct List {
 pub struct Synonyms {
     lists: BTreeMap<Vocabulary, List>,
     codes: Vec<Code>,
+    /// Words for how a thing looks.
+    plain: HashSet<String>,
 }
 
 /// A found meaning, with the size of this very model where the table has one.
@@ -92,6 +99,8 @@ struct TableFile {
     model: Vec<Model>,
     #[serde(default)]
     code: Vec<Code>,
+    #[serde(default)]
+    plain: Vec<String>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -106,6 +115,9 @@ struct Record {
     /// Foreign words beyond the names and synonyms.
     #[serde(default)]
     words: Vec<String>,
+    /// Those of its words of which every compound is such a thing.
+    #[serde(default)]
+    heads: Vec<String>,
     size: Option<[f64; 3]>,
     move_prob: Option<u8>,
 }
@@ -140,7 +152,7 @@ impl Synonyms {
     /// When the built-in text is broken, which a test of this file excludes.
     #[must_use]
     pub fn built_in() -> Self {
-        let mut table = Self { lists: BTreeMap::new(), codes: Vec::new() };
+        let mut table = Self { lists: BTreeMap::new(), codes: Vec::new(), plain: HashSet::new() };
         table
             .lay_over(&Source::new("rules/import-synonyms.toml", BUILT_IN))
             .expect("the built-in table is sound");
@@ -185,6 +197,7 @@ impl Synonyms {
                 list.add(record);
             }
         }
+        self.plain.extend(file.plain.iter().flat_map(|word| parts(word)));
         let objects = self.lists.entry(Vocabulary::Object).or_default();
         for model in file.model {
             let Some(&meaning) = objects.by_name.get(&name_key(&model.object)) else {
@@ -223,6 +236,10 @@ impl Synonyms {
         let list = self.lists.get(&vocabulary)?;
         let parts = parts(word);
         let letters: Vec<&str> = parts.iter().map(String::as_str).collect();
+        if vocabulary == Vocabulary::Object {
+            let thing = |letters: &[&str]| self.thing(list, letters);
+            return thing(&letters).or_else(|| thing(&[family(list, word)?.as_str()]));
+        }
         for length in (1..=letters.len().min(list.longest)).rev() {
             for run in letters.windows(length).rev() {
                 if let Some(&(index, size)) = list.lookup(run) {
@@ -235,6 +252,31 @@ impl Synonyms {
             }
         }
         None
+    }
+
+    /// What a thing's word means: as a whole, without words for its looks, or by the head of a compound.
+    fn thing(&self, list: &List, letters: &[&str]) -> Option<Found<'_>> {
+        let found = |run: &[&str], is_whole| {
+            let &(index, size) = list.lookup(run)?;
+            let meaning = &self.lists[&Vocabulary::Object].meanings[index];
+            Some(Found { meaning, size: size.or(meaning.size), is_whole })
+        };
+        if let Some(found) = found(letters, true) {
+            return Some(found);
+        }
+        let is_plain = |part: &&str| self.plain.contains(*part);
+        // What is plain stands before the name or behind it; within it, it is part of the name.
+        let from = letters.iter().take_while(|p| is_plain(p)).count();
+        let to = letters.len() - letters[from..].iter().rev().take_while(|p| is_plain(p)).count();
+        let core = &letters[from..to];
+        if let Some(found) = found(core, false) {
+            return Some(found);
+        }
+        if core.iter().any(|part| BETWEEN.contains(part)) {
+            return None;
+        }
+        let tails = (1..core.len()).map(|cut| &core[cut..]);
+        tails.filter(|tail| list.is_head(tail)).find_map(|tail| found(tail, false))
     }
 
     /// The first of several words that means something.
@@ -276,6 +318,15 @@ impl List {
         for word in words {
             self.add_phrase(&word, index, None);
         }
+        for word in record.heads {
+            self.add_phrase(&word, index, None);
+            self.heads.insert(parts(&word).concat());
+        }
+    }
+
+    /// In the singular: a *table w chairs* is no chair.
+    fn is_head(&self, run: &[&str]) -> bool {
+        self.heads.contains(&run.concat())
     }
 
     fn add_phrase(&mut self, word: &str, meaning: usize, size: Option<[f64; 3]>) {
@@ -287,12 +338,29 @@ impl List {
     }
 
     fn lookup(&self, run: &[&str]) -> Option<&(usize, Option<[f64; 3]>)> {
-        let phrase = run.concat();
-        // English plurals: chairs, boxes.
-        let singular = || phrase.strip_suffix('s').and_then(|one| self.by_phrase.get(one));
-        let of_es = || phrase.strip_suffix("es").and_then(|one| self.by_phrase.get(one));
-        self.by_phrase.get(&phrase).or_else(singular).or_else(of_es)
+        forms(run).iter().find_map(|form| self.by_phrase.get(form))
     }
+}
+
+/// Words that join two nouns, of which the last is then no head: a *desk with lamp* is no lamp.
+const BETWEEN: [&str; 18] = [
+    "with", "w", "without", "for", "of", "on", "in", "under", "and", "or", "to", "from", "с", "со",
+    "без", "для", "на", "и",
+];
+
+/// The head before the hyphen where makers of building models name a family by it: `Chair-Breuer`.
+fn family(list: &List, word: &str) -> Option<String> {
+    let (head, rest) = word.split_once('-')?;
+    let head = parts(head).concat();
+    let is_name = rest.chars().next().is_some_and(char::is_uppercase);
+    (is_name && list.heads.contains(&head)).then_some(head)
+}
+
+/// A phrase run together, and without the ending of an English plural: chairs, boxes.
+fn forms(run: &[&str]) -> Vec<String> {
+    let phrase = run.concat();
+    let singular = ["s", "es"].map(|ending| phrase.strip_suffix(ending).map(str::to_owned));
+    std::iter::once(phrase.clone()).chain(singular.into_iter().flatten()).collect()
 }
 
 fn is_good_size(size: Option<[f64; 3]>) -> bool {
@@ -341,9 +409,17 @@ mod tests {
     }
 
     #[test]
-    fn the_longest_and_last_meaning_wins() {
+    fn a_room_is_told_by_a_part_of_its_word_and_a_thing_is_not() {
         let table = Synonyms::built_in();
         let name = |word| table.find(Vocabulary::Object, word).map(|f| f.meaning.name.clone());
+        assert_eq!(name("OfficeChair_Black-3").as_deref(), Some("Офисное кресло"));
+        assert_eq!(name("big red mug").as_deref(), Some("Кружка"));
+        // Of a head every compound is one, of any other noun none, and no word is told by what it is not a sort of.
+        assert_eq!(name("Executive Chair").as_deref(), Some("Стул"));
+        assert_eq!(name("Table-Dining Round w Chairs").as_deref(), Some("Стол"));
+        for word in ["ShowerGlass", "cup holder", "chair lift", "desk with lamp", "garden chairs"] {
+            assert_eq!(name(word), None, "{word}");
+        }
         assert_eq!(name("Dining_Table_3").as_deref(), Some("Обеденный стол"));
         assert_eq!(name("chairs").as_deref(), Some("Стул"));
         assert_eq!(name("стул").as_deref(), Some("Стул"));

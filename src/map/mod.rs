@@ -56,5 +56,6 @@ pub use object::{Area, Face, Item, ItemLink, Object, SideRef};
 pub use orthoframe::{BaseVector, Orthoframe, Permeability, Properties};
 pub use types::{Case, Forms, Gender, TypeEntry, TypeKind, TypeList, TypeLists};
 pub use world::{
-    Domain, DomainMap, Entity, LiftStop, Map, MapItem, MapLink, Place, Replica, RobotProfile, World,
+    Domain, DomainMap, Entity, LiftStop, Map, MapItem, MapLink, Place, Profile, Replica,
+    RobotProfile, World,
 };

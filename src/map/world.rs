@@ -97,6 +97,35 @@ pub struct LiftStop {
     pub area: AreaId,
 }
 
+/// How exactly the things of a Domain were measured: the thresholds of relations differ by it.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Profile {
+    /// Measured by people: what stands on something stands on it.
+    #[default]
+    Surveyed,
+    /// Seen by a robot, or boxes round meshes: off by some centimetres.
+    Detected,
+}
+
+impl Profile {
+    pub const ALL: [Self; 2] = [Self::Surveyed, Self::Detected];
+
+    /// Its name in the rule text, the map file and the store.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Surveyed => "surveyed",
+            Self::Detected => "detected",
+        }
+    }
+
+    /// The profile of this name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|profile| profile.name() == name)
+    }
+}
+
 /// A building: Maps in one frame.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
@@ -105,6 +134,7 @@ pub struct Domain {
     pub name: String,
     pub name_en: String,
     pub description: String,
+    pub profile: Profile,
     pub maps: Vec<DomainMap>,
     /// Lifts and stairs (M6): each links the Areas of its stops, which lie on different Maps.
     pub lifts: Vec<(String, Vec<LiftStop>)>,
@@ -198,6 +228,7 @@ impl World {
                 name,
                 name_en: String::new(),
                 description: String::new(),
+                profile: Profile::default(),
                 maps: Vec::new(),
                 lifts: Vec::new(),
             },

@@ -4,7 +4,7 @@ use crate::geometry::{DoorStates, Method, NoRoute, Ride, Route, Target};
 use crate::graphplan::{Learned, Limits, Outcome};
 use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
-use crate::semantics::{Join, Lift, Profile, RelationError, RelationRules, cargo, derive, lifts};
+use crate::semantics::{Join, Lift, RelationError, RelationRules, cargo, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
@@ -170,7 +170,8 @@ impl<'r> Mission<'r> {
         learned: Option<&Learned>,
     ) -> Result<(Planned, Option<Learned>), MissionError> {
         let mut problem = Problem::new();
-        let relations = derive(&self.belief.world, self.relations, Profile::Surveyed)?;
+        let relations =
+            derive(&self.belief.world, self.relations, self.belief.world.domain.profile)?;
         let (facts, places) = self.belief.initial(&relations);
         for fact in &without_idle(facts, goal) {
             state(&mut problem, fact);

@@ -11,7 +11,7 @@ use crate::geometry::{PlacedReplica, Scene};
 use crate::map::World;
 use crate::units::{Frame, ReplicaId};
 
-use super::relations::{Profile, RelationError, RelationRules, derive};
+use super::relations::{RelationError, RelationRules, derive};
 
 /// Rounding of heights and outlines, cm: what nearly touches is asked about.
 const NEAR: f64 = 10.0;
@@ -39,7 +39,7 @@ pub fn cargo(
     if column.len() == 1 {
         return Ok(BTreeSet::new());
     }
-    Ok(derive(&only_about(world, scene, &column), rules, Profile::Surveyed)?.goes_with(carrier))
+    Ok(derive(&only_about(world, scene, &column), rules, world.domain.profile)?.goes_with(carrier))
 }
 
 /// The shut thing in which a thing of a scene is; none where a hand gets at it.
@@ -60,7 +60,7 @@ pub fn shut_around(
         return Ok(None);
     }
     let few = only_about(world, scene, &BTreeSet::from([thing]));
-    Ok(derive(&few, rules, Profile::Surveyed)?.shut_in(thing))
+    Ok(derive(&few, rules, world.domain.profile)?.shut_in(thing))
 }
 
 /// What a thing may touch, seen from above.

@@ -59,6 +59,7 @@ pub mod predicate;
 mod relations;
 mod view;
 
+pub use crate::map::Profile;
 pub use ask::Extent;
 pub use cargo::{cargo, carried_to, shut_around};
 pub use claim::{Claim, claim_bounds, claim_holds};
@@ -71,7 +72,6 @@ pub use names::{Subject, Symbols};
 pub use openings::Opening;
 pub use position::{Nearness, Spot, Way, Whereabouts, stands_in, walls, whereabouts};
 pub use relations::{
-    Join, Profile, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive,
-    derive_from,
+    Join, RelationCount, RelationError, RelationRules, Relations, STANDARD, derive, derive_from,
 };
 pub use view::Seen;

@@ -7,7 +7,8 @@ use std::collections::BTreeMap;
 use crate::map::{
     Area, BaseVector, Domain, DomainMap, Door, DoorLeaf, DoorMount, DoorState, Forms, HingeSide,
     Item, ItemLink, LiftStop, Map, MapItem, MapLink, Object, OpensTo, Orthoframe, Permeability,
-    Place, Properties, Replica, RobotProfile, SideRef, TypeEntry, TypeList, TypeLists, World,
+    Place, Profile, Properties, Replica, RobotProfile, SideRef, TypeEntry, TypeList, TypeLists,
+    World,
 };
 use crate::units::{
     AreaId, Cm, Deg, DomainId, DoorId, Frame, MapId, ObjectId, OrFrId, PlaceId, Point, ReplicaId,
@@ -467,7 +468,12 @@ impl Reader<'_> {
         }
         let lift = |r: t::Lifts| (r.name, stops.remove(&r.lift_no).unwrap_or_default());
         let maps = maps.remove(&r.id).unwrap_or_default();
+        let profile = match r.profile.as_str() {
+            "" => Profile::Surveyed,
+            name => Profile::named(name).or_bad(&r)?,
+        };
         Ok(Domain {
+            profile,
             id: DomainId(r.id),
             maps: maps.into_iter().map(placed).collect::<Result<_>>()?,
             lifts: self.sheet.all()?.into_iter().map(lift).collect(),

@@ -280,6 +280,8 @@ tables! {
         col desc: String = "Desc",
         beyond key: String = "Key",
         beyond name_en: String = "NameEn",
+        // Empty: surveyed.
+        beyond profile: String = "Profile",
     }
     /// The Maps of a Domain.
     Paper DomainMaps = 24 {

@@ -2,7 +2,8 @@
 
 use crate::map::{
     Area, Case, Door, DoorKind, DoorMount, DoorState, DoorStatus, Face, Forms, Gender, HingeSide,
-    Item, ItemLink, Map, Object, OpensTo, Orthoframe, Properties, Replica, TypeList, World,
+    Item, ItemLink, Map, Object, OpensTo, Orthoframe, Profile, Properties, Replica, TypeList,
+    World,
 };
 use crate::units::{Frame, TypeId};
 
@@ -504,6 +505,11 @@ fn put_domain(sheet: &mut Sheet, world: &World) -> Result<()> {
         desc: domain.description.clone(),
         key: domain.key.clone(),
         name_en: domain.name_en.clone(),
+        // As a record of before there were profiles reads, so that importing the same map again changes nothing.
+        profile: match domain.profile {
+            Profile::Surveyed => String::new(),
+            other => other.name().to_owned(),
+        },
     })?;
     for (no, placed) in (0..).zip(&domain.maps) {
         let Frame { x, y, z, angle } = placed.frame;

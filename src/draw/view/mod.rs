@@ -12,7 +12,7 @@ use crate::geometry::{Bounds, Polygon, Scene};
 use crate::map::{DoorStatus, World};
 use crate::units::{Language, Point, Pose, Vector};
 
-use super::canvas::{Canvas, Lettering, Style};
+use super::canvas::{Anchor, Canvas, Lettering, Style};
 use super::font::text_width;
 use super::labels::{Labels, around};
 use bsp::{Facet, Plane, far_to_near};
@@ -56,6 +56,8 @@ pub struct ViewDrawing<'a> {
 /// Of the picture, in its own units.
 const WIDTH: f64 = 1200.0;
 const HEIGHT: f64 = 760.0;
+/// Of the line below the picture.
+const CAPTION: f64 = 44.0;
 /// Nothing is drawn nearer to the eye than this, cm.
 const NEAREST: f64 = 4.0;
 /// A name stands on what takes this share of the picture at least.
@@ -116,7 +118,9 @@ impl ViewDrawing<'_> {
             focus: WIDTH / 2.0 / (field / 2.0).tan(),
         };
         let frame = around(Point::origin(), WIDTH, HEIGHT);
-        let mut canvas = Canvas::new(frame).wide(WIDTH);
+        let sheet = Bounds { min: frame.min - Vector::new(0.0, CAPTION), max: frame.max };
+        let mut canvas = Canvas::new(sheet).wide(WIDTH);
+        canvas.mark("backdrop");
         backdrop(&mut canvas, frame);
         let (bodies, facets) = bodies::of(self, camera.eye);
         let frustum = camera.frustum();
@@ -127,13 +131,43 @@ impl ViewDrawing<'_> {
             self.paint(&mut canvas, &camera, facet, &bodies[facet.owner]);
         }
         self.names(&mut canvas, &camera, &order, &bodies);
+        canvas.mark("frame");
         canvas.rectangle(frame.grown(-1.0), Style::line("#3b3a36", 2.0), 0.0);
-        let title = self.language.pick("Вид", "View");
-        canvas.into_svg(title)
+        let caption = self.caption();
+        let plain =
+            Lettering { anchor: Anchor::Start, halo: false, ..Lettering::plain(16.0, "#2b2a27") };
+        // A long name of a room makes the letters no wider than the picture, as long as they can be read.
+        let wide = text_width(&caption, plain.size, false);
+        let size = plain.size * ((WIDTH - 40.0) / wide).clamp(0.5, 1.0);
+        canvas.mark("caption");
+        let at = Point::new(frame.min.x + 20.0, frame.min.y - CAPTION / 2.0);
+        canvas.text(at, &caption, Lettering { size, ..plain });
+        canvas.into_svg(&caption)
+    }
+
+    /// From where one looks, and how: the room, the pose, the eye and its angle.
+    fn caption(&self) -> String {
+        let holds = |a: &&crate::geometry::PlacedArea| {
+            a.prisms.iter().any(|p| p.polygon.contains(self.pose.at, 0.1))
+        };
+        let room = self.scene.areas.values().find(holds).map(|a| &self.world.areas[&a.id]);
+        let name = room.map_or("", |area| match self.language {
+            Language::English if !area.name_en.is_empty() => &area.name_en,
+            _ => &area.name,
+        });
+        let whole = |v: f64| v.round() as i64;
+        let (x, y) = (whole(self.pose.at.x), whole(self.pose.at.y));
+        let (turn, height) = (whole(self.pose.heading.get()), whole(self.height));
+        let field = whole(self.field);
+        self.language.pick(
+            format!("Вид. {name}: ({x}; {y}) см, курс {turn}°, глаз на высоте {height} см, угол обзора {field}°"),
+            format!("View. {name}: ({x}, {y}) cm, heading {turn}°, eye {height} cm above zero, angle of view {field}°"),
+        )
     }
 
     fn paint(&self, canvas: &mut Canvas, camera: &Camera, facet: &Facet, body: &Body) {
         let corners: Vec<Point> = facet.corners.iter().map(|p| camera.project(p)).collect();
+        canvas.mark(if body.name.is_empty() { "wall" } else { "thing" });
         // Lamps hang high and to the left of one who looks; what is far is paler.
         let towards =
             if facet.normal.dot(&(camera.eye - facet.corners[0])) < 0.0 { -1.0 } else { 1.0 };
@@ -183,7 +217,9 @@ impl ViewDrawing<'_> {
         }
         let mut seen: Vec<_> = seen.into_iter().collect();
         seen.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then(a.0.cmp(b.0)));
-        let mut labels = Labels::new(14.0);
+        let mut labels =
+            Labels::new(14.0).within(around(Point::origin(), WIDTH, HEIGHT).grown(-4.0));
+        canvas.mark("name");
         for (name, cells) in seen {
             if (cells.len() as f64) < NAMED * (COLUMNS * ROWS) as f64 {
                 continue;

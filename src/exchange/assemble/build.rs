@@ -54,6 +54,8 @@ pub(super) struct SideTypes {
 /// A level with its rooms as they stand.
 pub(super) struct Storey {
     pub(super) map: MapId,
+    /// The level with the rooms that were cut off from others, where there are such.
+    parted: Option<Level>,
     pub(super) placed: Placed,
     /// The floor of each room with its bays.
     pub(super) floors: Vec<Option<Region>>,
@@ -101,6 +103,7 @@ pub(super) fn build(
     let kinds = maker.objects();
     for (level, storey) in survey.levels.iter().zip(&storeys) {
         if let Some(storey) = storey {
+            let level = storey.parted.as_ref().unwrap_or(level);
             maker.things(level, storey, &kinds);
             maker.spots(level, storey);
             maker.lanes(level, storey);
@@ -170,7 +173,10 @@ impl Maker<'_> {
 
     fn storey(&mut self, level: &Level) -> Option<Storey> {
         self.report.found(What::Room, level.rooms.len());
-        let regions = rooms::regions(level, self.report);
+        let count = level.rooms.len();
+        let rooms = rooms::floors(level, self.report);
+        let parted = rooms.parted(level);
+        let (level, regions) = (parted.as_ref().unwrap_or(level), rooms.regions);
         let first = regions.iter().position(Option::is_some)?;
         let placed = openings::place(level, &regions, self.report);
         let map = MapId(self.world.maps.len() as u32 + 1);
@@ -183,6 +189,7 @@ impl Maker<'_> {
             .collect();
         let mut storey = Storey {
             map,
+            parted: None,
             placed,
             areas: vec![None; level.rooms.len()],
             origins: floors
@@ -207,7 +214,8 @@ impl Maker<'_> {
             let frame = Frame::new(at.x, at.y, 0.0, Deg::ZERO);
             items.push(MapItem { area, frame, is_base: i == first });
         }
-        self.report.taken(What::Room, items.len());
+        let taken = storey.areas.iter().take(count).flatten().count();
+        self.report.taken(What::Room, taken);
         let key = self.names.key("map", &level.source);
         self.world.maps.insert(
             map,
@@ -224,6 +232,7 @@ impl Maker<'_> {
             },
         );
         self.links(level, &storey, &doors);
+        storey.parted = parted;
         Some(storey)
     }
 

@@ -269,11 +269,15 @@ fn region(shape: &[Contour]) -> Option<Region> {
 
 /// The largest sound region, when it is floor at all.
 pub(in crate::exchange) fn largest(regions: Vec<Region>) -> Option<Region> {
-    regions
-        .into_iter()
-        .flat_map(unpinched)
-        .filter(|r| r.area() >= LEAST_AREA)
-        .max_by(|a, b| a.area().total_cmp(&b.area()))
+    floors(regions).into_iter().next()
+}
+
+/// The sound regions that are floor at all, the largest first.
+pub(super) fn floors(regions: Vec<Region>) -> Vec<Region> {
+    let sound = regions.into_iter().flat_map(unpinched);
+    let mut floors: Vec<Region> = sound.filter(|r| r.area() >= LEAST_AREA).collect();
+    floors.sort_by(|a, b| b.area().total_cmp(&a.area()));
+    floors
 }
 
 /// A region whose rings touch themselves or each other loses a hair of floor there, which parts them.

@@ -177,7 +177,9 @@ impl Maker<'_> {
         if let Some((at_least, room)) = best
             && at_least >= LEAST_SHARE
         {
-            if let Some(said) = said {
+            // Another piece of the room that is said is that room.
+            if let Some(said) = said.filter(|&r| level.rooms[r].source != level.rooms[room].source)
+            {
                 let room = level.rooms[said].source.clone();
                 self.report.mended(What::Thing, &thing.source, Why::ThingElsewhere { room });
             }

@@ -337,6 +337,6 @@ impl Reader<'_> {
         // Of one name, each after the first with its number.
         let like = lifts.iter().filter(|l| l.name.starts_with(&way.name)).count();
         let name = if like == 0 { way.name } else { format!("{}-{}", way.name, like + 1) };
-        lifts.push(Lift { source: way.source, name, stops });
+        lifts.push(Lift { source: way.source, name, stops, is_told: true });
     }
 }

@@ -18,7 +18,7 @@ use crate::units::{Cm, Deg, Point, Source};
 use super::colour;
 use super::json::{angles, list, parse, plan, remark, text, triple};
 use super::shape::{self, Build};
-use super::stock::{Facing, Piece, shelve, state};
+use super::stock::{Facing, Piece, Shelf, shelve, state};
 
 const FORMAT: &str = "ProcTHOR";
 /// Rotations about x and z smaller than this leave a thing upright, in degrees.
@@ -105,10 +105,11 @@ impl Assets {
     }
 }
 
-/// Reads a house. Without `assets` its things have no size and are left out.
+/// Reads a house. A thing of which `assets` do not know the size is left out.
 ///
 /// # Errors
-/// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when it has no room.
+/// [`ReadError::Syntax`]; [`ReadError::NoBuilding`] when it has no room; [`ReadError::NoSizes`] when there are things and
+/// `assets` know none of them: a furnished house must not come out empty.
 pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadError> {
     let house = parse(FORMAT, source)?;
     let mut reader = Reader { assets, remarks: Vec::new() };
@@ -130,12 +131,16 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
         let piece = reader.piece(record);
         reader.thing(record, piece, &[], &mut pieces);
     }
-    if assets.is_empty() && !list(&house, "objects").is_empty() {
-        reader.remarks.clear();
-        let text = "предметы пропущены: нет базы с их размерами (asset-database.json)";
-        reader.remarks.push(remark("objects", text));
+    let count = list(&house, "objects").len();
+    if pieces.is_empty() && count > 0 {
+        let what = if assets.is_empty() {
+            "нет базы с ними (asset-database.json)"
+        } else {
+            "база говорит о других вещах"
+        };
+        return Err(ReadError::NoSizes { format: FORMAT, what, count });
     }
-    let (kinds, things) = shelve(pieces);
+    let Shelf { kinds, things, feet } = shelve(pieces);
     let level = Level {
         source: "0".to_owned(),
         name: String::new(),
@@ -150,6 +155,7 @@ pub fn read_procthor(source: &Source, assets: &Assets) -> Result<Survey, ReadErr
         name: String::new(),
         levels: vec![level],
         kinds,
+        feet,
         remarks: reader.remarks,
         ..Survey::default()
     })

@@ -1,9 +1,31 @@
 //! Things set down on what is beneath them: a box is off by some centimetres, and nothing hovers.
 
+use crate::exchange::Feet;
+
 use super::shape::{Build, Crate, Neighbours, SAME_LEVEL, STANDS, SUNK, around, holder, levels};
 
 /// What hangs this far above a bed or sofa lies on its bedding, which the box leaves out, cm: as thick as bedding is.
 const BEDDING: f64 = 25.0;
+
+/// How near the feet of things are to what they stand on. What stands within a box is left out: where the surfaces of a
+/// box are is only told by what stands in it.
+pub(super) fn feet(things: &[Crate]) -> Feet {
+    let near = Neighbours::of(things);
+    let mut feet = Feet::default();
+    for thing in things.iter().filter(|t| t.build != Build::Hung) {
+        let around: Vec<usize> = around(things, &near, thing).collect();
+        if holder(things, &around, thing).is_some() {
+            continue;
+        }
+        let gaps = around.iter().filter(|&&i| things[i].bottom < thing.bottom);
+        let gaps = gaps.map(|&i| (thing.bottom - things[i].top).abs());
+        if let Some(least) = gaps.reduce(f64::min).filter(|least| *least <= STANDS) {
+            feet.of += 1;
+            feet.off += usize::from(least > SUNK);
+        }
+    }
+    feet
+}
 
 /// By what a thing is taken along when it is set down.
 #[derive(Debug, Clone, Copy)]
@@ -57,23 +79,26 @@ fn rest(things: &[Crate], near: &Neighbours, thing: &Crate) -> Option<Rest> {
     }
     let around: Vec<usize> = around(things, near, thing).collect();
     let gap = |i: usize| thing.bottom - things[i].top;
-    let highest = |least: f64, most: f64| {
-        let lower = |&i: &usize| things[i].bottom < thing.bottom;
-        let under =
-            around.iter().copied().filter(lower).filter(|&i| (least..=most).contains(&gap(i)));
-        under.min_by(|&i, &j| gap(i).total_cmp(&gap(j)))
+    let lower = || around.iter().copied().filter(|&i| things[i].bottom < thing.bottom);
+    let highest = |is_wanted: &dyn Fn(usize) -> bool| {
+        lower().filter(|&i| is_wanted(i)).min_by(|&i, &j| gap(i).total_cmp(&gap(j)))
     };
     let sunk = |&i: &usize| {
-        things[i].bottom < thing.bottom && gap(i) < -SUNK && !things[i].is_over_floor(thing)
+        let other = &things[i];
+        other.bottom < thing.bottom
+            && gap(i) < -SUNK
+            && !other.bears(thing)
+            && !other.is_over_floor(thing)
     };
     let nested = || around.iter().copied().filter(sunk).max_by(|&i, &j| gap(i).total_cmp(&gap(j)));
     if let Some(round) = holder(things, &around, thing).or_else(nested) {
         // Drawers one above another in a chest hang where they are.
-        let on = highest(-SUNK, SUNK).filter(|&i| things[round].holds(&things[i]));
+        let on = highest(&|i| gap(i).abs() <= SUNK).filter(|&i| things[round].holds(&things[i]));
         return Some(on.map_or(Rest::With(round), Rest::On));
     }
     let bed = |&i: &usize| things[i].build == Build::Seat && thing.build == Build::Block;
-    highest(-SUNK, STANDS).or_else(|| highest(STANDS, BEDDING).filter(bed)).map(Rest::On)
+    let on_bedding = || highest(&|i| (STANDS..=BEDDING).contains(&gap(i))).filter(bed);
+    highest(&|i| things[i].bears(thing)).or_else(on_bedding).map(Rest::On)
 }
 
 #[cfg(test)]

@@ -210,6 +210,11 @@ impl Crate {
             && !self.is_over_floor(thing)
     }
 
+    /// Whether a thing stands on the top of this one, as well as boxes tell.
+    pub(super) fn bears(&self, thing: &Self) -> bool {
+        (-SUNK..=STANDS).contains(&(thing.bottom - self.top))
+    }
+
     /// Whether a thing beneath this table or seat stands on the floor that this stands on.
     pub(super) fn is_over_floor(&self, thing: &Self) -> bool {
         matches!(self.build, Build::Table | Build::Seat) && thing.bottom < self.bottom + STANDS
@@ -247,6 +252,24 @@ pub(super) fn levels(things: &[Crate]) -> Vec<Vec<f64>> {
         }
     }
     found.into_iter().map(distinct).collect()
+}
+
+/// Which open vessels have something standing on top of them and nothing that sticks out of them: they are closed.
+pub(super) fn closed(things: &[Crate]) -> Vec<bool> {
+    let near = Neighbours::of(things);
+    let mut is_trodden = vec![false; things.len()];
+    let mut is_heaped = vec![false; things.len()];
+    for thing in things.iter().filter(|t| t.build != Build::Hung) {
+        for i in around(things, &near, thing).filter(|&i| things[i].build == Build::Bowl) {
+            let vessel = &things[i];
+            let gap = thing.bottom - vessel.top;
+            is_trodden[i] |= gap.abs() <= SUNK;
+            is_heaped[i] |= gap < -SUNK
+                && thing.bottom >= vessel.bottom - STANDS
+                && thing.top > vessel.top + SUNK;
+        }
+    }
+    is_trodden.into_iter().zip(is_heaped).map(|(trodden, heaped)| trodden && !heaped).collect()
 }
 
 /// Which boxes hold another box wholly: no solid body does.

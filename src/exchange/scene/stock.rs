@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::exchange::{Kind, Thing};
+use crate::exchange::{Feet, Kind, Thing};
 use crate::map::Properties;
 use crate::units::{Cm, Deg, Point};
 
@@ -57,6 +57,9 @@ const FACED: [&str; 13] = [
     "sink",
 ];
 
+const STATE: &str = "СОСТОЯНИЕ";
+const CLOSED: &str = "Закрыто";
+
 fn has_front(build: Build, word: &str) -> bool {
     let word: String =
         word.chars().filter(|c| c.is_alphabetic()).flat_map(char::to_lowercase).collect();
@@ -64,8 +67,17 @@ fn has_front(build: Build, word: &str) -> bool {
     (matches!(build, Build::Seat | Build::Case) && !round) || FACED.contains(&word.as_str())
 }
 
-/// Kinds in the order of their first thing; things in the order of the file.
-pub(super) fn shelve(mut pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
+/// What pieces become.
+pub(super) struct Shelf {
+    /// In the order of their first thing.
+    pub(super) kinds: Vec<Kind>,
+    /// In the order of the file.
+    pub(super) things: Vec<Thing>,
+    /// As the file has them, before anything was set down.
+    pub(super) feet: Feet,
+}
+
+pub(super) fn shelve(mut pieces: Vec<Piece>) -> Shelf {
     let mut boxes: Vec<Crate> = pieces
         .iter()
         .map(|p| Crate {
@@ -77,9 +89,17 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
             top: p.bottom + p.height,
         })
         .collect();
+    let feet = settle::feet(&boxes);
     for (n, bottom) in settle::settled(&boxes).into_iter().enumerate() {
         pieces[n].bottom = bottom;
         (boxes[n].bottom, boxes[n].top) = (bottom, bottom + pieces[n].height);
+    }
+    for (n, is_closed) in shape::closed(&boxes).into_iter().enumerate() {
+        let is_shut = || pieces[n].properties.get(STATE).is_some_and(|state| state == CLOSED);
+        if boxes[n].build == Build::Bowl && (is_closed || is_shut()) {
+            boxes[n].build = Build::Case;
+            pieces[n].kind.push_str(" (закрыто)");
+        }
     }
     let levels = shape::levels(&boxes);
     let surrounds = shape::surrounds(&boxes);
@@ -133,17 +153,17 @@ pub(super) fn shelve(mut pieces: Vec<Piece>) -> (Vec<Kind>, Vec<Thing>) {
         move_prob: piece.move_prob,
         properties: piece.properties,
     });
-    (kinds, things.collect())
+    Shelf { kinds, things: things.collect(), feet }
 }
 
 /// СОСТОЯНИЕ from what a file says of being open and switched on; where it says both, the second is ПИТАНИЕ.
 pub(super) fn state(open: Option<bool>, on: Option<bool>, properties: &mut Properties) {
-    let open = open.map(|o| if o { "Открыто" } else { "Закрыто" });
+    let open = open.map(|o| if o { "Открыто" } else { CLOSED });
     let on = on.map(|o| if o { "Включено" } else { "Выключено" });
     if let (Some(_), Some(on)) = (open, on) {
         properties.insert("ПИТАНИЕ".to_owned(), on.to_owned());
     }
     if let Some(state) = open.or(on) {
-        properties.insert("СОСТОЯНИЕ".to_owned(), state.to_owned());
+        properties.insert(STATE.to_owned(), state.to_owned());
     }
 }

@@ -13,7 +13,7 @@ use crate::units::{Cm, Deg, Point, Source};
 use super::colour;
 use super::json::{angles, length, list, parse, plan, remark, text, triple};
 use super::shape::rectangle;
-use super::stock::{Facing, Piece, shelve, state};
+use super::stock::{Facing, Piece, Shelf, shelve, state};
 
 const FORMAT: &str = "AI2-THOR";
 /// What is part of the building.
@@ -54,7 +54,7 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
             None => remarks.push(remark(id, "предмет пропущен: нет коробки, в которой он стоит")),
         }
     }
-    let (kinds, things) = shelve(pieces);
+    let Shelf { kinds, things, feet } = shelve(pieces);
     let agent = scene.get("agent").and_then(|a| {
         let heading = Deg::of(90.0 - angles(a.get("rotation"))[1]);
         let at = plan(triple(a.get("position"))?);
@@ -76,7 +76,7 @@ pub fn read_thor(source: &Source) -> Result<Survey, ReadError> {
         spots: agent.into_iter().collect(),
         ..Level::default()
     };
-    Ok(Survey { levels: vec![level], kinds, remarks, ..Survey::default() })
+    Ok(Survey { levels: vec![level], kinds, feet, remarks, ..Survey::default() })
 }
 
 /// By the number of the scene: 1-30 kitchens, 201-230 living rooms, 301-330 bedrooms, 401-430 bathrooms.

@@ -18,7 +18,7 @@ use super::json::{length, list, parse, remark, text};
 use super::plane;
 use super::procthor::contains;
 use super::shape::rectangle;
-use super::stock::{Facing, Piece, shelve, state};
+use super::stock::{Facing, Piece, Shelf, shelve, state};
 
 const FORMAT: &str = "VirtualHome";
 /// A door leaf and its frame stand in the same place, nearer than this, cm.
@@ -84,10 +84,10 @@ pub fn read_virtualhome(source: &Source) -> Result<Survey, ReadError> {
             },
         }
     }
-    let (kinds, things) = shelve(pieces);
+    let Shelf { kinds, things, feet } = shelve(pieces);
     let level =
         Level { source: "0".to_owned(), rooms, openings, things, spots, ..Level::default() };
-    Ok(Survey { levels: vec![level], kinds, remarks, ..Survey::default() })
+    Ok(Survey { levels: vec![level], kinds, feet, remarks, ..Survey::default() })
 }
 
 struct Node<'v> {
@@ -262,15 +262,17 @@ fn flush(floors: &mut BTreeMap<String, Vec<Vec<Point>>>) {
 fn rooms(nodes: &[Node<'_>], floors: &BTreeMap<String, Vec<Vec<Point>>>) -> Vec<Room> {
     let rooms = nodes.iter().filter(|n| n.category == "Rooms");
     rooms
-        .map(|room| {
+        .flat_map(|room| {
             let floor = floors.get(&room.id).map(|tiles| plane::union(tiles)).unwrap_or_default();
-            Room {
+            // Tiles that lie apart, with another room between them, are floor all the same.
+            let pieces = if floor.is_empty() { vec![room.outline()] } else { floor };
+            pieces.into_iter().map(|outline| Room {
                 source: room.id.clone(),
                 kind: room.class.to_owned(),
-                outline: floor.into_iter().next().unwrap_or_else(|| room.outline()),
+                outline,
                 height: Some(Cm::of(room.high[1] - room.low[1])).filter(|h| h.get() > 100.0),
                 ..Room::default()
-            }
+            })
         })
         .filter(|room| plane::area(&room.outline) > 1.0)
         .collect()

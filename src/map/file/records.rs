@@ -59,6 +59,7 @@ impl Reader<'_> {
             key,
             name_en: file.name_en,
             description: file.description,
+            profile: file.profile.into(),
             maps: domain_maps,
             lifts,
         }

@@ -15,7 +15,7 @@ use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::decode::MODEST_NUMBER;
 use super::text::{Lines, Printed, line};
-use crate::map::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability};
+use crate::map::{Case, DoorKind, DoorStatus, Gender, HingeSide, OpensTo, Permeability, Profile};
 use crate::units::Cm;
 
 /// The only format that this version reads and writes.
@@ -206,6 +206,8 @@ tables! {
         name: String;
         name_en: String;
         description: String;
+        /// How exactly its things were measured; "surveyed" if left out.
+        profile: ProfileFile;
         /// Where each Map stands in the building; may be left out when there is only one.
         maps: Vec<DomainMapFile>;
         /// Lifts and stairs, each with the Areas in which it stops.
@@ -595,6 +597,8 @@ words! {
         Closed: "closed" | "закрыта",
         Locked: "locked" | "заперта"
     }
+    /// Surveyed by people, or detected: boxes that are off by some centimetres.
+    ProfileFile = Profile { Surveyed: "surveyed" | "обмерено", Detected: "detected" | "увидено" }
     /// Where the hinges are.
     HingeFile = HingeSide { Right: "right" | "справа", Left: "left" | "слева" }
     /// Whether leaves swing into the Area.
@@ -606,4 +610,9 @@ macro_rules! defaults {
         impl Default for $name { fn default() -> Self { Self::$variant } }
     )+};
 }
-defaults!(PermeabilityFile::Impermeable, StatusFile::Open, OpensFile::Inside);
+defaults!(
+    PermeabilityFile::Impermeable,
+    StatusFile::Open,
+    OpensFile::Inside,
+    ProfileFile::Surveyed
+);

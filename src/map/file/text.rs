@@ -8,7 +8,8 @@ use serde::Serialize;
 use toml::ser::ValueSerializer;
 
 use super::schema::{
-    At, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, StatusFile, Table,
+    At, DoorKindFile, HingeFile, Number, OpensFile, PermeabilityFile, ProfileFile, StatusFile,
+    Table,
 };
 use crate::map::Gender;
 
@@ -112,5 +113,6 @@ printed!(
     DoorKindFile,
     StatusFile,
     HingeFile,
-    OpensFile
+    OpensFile,
+    ProfileFile
 );

@@ -159,6 +159,7 @@ impl Writer<'_> {
             name: default_name(&domain.name, &domain.key),
             name_en: domain.name_en.clone(),
             description: domain.description.clone(),
+            profile: domain.profile.into(),
             maps: if implied {
                 Vec::new()
             } else {

@@ -9,7 +9,7 @@ mod rules;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::facts::Live;
-use crate::map::{Entity, World};
+use crate::map::{Entity, Profile, World};
 use crate::units::{AreaId, DoorId, ReplicaId};
 
 use super::feed::{Cell, Feed, Sink};
@@ -19,7 +19,7 @@ use super::openings::{Opening, openings};
 
 pub(super) use rows::Rows;
 use rows::{Load, note, tuple};
-pub use rules::{Profile, RelationError, RelationRules, STANDARD};
+pub use rules::{RelationError, RelationRules, STANDARD};
 
 /// OUTSIDE is derived for all things while there are no more pairs of thing and Area than this.
 const MOST_OUTSIDE: usize = 100_000;

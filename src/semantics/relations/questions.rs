@@ -4,13 +4,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::facts::{Database, Derived, Proof, RelationId, RelationInfo, Value, WhyNot};
-use crate::map::Entity;
+use crate::map::{Entity, Profile};
 use crate::semantics::measure::Measurements;
 use crate::semantics::names::{Subject, Symbols};
 use crate::semantics::openings::Opening;
 use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
-use super::{Join, Profile, RelationCount, RelationError, RelationRules, Relations};
+use super::{Join, RelationCount, RelationError, RelationRules, Relations};
 
 impl Relations {
     /// Every relation that the rule text puts out and names in both languages, in its order there.

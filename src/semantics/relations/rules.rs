@@ -62,27 +62,6 @@ pub enum RelationError {
     UnknownRelation { name: String, nearest: Option<String> },
 }
 
-/// How the Map came to be: thresholds differ.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Profile {
-    /// Measured by people: what stands on something stands on it.
-    #[default]
-    Surveyed,
-    /// Seen by the robot: boxes with some centimetres of error.
-    Detected,
-}
-
-impl Profile {
-    /// Its name in the rule text.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Surveyed => "surveyed",
-            Self::Detected => "detected",
-        }
-    }
-}
-
 /// A rule text, read and found sound.
 #[derive(Debug, Clone)]
 pub struct RelationRules {
