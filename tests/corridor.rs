@@ -432,7 +432,7 @@ fn a_way_in_words_counts_entrances_along_corridors() {
         Выйдите из Комнаты-В через Проход-ВК в Коридор.
         Встаньте вдоль коридора, чтобы дверь была слева.
         Проезжайте до 1-го входа, дверь прямо.
-        Возьмите правее и дойдите до Точки-К."#]]
+        Идите прямо до Точки-К."#]]
     .assert_eq(&words(orthoframe::language::Language::Russian));
     let english = words(orthoframe::language::Language::English);
     assert!(english.starts_with("Leave Room V through Passage VK into"), "{english}");

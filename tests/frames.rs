@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use orthoframe::engine::Engine;
 use orthoframe::exchange::{
-    Options, Survey, file_text, read, read_osmag, read_procthor, read_rmf, read_virtualhome,
+    Assets, Options, Survey, file_text, read, read_osmag, read_procthor, read_rmf, read_virtualhome,
 };
 use orthoframe::map::World;
 use orthoframe::units::{AreaId, Cm, Point, Source};
@@ -65,7 +65,7 @@ fn every_reader_keeps_the_coordinates_of_its_file() {
         ("rmf/office.building.yaml", |s| read_rmf(s).expect("sound")),
         ("rmf/triple_H.building.yaml", |s| read_rmf(s).expect("sound")),
         ("osmag/SIST_1.osm", |s| read_osmag(s).expect("sound")),
-        ("procthor/house_3.json", |s| read_procthor(s, &Default::default()).expect("sound")),
+        ("procthor/house_3.json", |s| read_procthor(s, &sizes()).expect("sound")),
         ("virtualhome/TestScene2_graph.json", |s| read_virtualhome(s).expect("sound")),
     ];
     for (name, reader) in readers {
@@ -74,6 +74,12 @@ fn every_reader_keeps_the_coordinates_of_its_file() {
         let world = read(&path, &Options::default()).expect("readable").world;
         keeps_the_frame(name, &survey, &world);
     }
+}
+
+/// The sizes of ProcTHOR's things.
+fn sizes() -> Assets {
+    let path = data("procthor/asset-database.json").expect("beside the houses");
+    Assets::read(&file_text(&path).expect("readable")).expect("sound")
 }
 
 /// Against the files themselves, not their readers.
