@@ -82,6 +82,8 @@ fn what_is_meant(found: &Whereabout) -> Vec<(String, String)> {
         Spot::AtDoor { way, .. } => format!("{room} at {:?}", way.door),
         Spot::On { replica } => format!("{room} on {replica:?}"),
         Spot::NextTo { replica, .. } => format!("{room} by {replica:?}"),
+        // Of which nothing more is said than the room.
+        Spot::Inside => room.clone(),
         other => format!("{room} {other:?}"),
     };
     let levels = [(Detail::Region, room), (Detail::Spot, spot)];
@@ -147,7 +149,7 @@ fn who_stands_on_a_rug_is_told_so() {
     let world = read(&path, &Options::default()).expect("it reads").world;
     let engine = Engine::in_memory(world, None).unwrap();
     let map = *engine.floors().unwrap().keys().next().unwrap();
-    let pose = Pose { at: Point::new(-647.0, -203.0), heading: Deg::ZERO };
+    let pose = Pose { at: Point::new(-1150.0, 420.0), heading: Deg::ZERO };
     let found = engine.locate(map, pose, false).unwrap();
     let said = [Language::Russian, Language::English].map(|l| found.position.say(l));
     assert_eq!(
@@ -157,7 +159,7 @@ fn who_stands_on_a_rug_is_told_so() {
     for text in said {
         let region = engine.read_position(&text).unwrap();
         assert!(engine.region_contains(&region, pose).unwrap());
-        let beside = Pose { at: Point::new(-647.0, -420.0), ..pose };
+        let beside = Pose { at: Point::new(-1150.0, 203.0), ..pose };
         assert!(!engine.region_contains(&region, beside).unwrap());
     }
 }
