@@ -187,10 +187,11 @@ impl FragmentFloor {
         );
         let free = smooth(free);
 
-        let cells = Mesh::of(&grid, &centre, 0);
+        let mut cells = Mesh::of(&grid, &centre, 0);
         let frames = Mesh::of(&grid, &free, PATIENCE);
         debug_assert!(cells.fills(&grid, &centre) && frames.fills(&grid, &free), "{area:?}");
         let exits = exits(&cells, &open);
+        exits.iter().for_each(|exit| cells.bend_at(exit.cell, exit.edge));
         let walls = walls(site, placed);
         let dead = Outlines::of(&dead_zones(&grid, dead));
         let mut built = Self {

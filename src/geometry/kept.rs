@@ -21,7 +21,7 @@ use super::storey::Side;
 use super::{Bounds, Polygon};
 
 /// Floors of another version of the crate are not taken up.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 9");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " floor 10");
 
 /// A value that can be written and read again.
 pub(super) trait Kept: Sized {

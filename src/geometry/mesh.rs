@@ -40,7 +40,8 @@ pub(super) struct Mesh {
     /// The grid of its vertices.
     grid: Grid,
     nodes: Vec<Node>,
-    /// Whether a shortest way may bend at the vertex: the floor's border turns inwards there.
+    /// Whether a shortest way may bend at the vertex: the floor's border turns inwards there, or that of the whole Map may;
+    /// see [`Self::bend_at`].
     pub(super) is_corner: Vec<bool>,
     /// Where the corners of each cell begin in `ring`; one entry more than there are cells.
     starts: Numbers,
@@ -148,6 +149,17 @@ impl Mesh {
             && [&mesh.across, &mesh.trunk].into_iter().flat_map(|n| n.all().iter()).all(is_cell)
             && mesh.component.all().iter().all(|c| c < mesh.components);
         is_sound.then_some(mesh)
+    }
+
+    /// Lets ways bend at the ends of an edge that leads on into another floor: where the doorway's line ends, a border that
+    /// runs straight on in each of the two floors turns inwards in both together.
+    pub(super) fn bend_at(&mut self, cell: u32, edge: usize) {
+        let ring = self.ring(cell);
+        let next = if edge + 1 == ring.len() { 0 } else { edge + 1 };
+        for end in [ring.get(edge), ring.get(next)] {
+            self.is_corner[end as usize] = true;
+        }
+        self.passages = OnDemand::default();
     }
 
     pub(super) fn len(&self) -> usize {

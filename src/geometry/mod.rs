@@ -54,6 +54,7 @@ mod search;
 mod seen;
 mod storey;
 mod strait;
+mod taut;
 mod view;
 
 pub use blocked::{Barrier, NoRoute};

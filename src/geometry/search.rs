@@ -10,7 +10,11 @@
 //! dropped ([`Search::is_known`]). Without that, the search would turn for ever round a corner at which cells meet on
 //! all sides, as the end of a doorway's line may be, since that corner lies in line with every edge there.
 //!
-//! **Invariant**: every way found lies in the cells; none is shorter. No root looks twice through the same stretch of an
+//! Angles are measured in floating point, and the Fragments that meet on a doorway's line know it each on a grid of its own.
+//! So what border and ray have in line is taken whole, wherever rounding puts it, and looked at from its nearer end.
+//!
+//! **Invariant**: every way found lies in the cells; none is shorter. None is found only where no chain of cells leads to
+//! the goal: that is asked of the cells before it is said ([`taut`]). No root looks twice through the same stretch of an
 //! edge, so that every search ends, and what it remembers is bounded by corners and edges.
 
 use std::cell::RefCell;
@@ -20,7 +24,7 @@ use std::hash::{BuildHasherDefault, Hasher};
 
 use crate::units::Point;
 
-use super::nearest_on_segment;
+use super::{nearest_on_segment, taut};
 
 /// Cells of all Fragments: Fragment, cell.
 pub(super) type CellKey = (u32, u32);
@@ -50,8 +54,9 @@ pub(super) struct Edge {
 const EPSILON: f64 = 1e-7;
 /// Cells looked through without asking whether another way is shorter.
 const EAGER: usize = 6;
-/// Points nearer than this to a vertex are the vertex, in cm.
-const SNAP: f64 = 1e-5;
+/// Points nearer than this to a vertex are the vertex, and nearer to a line are in line, in cm: more than the grids of two
+/// Fragments, where these meet on a doorway's line, can differ, and far less than the narrowest gap is wide.
+const SNAP: f64 = 1e-4;
 
 #[derive(Debug, Clone, Copy)]
 struct SearchNode {
@@ -111,8 +116,23 @@ pub(super) struct Way {
     pub(super) length: f64,
 }
 
-/// The shortest way from `start` in cell `from` to `goal` in cell `to`.
+/// The shortest way from `start` in cell `from` to `goal` in cell `to`; none only where no chain of cells leads there.
 pub(super) fn shortest(
+    cells: &impl Cells,
+    start: Point,
+    from: CellKey,
+    goal: Point,
+    to: CellKey,
+) -> Option<Way> {
+    seen(cells, start, from, goal, to).or_else(|| {
+        let points = taut::along_cells(cells, start, from, goal, to)?;
+        debug_assert!(false, "a way from {start} in {from:?} to {goal} in {to:?} was not seen");
+        Some(Way { length: length(&points), points })
+    })
+}
+
+/// What the search finds by itself.
+pub(super) fn seen(
     cells: &impl Cells,
     start: Point,
     from: CellKey,
@@ -127,6 +147,10 @@ pub(super) fn shortest(
     let way = search.run(cells, from, to);
     KEPT.set(search);
     way
+}
+
+pub(super) fn length(points: &[Point]) -> f64 {
+    points.windows(2).map(|p| (p[1] - p[0]).norm()).sum()
 }
 
 thread_local! {
@@ -154,7 +178,8 @@ struct Search {
     open: BinaryHeap<Reverse<Waiting>>,
 }
 
-fn side(a: Point, b: Point, c: Point) -> f64 {
+/// Twice the area of a triangle; positive where `c` lies to the left of the line from `a` to `b`.
+pub(super) fn side(a: Point, b: Point, c: Point) -> f64 {
     (b - a).perp(&(c - a))
 }
 
@@ -165,6 +190,12 @@ fn meet(a: Point, b: Point, p: Point, q: Point) -> Point {
     let at = p + (q - p) * t;
     // A ray along a wall meets the wall's end: rounding must not lose the bend there.
     [p, q].into_iter().find(|&end| (end - at).norm_squared() < SNAP * SNAP).unwrap_or(at)
+}
+
+/// Whether three points are in line but for rounding.
+fn is_in_line(a: Point, b: Point, c: Point) -> bool {
+    let longest = (b - a).norm_squared().max((c - a).norm_squared()).max((c - b).norm_squared());
+    side(a, b, c).powi(2) <= SNAP * SNAP * longest
 }
 
 /// Whether a root is in line with a stretch: it sees nothing past it, save through its nearer end.
@@ -347,10 +378,11 @@ impl Search {
     fn finish(&mut self, node: &SearchNode) {
         let at = self.root(node);
         let mut last = *node;
-        // Seen past an end of the stretch, the goal is reached over a bend there.
-        let bend = if side(at, node.left, self.goal) > 0.0 && at != node.left {
+        // Seen past an end of the stretch, the goal is reached over a bend there; in line with it, straight.
+        let is_straight = |end: Point| is_in_line(at, end, self.goal);
+        let bend = if side(at, node.left, self.goal) > 0.0 && !is_straight(node.left) {
             Some(node.left)
-        } else if side(at, node.right, self.goal) < 0.0 && at != node.right {
+        } else if side(at, node.right, self.goal) < 0.0 && !is_straight(node.right) {
             Some(node.right)
         } else {
             None
@@ -419,15 +451,22 @@ impl Search {
             // What the two rays cut from the edge: left of the left ray, between, right of the right ray.
             let (r_left, l_left) = (side(at, left, r) > 0.0, side(at, left, l) > 0.0);
             let (r_right, l_right) = (side(at, right, r) < 0.0, side(at, right, l) < 0.0);
-            if !r_left && !l_right {
-                let seen_right = if r_right { meet(at, right, r, l) } else { r };
-                let seen_left = if l_left { meet(at, left, r, l) } else { l };
-                if (seen_left - seen_right).norm_squared() > EPSILON * EPSILON {
-                    // In line with the root only rounding cuts an edge: its ends alone are corners to bend at.
-                    let is_cut = r_right || l_left;
-                    let is_whole = is_cut && is_flat(at, seen_right, seen_left);
-                    let (right, left) = if is_whole { (r, l) } else { (seen_right, seen_left) };
-                    self.push(node.spent, node.root, edge, right, left, node.cell);
+            let seen_right = if r_right { meet(at, right, r, l) } else { r };
+            let seen_left = if l_left { meet(at, left, r, l) } else { l };
+            let is_wide = (seen_left - seen_right).norm_squared() > EPSILON * EPSILON;
+            if !r_left && !l_right && is_wide {
+                // In line with the root only rounding cuts an edge: its ends alone are corners to bend at.
+                let is_cut = r_right || l_left;
+                let is_whole = is_cut && is_flat(at, seen_right, seen_left);
+                let (right, left) = if is_whole { (r, l) } else { (seen_right, seen_left) };
+                self.push(node.spent, node.root, edge, right, left, node.cell);
+            } else {
+                // Where the border runs straight on, no way bends, and only rounding takes the edge out of sight.
+                let grazes = |end: Point| is_in_line(at, end, r) && is_in_line(at, end, l);
+                let is_past_left = (l_left || r_left) && !node.left_bends;
+                let is_past_right = (r_right || l_right) && !node.right_bends;
+                if (is_past_left && grazes(left)) || (is_past_right && grazes(right)) {
+                    self.push(node.spent, node.root, edge, r, l, node.cell);
                 }
             }
             // An edge may end in the bend itself, and then leads off from it to the other side.
@@ -481,7 +520,7 @@ impl Search {
         if points.len() == 1 {
             points.push(points[0]);
         }
-        Way { length: points.windows(2).map(|p| (p[1] - p[0]).norm()).sum(), points }
+        Way { length: length(&points), points }
     }
 }
 
