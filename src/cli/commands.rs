@@ -268,7 +268,7 @@ pub(super) fn perform(
 
 /// The question in a task that orders nothing but an answer: «Проверь, открыт ли холодильник».
 fn only_asked(engine: &Engine, task: &str) -> Result<Option<String>, Failure> {
-    Ok(match engine.orders_and_questions(task)?.as_deref() {
+    Ok(match engine.parts_of(task)?.as_deref() {
         Some([question]) => Some(question.clone()),
         None if !engine.is_command(task)? && engine.asks_something(task)? => Some(task.to_owned()),
         _ => None,

@@ -77,33 +77,57 @@ pub(super) fn perform(
     engine: &mut Engine,
     task: &str,
 ) -> Result<TaskAnswer, Failure> {
-    let parts = engine.orders_and_questions(task)?;
-    let (order, question) = match parts.as_deref() {
-        Some([order, question]) if engine.is_command(order)? => (order.as_str(), Some(question)),
-        _ => (task, None),
+    let parts = match engine.parts_of(task)? {
+        Some(parts) if parts.len() > 1 => {
+            engine.read_ahead(&parts, &Memory::default())?;
+            parts
+        }
+        _ => vec![task.to_owned()],
     };
+    let mut memory = Memory::default();
+    let (mut done, mut refused) = (None, false);
+    for part in &parts {
+        if parts.len() > 1 && !engine.is_command(part)? {
+            // What is asked may speak of where the robot was sent.
+            say(&match engine.ask(part, &mut memory)? {
+                Ok(answer) if common.json => super::ask::view(engine, &answer)?.to_string(),
+                Err(unanswered) if common.json => super::ask::doubt(&unanswered).to_string(),
+                Ok(answer) => answer.text,
+                Err(unanswered) => unanswered.text,
+            })?;
+            continue;
+        }
+        if refused {
+            continue;
+        }
+        let answer = perform_order(common, engine, part, &mut memory)?;
+        // A store that is only read keeps nothing.
+        if !common.read_only && common.as_of.is_none() {
+            engine.remember(&answer, std::time::SystemTime::now().into())?;
+        }
+        let failed = matches!(answer.ending, TaskEnding::NoPlan(_) | TaskEnding::Stuck(_));
+        done = Some(answer);
+        // What was ordered behind it is not begun; what was asked is answered.
+        refused |= failed;
+    }
+    match done {
+        Some(answer) => Ok(answer),
+        None => perform_order(common, engine, task, &mut memory),
+    }
+}
+
+fn perform_order(
+    common: &Common,
+    engine: &Engine,
+    order: &str,
+    memory: &mut Memory,
+) -> Result<TaskAnswer, Failure> {
     let in_order = in_time(order).filter(|order| is_order(order));
     let order = in_order.as_deref().unwrap_or(order);
-    let answer = match conditional(order) {
-        Some(conditional) => perform_if(common, engine, order, &conditional)?,
-        None => perform_told(common, engine, order)?,
-    };
-    // A store that is only read keeps nothing.
-    if !common.read_only && common.as_of.is_none() {
-        engine.remember(&answer, std::time::SystemTime::now().into())?;
+    match conditional(order) {
+        Some(conditional) => perform_if(common, engine, order, &conditional, memory),
+        None => perform_told(common, engine, order, memory),
     }
-    if let Some(question) = question {
-        let mut memory = Memory::default();
-        // What is asked may speak of where the robot was sent.
-        engine.understand_in(order, &mut memory)?;
-        say(&match engine.ask(question, &mut memory)? {
-            Ok(answer) if common.json => super::ask::view(engine, &answer)?.to_string(),
-            Err(unanswered) if common.json => super::ask::doubt(&unanswered).to_string(),
-            Ok(answer) => answer.text,
-            Err(unanswered) => unanswered.text,
-        })?;
-    }
-    Ok(answer)
 }
 
 /// Tells whether a condition holds, and does what is then to be done.
@@ -112,24 +136,32 @@ fn perform_if(
     engine: &Engine,
     task: &str,
     conditional: &Conditional,
+    memory: &mut Memory,
 ) -> Result<TaskAnswer, Failure> {
     if !common.json
-        && let Ok((holds, answer)) = engine.holds(conditional, &mut Memory::default())?
+        && let Ok((holds, answer)) = engine.holds(conditional, &mut memory.clone())?
     {
         say(&answer.text)?;
         let order = if holds { &conditional.then } else { &conditional.otherwise };
         if order.is_none() && conditional.first.is_none() {
             say(conditional.undone())?;
-            return Ok(engine.perform(task, &mut |_| {})?);
+            let commands = engine.understand_in(task, memory)?;
+            return Ok(engine.carry_out(&commands, &mut |_| {})?);
         }
     }
-    perform_told(common, engine, task)
+    perform_told(common, engine, task, memory)
 }
 
-fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnswer, Failure> {
+fn perform_told(
+    common: &Common,
+    engine: &Engine,
+    task: &str,
+    memory: &mut Memory,
+) -> Result<TaskAnswer, Failure> {
     let world = engine.world()?;
     if common.json {
-        let answer = engine.perform(task, &mut |_| {})?;
+        let commands = engine.understand_in(task, memory)?;
+        let answer = engine.carry_out(&commands, &mut |_| {})?;
         say(&json::task(world, &answer).to_string())?;
         return Ok(answer);
     }
@@ -138,7 +170,8 @@ fn perform_told(common: &Common, engine: &Engine, task: &str) -> Result<TaskAnsw
         Lang::Ru => format!("Задание: «{task}»"),
         Lang::En => format!("Task: \"{task}\""),
     })?;
-    let answer = engine.perform(task, &mut |progress| teller.tell(progress))?;
+    let commands = engine.understand_in(task, memory)?;
+    let answer = engine.carry_out(&commands, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
     say_ending(engine, &answer, common.lang)?;
     Ok(answer)

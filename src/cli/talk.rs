@@ -155,23 +155,39 @@ impl Dialogue {
         let parts = sentences(line);
         if parts.len() > 1 && self.engine.is_command(parts.last().copied().unwrap_or_default())? {
             let (order, before) = parts.split_last().expect("there are several");
+            let mut heard = Vec::new();
             for part in before {
                 // "I am thirsty. Bring me a cup.": what asks nothing and commands nothing is let pass.
                 let asked = part.ends_with('?') || self.engine.is_command(part)?;
                 if asked || self.engine.ask(part, &mut self.memory.clone())?.is_ok() {
-                    self.hear_one(part, shows)?;
+                    heard.push((*part).to_owned());
                 }
             }
-            self.hear_one(order, shows)?;
-            return Ok(true);
+            heard.push((*order).to_owned());
+            return self.hear_each(&heard, shows).map(|()| true);
         }
-        if let Some(parts) = self.engine.orders_and_questions(line)? {
-            for part in parts {
-                self.hear_one(&part, shows)?;
-            }
-            return Ok(true);
+        if let Some(parts) = self.engine.parts_of(line)? {
+            return self.hear_each(&parts, shows).map(|()| true);
         }
         self.hear_one(line, shows).map(|()| true)
+    }
+
+    /// Orders and questions of one line: none is begun where another cannot be followed.
+    fn hear_each(&mut self, parts: &[String], shows: bool) -> Result<(), Failure> {
+        if parts.len() > 1
+            && let Err(error) = self.engine.read_ahead(parts, &self.memory)
+        {
+            let language = Language::of(&parts.join(" "));
+            return match error {
+                Error::Misheard(misheard) => {
+                    let text = misheard.say(language);
+                    self.refusal = Some(text.clone());
+                    self.put("misheard", &text)
+                }
+                other => self.refuse(&other, language),
+            };
+        }
+        parts.iter().try_for_each(|part| self.hear_one(part, shows))
     }
 
     /// What is found out is told, and what then is to be done follows.

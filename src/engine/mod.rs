@@ -50,6 +50,7 @@ mod talk;
 mod task;
 mod tidy;
 mod upkeep;
+mod utterance;
 mod words;
 
 use std::cell::OnceCell;

@@ -126,6 +126,14 @@ impl Engine {
         Ok(self.asker(&senses)?.orders_and_questions(text))
     }
 
+    pub(super) fn sentences_that_order_and_ask(
+        &self,
+        text: &str,
+    ) -> Result<Option<Vec<String>>, Error> {
+        let senses = RobotSenses { engine: self };
+        Ok(self.asker(&senses)?.sentences_that_order_and_ask(text))
+    }
+
     /// Whether a text without a verb orders: «К холодильнику!», "The medicine, please".
     ///
     /// # Errors

@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use super::Asker;
-use crate::language::command::{self, is_order};
+use super::several::sentences;
+use crate::language::command::{self, is_command, is_order};
 use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
 impl Asker<'_> {
@@ -11,7 +12,12 @@ impl Asker<'_> {
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     #[must_use]
     pub fn orders_and_questions(&self, text: &str) -> Option<Vec<String>> {
-        if !self.begins_as_question(text) {
+        // "Turn" begins questions as well as orders: an order before what is to be told stays one.
+        let orders_first = || {
+            self.orders(text)
+                && order_and_question(text).is_some_and(|(order, _)| self.orders(order))
+        };
+        if !self.begins_as_question(text) || orders_first() {
             let (order, question) = order_and_question(text)?;
             let question = whether(&question).unwrap_or(question);
             if !self.begins_as_question(&question) && !question.ends_with('?') {
@@ -21,13 +27,48 @@ impl Asker<'_> {
             let polite = |key: &String| ["please", "пожалуйста", "just"].contains(&key.as_str());
             let bare = word_keys(order).iter().filter(|key| !polite(key)).count() < 2;
             let order = Some(order).filter(|_| !bare).map(str::to_owned);
-            return Some(order.into_iter().chain([question]).collect());
+            let behind = order.as_ref().and_then(|_| self.orders_and_questions(&question));
+            let behind = behind.unwrap_or_else(|| vec![question]);
+            return Some(order.into_iter().chain(behind).collect());
         }
         [" и ", " and ", ", then ", ", затем ", ", потом "].iter().find_map(|joint| {
             let (question, order) = text.rsplit_once(joint)?;
             let question = question.trim_end_matches(',');
-            is_order(order).then(|| vec![question.to_owned(), order.to_owned()])
+            let asks = is_order(order) && !self.orders(question);
+            asks.then(|| vec![question.to_owned(), order.to_owned()])
         })
+    }
+
+    /// Whether a text begins with a verb that orders, and not to be told something.
+    fn orders(&self, text: &str) -> bool {
+        is_order(text) && !self.asks_to_tell(text)
+    }
+
+    /// The sentences of a text that orders in one and asks in another, orders that follow each other as one; what
+    /// neither orders nor asks stays with what follows it. None where all are of one sort.
+    #[must_use]
+    pub fn sentences_that_order_and_ask(&self, text: &str) -> Option<Vec<String>> {
+        let asks = |part: &str| !self.orders(part) && part.trim_end().ends_with('?');
+        let said = sentences(text);
+        if !said.iter().any(|part| self.orders(part))
+            || !said.iter().any(|part| asks(part) && !is_command(part))
+        {
+            return None;
+        }
+        let mut parts: Vec<(String, bool)> = Vec::new();
+        let mut open = false;
+        for part in said {
+            let question = asks(part) && !is_command(part);
+            match parts.last_mut() {
+                Some((before, was)) if open || (!*was && !question) => {
+                    *before = format!("{before} {part}");
+                    *was = question;
+                }
+                _ => parts.push((part.to_owned(), question)),
+            }
+            open = !question && !self.orders(part);
+        }
+        Some(parts.into_iter().map(|(part, _)| part).collect())
     }
 }
 
