@@ -436,15 +436,18 @@ fn neither_half_of_an_order_is_passed_over() {
             for bad in bad {
                 let joint = joints[roll(joints.len())];
                 // What stands before a mark and is no order may tell something: "It is dark, switch on the lamp".
-                let tells = bad.starts_with("zorble") || bad.starts_with("зюзюкни");
+                let tells =
+                    ["zorble", "зюзюкни", "tell me", "скажи"].iter().any(|w| bad.starts_with(w));
                 let before = if tells { joints[0] } else { joint };
                 for sentence in [format!("{sound}{joint}{bad}"), format!("{bad}{before}{sound}")] {
                     if !all && roll(4) > 0 {
                         continue;
                     }
                     let told = read(&engine, &sentence);
+                    // Of a half that stands first it may be asked which of several is meant.
+                    let first = sentence.starts_with(*bad);
                     let named = told.as_ref().is_err_and(|why| {
-                        NAMED.iter().any(|word| bad.contains(word) && why.contains(word))
+                        first || NAMED.iter().any(|word| bad.contains(word) && why.contains(word))
                     });
                     if !named {
                         writeln!(passed_over, "{sentence}\n    {told:?}").unwrap();
