@@ -1,7 +1,7 @@
 //! Outlines as files give them, made into simple polygons; regions with holes, cut into pieces without.
 //!
-//! **Invariant.** The rings of a [`Region`] are simple, do not touch each other, and have no two neighbouring
-//! corners nearer than [`NEAR`]; the floor lies to the left of each: the outer ring runs counter-clockwise, holes
+//! **Invariant.** The rings of a [`Region`] are simple, are nowhere nearer to each other than [`NEAR`], and have no two
+//! neighbouring corners nearer than that; the floor lies to the left of each: the outer ring runs counter-clockwise, holes
 //! clockwise.
 
 use std::ops::ControlFlow;
@@ -20,7 +20,7 @@ pub(in crate::exchange) type Ring = Vec<Point>;
 
 /// Corners nearer than this are one, cm; twice what the map's checks call the same place.
 pub(in crate::exchange) const NEAR: f64 = 0.1;
-/// Sides nearer than this meet, cm: more than what is lost when a place is told from another corner, and twice what
+/// Sides of one ring nearer than this meet, cm: more than what is lost when a place is told from another corner, and twice what
 /// [`pieces`] takes for the same place.
 const TOUCHING: f64 = 2e-3;
 /// A corner that stands out from the line between its neighbours by less is none, cm.
@@ -181,12 +181,12 @@ fn crosses(sides: &[(Point, Point)], n: usize, i: usize, j: usize) -> bool {
         let (u, v) = (sides[first].1 - sides[first].0, sides[second].1 - sides[second].0);
         return u.perp(&v).abs() <= 1e-9 * u.norm() * v.norm() && u.dot(&v) < 0.0;
     }
-    meet(sides[i], sides[j])
+    meet(sides[i], sides[j], TOUCHING)
 }
 
-/// Whether two sides meet, or would once their places are told from another corner.
-fn meet(one: (Point, Point), other: (Point, Point)) -> bool {
-    let touches = |p: Point, side| segment_distance(p, side) < TOUCHING;
+/// Whether two sides meet or come nearer than that.
+fn meet(one: (Point, Point), other: (Point, Point), touching: f64) -> bool {
+    let touches = |p: Point, side| segment_distance(p, side) < touching;
     meeting(one, other).is_some()
         || touches(one.0, other)
         || touches(one.1, other)
@@ -209,8 +209,8 @@ pub(in crate::exchange) fn is_sound(region: &Region) -> bool {
     }
     let boxes: Vec<_> = sides.iter().map(|&(_, (a, b))| bounds([a, b])).collect();
     let mut is_sound = true;
-    near_pairs(&boxes, TOUCHING, |i, j| {
-        if sides[i].0 != sides[j].0 && meet(sides[i].1, sides[j].1) {
+    near_pairs(&boxes, NEAR, |i, j| {
+        if sides[i].0 != sides[j].0 && meet(sides[i].1, sides[j].1, NEAR) {
             is_sound = false;
             return ControlFlow::Break(());
         }
@@ -315,14 +315,15 @@ fn pinches(rings: &[Ring]) -> Vec<Ring> {
     }
     let boxes: Vec<_> = sides.iter().map(|&(.., (a, b))| bounds([a, b])).collect();
     let mut found = Vec::new();
-    near_pairs(&boxes, TOUCHING, |i, j| {
+    near_pairs(&boxes, NEAR, |i, j| {
         let ((k, a, one), (l, b, other)) = (sides[i], sides[j]);
         let n = rings[k].len();
         let are_neighbours = k == l && ((a + 1) % n == b || (b + 1) % n == a);
         if are_neighbours {
             return ControlFlow::Continue(());
         }
-        let near = |p: &Point, side| segment_distance(*p, side) < TOUCHING;
+        let touching = if k == l { TOUCHING } else { NEAR };
+        let near = |p: &Point, side| segment_distance(*p, side) < touching;
         let mut places: Vec<Point> =
             [one.0, one.1].into_iter().filter(|p| near(p, other)).collect();
         places.extend([other.0, other.1].into_iter().filter(|p| near(p, one)));
@@ -424,6 +425,7 @@ fn slits(
     let mut gaps: Vec<(f64, f64)> = xs.windows(2).map(|w| (w[0], w[1])).collect();
     gaps.sort_by(|a, b| (b.1 - b.0).total_cmp(&(a.1 - a.0)));
     let cut = |(from, to): (f64, f64)| {
+        let is_wide = to - from > 2.0 * NEAR;
         let x = f64::midpoint(from, to);
         let mut hits: Vec<(f64, (Point, Point))> = sides
             .iter()
@@ -439,7 +441,7 @@ fn slits(
         let is_free =
             [below, above, &hits[first], &hits[last]].iter().all(|(_, (a, b))| !is_closed(*a, *b));
         let slit = |from: f64, to: f64| vec![[x, from - 0.01], [x, to + 0.01]];
-        Some((is_free, [slit(below.0, hits[first].0), slit(hits[last].0, above.0)]))
+        Some((is_free && is_wide, [slit(below.0, hits[first].0), slit(hits[last].0, above.0)]))
     };
     let mut tried = gaps.into_iter().take(TRIES).filter_map(cut);
     let Some(first) = tried.next() else { return Vec::new() };
