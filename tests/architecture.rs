@@ -7,11 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use crate::files::project;
+
 type Arrows = BTreeMap<String, BTreeSet<String>>;
 
 /// Rows `| `folder` | what it says | `may`, `use` |` of the table under the heading «Folders».
 fn allowed_arrows() -> Arrows {
-    let text = fs::read_to_string(root().join("ARCHITECTURE.md"))
+    let text = fs::read_to_string(project("ARCHITECTURE.md"))
         .expect("ARCHITECTURE.md is part of the crate");
     let table = text.split("\n## Folders").nth(1).expect("ARCHITECTURE.md has a section «Folders»");
     let ticked = |cell: &str| -> BTreeSet<String> {
@@ -35,13 +37,9 @@ fn allowed_arrows() -> Arrows {
         .collect()
 }
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
 /// Every source file with the folder (or top-level file) that it belongs to.
 fn sources() -> Vec<(String, PathBuf, String)> {
-    let src = root().join("src");
+    let src = project("src");
     let mut found = Vec::new();
     let mut open = vec![src.clone()];
     while let Some(folder) = open.pop() {

@@ -2,7 +2,7 @@
 //! carries them, doors behind which nothing is taken, and no plan begun that the floor is known to refuse.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::SystemTime;
 
 use orthoframe::Engine;
@@ -16,9 +16,7 @@ use orthoframe::map::World;
 use orthoframe::semantics::{Profile, RelationRules, Relations, derive};
 use orthoframe::units::{Frame, ReplicaId};
 
-fn project(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
+use crate::files::{project, shared};
 
 fn now() -> Timestamp {
     SystemTime::now().into()
@@ -454,13 +452,11 @@ fn after_any_orders_all_that_is_told_agrees_in_other_buildings() {
     const ROUNDS: usize = 1;
     let rounds = std::env::var("ORTHO_ORDERS").ok().and_then(|n| n.parse().ok()).unwrap_or(ROUNDS);
     for map in ["cases/office-two-storeys.toml", "procthor/house_6.json"] {
-        let file = project("../shared/data").join(map);
-        if file.exists() {
+        if let Some(file) = shared(map) {
             check_orders(&file, 11, rounds);
         }
     }
-    let scene = project("../shared/data/virtualhome/TestScene1_graph.json");
-    if rounds > ROUNDS && scene.exists() {
+    if let Some(scene) = shared("virtualhome/TestScene1_graph.json").filter(|_| rounds > ROUNDS) {
         check_orders(&scene, 5, rounds);
     }
 }

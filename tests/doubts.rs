@@ -1,7 +1,6 @@
 //! Maps that read well and cannot be: each sort of doubt in its place, and none about maps that are sound.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
 
 use miette::Diagnostic;
 use orthoframe::map::{
@@ -9,12 +8,10 @@ use orthoframe::map::{
 };
 use orthoframe::units::{Frame, InEnglish, ReplicaId, Source};
 
+use crate::files::{project, shared};
+
 fn none() -> BTreeSet<String> {
     BTreeSet::new()
-}
-
-fn root(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
 }
 
 const ROOM: &str = r#"format = 1
@@ -166,10 +163,10 @@ fn metres_are_told_of_rooms_doors_and_furniture() {
 
 #[test]
 fn of_sound_maps_nothing_is_told() {
-    let office = root("../shared/data/cases/office-two-storeys.toml");
+    let office = shared("cases/office-two-storeys.toml");
     let own = ["rb2", "lab", "room", "box", "two-storeys"];
-    let own = own.map(|name| root(&format!("maps/{name}.toml")));
-    for path in own.into_iter().chain([office].into_iter().filter(|path| path.exists())) {
+    let own = own.map(|name| project(&format!("maps/{name}.toml")));
+    for path in own.into_iter().chain(office) {
         let world = World::load(&path).unwrap_or_else(|e| panic!("{}: {e:#?}", path.display()));
         let found = doubts(&world, &none());
         assert!(found.is_empty(), "{}: {found:#?}", path.display());
@@ -194,7 +191,7 @@ fn replica(world: &World, object: &Object, frame: Frame) -> Replica {
 /// Whatever stands twice in one place is told, whatever it is made of, unless it lets things through.
 #[test]
 fn a_thing_in_its_own_twin_is_told() {
-    let world = World::load(root("maps/rb2.toml")).expect("a good map");
+    let world = World::load(project("maps/rb2.toml")).expect("a good map");
     let (mut solid, mut told) = (0, 0);
     for thing in world.replicas.values() {
         let mut doubled = world.clone();
@@ -231,7 +228,7 @@ fn a_thing_in_its_own_twin_is_told() {
 /// Of every kind of thing: amid a bare room it stands on the floor, and half a metre above it, it hovers.
 #[test]
 fn a_thing_in_mid_air_is_told_and_one_on_the_floor_is_not() {
-    let full = World::load(root("maps/rb2.toml")).expect("a good map");
+    let full = World::load(project("maps/rb2.toml")).expect("a good map");
     let room = full.replicas.values().next().expect("a thing").area;
     let polygons = full.area_polygons(room);
     let middle = polygons[0].iter().fold(nalgebra::Vector2::zeros(), |sum, p| sum + p.coords)

@@ -14,6 +14,7 @@ use orthoframe::exchange::{Level, Options, Report, Room, Survey, Synonyms, assem
 use orthoframe::map::{Format, World};
 use orthoframe::units::{Language, Point, Source};
 
+use crate::files::shared;
 use crate::worlds::rb2;
 
 fn engine() -> Engine {
@@ -203,11 +204,8 @@ fn a_png_has_its_letters_without_any_font_of_the_machine() {
 /// Where much stands close together, what bears no name bears a number, told below the plan; no letters are too small.
 #[test]
 fn what_has_no_place_for_its_name_is_told_by_a_number() {
-    let path = std::path::Path::new("../shared/data/virtualhome/TestScene2_graph.json");
-    if !path.exists() {
-        return;
-    }
-    let imported = read(path, &Options::default()).unwrap();
+    let Some(path) = shared("virtualhome/TestScene2_graph.json") else { return };
+    let imported = read(&path, &Options::default()).unwrap();
     let engine = Engine::in_memory(imported.world, None).unwrap();
     let world = engine.world().unwrap();
     let (map, _) = engine.sheet_named(None).unwrap();
@@ -388,8 +386,7 @@ fn worlds() -> Vec<(String, World)> {
         ]);
     }
     for file in files {
-        let path = std::path::Path::new("../shared/data").join(file);
-        if path.exists() {
+        if let Some(path) = shared(file) {
             worlds.push((file.to_owned(), read(&path, &Options::default()).unwrap().world));
         }
     }
@@ -502,13 +499,9 @@ fn every_object_is_lettered_where_it_can_be_read() {
 #[test]
 fn road_graphs_can_be_read() {
     let mut worlds = worlds();
-    for file in ["cases/corridor_mine.json"] {
-        let path = std::path::Path::new("../shared/data").join(file);
-        if path.exists()
-            && let Ok(made) = read(&path, &Options::default())
-        {
-            worlds.push((file.to_owned(), made.world));
-        }
+    if let Some(path) = shared("cases/corridor_mine.json") {
+        let mine = read(&path, &Options::default()).expect("a map");
+        worlds.push(("corridor_mine".to_owned(), mine.world));
     }
     let mut count = 0;
     for (name, world) in worlds {

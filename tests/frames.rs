@@ -10,7 +10,8 @@ use orthoframe::exchange::{
 use orthoframe::map::World;
 use orthoframe::units::{AreaId, Cm, Point, Source};
 
-use crate::imports::{contains, data, source};
+use crate::files::shared;
+use crate::imports::{contains, source};
 
 /// Corners of a room where they stand on its Map.
 pub(crate) fn on_the_map(world: &World, area: AreaId) -> Vec<Vec<Point>> {
@@ -69,7 +70,7 @@ fn every_reader_keeps_the_coordinates_of_its_file() {
         ("virtualhome/TestScene2_graph.json", |s| read_virtualhome(s).expect("sound")),
     ];
     for (name, reader) in readers {
-        let Some(path) = data(name) else { continue };
+        let Some(path) = shared(name) else { continue };
         let survey = reader(&file_text(&path).expect("readable"));
         let world = read(&path, &Options::default()).expect("readable").world;
         keeps_the_frame(name, &survey, &world);
@@ -78,14 +79,14 @@ fn every_reader_keeps_the_coordinates_of_its_file() {
 
 /// The sizes of ProcTHOR's things.
 fn sizes() -> Assets {
-    let path = data("procthor/asset-database.json").expect("beside the houses");
+    let path = shared("procthor/asset-database.json").expect("beside the houses");
     Assets::read(&file_text(&path).expect("readable")).expect("sound")
 }
 
 /// Against the files themselves, not their readers.
 #[test]
 fn rooms_and_places_stand_where_the_file_has_them() {
-    if let Some(path) = data("procthor/house_3.json") {
+    if let Some(path) = shared("procthor/house_3.json") {
         let world = read(&path, &Options::default()).expect("readable").world;
         let house: serde_json::Value =
             serde_json::from_str(file_text(&path).expect("readable").text()).expect("JSON");
@@ -102,7 +103,7 @@ fn rooms_and_places_stand_where_the_file_has_them() {
         }
     }
     for name in ["rmf/triple_H.building.yaml", "rmf/office.building.yaml"] {
-        let Some(path) = data(name) else { continue };
+        let Some(path) = shared(name) else { continue };
         let world = read(&path, &Options::default()).expect("readable").world;
         let text = file_text(&path).expect("readable");
         let file: serde_json::Value = serde_saphyr::from_str(text.text()).expect("YAML");

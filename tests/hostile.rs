@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use orthoframe::exchange::{self, ReadError};
 use orthoframe::units::Source;
 
+use crate::files::project;
 use crate::generated_worlds::Dice;
 
 #[path = "../fuzz/bodies.rs"]
@@ -16,13 +17,9 @@ mod bodies;
 /// Mutations of one reader.
 const ROUNDS: usize = 400;
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
 /// Files under a folder of the crate, or of the shared data, that end so; the small ones first.
 fn files(folder: &str, endings: &[&str]) -> Vec<Vec<u8>> {
-    let mut open = vec![root().join(folder)];
+    let mut open = vec![project(folder)];
     let mut found = Vec::new();
     while let Some(dir) = open.pop() {
         for entry in std::fs::read_dir(&dir).into_iter().flatten().flatten() {
@@ -242,7 +239,7 @@ fn files_that_break_off_are_read_or_refused() {
 }
 
 fn golden(name: &str) -> Vec<u8> {
-    std::fs::read(root().join("tests/golden/formats").join(name)).expect("a golden case")
+    std::fs::read(project("tests/golden/formats").join(name)).expect("a golden case")
 }
 
 fn shown<T>(outcome: Result<T, ReadError>) -> String {
@@ -385,7 +382,7 @@ fn two_million_vertices_are_refused_quickly() {
 #[test]
 fn a_file_is_known_by_its_content_and_read_by_path() {
     let read = |path: &Path| exchange::read(path, &exchange::Options::default());
-    let folder = root().join("tests/golden/formats");
+    let folder = project("tests/golden/formats");
     for (case, rooms) in [
         ("imdf_station", 9),
         ("plain_metres/input.geojson", 3),

@@ -1,6 +1,4 @@
 //! Buildings of others: what arrives of them, against the files themselves.
-//!
-//! The files stand in ../shared/data and are no part of the project; a test whose file is absent says so and passes.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::PathBuf;
@@ -12,18 +10,11 @@ use orthoframe::exchange::{
 use orthoframe::map::{DoorState, World, check};
 use orthoframe::units::{AreaId, Cm, MapId, Point};
 
-#[expect(clippy::print_stdout, reason = "a skipped test says so")]
-pub(crate) fn data(name: &str) -> Option<PathBuf> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
-    if !path.exists() {
-        println!("пропущено: нет {}", path.display());
-    }
-    path.exists().then_some(path)
-}
+use crate::files::shared;
 
 /// Reads a building twice: it passes the checks, and both readings are the same world, ids included.
 fn imported(name: &str) -> Option<Imported> {
-    let path = data(name)?;
+    let path = shared(name)?;
     let one = read(&path, &Options::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
     let other = read(&path, &Options::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
     assert_eq!(one.world, other.world, "{name}: two imports of one file");
@@ -125,7 +116,7 @@ fn the_clinic_arrives_with_its_doors_and_lifts() {
 #[test]
 fn passages_of_osmag_join_the_areas_that_they_name() {
     let Some(school) = imported("osmag/SIST_1.osm") else { return };
-    let path = data("osmag/SIST_1.osm").expect("just read");
+    let path = shared("osmag/SIST_1.osm").expect("just read");
     let text = std::fs::read_to_string(path).expect("readable");
     let document = roxmltree::Document::parse(&text).expect("XML");
     let ways: Vec<(&str, BTreeMap<&str, &str>)> = document
@@ -265,7 +256,7 @@ fn rooms_that_the_source_joins_can_be_driven_between() {
         ("osmag/SIST_1.osm", by_passages),
     ];
     for (name, graph) in buildings {
-        let Some(path) = data(name) else { continue };
+        let Some(path) = shared(name) else { continue };
         let groups = graph(&path);
         assert!(!groups.0.is_empty(), "{name} has a graph");
         let building = read(&path, &Options::default()).expect("a building");
@@ -335,8 +326,8 @@ fn every_format_gives_its_ids_again() {
             .map(|case| golden.join("formats").join(case)),
     );
     files.push(golden.join("pyrobosim/flat.yaml"));
-    files.extend(data("procthor/house_0.json"));
-    files.extend(data("virtualhome/TestScene2_graph.json"));
+    files.extend(shared("procthor/house_0.json"));
+    files.extend(shared("virtualhome/TestScene2_graph.json"));
     for path in files {
         let world = || read(&path, &Options::default()).map(|building| building.world);
         let (one, other) = (world(), world());
@@ -367,7 +358,7 @@ fn barred(keeps_furniture: bool, slimmer: f64) -> Vec<(String, Vec<(String, Stri
     let scenes = (1..4).map(|n| format!("virtualhome/TestScene{n}_graph.json"));
     let mut barred = Vec::new();
     for name in houses.chain(scenes) {
-        let Some(path) = data(&name) else { continue };
+        let Some(path) = shared(&name) else { continue };
         let mut world = read(&path, &Options::default()).expect("a building").world;
         if !keeps_furniture {
             world.replicas.clear();
@@ -397,7 +388,7 @@ fn rooms_of_houses_hang_together_when_they_stand_empty() {
 /// door's leaf bar a bedroom, a table and a chair the way to a bath. A robot of 20 cm gets everywhere.
 #[test]
 fn furniture_bars_the_ways_that_it_narrows() {
-    if data("procthor").is_none() || data("virtualhome").is_none() {
+    if shared("procthor").is_none() || shared("virtualhome").is_none() {
         return;
     }
     let pair = |to: &str| ("Спальня".to_owned(), to.to_owned());

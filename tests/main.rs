@@ -15,6 +15,7 @@ mod drawings;
 mod exports;
 mod facts;
 mod facts_naive;
+mod files;
 mod floor_cases;
 mod floor_properties;
 mod floors;

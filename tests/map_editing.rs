@@ -1,7 +1,7 @@
 //! Edits of the map (M11): every step of the paper's list, refusals with their places, undo, and that what is derived
 //! from the map follows.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use expect_test::expect_file;
 use orthoframe::engine::{Change, Engine, Error, Format, Mode, Timestamp, When};
@@ -9,9 +9,7 @@ use orthoframe::map::{NextIds, World, check, edit};
 use orthoframe::semantics::{Profile, derive};
 use orthoframe::units::{Frame, ReplicaId, Source};
 
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
+use crate::files::project;
 
 fn change(reason: &str) -> Change {
     Change::new("Мастер", Timestamp(1_790_000_000_000), reason)
@@ -20,7 +18,7 @@ fn change(reason: &str) -> Change {
 /// A store with the rb2 map.
 fn rb2(dir: &Path) -> Engine {
     let mut engine = Engine::open(dir, None).expect("a new store");
-    engine.import(&root().join("maps/rb2.toml"), &change("съёмка")).expect("rb2 is sound");
+    engine.import(&project("maps/rb2.toml"), &change("съёмка")).expect("rb2 is sound");
     engine
 }
 
@@ -48,7 +46,7 @@ fn told(outcome: Result<orthoframe::engine::Edited, Error>) -> String {
 /// Each folder of tests/golden/edit is an edit file for the rb2 map («from-nothing»: for no map) and what comes of it.
 #[test]
 fn edit_files_do_what_they_say_or_are_refused_with_places() {
-    let folder = root().join("tests/golden/edit");
+    let folder = project("tests/golden/edit");
     let mut cases = 0;
     for case in std::fs::read_dir(folder).unwrap() {
         let case = case.unwrap().path();
@@ -286,7 +284,7 @@ fn ids_of_what_is_gone_are_not_given_to_what_is_new() {
 /// Whatever is written as edits, the answer is a world or faults, never a panic; and what is given is checked.
 #[test]
 fn no_edit_text_makes_the_reader_panic() {
-    let world = World::load(root().join("maps/rb2.toml")).unwrap();
+    let world = World::load(project("maps/rb2.toml")).unwrap();
     let words = [
         "move",
         "to",

@@ -10,9 +10,7 @@ use orthoframe::robot::Wanted;
 use orthoframe::strips::{PlanText, RuleFaults, Scenario, Task, explain_unreachable};
 use orthoframe::units::{English, Source};
 
-fn project(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
+use crate::files::project;
 
 fn directives(task: &Task) -> Vec<String> {
     let Outcome::Plan(plan) = solve(task, &Limits::default()) else { panic!("a plan exists") };

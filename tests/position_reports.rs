@@ -13,7 +13,7 @@ use orthoframe::units::{Deg, MapId, Point, Pose};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 use proptest::test_runner::{TestCaseError, TestRunner};
 
-use crate::scenes::shared;
+use crate::files::shared;
 use crate::worlds::{area_named, doubled, mirrored, rb2, renamed, rotated, unnumbered};
 
 const DETAILS: [Detail; 3] = [Detail::Region, Detail::Spot, Detail::Heading];

@@ -3,7 +3,7 @@
 #[path = "../examples/relation_truth/truth.rs"]
 mod truth;
 
-use crate::scenes::shared;
+use crate::files::shared;
 use truth::{Comparison, procthor, virtualhome};
 
 /// The row of a relation by a rule, in the profile for what is only roughly measured.

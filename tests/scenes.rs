@@ -1,7 +1,7 @@
 //! Reading the dwellings of household simulators: ProcTHOR, AI2-THOR, VirtualHome, pyrobosim.
 
 use std::collections::BTreeSet;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use orthoframe::engine::{Engine, change_now};
 use orthoframe::exchange::{
@@ -14,16 +14,7 @@ use orthoframe::map::{DoorStatus, Format, Orthoframe, Profile, World};
 use orthoframe::semantics::{RelationRules, derive};
 use orthoframe::units::{Deg, Point, Source};
 
-/// The folder of the data that others made; none, with a word, where it is not there.
-#[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
-pub(crate) fn shared(folder: &str) -> Option<PathBuf> {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(folder);
-    if path.is_dir() {
-        return Some(path);
-    }
-    println!("skipped: {} is not there", path.display());
-    None
-}
+use crate::files::shared;
 
 fn counts(survey: &Survey) -> (usize, usize, usize, usize) {
     let level = &survey.levels[0];

@@ -1,6 +1,6 @@
 //! The whole way once, in the papers' flat and in worlds made from it: map, plan, drive, report (SPEC P4, X1, X2).
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use orthoframe::Engine;
 use orthoframe::engine::{PlanStep, Progress, TaskAnswer, TaskEnding, change_now};
@@ -13,14 +13,11 @@ use orthoframe::robot::{Obstruction, Surprise};
 use orthoframe::strips::Scenario;
 use orthoframe::units::{Deg, DoorId, Frame, MapId, Point, ReplicaId, Source};
 
+use crate::files::project;
 use crate::worlds::{mirrored, rb2, rb2_with_fifth_room, renamed, rotated};
 
 const TASK: &str = "Принеси лекарство";
 const AT_THE_DOOR: &str = "Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z.";
-
-fn project(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
 
 fn worlds() -> Vec<(&'static str, World)> {
     let rb2 = rb2();

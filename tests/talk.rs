@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use orthoframe::Engine;
 use orthoframe::engine::{Error, Memory, World, task_in_words};
@@ -15,20 +15,14 @@ use orthoframe::map::Entity;
 use orthoframe::semantics::{Profile, RelationRules, derive};
 use orthoframe::units::{Source, TypeId};
 
-use crate::scenes::shared;
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
-}
+use crate::files::{project, shared};
 
 /// An engine on a map of ours or of others; none, with a word, where the file is not there.
-#[expect(clippy::print_stdout, reason = "a test that was not made should say so")]
 pub(crate) fn engine(map: &str) -> Option<Engine> {
-    let path = root().join(map);
-    if !path.exists() {
-        println!("skipped: {} is not there", path.display());
-        return None;
-    }
+    let path = match map.strip_prefix("../shared/data/") {
+        Some(of_others) => shared(of_others)?,
+        None => project(map),
+    };
     let world = read(&path, &Options::default()).expect("the map reads").world;
     Some(Engine::in_memory(world, None).expect("the rules are sound"))
 }
@@ -49,7 +43,7 @@ fn said(engine: &Engine, question: &str, memory: &mut Memory) -> String {
 #[test]
 #[expect(clippy::print_stdout, reason = "the number of pairs is worth seeing")]
 fn answers_are_as_the_golden_texts_say() {
-    let folder = root().join("tests/golden/talk");
+    let folder = project("tests/golden/talk");
     let mut pairs = 0;
     let mut cases: Vec<PathBuf> =
         std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
@@ -492,7 +486,7 @@ fn numbered(rule: &str, n: usize) -> Result<(String, String), String> {
 #[expect(clippy::print_stdout, reason = "the number of rules is worth seeing")]
 fn the_rule_shown_gives_the_same_bindings() {
     let (mut tried, mut wrong) = (0, Vec::new());
-    let cases = std::fs::read_dir(root().join("tests/golden/talk")).unwrap();
+    let cases = std::fs::read_dir(project("tests/golden/talk")).unwrap();
     let mut cases: Vec<_> = cases.map(|case| case.unwrap().path()).collect();
     cases.sort();
     for case in cases {

@@ -8,7 +8,7 @@ use orthoframe::language::report::Detail;
 use orthoframe::map::Entity;
 use orthoframe::units::{Deg, Vector};
 
-use crate::scenes::shared;
+use crate::files::shared;
 use crate::worlds::{mirrored, rb2, rotated};
 
 fn worlds() -> Vec<(String, World)> {

@@ -5,13 +5,13 @@
 //! A map that is not there is passed over and said so.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::PathBuf;
 
 use orthoframe::exchange::{Options, read};
 use orthoframe::geometry::{Barrier, DoorStates, FloorPlan, Method, NoRoute, Route, Target};
 use orthoframe::map::{DoorKind, DoorState, Permeability, World};
 use orthoframe::units::{AreaId, Cm, DoorId, Frame, MapId, Point, Vector};
 
+use crate::files::shared;
 use crate::floor_properties::Random;
 
 const SMALL: [&str; 7] = [
@@ -49,13 +49,8 @@ fn names() -> Vec<&'static str> {
     SMALL.iter().chain(others).copied().collect()
 }
 
-#[expect(clippy::print_stdout, reason = "a skipped map is said")]
 fn world(name: &str) -> Option<World> {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
-    if !path.exists() {
-        println!("пропущено: нет {}", path.display());
-        return None;
-    }
+    let path = shared(name)?;
     let imported = read(&path, &Options::default()).unwrap_or_else(|e| panic!("{name}: {e}"));
     Some(imported.world)
 }

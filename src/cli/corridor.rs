@@ -60,13 +60,12 @@ pub(super) fn draw(common: &Common, args: &CorridorArgs) -> Result<String, Failu
     let notes = if common.lang == Lang::Ru { way.ru } else { way.en };
     let told = |list: &[(u8, [&str; 2])]| {
         let line = |(code, [ru, en]): &(u8, [&str; 2])| {
-            (code.to_string(), common.lang.pick(*ru, *en).to_owned())
+            (code.to_string(), common.lang.pick(ru, en).to_owned())
         };
         list.iter().map(line).collect()
     };
-    let sign = |(sign, [ru, en]): &(CorridorSign, [&str; 2])| {
-        (*sign, common.lang.pick(*ru, *en).to_owned())
-    };
+    let sign =
+        |(sign, [ru, en]): &(CorridorSign, [&str; 2])| (*sign, common.lang.pick(ru, en).to_owned());
     Ok(corridor_svg(&CorridorDrawing {
         title,
         vertices: vertices.collect(),

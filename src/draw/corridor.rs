@@ -502,7 +502,7 @@ mod tests {
         for turn in [0.0_f64, 0.4, 1.0] {
             let (sin, cos) = turn.sin_cos();
             let at = |n: usize, x: f64| {
-                let out = if n % 2 == 0 { 1.0 } else { -1.0 };
+                let out = if n.is_multiple_of(2) { 1.0 } else { -1.0 };
                 vertex(x * cos, x * sin, (-sin * out, cos * out))
             };
             let vertices: Vec<_> = stations.iter().enumerate().map(|(n, x)| at(n, *x)).collect();

@@ -175,7 +175,7 @@ impl PlanDrawing<'_> {
     /// The drawing as SVG text.
     ///
     /// Letters and lines grow with the building, but slower, so that a hospital's rooms keep their names, and never so
-    /// slowly that the smallest letter is less than [`READABLE`] of the sheet.
+    /// slowly that the smallest letter is less than `READABLE` of the sheet.
     #[must_use]
     pub fn to_svg(&self) -> String {
         /// How often the pen is made broader; each time the sheet grows by less.

@@ -18,6 +18,9 @@ use super::surroundings::Surroundings;
 
 type Floors = BTreeMap<MapId, FloorPlan>;
 
+/// A way and the doors to be opened on it, in their order.
+type WayThroughDoors = (Vec<Leg>, Vec<DoorId>);
+
 /// A shut door on a way: where the leg on which it lies begins, and the Areas on its two sides as they are passed.
 struct Shut {
     door: DoorId,
@@ -35,7 +38,7 @@ impl Surroundings<'_> {
     pub(super) fn by_opening(
         &self,
         find: impl Fn(&World, &Floors) -> Result<Vec<Leg>, Box<NoWay>>,
-    ) -> Result<Option<(Vec<Leg>, Vec<DoorId>)>, Error> {
+    ) -> Result<Option<WayThroughDoors>, Error> {
         let (world, floors) = (self.world()?, self.floors()?);
         let mut shut = self.openable()?;
         while !shut.is_empty() {

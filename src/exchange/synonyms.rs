@@ -360,7 +360,9 @@ fn family(list: &List, word: &str) -> Option<String> {
 fn forms(run: &[&str]) -> Vec<String> {
     let phrase = run.concat();
     let singular = ["s", "es"].map(|ending| phrase.strip_suffix(ending).map(str::to_owned));
-    std::iter::once(phrase.clone()).chain(singular.into_iter().flatten()).collect()
+    let mut forms = vec![phrase];
+    forms.extend(singular.into_iter().flatten());
+    forms
 }
 
 fn is_good_size(size: Option<[f64; 3]>) -> bool {

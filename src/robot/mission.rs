@@ -195,7 +195,7 @@ impl<'r> Mission<'r> {
 
     /// Plans, drives and plans anew until the goal holds or is shown to be out of reach.
     ///
-    /// A plan is begun only when it could be carried out in the world as it is believed to be: see [`rehearse`].
+    /// A plan is begun only when it could be carried out in the world as it is believed to be: see `rehearse`.
     ///
     /// Every surprise must teach something (a door's state, a thing's place, a way that is none), of which
     /// there is only so much; so the mission ends.

@@ -624,16 +624,16 @@ fn a_disk_that_lies_about_its_syncs_costs_the_end_but_not_the_sense() {
 
 /// Trees that fail at one of their calls, and from then on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Fails {
-    ToOpen,
-    ToBeSetAside,
-    ToApply,
-    ToFlush,
+enum FailsTo {
+    Open,
+    BeSetAside,
+    Apply,
+    Flush,
 }
 
 struct FailingTrees {
     inner: Arc<SimTrees>,
-    fails: Fails,
+    fails: FailsTo,
 }
 
 fn no_room<T>() -> Result<T> {
@@ -651,25 +651,25 @@ impl Trees for FailingTrees {
         self.inner.last(tree, prefix, limit)
     }
     fn apply(&self, ops: Vec<Op>, state: &State) -> Result<()> {
-        if self.fails == Fails::ToApply { no_room() } else { self.inner.apply(ops, state) }
+        if self.fails == FailsTo::Apply { no_room() } else { self.inner.apply(ops, state) }
     }
     fn state(&self) -> Result<State> {
-        if self.fails == Fails::ToBeSetAside { no_room() } else { self.inner.state() }
+        if self.fails == FailsTo::BeSetAside { no_room() } else { self.inner.state() }
     }
     fn flush(&self) -> Result<()> {
-        if self.fails == Fails::ToFlush { no_room() } else { self.inner.flush() }
+        if self.fails == FailsTo::Flush { no_room() } else { self.inner.flush() }
     }
 }
 
 struct FailingShelf {
     trees: Arc<SimTrees>,
-    fails: Fails,
+    fails: FailsTo,
 }
 
 impl Shelf for FailingShelf {
     fn open(&mut self) -> Result<Arc<dyn Trees>> {
         match self.fails {
-            Fails::ToOpen => no_room(),
+            FailsTo::Open => no_room(),
             fails => Ok(Arc::new(FailingTrees { inner: Arc::clone(&self.trees), fails })),
         }
     }
@@ -677,7 +677,7 @@ impl Shelf for FailingShelf {
         true
     }
     fn set_aside(&mut self) -> Result<()> {
-        if self.fails == Fails::ToBeSetAside { no_room() } else { Ok(()) }
+        if self.fails == FailsTo::BeSetAside { no_room() } else { Ok(()) }
     }
     fn look(&self) -> Result<Arc<dyn Trees>> {
         no_room()
@@ -687,7 +687,7 @@ impl Shelf for FailingShelf {
 /// Whatever the trees do, a store whose journal is whole opens, takes what it is given, and has it the next time.
 #[test]
 fn failing_trees_decide_nothing() {
-    for fails in [Fails::ToOpen, Fails::ToBeSetAside, Fails::ToApply, Fails::ToFlush] {
+    for fails in [FailsTo::Open, FailsTo::BeSetAside, FailsTo::Apply, FailsTo::Flush] {
         let mut run = Run::new(5);
         drop(run.open().expect("a new store"));
         for _ in 0..4 {
@@ -729,7 +729,7 @@ fn a_file_that_is_not_put_in_place_leaves_nothing() {
         let reached = disk.inner().calls > n;
         match done {
             // The folder's own sync may fail when the file is there already.
-            Ok(()) => assert_eq!(names, [path.clone()]),
+            Ok(()) => assert_eq!(names, std::slice::from_ref(&path)),
             Err(_) => assert!(names.is_empty() || names == [path.clone()], "call {n}: {names:?}"),
         }
         if !reached {

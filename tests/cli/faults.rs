@@ -6,6 +6,8 @@ use std::process::Stdio;
 use orthoframe::store::Store;
 use serde_json::Value;
 
+use crate::files::shared;
+
 use super::{Place, project, rb2, walk};
 
 /// Wrong input: exit code 2, a remedy, the store untouched; gives the first fault.
@@ -222,10 +224,7 @@ fn a_reader_that_leaves_early_is_no_fault() {
 /// Nineteen doors that both their rooms claim, each with two places far apart.
 #[test]
 fn faults_with_places_far_apart_are_told_on_few_lines() {
-    let file = project("../shared/data/cases/corridor_19_errors.json");
-    if !file.exists() {
-        return eprintln!("{} is not there", file.display());
-    }
+    let Some(file) = shared("cases/corridor_19_errors.json") else { return };
     let file = file.display().to_string();
     let args = ["check", &file];
     let told = Place::empty().run(&args).is(2).err;

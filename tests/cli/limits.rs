@@ -119,10 +119,7 @@ fn what_comes_through_a_pipe_is_read() {
     let place = Place::empty();
     let pipe = place.path("map.toml");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
-    let writer = std::thread::spawn({
-        let pipe = pipe.clone();
-        move || std::fs::copy(super::rb2(), pipe).unwrap()
-    });
+    let writer = std::thread::spawn(move || std::fs::copy(super::rb2(), pipe).unwrap());
     place.run(&["check", "map.toml"]).is(0);
     writer.join().unwrap();
 }

@@ -9,7 +9,7 @@ mod rules;
 mod tasks;
 mod words;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::{Command, Stdio};
 
 use orthoframe::map::World;
@@ -17,11 +17,9 @@ use orthoframe::store::Store;
 use serde_json::Value;
 use tempfile::TempDir;
 
-const AT_THE_DOOR: &str = "Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z.";
+use crate::files::project;
 
-fn project(path: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
-}
+const AT_THE_DOOR: &str = "Я нахожусь в Комнате-В у двери, ведущей из Комнаты-В в Комнату-Z.";
 
 /// A working directory of its own, with a store in it.
 struct Place {

@@ -2,6 +2,8 @@
 
 use serde_json::Value;
 
+use crate::files::shared;
+
 use super::{AT_THE_DOOR, Place, project, rb2, walk};
 
 #[test]
@@ -83,13 +85,8 @@ fn a_plan_of_another_planner_is_checked_on_pddl() {
 }
 
 #[test]
-#[expect(clippy::print_stdout, reason = "a skipped test says so")]
 fn no_plan_is_the_answer_no() {
-    let folder = project("../shared/data/homebot");
-    if !folder.is_dir() {
-        println!("skipped: there is no {}", folder.display());
-        return;
-    }
+    let Some(folder) = shared("homebot") else { return };
     let place = Place::empty();
     let domain = folder.join("domain.pddl").display().to_string();
     for name in ["u1", "u2", "u3"] {

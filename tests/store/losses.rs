@@ -203,7 +203,7 @@ fn a_lost_mark_is_made_anew_and_said_where_it_was_broken() {
     // What says another format is no store of ours, FORMAT or no.
     std::fs::remove_file(dir.path().join("FORMAT")).unwrap();
     let head = std::fs::read(dir.path().join("head")).unwrap();
-    let mut other = head.clone();
+    let mut other = head;
     for at in [0, 512] {
         if other[at..].starts_with(b"ORTHOHED") {
             other[at + 11] = 9;

@@ -148,7 +148,7 @@ impl Body {
                 return found;
             }
         }
-        hull(faces().flatten().flatten().map(|p| Point::new(p.x, p.y)).collect())
+        hull(&faces().flatten().flatten().map(|p| Point::new(p.x, p.y)).collect::<Vec<_>>())
     }
 }
 
@@ -167,7 +167,7 @@ pub(super) fn together(regions: &[Region], effort: &mut Effort) -> Vec<Region> {
         return regions.to_vec();
     }
     if !effort.allows(all.iter().map(Vec::len).sum()) {
-        return hull(all.into_iter().flatten().collect());
+        return hull(&all.concat());
     }
     // Each region's rings have their own sense: floor is what is wound round more often than not at all.
     overlay(&all, &[], OverlayRule::Subject, FillRule::NonZero)
@@ -186,8 +186,8 @@ pub(super) fn between(from: &Rings, to: &Rings) -> Vec<Rings> {
 }
 
 /// The convex hull of some points; of a sheet seen edge-on, a strip.
-pub(super) fn hull(points: Vec<Point>) -> Vec<Region> {
-    let outer = convex_hull(points.clone());
+pub(super) fn hull(points: &[Point]) -> Vec<Region> {
+    let outer = convex_hull(points.to_vec());
     if outer.len() >= 3 && outline::area(&outer) > SHEET {
         return vec![Region { outer, holes: Vec::new() }];
     }
@@ -208,7 +208,7 @@ pub(super) fn hull(points: Vec<Point>) -> Vec<Region> {
 fn joined<'f>(faces: impl Iterator<Item = &'f Rings>, effort: &mut Effort) -> Vec<Region> {
     let mut border = Border::default();
     for face in faces {
-        let doubled: f64 = face.first().map_or(0.0, |outer| doubled_area(outer));
+        let doubled: f64 = face.first().map_or(0.0, doubled_area);
         for (k, ring) in face.iter().enumerate() {
             let own = doubled_area(ring);
             // The outer ring runs counter-clockwise, holes clockwise, whatever the file says.
@@ -222,7 +222,7 @@ fn joined<'f>(faces: impl Iterator<Item = &'f Rings>, effort: &mut Effort) -> Ve
         return Vec::new();
     }
     if !effort.allows(sides) {
-        return hull(chains.into_iter().flatten().collect());
+        return hull(&chains.concat());
     }
     let found = overlay(&chains, &[], OverlayRule::Subject, FillRule::NonZero);
     found.into_iter().filter(|r| r.area() > SHEET).collect()

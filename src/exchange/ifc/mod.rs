@@ -2,7 +2,7 @@
 //! doors, boundaries without walls, stairs and lifts, furniture and equipment. Walls are not read: they are what is
 //! between the spaces.
 //!
-//! Only the types of [`classes`] are taken apart; the rest of the file is passed over, and elements of which nothing
+//! Only the types of `classes` are taken apart; the rest of the file is passed over, and elements of which nothing
 //! is made are counted. A door is set where its placement and its body say; the spaces that it joins are looked for on
 //! both sides of it, and where the model has space boundaries they narrow the search. Every element is accounted for:
 //! it is in the survey's lists, or in what the survey tells of the file.

@@ -321,7 +321,7 @@ fn solids(bodies: &[Body], shapes: &mut Shapes<'_>) -> Vec<Solid> {
     }
     let mut one = one_of(solids, shapes);
     if let Some(solid) = one.first_mut().filter(|s| s.floor.len() > MOST_PARTS) {
-        solid.floor = hull(rings(&solid.floor).into_iter().flatten().collect());
+        solid.floor = hull(&rings(&solid.floor).concat());
     }
     one
 }

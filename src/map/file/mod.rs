@@ -131,7 +131,7 @@ pub fn read_file(path: &Path) -> Reading {
 
 /// Finds in the text that a map was read from the places of faults which were found in its world afterwards, and puts
 /// them in the order of the text.
-pub fn locate(source: &Source, format: Format, faults: &mut Vec<Fault>) {
+pub fn locate(source: &Source, format: Format, faults: &mut [Fault]) {
     let Ok(root) = node::parse(source.text(), format) else { return };
     let Draft { origins, left_out, .. } = read::build(&root);
     faults.iter_mut().for_each(|fault| fault.locate(&origins, &left_out));
