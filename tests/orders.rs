@@ -436,8 +436,7 @@ fn neither_half_of_an_order_is_passed_over() {
             for bad in bad {
                 let joint = joints[roll(joints.len())];
                 // What stands before a mark and is no order may tell something: "It is dark, switch on the lamp".
-                let tells =
-                    ["zorble", "зюзюкни", "tell me", "скажи"].iter().any(|w| bad.starts_with(w));
+                let tells = ["zorble", "зюзюкни"].iter().any(|w| bad.starts_with(w));
                 let before = if tells { joints[0] } else { joint };
                 for sentence in [format!("{sound}{joint}{bad}"), format!("{bad}{before}{sound}")] {
                     if !all && roll(4) > 0 {

@@ -323,7 +323,9 @@ impl Engine {
         else {
             return whole;
         };
-        if matches!(misheard, Misheard::WhichOf(_) | Misheard::Ambiguous { .. }) {
+        // What asks is no telling.
+        let asks = self.asks_something(told)?;
+        if asks || matches!(misheard, Misheard::WhichOf(_) | Misheard::Ambiguous { .. }) {
             return whole;
         }
         // «Там темно, включи свет»: what is told is only what the order may speak of.

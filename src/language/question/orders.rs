@@ -7,6 +7,9 @@ use super::several::sentences;
 use crate::language::command::{self, is_command, is_order};
 use crate::language::words::{Language, phrase_at, word_keys, word_ranges};
 
+/// What parts the halves of a sentence.
+const MARKS: [char; 8] = [',', ';', '.', '!', ':', '–', '—', '?'];
+
 impl Asker<'_> {
     /// What is to be heard one after the other: «Скажи, где ваза, и принеси её» is a question and an order, "Go to the
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
@@ -31,11 +34,30 @@ impl Asker<'_> {
             let behind = behind.unwrap_or_else(|| vec![question]);
             return Some(order.into_iter().chain(behind).collect());
         }
-        [" и ", " and ", ", then ", ", затем ", ", потом "].iter().find_map(|joint| {
-            let (question, order) = text.rsplit_once(joint)?;
-            let question = question.trim_end_matches(',');
-            let asks = is_order(order) && !self.orders(question);
-            asks.then(|| vec![question.to_owned(), order.to_owned()])
+        let (question, order) = self.question_and_order(text)?;
+        Some(vec![question.to_owned(), order.to_owned()])
+    }
+
+    /// A question and the order behind it, whatever joins them: a word, a mark, or both.
+    fn question_and_order<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
+        const JOINTS: [&str; 9] =
+            ["и", "and", "then", "потом", "затем", "а", "но", "but", "also"];
+        /// "Which doors are locked, open or closed" is one question.
+        const OR: [&str; 3] = ["or", "или", "либо"];
+        let (words, keys) = (word_ranges(text), word_keys(text));
+        (2..keys.len()).find_map(|at| {
+            let is_marked = text[words[at - 1].end..words[at].start].contains(MARKS);
+            let is_joined = JOINTS.contains(&keys[at - 1].as_str());
+            let order = &text[words[at].start..];
+            let is_choice = keys.get(at + 1).is_some_and(|key| OR.contains(&key.as_str()));
+            if !(is_marked || is_joined) || is_choice || !self.orders(order) {
+                return None;
+            }
+            let joints = keys[..at].iter().rev().take_while(|key| JOINTS.contains(&key.as_str()));
+            let end = words[at.checked_sub(joints.count() + 1)?].end;
+            let question = &text[..end];
+            (self.begins_as_question(question) && !self.orders(question))
+                .then_some((question, order))
         })
     }
 
