@@ -15,6 +15,11 @@ pub(super) fn begins_question(words: &[String]) -> bool {
     {
         return true;
     }
+    // «Где-то был мой зонтик» tells.
+    if words.get(1).is_some_and(|word| matches!(word.as_str(), "то" | "нибудь" | "либо"))
+    {
+        return false;
+    }
     let mut at = 0;
     while let Some((taken, mark)) = longest(&words[at..]) {
         match mark {

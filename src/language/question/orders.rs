@@ -40,8 +40,7 @@ impl Asker<'_> {
 
     /// A question and the order behind it, whatever joins them: a word, a mark, or both.
     fn question_and_order<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
-        const JOINTS: [&str; 9] =
-            ["и", "and", "then", "потом", "затем", "а", "но", "but", "also"];
+        const JOINTS: [&str; 9] = ["и", "and", "then", "потом", "затем", "а", "но", "but", "also"];
         /// "Which doors are locked, open or closed" is one question.
         const OR: [&str; 3] = ["or", "или", "либо"];
         let (words, keys) = (word_ranges(text), word_keys(text));

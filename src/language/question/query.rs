@@ -425,6 +425,11 @@ impl Noun {
         Self { head: Head { things: Some(things), ..Head::default() }, ..Self::default() }
     }
 
+    /// Whether its number says that several are meant, or none.
+    pub(super) fn counts_several(&self) -> bool {
+        self.best.is_none() && self.count.is_some_and(|n| n != 1)
+    }
+
     /// A noun that this one names beside itself, with a number that tells nothing there: "nearest to the 5 beds". Of what
     /// a room has the number counts, and "between the two doors" names both.
     pub(super) fn idle_count(&self) -> Option<&Self> {

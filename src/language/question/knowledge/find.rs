@@ -361,6 +361,11 @@ impl Knowledge<'_> {
         if anchors.is_empty() && !any {
             return Err(self.none_such(noun));
         }
+        // "Next to two sofas", of which there is one.
+        let wanted = noun.count.filter(|_| noun.best.is_none());
+        if wanted.is_some_and(|n| !noun.quantity.admits(anchors.len() as u64, n)) {
+            return Err(Doubt::TooFew { found: anchors });
+        }
         let several = any || noun.plural || noun.all || noun.head.things.is_some();
         if anchors.len() > 1 && !several {
             return Ok(vec![self.meant(noun, &anchors)?]);

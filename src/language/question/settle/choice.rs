@@ -55,15 +55,25 @@ impl Settler<'_, '_> {
         let mut others = within.to_vec();
         let with = others.remove(at);
         let mut found = self.candidates(noun, &others)?;
+        let relations = self.knowledge.relations;
+        let bears = |t: &Thing, b: &Thing| match (b.replica(), t.area()) {
+            (None, _) => false,
+            (Some(b), Some(area)) => relations.area_of(b) == Some(area),
+            (Some(b), None) => t.replica().is_some() && relations.support_of(b) == t.replica(),
+        };
         let mut borne = Vec::new();
         for anchor in &with.anchors {
-            borne.extend(self.knowledge.find(anchor, true)?);
+            let any = Noun { count: None, ..anchor.clone() };
+            borne.push((self.knowledge.find(&any, true)?, anchor));
         }
-        let relations = self.knowledge.relations;
         found.retain(|t| {
-            borne.iter().filter_map(|b| b.replica()).any(|b| match t.area() {
-                Some(area) => relations.area_of(b) == Some(area),
-                None => t.replica().is_some() && relations.support_of(b) == t.replica(),
+            borne.iter().any(|(all, anchor)| {
+                let count = all.iter().filter(|b| bears(t, b)).count() as u64;
+                // "The table with two cups" bears so many and no other number.
+                match anchor.count.filter(|_| anchor.best.is_none()) {
+                    Some(asked) => count > 0 && anchor.quantity.admits(count, asked),
+                    None => count > 0,
+                }
             })
         });
         Ok(found)
@@ -122,6 +132,10 @@ impl Settler<'_, '_> {
         found: &[Thing],
         at: Range<usize>,
     ) -> Result<Option<Thing>, (Doubt, Range<usize>)> {
+        // Of several one is none: «между 77 диваном и столом».
+        if noun.counts_several() {
+            return Err((Doubt::not_understood(&noun.text), at));
+        }
         match found {
             [only] => Ok(Some(*only)),
             // "The lightest thing from the dresser", whose weights the map does not give: there are things.

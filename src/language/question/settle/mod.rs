@@ -309,7 +309,8 @@ impl Settler<'_, '_> {
         for phrase in spot.nouns {
             let at = self.bytes(&phrase.words);
             let found = self.candidates(&phrase.noun, within).map_err(|d| (d, at.clone()))?;
-            let pair = spot.nouns.len() == 1 && found.len() == 2;
+            let two = phrase.noun.count.is_none_or(|n| n == 2);
+            let pair = spot.nouns.len() == 1 && found.len() == 2 && two;
             let things = match self.one(&phrase.noun, within, &found, at.clone()) {
                 _ if pair => found,
                 one => one?.into_iter().collect(),

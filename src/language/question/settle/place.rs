@@ -35,6 +35,7 @@ impl Settler<'_, '_> {
             if let Ok(found) = self.candidates(&spot.phrase.noun, &spot.within)
                 && let [only] = found[..]
                 && is_described(&spot.phrase.noun, &spot.within)
+                && !spot.phrase.noun.counts_several()
             {
                 let case = case_of(spot.rel, false);
                 let at = self.bytes(&spot.phrase.words);
