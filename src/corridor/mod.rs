@@ -15,6 +15,11 @@
 //! let words: Vec<&str> = way.steps.iter().map(|s| s.ru.as_str()).collect();
 //! assert_eq!(words, ["движение до соединения коридоров", "поворот направо", "движение до двери справа"]);
 //! ```
+//!
+//! # Invariants
+//!
+//! Commands contain nothing that the robot cannot see; both variants give the same command stream, ties included.
+//! A corridor file with any fault gives no system.
 
 mod arms;
 mod command;

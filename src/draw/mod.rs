@@ -5,6 +5,13 @@
 //! are the Map's, in cm, y up; the sheet turns them over, since SVG counts y downwards.
 //!
 //! **Invariant.** The same input gives the same bytes.
+//!
+//! # Invariants
+//!
+//! The same input gives the same bytes, whatever fonts a machine has: every drawing carries its own. No two names
+//! on a plan or a road graph overlap, none is cut, and none is set smaller than can be read at the size of the
+//! sheet; every sign of a plan stands in its legend; one that finds no place is told by its number in a list, or
+//! left out. The order of faces in a view is exact (a binary space partition), not by distance.
 
 mod canvas;
 mod corridor;

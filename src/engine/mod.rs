@@ -14,6 +14,14 @@
 //!
 //! **Invariant.** Only the engine writes to the store; what it derives belongs to the map that it holds, and is
 //! derived anew when that map changes.
+//!
+//! # Invariants
+//!
+//! The only writer of the store; what it derives belongs to the map that it holds, and after an edit is what
+//! deriving anew would give. What the robot did and saw stands beside the map and never changes it. A way through
+//! doors that are only shut is a way, with the doors that must be opened (`engine/opening`). A scenario never
+//! makes a room or door exist: only the Map or its «Объекты» does. A rule file that is named and cannot be used
+//! is an error, never a silent fallback.
 
 mod advice;
 mod apart;

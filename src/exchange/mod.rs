@@ -2,6 +2,16 @@
 //!
 //! A reader makes a [`Survey`] of a foreign file; the assembler makes a checked [`crate::map::World`] of any `Survey`;
 //! [`read`] recognises the format and does both. What had to be mended or left out stands in the [`Report`].
+//!
+//! # Invariants
+//!
+//! A reader judges nothing beyond its syntax; one assembler serves all formats. A world that it makes passes
+//! every check of `map/check`; every record that does not arrive as it stands has a note with the file's own id,
+//! a class of which nothing is made one with its name, and the counts are those of the file. Ids follow the order
+//! of the file, so that two imports of one file give the same world. Coordinates are the file's; a Map that keeps
+//! them says so (`Map::frame`), any other has a corner of its base Area at the origin. A reader's memory is
+//! bounded by its limits and its time by the file's length, whatever the bytes: `fuzz/bodies.rs` states it,
+//! `tests/hostile.rs` tries it. What is exported in our own notations reads back as the same world.
 
 mod assemble;
 mod error;

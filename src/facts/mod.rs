@@ -30,6 +30,28 @@
 //! assert!(derived.contains("held_by", &["чашка".into(), "стол".into()])?);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Invariants
+//!
+//! A `Program` that parses can be evaluated: every variable is bound, and no relation depends on its own negation
+//! or aggregate. Evaluation ends: in its result, or in a fault that names the rule, when the time or memory of
+//! `facts::Limits` is used up (`facts/limits`). Equal values have equal 32-bit words, so joins compare words
+//! alone. Evaluation records nothing for explanations; proofs are found afterwards, each of least height. After
+//! `Live::update` the result equals an evaluation from scratch, and the update's cost follows what may change,
+//! not the size of the relations (below). Dense recursive relations of pairs are kept as bits. A `float` is an
+//! exact decimal in millionths, so that it too is one word. Deliberately absent: maps, robots, languages of
+//! answers.
+//!
+//! *How edits are followed.* Delete and rederive, stratum by stratum. Each premise of each clause has a plan that
+//! starts with that premise's changed rows; a changed negation or aggregate is put before its clause as one more
+//! atom, and the clause itself still decides. Run over the relations as they were, these plans name the tuples
+//! that may fall; run over them as they will be, those that rise. A tuple that may fall is tried by its clauses
+//! run backwards from their heads; in a recursive stratum all that hangs on it falls first, so that nothing holds
+//! itself up. Counting was not taken: evaluation stops at the first witness and would have to count them all;
+//! backward/forward search saves little where recursion is short, as chains of support are. A stratum of which a
+//! quarter would fall, or that has a `.limitsize`, is evaluated anew. Rows keep their places through edits
+//! (`facts/stored.rs`: a sorted part that is never moved, one bit for each of its rows, and a tree of later
+//! rows), so indexes are built once and follow (`facts/kept.rs`).
 
 mod check;
 mod clause;

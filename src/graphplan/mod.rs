@@ -18,6 +18,40 @@
 //! assert_eq!(task.operator(plan.steps[0][0]).to_string(), "Открыть_(Дверь-ВZ)");
 //! # Ok::<(), orthoframe::strips::RuleFaults>(())
 //! ```
+//!
+//! # Invariants
+//!
+//! - *Tasks.* The planner sees only a `Task`. Every list of a task is a sorted set, no operator both adds and
+//!   deletes a fact, negation exists only as complementary facts. What an action deletes and adds again holds
+//!   after it, so it is an add effect, and is *renewed* besides: within a step nobody else may need or add it
+//!   (`Operator::interferes`, which graph, solver, extraction, shortening and replay share in meaning).
+//!   Grounding drops only what cannot change the fewest number of parallel steps, so a fact that always holds
+//!   stays where operators interfere through it; assumptions are never dropped as always true.
+//! - *Large tasks.* Only the operators are planned with that some shortest plan may need (`graphplan/needed`):
+//!   no returns, nothing undone for nothing, no fact that is only passed through (`graphplan/detours`). Of
+//!   places in a room of which the map says no more than that they are there one stands for all (`robot/idle`).
+//! - *Proofs.* Every stored no-good was derived by the search; the solver's refutations are never stored, and
+//!   the proof of "no plan" rests on this. Past level-off a third way looks for that proof: induction over the
+//!   number of steps (`graphplan/induction`) asks a solver of its own about one step at a time and keeps its
+//!   own sets; it gets a share of the effort of the other two until it comes to a plan. What is inherited from
+//!   planning before a withdrawal is true of the new task, but the proof of "no plan" uses it only after
+//!   checking that it is closed.
+//! - *Effort* is counted in choices, conflicts and variables set, never in seconds, so equal tasks give equal
+//!   plans; limits of time and memory, and signals, only end it. A search given up tells what it knows
+//!   (`Unfinished`): the fewest steps that are not refuted, and a plan, if forward search, asked for one after
+//!   some effort, had found any.
+//! - *The solver* cannot count by itself: operators of landmarks that no step can carry out together are
+//!   counted for it. It is told to use objects that neither initial state nor goal nor costs tell apart in the
+//!   order of their names: of the plans that differ by their exchange one is kept. It is also told that no step
+//!   only undoes the one before, and, where every two operators exclude each other and every shorter plan is
+//!   refuted, what can hold after exactly so many steps; both hold of some plan of the fewest actions.
+//! - *Fewest actions.* After the fewest steps are proven, a bound on the number (or cost) of actions sinks
+//!   until the solver refutes it or the given effort is used up; a plan found soon is shortened piece by piece
+//!   to a given effort, stays a plan throughout, and ends with no more actions than it began with.
+//! - *Why a goal is out of reach* is found apart from planning, from the rules (`strips/lack`): what is told to
+//!   be missing holds in no relaxed future, and what is told to help was neither stated nor can be brought
+//!   about; what was withdrawn comes first. What is told is data (`Said`) until it is worded, by the phrases of
+//!   the rules or as the rule file writes it (`strips/phrase`).
 
 mod any;
 mod bits;

@@ -8,6 +8,50 @@
 //! let room = NounPhrase::parse("Комната-В", &WordHints::default());
 //! assert_eq!(format!("{} – {}", russian::whence(&room), russian::whither(&room)), "из Комнаты-В – в Комнату-В");
 //! ```
+//!
+//! # Invariants
+//!
+//! - *Names.* A name's nominative is the name itself; every form that a phrase gives is found again by the
+//!   index of forms. Forms come from the map, then the word list, then the dictionary, then the ending; the
+//!   dictionary is opened at the first word that the list does not know. Names that differ in their tag alone
+//!   share one declined stem, so the index grows with the stems.
+//! - *No guessing.* A sentence that names several things is ambiguous and one that names none is unknown; no
+//!   choice is made. Nothing that a person writes makes it panic.
+//! - *Questions.* Before it is read, a sentence is put into words that the map knows (`everyday`: diminutives
+//!   and other names of a thing; `purposes`: sorts above the map's types, each with its role in what `uses`
+//!   lists as done with them; `storeys`: "upstairs"; `rephrase` and `constructions`: other ways to say it;
+//!   `here`: the robot's room), and cut where it asks several things (`several`). It becomes a `Query` before
+//!   the map is looked at; one that lacks a noun, value, number or size of the sentence is not understood
+//!   (`assemble/used`); what has no answer gets its words in `doubts`. An `Answer` is data before it is a
+//!   sentence; a rule shown for a query of relations gives the same bindings as the answer (a test runs it).
+//!   Where the robot is, ways and history come from outside through `question::Senses`.
+//! - *Dialogue.* What each of the last exchanges was about is kept in ranks (`focus`): topics, then the members
+//!   of a list. A pronoun takes up the first that agrees and may stand in its relation; of several things that
+//!   a description fits the one is meant that was just spoken of, and where the exchanges name several of one
+//!   rank it is asked back. After a name that the map lacks a pronoun means nothing. `follow` makes a whole
+//!   question of one that goes on from the last, `onward` of one about the way that was asked for, `rest` of
+//!   one about what was not told.
+//! - *Measures in answers.* What superlatives and comparatives go by is one list (`compared`); "higher" goes by
+//!   place, and by size where things begin equally high (`knowledge/measure`); shelves and drawers are told
+//!   apart by the heights of an object's parts (`knowledge/levels`), and left and right for one who faces a
+//!   thing are seen from a standpoint that the answer names (`knowledge/facing`); both have their words in
+//!   `level_words`. `each` tells of every room by itself and `part` of legs and shelves; walls and corners,
+//!   which have no names, are measured (`knowledge/walls`), and told by what opens in them.
+//! - *Commands.* Whether a text orders, and when, is told by its words alone (`command/hints`), and so is how
+//!   it is put into plain orders (`command/spoken`; `ellipsis`: what the clause before has said, `going`,
+//!   `quantity`, `time`); an order under a condition is parted from it (`question/orders`). Then it is settled
+//!   (`question/settle`): orders without a verb and amendments become whole ones (`terse`), descriptions become
+//!   names by the grammar of questions, and `command` reads verbs, roles and names only. Nothing that was said
+//!   is passed over: a rewriting loses no name, number or value but what is said not to be meant
+//!   (`command/spoken`, `settle::dropped`), a description uses all its words (`settle`, `Noun::idle_count`), a
+//!   command takes its arguments out of their roles, and what is left there refuses it (`command/assemble`).
+//!   What stands in its way is laid to words of the text (`command/blame`).
+//! - *Reports and ways.* A position report's context is the shortest under which a reader finds one region; the
+//!   turns told of a way are the angles of its geometry. What the robot is less sure of than the rules'
+//!   threshold «belief told» is never told as a fact (`answer/unsure`). Where the relations of the moment
+//!   differ from the survey, ways and places are told of the world now, in dialogue, by `route` and in tasks
+//!   alike: `engine/present` has its floor and relations, which `relations/follow` brings from the survey's
+//!   tuple by tuple, and `engine/surroundings` hands them to the tellers.
 
 pub mod command;
 pub mod directions;

@@ -3,6 +3,14 @@
 //! A mission plans, turns each directive into a motion and gives it to a [`Drive`]. The simulator is one
 //! drive; a vehicle is another (X3). What a drive meets that the Map did not tell comes back as an
 //! [`Obstruction`], changes what the mission believes, and leads to a new plan (X2).
+//!
+//! # Invariants
+//!
+//! What a directive asks of the vehicle is read from its effects, never from its name. Every surprise must teach
+//! something, or the mission ends. A plan is begun only after it was carried out in a simulated world that is the
+//! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
+//! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
+//! free floor that the route was made from; it draws no random numbers, so a run repeats itself.
 
 mod belief;
 mod directive;

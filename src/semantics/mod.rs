@@ -42,6 +42,14 @@
 //! assert!(proof.steps.iter().any(|step| step.fact.name == "over")); // down to the measurement
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! # Invariants
+//!
+//! A relation is derived only through the rule text; how far is measured is read from that text too. RESTS_ON
+//! gives a thing at most one support; RESTS_ON, ON_TOP_OF and INSIDE are acyclic; two things stand in at most one
+//! of INSIDE, ON_TOP_OF, ABOVE, UNDER. Two different subjects never share a symbol. Measurements in facts are
+//! integers; no relation depends on the Map's axes. What the store kept of relations is taken up only under the
+//! same revision, rule text, profile and version of the crate; pairs are then measured when first asked for.
 
 mod ask;
 mod body;

@@ -9,6 +9,11 @@
 //! let door = Frame::new(300.0, 0.0, 0.0, Deg::new(90.0).unwrap());
 //! assert_eq!(door.apply(Point::new(10.0, 0.0)), Point::new(300.0, 10.0)); // exact, no 1e-15 left over
 //! ```
+//!
+//! # Invariants
+//!
+//! A `Cm` and a `Deg` are finite. Rotations by multiples of 90° are exact. A line and column shown to a person
+//! count characters.
 
 mod bilingual;
 mod english;
