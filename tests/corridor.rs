@@ -358,6 +358,9 @@ fn rubbish_is_refused_without_panic() {
     for text in texts {
         assert!(read(text).is_err(), "{}", &text[..text.len().min(40)]);
     }
+    // Another notation is one fault, not one a line.
+    let json = format!("\n{{\n{}\n}}", "\"format\": 1,\n".repeat(500));
+    assert!(read(&json).unwrap_err().starts_with("описание коридоров не принято, ошибок: 1\n"));
 }
 
 #[test]

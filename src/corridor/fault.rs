@@ -18,6 +18,16 @@ pub enum CorridorFault {
         at: SourceSpan,
     },
 
+    #[error("это не файл коридоров: текст начинается как JSON, а файл коридоров – TOML")]
+    #[diagnostic(
+        code(corridor::notation),
+        help("образец: maps/corridor-paper4.toml; по карте ходят так: ortho corridor --map ФАЙЛ")
+    )]
+    Notation {
+        #[label("здесь")]
+        at: SourceSpan,
+    },
+
     #[error("неизвестное поле «{field}»")]
     #[diagnostic(code(corridor::unknown_field), help("{hint}"))]
     UnknownField {

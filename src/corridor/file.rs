@@ -133,6 +133,12 @@ struct Reader {
 
 impl Reader {
     fn file(&mut self, text: &str) -> Option<CorridorSystem> {
+        // No TOML begins so; each of its lines would be a fault.
+        let said = text.trim_start_matches('\u{feff}').trim_start();
+        if said.starts_with('{') {
+            self.faults.push(CorridorFault::Notation { at: (text.len() - said.len(), 1).into() });
+            return None;
+        }
         let (document, errors) = DeTable::parse_recoverable(text);
         for error in errors {
             let at = error.span().map_or(0..0, |s| s.start..s.end.max(s.start));
