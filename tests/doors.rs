@@ -263,11 +263,11 @@ fn a_door_does_not_open_through_a_thing_and_the_thing_is_named() {
         let chair = b.put(into, local.x - 10.0, local.y - 10.0, 20.0, 20.0, 0.0, height);
         let stand = Pose { at: doorway.before(1 - doorway.opens_to, 80.0), heading: Deg::ZERO };
         let mut robot = orthoframe::robot::Simulator::new(b.world.clone(), MapId(1), stand);
-        use orthoframe::robot::{Drive, Obstruction, Refusal};
-        let opened = robot.set_door(door, DoorState::OPEN);
+        use orthoframe::robot::{Obstruction, Refusal, Unfinished, Vehicle, Watch};
+        let opened = robot.set_door(door, DoorState::OPEN, &mut Watch::none());
         if stops {
             let by = Some(Obstruction::Replica(chair));
-            let is_jam = matches!(opened, Err(Refusal::DoorJammed { by: b, opening: 1..=60, .. }) if b == by);
+            let is_jam = matches!(opened, Err(Unfinished::Met(Refusal::DoorJammed { by: b, opening: 1..=60, .. })) if b == by);
             assert!(is_jam, "{opened:?}");
             assert_eq!(robot.truth().doors[&door].state, DoorState::CLOSED);
         } else {

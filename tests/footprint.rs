@@ -2,7 +2,7 @@
 
 use orthoframe::geometry::*;
 use orthoframe::map::*;
-use orthoframe::robot::{Drive, Refusal, Simulator};
+use orthoframe::robot::{Bump, Refusal, Simulator, Unfinished, Vehicle, Watch};
 use orthoframe::store::{Change, Store, Timestamp};
 use orthoframe::units::*;
 
@@ -155,7 +155,7 @@ fn a_robot_whose_centre_lies_aside_needs_its_own_width() {
             let route = plan.route(&b.world, from, Target::Point(to), Method::Shortest).unwrap();
             let start = Pose { at: from, heading: Deg::ZERO };
             let mut robot = Simulator::new(b.world.clone(), MapId(1), start);
-            robot.follow(&route.points, None).unwrap();
+            robot.follow(&route.points, None, &mut Watch::none()).unwrap();
             assert!((robot.pose().1.at - to).norm() < 1e-6);
             let inverse = |q: Point| outer.invert(q);
             let leg = route.points.windows(2).map(|leg| [inverse(leg[0]), inverse(leg[1])]);
@@ -178,8 +178,14 @@ fn a_robot_that_turns_about_its_very_edge_is_not_shrunk() {
     b.world.robot.radius = Cm::of(92.2);
     let start = Pose { at: p(100.0, 60.0), heading: Deg::ZERO };
     let mut robot = Simulator::new(b.world, MapId(1), start);
-    let bump = robot.follow(&[p(300.0, 60.0)], None).unwrap_err();
+    let bump = bumped(robot.follow(&[p(300.0, 60.0)], None, &mut Watch::none()));
     assert!((bump.at.at.x - 190.0).abs() < 0.05, "{:?}", bump.at);
+}
+
+/// What stopped a drive.
+fn bumped(driven: Result<(), Unfinished<Bump>>) -> Bump {
+    let Err(Unfinished::Met(bump)) = driven else { panic!("{driven:?}") };
+    bump
 }
 
 /// A turn is looked at as a whole: a post that stands between two degrees is met, and told by its angle.
@@ -195,7 +201,7 @@ fn a_turning_outline_meets_a_post_however_thin() {
     let start = Pose { at: p(300.0, 300.0), heading: Deg::ZERO };
     for (turn, met) in [(90.0, 45.0 - 10.0_f64.atan2(100.0).to_degrees()), (30.0, 90.0)] {
         let mut robot = Simulator::new(b.world.clone(), MapId(1), start);
-        let bump = robot.follow(&[], Some(Deg::of(turn)));
+        let bump = robot.follow(&[], Some(Deg::of(turn)), &mut Watch::none());
         assert_eq!(bump.is_err(), met < turn, "{bump:?}");
         let reached = robot.pose().1.heading.signed();
         assert!((reached - met.min(turn)).abs() < 0.5, "{reached} of {met}");
@@ -495,16 +501,16 @@ fn the_simulated_robot_drives_what_was_planned_for_its_outline() {
     let route = go(&b, from, to).unwrap();
     let start = Pose { at: from, heading: Deg::ZERO };
     let mut robot = Simulator::new(b.world.clone(), MapId(1), start);
-    robot.follow(&route.points, Some(Deg::of(90.0))).unwrap();
+    robot.follow(&route.points, Some(Deg::of(90.0)), &mut Watch::none()).unwrap();
     assert!((robot.pose().1.at - to).norm() < 1e-6);
     // Turned within the gap it would touch both boxes; sideways it does not even enter.
     let middle = Pose { at: p(300.0, 200.0), heading: Deg::ZERO };
     let mut robot = Simulator::new(b.world.clone(), MapId(1), middle);
-    assert!(robot.follow(&[], Some(Deg::of(90.0))).is_err());
+    assert!(robot.follow(&[], Some(Deg::of(90.0)), &mut Watch::none()).is_err());
     let mut wide = b;
     long_robot(&mut wide, 40.0, 90.0);
     let mut robot = Simulator::new(wide.world.clone(), MapId(1), start);
-    let bump = robot.follow(&[to], None).unwrap_err();
+    let bump = bumped(robot.follow(&[to], None, &mut Watch::none()));
     assert!((bump.at.at.x - 260.0).abs() < 0.1, "{:?}", bump.at);
 }
 
@@ -517,14 +523,14 @@ fn a_leaf_stops_against_a_robot_in_its_way() {
     let mut robot =
         Simulator::new(b.world.clone(), MapId(1), Pose { at: swept, heading: Deg::ZERO });
     assert!(matches!(
-        robot.set_door(door, DoorState::OPEN),
-        Err(Refusal::DoorJammed { by: None, .. })
+        robot.set_door(door, DoorState::OPEN, &mut Watch::none()),
+        Err(Unfinished::Met(Refusal::DoorJammed { by: None, .. }))
     ));
     for area in doorway.areas {
         let stand = plan.stand_before(&b.world, door, area).unwrap();
         let mut robot = Simulator::new(b.world.clone(), MapId(1), stand);
-        robot.set_door(door, DoorState::OPEN).unwrap();
-        robot.set_door(door, DoorState::CLOSED).unwrap();
+        robot.set_door(door, DoorState::OPEN, &mut Watch::none()).unwrap();
+        robot.set_door(door, DoorState::CLOSED, &mut Watch::none()).unwrap();
     }
 }
 

@@ -58,6 +58,7 @@ mod talk;
 mod talk_ways;
 mod tight_floors;
 mod ugly_floors;
+mod vehicle;
 mod views;
 mod ways;
 mod words;

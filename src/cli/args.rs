@@ -15,12 +15,13 @@ use super::draw::DrawArgs;
 use super::edit::EditArgs;
 use super::observe::ObserveCommand;
 use super::store::StoreCommand;
+use super::vehicle::{SimulateArgs, VehicleArgs};
 
 /// Embedded knowledge base and logic engine for robots that work inside buildings.
 #[derive(Debug, Parser)]
 #[command(name = "ortho", version, propagate_version = true)]
 #[command(
-    after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 the disk or the program is at fault."
+    after_help = "Exit codes: 0 done, 1 the answer is no (no plan, no route), 2 the input is wrong, 3 the disk, the vehicle or the program is at fault, 130 a task was stopped by Ctrl-C."
 )]
 pub(super) struct Arguments {
     #[command(flatten)]
@@ -97,7 +98,11 @@ pub(super) enum Command {
     /// Edit the map: one step, or a file of steps; checked as a whole, one transaction, can be undone
     Edit(EditArgs),
     /// JSON Schema of the map file, for editors
-    Schema,
+    Schema {
+        /// That of the vehicle protocol instead (docs/vehicle.md)
+        #[arg(long)]
+        vehicle: bool,
+    },
     /// The relations derived from the map
     Relations {
         /// Only this relation, by its Russian or English name
@@ -129,7 +134,11 @@ pub(super) enum Command {
         /// The robot stands here: a name, or X,Y in cm; else where the last task left it, or at the map's start
         #[arg(long, value_name = "PLACE", allow_hyphen_values = true)]
         from: Option<String>,
+        #[command(flatten)]
+        vehicle: VehicleArgs,
     },
+    /// Offer the simulated robot, in the world of a map file, by the vehicle protocol (docs/vehicle.md)
+    Simulate(SimulateArgs),
     /// Answer a question in words: ortho ask "Где лекарство?"
     Ask(AskArgs),
     /// A dialogue: questions and commands, a line each, with what was said before kept in mind

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, opens_in_words,
+    Engine, Method, Rules, World, change_now, check_map_closely, opens_in_words,
     parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
@@ -13,6 +13,7 @@ use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
 
 use super::args::{Common, Detail, Lang, RouteMethod};
+use super::vehicle::{VehicleArgs, Wheels};
 use super::fault::{Failure, drawn, views};
 use super::{Answer, json, say, text};
 
@@ -243,6 +244,7 @@ pub(super) fn perform(
     draw: Option<&Path>,
     reset: bool,
     from: Option<&str>,
+    vehicle: &VehicleArgs,
 ) -> Result<Answer, Failure> {
     let mut engine = open(common)?;
     if reset {
@@ -255,15 +257,11 @@ pub(super) fn perform(
     if let Some(question) = only_asked(&engine, task)? {
         return super::ask::answer(common, &engine, &question, false);
     }
-    let answer = super::demo::perform(common, &mut engine, task)?;
+    let answer = super::demo::perform(common, &mut engine, task, &mut Wheels::of(vehicle))?;
     if let Some(path) = draw {
         super::draw::put_driven(common, &engine, &answer, path)?;
     }
-    Ok(match answer.ending {
-        TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
-        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::No,
-        TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
-    })
+    Ok(super::demo::came_to(&answer))
 }
 
 /// The question in a task that orders nothing but an answer: «Проверь, открыт ли холодильник».

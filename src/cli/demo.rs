@@ -22,6 +22,7 @@ use super::args::{Common, Lang};
 use super::commands::{described, rules_dir};
 use super::fault::Failure;
 use super::text::decimal;
+use super::vehicle::Wheels;
 use super::{Answer, json, say, text};
 
 /// What is said to "Stop" where nothing is under way, in both languages.
@@ -58,17 +59,25 @@ pub(super) fn run(
         say("")?;
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
-    let answer = perform(common, &mut engine, task)?;
+    let answer = perform(common, &mut engine, task, &mut Wheels::simulated())?;
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, &answer, &drawing)? {
         if !common.json {
             say(&format!("{} {}", common.lang.pick("Рисунок:", "Drawing:"), drawn.display()))?;
         }
     }
-    Ok(match answer.ending {
-        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::Yes,
+    Ok(came_to(&answer))
+}
+
+/// How a command ends that carried out a task.
+pub(super) fn came_to(answer: &TaskAnswer) -> Answer {
+    match answer.ending {
+        TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
+        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::No,
         TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
-    })
+        TaskEnding::Stopped => Answer::Stopped,
+        TaskEnding::Failed(_) => Answer::Failed,
+    }
 }
 
 /// Carries out a task, tells of it, and notes how it left the robot.
@@ -76,6 +85,7 @@ pub(super) fn perform(
     common: &Common,
     engine: &mut Engine,
     task: &str,
+    wheels: &mut Wheels,
 ) -> Result<TaskAnswer, Failure> {
     let parts = match engine.parts_of(task)? {
         Some(parts) if parts.len() > 1 => {
@@ -100,19 +110,19 @@ pub(super) fn perform(
         if refused {
             continue;
         }
-        let answer = perform_order(common, engine, part, &mut memory)?;
+        let answer = perform_order(common, engine, part, &mut memory, wheels)?;
         // A store that is only read keeps nothing.
         if !common.read_only && common.as_of.is_none() {
             engine.remember(&answer, std::time::SystemTime::now().into())?;
         }
-        let failed = matches!(answer.ending, TaskEnding::NoPlan(_) | TaskEnding::Stuck(_));
+        let failed = !answer.ending.is_done();
         done = Some(answer);
         // What was ordered behind it is not begun; what was asked is answered.
         refused |= failed;
     }
     match done {
         Some(answer) => Ok(answer),
-        None => perform_order(common, engine, task, &mut memory),
+        None => perform_order(common, engine, task, &mut memory, wheels),
     }
 }
 
@@ -121,12 +131,13 @@ fn perform_order(
     engine: &Engine,
     order: &str,
     memory: &mut Memory,
+    wheels: &mut Wheels,
 ) -> Result<TaskAnswer, Failure> {
     let in_order = in_time(order).filter(|order| is_order(order));
     let order = in_order.as_deref().unwrap_or(order);
     match conditional(order) {
-        Some(conditional) => perform_if(common, engine, order, &conditional, memory),
-        None => perform_told(common, engine, order, memory),
+        Some(conditional) => perform_if(common, engine, order, &conditional, memory, wheels),
+        None => perform_told(common, engine, order, memory, wheels),
     }
 }
 
@@ -137,6 +148,7 @@ fn perform_if(
     task: &str,
     conditional: &Conditional,
     memory: &mut Memory,
+    wheels: &mut Wheels,
 ) -> Result<TaskAnswer, Failure> {
     if !common.json
         && let Ok((holds, answer)) = engine.holds(conditional, &mut memory.clone())?
@@ -146,10 +158,10 @@ fn perform_if(
         if order.is_none() && conditional.first.is_none() {
             say(conditional.undone())?;
             let commands = engine.understand_in(task, memory)?;
-            return Ok(engine.carry_out(&commands, &mut |_| {})?);
+            return wheels.carry_out(engine, &commands, &mut |_| {});
         }
     }
-    perform_told(common, engine, task, memory)
+    perform_told(common, engine, task, memory, wheels)
 }
 
 fn perform_told(
@@ -157,11 +169,12 @@ fn perform_told(
     engine: &Engine,
     task: &str,
     memory: &mut Memory,
+    wheels: &mut Wheels,
 ) -> Result<TaskAnswer, Failure> {
     let world = engine.world()?;
     if common.json {
         let commands = engine.understand_in(task, memory)?;
-        let answer = engine.carry_out(&commands, &mut |_| {})?;
+        let answer = wheels.carry_out(engine, &commands, &mut |_| {})?;
         say(&json::task(world, &answer).to_string())?;
         return Ok(answer);
     }
@@ -171,7 +184,7 @@ fn perform_told(
         Lang::En => format!("Task: \"{task}\""),
     })?;
     let commands = engine.understand_in(task, memory)?;
-    let answer = engine.carry_out(&commands, &mut |progress| teller.tell(progress))?;
+    let answer = wheels.carry_out(engine, &commands, &mut |progress| teller.tell(progress))?;
     teller.bar.finish_and_clear();
     say_ending(engine, &answer, common.lang)?;
     Ok(answer)
@@ -229,6 +242,7 @@ impl<'w> Teller<'w> {
                 self.bar.set_message(self.directive(directive));
                 self.bar.tick();
             }
+            Progress::Moved(_) | Progress::Scanned(_) => {}
             Progress::Finished(report) => {
                 self.bar.inc(1);
                 let way = if report.points.is_empty() {
@@ -374,6 +388,17 @@ fn unfinished(world: &World, ending: &TaskEnding, answer: &TaskAnswer, lang: Lan
         TaskEnding::Stuck(surprise) => {
             let what = surprise_in_words(world, surprise, lang.language());
             format!("{}: {what}.", lang.pick("Не выходит", "Stuck"))
+        }
+        TaskEnding::Stopped => {
+            let stopped = lang.pick("Остановлено.", "Stopped.");
+            match &answer.reported {
+                Some(position) => format!("{stopped} {}", position.say(lang.language())),
+                None => stopped.to_owned(),
+            }
+        }
+        TaskEnding::Failed(failure) => {
+            let broken_off = lang.pick("Задание прервано", "The task was broken off");
+            format!("{broken_off}: {}.", failure.say(lang.language()))
         }
     }
 }

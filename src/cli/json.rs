@@ -320,6 +320,8 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
             TaskEnding::AlreadyTrue => "already_true",
             TaskEnding::NoPlan(planned) => outcome(&planned.solved.outcome),
             TaskEnding::Stuck(_) => "stuck",
+            TaskEnding::Stopped => "stopped",
+            TaskEnding::Failed(_) => "vehicle_failed",
         },
         "map": world.maps[&answer.map].name,
         "goal": goal,
@@ -340,7 +342,12 @@ pub(super) fn task(world: &World, answer: &TaskAnswer) -> Value {
             view["explanation"] = json!(surprise_in_words(world, surprise, Language::Russian));
             view["explanation_en"] = json!(surprise_in_words(world, surprise, Language::English))
         }
-        TaskEnding::Done | TaskEnding::AlreadyTrue => {}
+        TaskEnding::Failed(failure) => {
+            view["code"] = json!(miette::Diagnostic::code(failure).map(|code| code.to_string()));
+            view["explanation"] = json!(failure.say(Language::Russian));
+            view["explanation_en"] = json!(failure.say(Language::English));
+        }
+        TaskEnding::Done | TaskEnding::AlreadyTrue | TaskEnding::Stopped => {}
     }
     if !answer.left.is_empty() {
         let left = answer.left.iter().map(|(goal, _)| json!(goal.args)).collect::<Vec<_>>();

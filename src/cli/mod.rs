@@ -1,7 +1,7 @@
 //! The command line: arguments in, engine, text or JSON out.
 //!
 //! Results go to standard output, faults and progress to standard error. Exit codes: 0 done, 1 the answer is
-//! no, 2 the input is wrong, 3 the disk or the program is at fault.
+//! no, 2 the input is wrong, 3 the disk, the vehicle or the program is at fault, 130 a signal stopped a task in good order.
 
 mod args;
 mod ask;
@@ -17,9 +17,11 @@ mod json;
 mod observe;
 mod plan;
 mod read;
+mod signals;
 mod store;
 mod talk;
 mod text;
+mod vehicle;
 mod why;
 mod words;
 
@@ -37,6 +39,10 @@ enum Answer {
     No,
     /// What was asked was not understood, is ambiguous, or unknown to the map.
     Wrong,
+    /// A signal stopped what was under way; all is in order.
+    Stopped,
+    /// The vehicle failed, which is told already.
+    Failed,
 }
 
 /// Runs the program.
@@ -49,6 +55,8 @@ pub fn run() -> ExitCode {
         Ok(Ok(Answer::Yes)) => ExitCode::SUCCESS,
         Ok(Ok(Answer::No)) => ExitCode::from(1),
         Ok(Ok(Answer::Wrong)) => ExitCode::from(2),
+        Ok(Ok(Answer::Stopped)) => ExitCode::from(130),
+        Ok(Ok(Answer::Failed)) => ExitCode::from(3),
         Ok(Err(failure)) => failure.show(arguments.common.json, arguments.common.lang),
         Err(_) => ExitCode::from(3),
     }
@@ -64,15 +72,17 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Export(args) => export::run(common, args),
         Command::Check { file, strict } => commands::check(common, file, *strict),
         Command::Edit(edit) => edit::run(common, edit),
-        Command::Schema => say(&crate::map::json_schema()),
+        Command::Schema { vehicle: false } => say(&crate::map::json_schema()),
+        Command::Schema { vehicle: true } => say(&crate::robot::protocol::json_schema()),
         Command::Relations { name, of } => {
             commands::relations(common, name.as_deref(), of.as_deref())
         }
         Command::Plan(plan) => plan::run(common, plan),
         Command::Ask(ask) => ask::run(common, ask),
-        Command::Do { task, draw, reset, from } => {
-            commands::perform(common, task, draw.as_deref(), *reset, from.as_deref())
+        Command::Do { task, draw, reset, from, vehicle } => {
+            commands::perform(common, task, draw.as_deref(), *reset, from.as_deref(), vehicle)
         }
+        Command::Simulate(args) => vehicle::simulate(common, args),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),

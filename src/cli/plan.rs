@@ -1,12 +1,8 @@
 //! `ortho plan`: a plan for a scenario or a PDDL problem, or a given plan checked step by step.
 
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
-use std::sync::{Arc, LazyLock};
 
 use serde_json::{Value, json};
-use signal_hook::consts::TERM_SIGNALS;
-use signal_hook::flag;
 
 use crate::engine::{
     Engine, PlanAnswer, Solved, check_map, check_plan_alone, name_in, plan_alone,
@@ -20,6 +16,7 @@ use crate::units::{English, write_file};
 use super::args::{Common, Lang, PlanArgs};
 use super::commands::{DEFAULT_STORE, note, open, rules_dir};
 use super::fault::{Failure, drawn};
+use super::signals::stopped_by_signals;
 use super::{Answer, json as views, say, text};
 
 pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
@@ -36,7 +33,7 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         None => name.to_owned(),
     };
     let (language, limits) = (common.lang.language(), args.limits());
-    let limits = Limits { tell: Some(interim(common.lang)), stop: stopped_by_signals(), ..limits };
+    let limits = Limits { tell: Some(interim(common.lang)), stop: Some(stopped_by_signals()), ..limits };
     let english = |name: &str| names(name, Language::English);
     let name = |name: &str| names(name, language);
     let (solved, warnings, told) = if args.without.is_empty() {
@@ -109,18 +106,6 @@ fn help(solved: &Solved, args: &PlanArgs, language: Language) -> String {
     let (head, or) =
         (language.pick("Помогло бы: ", "It would help: "), language.pick(" или ", " or "));
     format!("\n{head}{}", told.join(or))
-}
-
-/// Raised by the first signal to end; the second ends the program at once.
-fn stopped_by_signals() -> Option<&'static AtomicBool> {
-    static STOPPED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
-    let stopped = &*STOPPED;
-    for signal in TERM_SIGNALS {
-        // In this order the first signal only raises the flag, and the second finds it raised.
-        flag::register_conditional_shutdown(*signal, 128 + signal, Arc::clone(stopped)).ok()?;
-        flag::register(*signal, Arc::clone(stopped)).ok()?;
-    }
-    Some(stopped.as_ref())
 }
 
 /// A plan found soon is told of at once, and so is every shorter one made of it; the last is the answer.

@@ -95,6 +95,8 @@ pub fn task_in_words(world: &World, command: &str, answer: &TaskAnswer) -> Bilin
             TaskEnding::AlreadyTrue => language.pick("так уже было", "it was so already"),
             TaskEnding::NoPlan(_) => language.pick("плана не было", "there was no plan"),
             TaskEnding::Stuck(_) => language.pick("не вышло", "it did not work out"),
+            TaskEnding::Stopped => language.pick("остановлено", "it was stopped"),
+            TaskEnding::Failed(_) => language.pick("робот отказал", "the robot failed"),
         };
         let stop = if steps.is_empty() { "" } else { "; " };
         match language {

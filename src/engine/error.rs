@@ -56,6 +56,9 @@ pub enum Error {
     Sqlite(#[from] crate::exchange::SqliteError),
     #[error(transparent)]
     #[diagnostic(transparent)]
+    Vehicle(#[from] Box<crate::robot::Failure>),
+    #[error(transparent)]
+    #[diagnostic(transparent)]
     Request(#[from] RequestError),
 }
 
@@ -375,6 +378,7 @@ impl Error {
         match self {
             Self::Misheard(misheard) => Some(misheard.say(Language::English)),
             Self::Request(request) => request.english(&str::to_owned),
+            Self::Vehicle(failure) => Some(failure.say(Language::English)),
             _ => None,
         }
     }
@@ -432,6 +436,7 @@ impl Error {
             #[cfg(feature = "sqlite")]
             Self::Sqlite(error) => error.is_input(),
             Self::Store(error) => error.is_input(),
+            Self::Vehicle(_) => false,
         }
     }
 }

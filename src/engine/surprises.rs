@@ -2,7 +2,7 @@
 
 use crate::language::Language;
 use crate::map::{Entity, World};
-use crate::robot::{Obstruction, Refusal, Surprise};
+use crate::robot::{Obstruction, Refusal, Sighting, Surprise};
 
 use super::barriers::no_way_in_words;
 use super::deeds::place_in_words;
@@ -22,7 +22,9 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
         },
         Obstruction::Door(door) => said(Entity::Door(door)),
         Obstruction::Replica(id) if world.replicas.contains_key(&id) => said(Entity::Replica(id)),
-        Obstruction::Replica(_) => language.pick("вещь", "a thing").to_owned(),
+        Obstruction::Replica(_) | Obstruction::Something => {
+            language.pick("вещь", "a thing").to_owned()
+        }
     };
     let told = |ru: &str, en: &str, what: Obstruction| {
         let (pattern, name) = (language.pick(ru, en), thing(what));
@@ -31,6 +33,13 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
     match surprise {
         Surprise::Blocked { bump, .. } => {
             told("путь преграждает {}", "{} is in the way", bump.against)
+        }
+        Surprise::Noticed { seen } => {
+            let what = match seen {
+                Sighting::Door { door, .. } => Obstruction::Door(*door),
+                Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+            };
+            told("по дороге видно: {} – не так, как считалось", "seen on the way: {} is not as it was believed", what)
         }
         Surprise::NoWay { to, why } => {
             let to = place_in_words(world, to, language);

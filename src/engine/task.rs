@@ -14,11 +14,11 @@ use crate::language::question::{
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Drive, Ending, Event, GoalFact, Leg, Mission, MissionError, Person, Planned,
-    Simulator, Station, Surprise, facts_of_map,
+    Belief, Directive, Ending, Event, Failure, GoalFact, Leg, Mission, MissionError, Moment, Person,
+    Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
 };
 use crate::semantics::{Relations, derive, predicate};
-use crate::units::{MapId, Point, Pose, ReplicaId};
+use crate::units::{MapId, Point, Pose, ReplicaId, Stop};
 
 use super::memory::{After, Now};
 use super::position::describe;
@@ -37,6 +37,10 @@ pub enum Progress<'a> {
         of: usize,
         directive: &'a Directive,
     },
+    /// The robot is on its way.
+    Moved(&'a Moment),
+    /// Its range finder turned once.
+    Scanned(&'a protocol::Scan),
     Finished(&'a Report),
     /// The world was not as believed; a new plan follows.
     Surprised {
@@ -68,6 +72,18 @@ pub enum TaskEnding {
     AlreadyTrue,
     NoPlan(Box<Planned>),
     Stuck(Surprise),
+    /// It was told to stop, and stands.
+    Stopped,
+    /// The vehicle is of no more use; what is believed is what was known before.
+    Failed(Failure),
+}
+
+impl TaskEnding {
+    /// Whether what was asked for is so.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        matches!(self, Self::Done | Self::AlreadyTrue)
+    }
 }
 
 /// A task carried out, or shown impossible.
@@ -93,7 +109,7 @@ pub struct TaskAnswer {
     pub tidies: bool,
     /// Whether it was only told to stop: each task runs to its end before the next is heard, so nothing was under way.
     pub stops: bool,
-    /// Where the robot stands, when it was told to report and no directive ends with a report.
+    /// Where the robot stands, when it was stopped, or told to report and no directive ends with a report.
     pub reported: Option<Position>,
     /// Things of which it was not sure where they are, and looked for before all else, each with how sure it was, 0..=1.
     pub unsure: Vec<(ReplicaId, f64)>,
@@ -153,6 +169,35 @@ impl Engine {
         self.carry_out_from(commands, &now, now.world.clone(), tell)
     }
 
+    /// Carries out commands that were understood already, with a vehicle: the simulator, one of the caller's own, or a
+    /// [`crate::robot::RemoteVehicle`]. Where the vehicle says that it stands, there it is, whatever was believed.
+    ///
+    /// A [`Stop`] that is raised, by another thread or a signal, ends planning and driving at once; the answer then tells
+    /// how the robot stands, and [`Engine::remember`] notes that as it does after any other ending.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`]. That the vehicle fails is an answer.
+    pub fn carry_out_with(
+        &self,
+        commands: &[Command<Entity>],
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let now = self.now(std::time::SystemTime::now().into())?;
+        self.carry_out_by(commands, &now, vehicle, tell, stop)
+    }
+
+    /// The simulated robot where it is believed to be, with what it carries, in a world that may differ from what is
+    /// believed; none, one that does not.
+    ///
+    /// # Errors
+    /// As [`Engine::now`].
+    pub fn simulator(&self, truth: Option<World>) -> Result<Simulator, Error> {
+        let now = self.now(std::time::SystemTime::now().into())?;
+        Ok(simulator(&now, truth.unwrap_or_else(|| now.world.clone())))
+    }
+
     fn carry_out_from(
         &self,
         commands: &[Command<Entity>],
@@ -160,7 +205,29 @@ impl Engine {
         truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let (map, start) = (now.map, now.pose);
+        self.carry_out_by(commands, now, &mut simulator(now, truth), tell, &Stop::new())
+    }
+
+    fn carry_out_by(
+        &self,
+        commands: &[Command<Entity>],
+        now: &Now,
+        vehicle: &mut dyn Vehicle,
+        tell: &mut dyn FnMut(&Progress<'_>),
+        stop: &Stop,
+    ) -> Result<TaskAnswer, Error> {
+        let (map, start) = vehicle.pose();
+        let is_finite = [start.at.x, start.at.y].iter().all(|number| number.is_finite());
+        let stands = || self.floor(map).is_ok_and(|floor| floor.locate(start.at).is_some());
+        if !is_finite || !self.world()?.maps.contains_key(&map) || !stands() {
+            let failure = match is_finite {
+                true => Failure::OffTheMap { pose: start },
+                false => Failure::NoNumber,
+            };
+            return Ok(TaskAnswer::not_begun(now, failure));
+        }
+        let now = &Now { map, pose: start, ..now.clone() };
+        let begun_at = vehicle.time();
         let mut belief = Belief::new(now.world.clone(), self.floors_now(now)?, map, start)
             .ok_or(RequestError::RobotNowhere)?;
         belief.held.clone_from(&now.held);
@@ -189,10 +256,6 @@ impl Engine {
             );
         }
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
-        let in_hand = now.held.as_ref().map(|held| held.id);
-        let aboard = now.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
-        let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
-        let mut drive = Simulator::new(truth, map, start).holding(now.held.clone(), aboard);
         let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
         let is_lit = facts_of_map(&now.world, relations)
             .iter()
@@ -201,12 +264,18 @@ impl Engine {
             Command::Find(what) => Some(what.id),
             _ => None,
         });
+        let mut failed = None;
         let unsure_ones = unsure.iter().map(|(thing, _)| Entity::Replica(*thing));
         for what in sought.chain(unsure_ones) {
             let Entity::Replica(id) = what else { continue };
             let name = self.world()?.name(what).to_owned();
             let in_hand = !now.world.replicas.contains_key(&id);
-            if in_hand || (is_lit && drive.sees(id).is_some()) {
+            let seen = if is_lit && !in_hand { vehicle.sees(id) } else { Ok(None) };
+            let in_view = seen.unwrap_or_else(|failure| {
+                failed.get_or_insert(failure);
+                None
+            });
+            if in_hand || in_view.is_some() {
                 belief.found.insert(name);
             } else {
                 belief.sought.insert(name, BTreeSet::new());
@@ -225,6 +294,8 @@ impl Engine {
             Event::Started { number, of, directive } => {
                 tell(&Progress::Started { number: *number, of: *of, directive });
             }
+            Event::Moved(moment) => tell(&Progress::Moved(moment)),
+            Event::Scanned(scan) => tell(&Progress::Scanned(scan)),
             Event::Finished { number, directive, belief, leg } => {
                 let report = self.report(*number, directive, belief, leg);
                 tell(&Progress::Finished(&report));
@@ -235,15 +306,18 @@ impl Engine {
                 tell(&Progress::Surprised { directive, surprise });
             }
         };
-        let mut ending = TaskEnding::AlreadyTrue;
+        let mut ending = failed.map_or(TaskEnding::AlreadyTrue, TaskEnding::Failed);
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
         let tidies = commands
             .iter()
             .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
         let mut begun = 0;
         for goal in &goals {
+            if let TaskEnding::Failed(_) = ending {
+                break;
+            }
             begun += 1;
-            let ended = match (mission.run(goal, &mut drive, &mut hear), surprised.take()) {
+            let ended = match (mission.run(goal, vehicle, stop, &mut hear), surprised.take()) {
                 (Ok(ended), _) => ended,
                 // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
                 (Err(MissionError::Rules(_)), Some(surprise)) => Ending::Stuck(surprise),
@@ -257,6 +331,14 @@ impl Engine {
                 Ending::AlreadyTrue => continue,
                 Ending::NoPlan(planned) => TaskEnding::NoPlan(planned),
                 Ending::Stuck(surprise) => TaskEnding::Stuck(surprise),
+                Ending::Stopped => {
+                    ending = TaskEnding::Stopped;
+                    break;
+                }
+                Ending::Failed(failure) => {
+                    ending = TaskEnding::Failed(failure);
+                    break;
+                }
             };
             // What cannot be put away lets the rest be tidied.
             match &goal[..] {
@@ -272,20 +354,19 @@ impl Engine {
         if matches!(ending, TaskEnding::AlreadyTrue) && !left.is_empty() {
             ending = left.remove(0).1;
         }
-        let trace = drive.trace();
-        let last = trace.last().expect("a run begins with a moment");
-        let must_report =
-            reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report));
-        let reported = must_report.then(|| self.locate(last.map, last.pose, false));
+        let (end_map, end) = (mission.belief.map, mission.belief.pose);
+        let must_report = matches!(ending, TaskEnding::Stopped)
+            || (reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report)));
+        let reported = must_report.then(|| self.locate(end_map, end, false));
         Ok(TaskAnswer {
             goal: goals.concat(),
             map,
             start,
-            end: last.pose,
-            end_map: last.map,
+            end,
+            end_map,
             reports,
             replans: usize::saturating_sub(plans, begun),
-            seconds: last.time,
+            seconds: vehicle.time() - begun_at,
             ending,
             left,
             not_begun: goals.len() - begun,
@@ -566,6 +647,36 @@ impl Engine {
             length: leg.route.as_ref().map_or(0.0, |r| r.length),
             points,
             seconds: leg.seconds,
+        }
+    }
+}
+
+/// The simulated robot as it now is, in a world of its own.
+fn simulator(now: &Now, truth: World) -> Simulator {
+    let robot = Simulator::new(truth, now.map, now.pose);
+    robot.laden(now.held.clone(), &now.handed_over, &now.aboard)
+}
+
+impl TaskAnswer {
+    /// Nothing was begun, since the vehicle cannot be used; the robot is held to be where it was.
+    fn not_begun(now: &Now, failure: Failure) -> Self {
+        Self {
+            goal: Vec::new(),
+            map: now.map,
+            start: now.pose,
+            end: now.pose,
+            end_map: now.map,
+            reports: Vec::new(),
+            replans: 0,
+            seconds: 0.0,
+            ending: TaskEnding::Failed(failure),
+            left: Vec::new(),
+            not_begun: 0,
+            tidies: false,
+            stops: false,
+            reported: None,
+            unsure: Vec::new(),
+            after: None,
         }
     }
 }

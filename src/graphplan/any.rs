@@ -84,7 +84,7 @@ impl Forward<'_> {
         }
         let landmarks = Landmarks::of(self.task);
         // What is looked at by width leaves room for what comes after it.
-        let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..*self.limits };
+        let half = Limits { memory_bytes: self.limits.memory_bytes / 2, ..self.limits.clone() };
         if self.effort != Effort::All
             && let Some(landmarks) = &landmarks
         {

@@ -79,7 +79,6 @@ mod solver;
 mod symmetry;
 mod transition;
 
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 pub use plan::{Flaw, Plan, validate};
@@ -166,12 +165,12 @@ pub enum Limit {
 }
 
 /// How far the search may go.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct Limits {
     pub deadline: Option<Instant>,
     pub memory_bytes: usize,
     /// Raised from outside, as by a signal, when the search is to end with what it has.
-    pub stop: Option<&'static AtomicBool>,
+    pub stop: Option<crate::units::Stop>,
     pub parallel_steps: usize,
     /// Conflicts of the solver that may be spent on fewer actions once the fewest steps are found; on less cost,
     /// where actions have different costs.
@@ -216,7 +215,7 @@ impl Limits {
     }
 
     fn is_stopped(&self) -> bool {
-        self.stop.is_some_and(|stop| stop.load(Ordering::Relaxed))
+        self.stop.as_ref().is_some_and(crate::units::Stop::is_raised)
     }
 
     fn tell_of(&self, plan: &Plan) {
@@ -317,7 +316,7 @@ pub fn solve_any(task: &Task, limits: &Limits) -> Outcome {
         let brief = Limits {
             memory_bytes: limits.memory_bytes / FEW_OF_MEMORY,
             parallel_steps: limits.parallel_steps.min(FEW_STEPS),
-            ..*limits
+            ..limits.clone()
         };
         match with_stack(|| search(task, &brief, turn, None)) {
             Ok((Some(Outcome::Plan(plan)), _)) => return Ok(shortened(plan)),
@@ -517,7 +516,7 @@ impl<'a> Extractor<'a> {
     fn new(task: &'a Task, limits: &'a Limits, turn: Turn) -> Self {
         Self {
             task,
-            search: Search::new(task, *limits),
+            search: Search::new(task, limits.clone()),
             encoding: Encoding::new(task, !turn.goes_on, limits),
             limits,
             turn,
@@ -550,7 +549,7 @@ impl<'a> Extractor<'a> {
             return Ok(());
         }
         let memory_bytes = self.limits.memory_bytes / SEEKING_OF_MEMORY;
-        let limits = Limits { memory_bytes, ..*self.limits };
+        let limits = Limits { memory_bytes, ..self.limits.clone() };
         match any::search(self.task, &limits, any::Effort::Least) {
             Ok(any::Found::Plan(plan)) => {
                 self.limits.tell_of(&plan);

@@ -86,7 +86,7 @@ fn replaced(
         goal: needed_by(task, &plan.steps[to..]),
         ..task.clone()
     };
-    let within = Limits { parallel_steps: to - from, shorten: 0, ..*limits };
+    let within = Limits { parallel_steps: to - from, shorten: 0, ..limits.clone() };
     let turn = Turn { effort: Some(*effort), ..TURN };
     let (outcome, spent) = search_counted(&piece, &within, turn);
     *effort = effort.saturating_sub(spent);

@@ -87,7 +87,7 @@ fn of_all_plans_with_the_fewest_steps_one_of_the_cheapest_is_found() {
         let Outcome::Plan(plan) = solve(&task, &enough) else { continue };
         assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
         assert_eq!(plan.cost(&task), least_cost(&task, plan.steps.len()), "seed {seed}");
-        let Outcome::Plan(first) = solve(&task, &Limits { fewer_actions: 0, ..enough }) else {
+        let Outcome::Plan(first) = solve(&task, &Limits { fewer_actions: 0, ..enough.clone() }) else {
             panic!("seed {seed}: the same steps")
         };
         improved += usize::from(first.cost(&task) > plan.cost(&task));
@@ -170,8 +170,9 @@ fn a_search_given_up_leaves_true_bounds() {
 
 #[test]
 fn a_search_told_to_stop_stops() {
-    static STOP: AtomicBool = AtomicBool::new(true);
-    let limits = Limits { stop: Some(&STOP), ..Limits::default() };
+    let stop = crate::units::Stop::new();
+    stop.raise();
+    let limits = Limits { stop: Some(stop), ..Limits::default() };
     for seed in 1..=50 {
         let task = random_task(seed);
         assert_eq!(solve(&task, &limits).limit(), Some(Limit::Stopped), "seed {seed}");

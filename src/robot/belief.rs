@@ -8,7 +8,7 @@ use crate::semantics::planning::{self, Argument, InitialFact, PlanPlace, RobotAt
 use crate::semantics::{Relations, carried_to, lifts, predicate, storey_name};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, name_key};
 
-use super::drive::Sighting;
+use super::vehicle::Sighting;
 
 /// Where the robot is, as the rules speak of it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -40,7 +40,7 @@ pub struct Person {
 /// The name of the point where a mission began, if the Map has none for it.
 pub const STARTING_POINT: &str = "Исходная-точка";
 /// A robot this near to a named place stands at it, cm.
-const AT_PLACE: f64 = 15.0;
+pub(super) const AT_PLACE: f64 = 15.0;
 
 /// What the mission holds to be so.
 #[derive(Debug, Clone)]

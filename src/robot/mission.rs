@@ -6,18 +6,24 @@ use crate::map::{DoorState, DoorStatus, Entity, World};
 use crate::semantics::planning::{InitialFact, PLACE_BESIDE, PlaceSource, PlanPlace};
 use crate::semantics::{Join, Lift, RelationError, RelationRules, cargo, derive, lifts};
 use crate::strips::{Domain, OperatorId, Problem, RuleFaults};
-use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
+use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Stop};
+
+use std::collections::BTreeMap;
 
 use miette::Diagnostic;
 use thiserror::Error;
 
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
-use super::drive::{Bump, Drive, Refusal, Sighting};
 use super::idle::without_idle;
 use super::placing::{spot_in, spot_on, spot_on_floor};
 use super::rehearsal::{Known, rehearse};
+use super::reins::Reins;
 use super::solve::{Solved, solve_again};
+use super::vehicle::protocol::Scan;
+use super::vehicle::{
+    Bump, Done, Failure, Moment, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
+};
 
 /// One fact that is to hold in the end.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,6 +57,10 @@ pub enum Event<'a> {
         of: usize,
         directive: &'a Directive,
     },
+    /// The vehicle is on its way.
+    Moved(&'a Moment),
+    /// Its range finder turned once.
+    Scanned(&'a Scan),
     /// A directive is done.
     Finished {
         number: usize,
@@ -78,6 +88,8 @@ pub struct Leg {
 pub enum Surprise {
     /// Something stood in the way, and this is what was seen of it.
     Blocked { bump: Bump, seen: Option<Sighting> },
+    /// On its way the vehicle saw what was not believed.
+    Noticed { seen: Sighting },
     /// The vehicle would not.
     Refused { refusal: Refusal, seen: Option<Sighting> },
     /// There is no way on the floor that is believed.
@@ -102,7 +114,14 @@ pub enum Ending {
     /// The last surprise taught nothing new, so that the next plan would fail in the same way, or it took away the
     /// last way there was.
     Stuck(Surprise),
+    /// It was told to stop, and the vehicle stands. What is believed is so.
+    Stopped,
+    /// The vehicle is of no more use; what is believed is what was known before.
+    Failed(Failure),
 }
+
+/// So often what is seen of one thing may change the belief in one mission.
+const MOST_CHANGES: usize = 20;
 
 impl Surprise {
     /// Whether a way is given up for it, that the rules then know nothing of.
@@ -141,6 +160,8 @@ pub struct Mission<'r> {
     pub(super) places: Vec<PlanPlace>,
     joins: Vec<Join>,
     lifts: Vec<Lift>,
+    /// How often what was seen of each thing changed the belief.
+    changes: BTreeMap<Obstruction, usize>,
 }
 
 impl<'r> Mission<'r> {
@@ -152,7 +173,8 @@ impl<'r> Mission<'r> {
         limits: Limits,
     ) -> Self {
         let (places, joins, lifts) = (Vec::new(), Vec::new(), Vec::new());
-        Self { belief, domain, relations, limits, places, joins, lifts }
+        let changes = BTreeMap::new();
+        Self { belief, domain, relations, limits, places, joins, lifts, changes }
     }
 
     /// The plan for a goal from what is believed now.
@@ -198,16 +220,27 @@ impl<'r> Mission<'r> {
     /// A plan is begun only when it could be carried out in the world as it is believed to be: see `rehearse`.
     ///
     /// Every surprise must teach something (a door's state, a thing's place, a way that is none), of which
-    /// there is only so much; so the mission ends.
+    /// there is only so much; so the mission ends. It ends at once when it is told to stop, in planning or on the way, and
+    /// the vehicle then stands; what is believed is so, and another goal may follow.
     ///
     /// # Errors
     /// As [`Mission::plan`].
     pub fn run(
         &mut self,
         goal: &[GoalFact],
-        drive: &mut dyn Drive,
+        vehicle: &mut dyn Vehicle,
+        stop: &Stop,
         tell: &mut dyn FnMut(&Event<'_>),
     ) -> Result<Ending, MissionError> {
+        self.limits.stop = Some(stop.clone());
+        self.changes.clear();
+        match Reins::new(vehicle, (self.belief.map, self.belief.pose), stop, tell) {
+            Ok(mut reins) => self.pursue(goal, &mut reins),
+            Err(failure) => Ok(Ending::Failed(failure)),
+        }
+    }
+
+    fn pursue(&mut self, goal: &[GoalFact], reins: &mut Reins<'_>) -> Result<Ending, MissionError> {
         let mut moved = false;
         let mut learned: Option<Learned> = None;
         let mut given_up = None;
@@ -220,48 +253,61 @@ impl<'r> Mission<'r> {
             Ok(Ending::Stuck(surprise))
         };
         loop {
+            if reins.stop.is_raised() {
+                return Ok(Ending::Stopped);
+            }
             let (planned, now_learned) = match (self.plan_again(goal, learned.as_ref()), given_up) {
                 // A place that proved to be out of reach is none to the next plan, and the goal speaks of it.
                 (Err(MissionError::Rules(_)), Some(surprise)) => {
-                    return stuck(refused, surprise, tell);
+                    return stuck(refused, surprise, reins.tell);
                 }
                 (planned, before) => {
                     given_up = before;
                     planned?
                 }
             };
+            // A search that was cut short says nothing.
+            if reins.stop.is_raised() {
+                return Ok(Ending::Stopped);
+            }
             // The rules do not tell what is in the way where a way was given up, only that there is none.
             if let (Outcome::NoPlan { .. }, Some(surprise)) =
                 (&planned.solved.outcome, given_up.take())
             {
-                return stuck(refused, surprise, tell);
+                return stuck(refused, surprise, reins.tell);
             }
             let Outcome::Plan(plan) = &planned.solved.outcome else {
-                tell(&Event::Planned(&planned));
+                (reins.tell)(&Event::Planned(&planned));
                 return Ok(Ending::NoPlan(Box::new(planned)));
             };
             let directives: Vec<&Directive> = planned.steps.iter().flatten().collect();
             self.places.clone_from(&planned.places);
             self.joins.clone_from(&planned.joins);
             self.lifts.clone_from(&planned.lifts);
-            if let Err((known, surprise)) = rehearse(self, &directives) {
+            if let Err((known, surprise)) = rehearse(self, &directives, &reins.stop) {
                 refused.get_or_insert(planned);
                 if !self.take_over(known) {
-                    return stuck(refused, surprise, tell);
+                    return stuck(refused, surprise, reins.tell);
                 }
                 given_up = Some(surprise);
                 learned = now_learned.and_then(|learned| learned.after(&[]));
                 continue;
             }
             refused = None;
-            tell(&Event::Planned(&planned));
+            (reins.tell)(&Event::Planned(&planned));
             if directives.is_empty() {
                 return Ok(if moved { Ending::Done } else { Ending::AlreadyTrue });
             }
             moved = true;
-            let Err((done, surprise)) = self.carry_out(&directives, drive, tell) else {
-                return Ok(Ending::Done);
+            let (done, surprise) = match self.carry_out(&directives, reins) {
+                Ok(()) => return Ok(Ending::Done),
+                Err((done, Unfinished::Met(surprise))) => (done, surprise),
+                Err((_, Unfinished::Stopped)) => return Ok(Ending::Stopped),
+                Err((_, Unfinished::Failed(failure))) => return Ok(Ending::Failed(failure)),
             };
+            if let Some(times) = self.is_restless(&surprise) {
+                return Ok(Ending::Failed(Failure::Restless { times }));
+            }
             if !self.learn(&surprise) {
                 return Ok(Ending::Stuck(surprise));
             }
@@ -274,104 +320,160 @@ impl<'r> Mission<'r> {
     pub(super) fn carry_out(
         &mut self,
         directives: &[&Directive],
-        drive: &mut dyn Drive,
-        tell: &mut dyn FnMut(&Event<'_>),
-    ) -> Result<(), (usize, Surprise)> {
+        reins: &mut Reins<'_>,
+    ) -> Result<(), (usize, Unfinished<Surprise>)> {
         for (i, directive) in directives.iter().enumerate() {
             let number = i + 1;
-            tell(&Event::Started { number, of: directives.len(), directive });
-            let begun = drive.time();
+            (reins.tell)(&Event::Started { number, of: directives.len(), directive });
+            let begun = reins.time();
             let mut leg = Leg::default();
             let result =
-                directive.deeds().iter().try_for_each(|deed| self.perform(deed, drive, &mut leg));
-            leg.seconds = drive.time() - begun;
-            self.belief.pose = drive.pose().1;
-            if let Err(surprise) = result {
-                tell(&Event::Surprised { directive, surprise: &surprise, belief: &self.belief });
-                return Err((i, surprise));
+                directive.deeds().iter().try_for_each(|deed| self.perform(deed, reins, &mut leg));
+            leg.seconds = reins.time() - begun;
+            self.belief.pose = reins.pose().1;
+            if let Err(unfinished) = result {
+                self.broke_off(directive, &unfinished, reins);
+                return Err((i, unfinished));
             }
-            tell(&Event::Finished { number, directive, belief: &self.belief, leg: &leg });
+            (reins.tell)(&Event::Finished { number, directive, belief: &self.belief, leg: &leg });
+            if let Some(seen) = self.take_notice(reins) {
+                let noticed = Unfinished::Met(Surprise::Noticed { seen });
+                self.broke_off(directive, &noticed, reins);
+                return Err((number, noticed));
+            }
         }
         Ok(())
+    }
+
+    /// A directive was not done to its end: who looks on is told why, or the robot stands somewhere on its way.
+    fn broke_off(
+        &mut self,
+        directive: &Directive,
+        unfinished: &Unfinished<Surprise>,
+        reins: &mut Reins<'_>,
+    ) {
+        let belief = &mut self.belief;
+        match unfinished {
+            Unfinished::Met(surprise) => {
+                (reins.tell)(&Event::Surprised { directive, surprise, belief });
+            }
+            Unfinished::Stopped | Unfinished::Failed(_) => {
+                (belief.map, belief.pose) = reins.pose();
+                self.take_notice(reins);
+                self.name_this_point();
+            }
+        }
+    }
+
+    /// Takes over what the vehicle saw on its way; the last of it that was news.
+    fn take_notice(&mut self, reins: &mut Reins<'_>) -> Option<Sighting> {
+        let seen = std::mem::take(&mut reins.seen);
+        seen.into_iter().filter(|seen| self.belief.learn(*seen)).last()
+    }
+
+    /// Counts how often a thing was seen otherwise than before; the number, once it is too often.
+    fn is_restless(&mut self, surprise: &Surprise) -> Option<usize> {
+        let (Surprise::Noticed { seen }
+        | Surprise::Blocked { seen: Some(seen), .. }
+        | Surprise::Refused { seen: Some(seen), .. }) = surprise
+        else {
+            return None;
+        };
+        let what = match seen {
+            Sighting::Door { door, .. } => Obstruction::Door(*door),
+            Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
+        };
+        let times = self.changes.entry(what).or_default();
+        *times += 1;
+        (*times > MOST_CHANGES).then_some(*times)
     }
 
     fn perform(
         &mut self,
         deed: &Deed,
-        drive: &mut dyn Drive,
+        reins: &mut Reins<'_>,
         leg: &mut Leg,
-    ) -> Result<(), Surprise> {
+    ) -> Result<(), Unfinished<Surprise>> {
         match deed {
             Deed::GoToPlace(name) => {
                 let target = self.place_target(name)?;
-                self.go(name, target, &[self.belief.area], drive, leg)?;
+                self.go(name, target, &[self.belief.area], reins, leg)?;
                 let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
                 if let Some(pose) = looks.map(|spot| spot.pose) {
-                    self.turn(pose.heading, drive)?;
+                    self.turn(pose.heading, reins)?;
                 }
                 self.belief.station = Station::Place(name.clone());
             }
             Deed::GoToDoor(name) => {
                 let area = self.belief.area;
                 let target = self.door_target(name, area, area)?;
-                self.go(name, target, &[area], drive, leg)?;
+                self.go(name, target, &[area], reins, leg)?;
                 self.belief.station = Station::Door(name.clone());
             }
             Deed::Cross { door: name, into } => {
                 let into = self.area(into)?;
                 let areas = [self.belief.area, into];
                 let target = self.door_target(name, self.belief.area, into)?;
-                self.go(name, target, &areas, drive, leg)?;
+                self.go(name, target, &areas, reins, leg)?;
                 self.belief.area = into;
                 self.belief.station = Station::Door(name.clone());
             }
-            Deed::SetDoor { door, status } => self.set_door(door, *status, drive)?,
+            Deed::SetDoor { door, status } => self.set_door(door, *status, reins)?,
             Deed::CallLift { lift, door } => {
                 let opening = self.opening(door)?;
-                drive.call_lift(opening).map_err(|r| refused(r, drive))?;
+                let called = reins.act(|vehicle, watch| vehicle.call_lift(opening, watch));
+                called.map_err(|r| refused(r, reins))?;
                 self.cabin_stands_at(lift, door, opening);
             }
-            Deed::Ride { lift, to, door } => self.ride(lift, to, door, drive)?,
-            Deed::Take(name) => self.take(name, drive, leg)?,
-            Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), drive)?,
+            Deed::Ride { lift, to, door } => self.ride(lift, to, door, reins)?,
+            Deed::Take(name) => self.take(name, reins, leg)?,
+            Deed::Put { thing, onto } => self.put(thing, onto.as_deref(), reins)?,
             Deed::HandOver { thing, person } => {
                 let held = self.held(thing)?;
-                drive.hand_over(held).map_err(|r| refused(r, drive))?;
+                let given = reins.act(|vehicle, watch| vehicle.hand_over(held, watch));
+                given.map_err(|r| refused(r, reins))?;
                 let replica = self.belief.held.take().expect("checked by held()");
                 self.belief.handed_over.push((replica, person.clone()));
             }
             Deed::Switch { device, on } => {
                 let id = self.replica(device)?;
-                self.within_reach(id, drive, leg, |drive| drive.switch(id, *on))?;
+                self.within_reach(id, reins, leg, |v, watch| v.switch(id, *on, watch))?;
                 self.belief.switch(id, *on);
             }
-            Deed::LookRound => drive.look_round(),
-            Deed::Seek(name) => self.seek(name, drive, leg)?,
-            Deed::Call(person) => drive.call(person),
+            Deed::LookRound => look_round(reins)?,
+            Deed::Seek(name) => self.seek(name, reins, leg)?,
+            Deed::Call(person) => {
+                let called = reins.act(|vehicle, watch| vehicle.call(person, watch));
+                called.map_err(|r| refused(r, reins))?;
+            }
         }
         Ok(())
     }
 
     /// Takes a thing from where it is, or from the person who was given it.
-    fn take(&mut self, name: &str, drive: &mut dyn Drive, leg: &mut Leg) -> Result<(), Surprise> {
+    fn take(
+        &mut self,
+        name: &str,
+        reins: &mut Reins<'_>,
+        leg: &mut Leg,
+    ) -> Result<(), Unfinished<Surprise>> {
         let given = self.belief.handed_over.iter().position(|(thing, _)| thing.name == *name);
         if let Some(at) = given {
-            let thing = self.belief.handed_over[at].0.clone();
-            let with = self.belief.aboard.iter().filter(|(_, carrier)| *carrier == thing.id);
-            let with = with.map(|(thing, _)| thing.clone()).collect();
-            drive.take_back(thing, with).map_err(|r| refused(r, drive))?;
+            let thing = self.belief.handed_over[at].0.id;
+            let taken = reins.act(|vehicle, watch| vehicle.take_back(thing, watch));
+            taken.map_err(|r| refused(r, reins))?;
             self.belief.held = Some(self.belief.handed_over.remove(at).0);
             return Ok(());
         }
         let thing = self.replica(name)?;
         let with = cargo(&self.belief.world, self.relations, self.belief.scene(), thing);
-        self.within_reach(thing, drive, leg, |drive| drive.take(thing))?;
+        self.within_reach(thing, reins, leg, |v, watch| v.take(thing, watch))?;
         self.belief.pick_up(thing, &with.unwrap_or_default());
         // The place beside what lay on the floor goes with it; the robot still stands there.
         if let Station::Place(place) = &self.belief.station
             && place.strip_prefix(PLACE_BESIDE) == Some(name)
         {
-            self.belief.pose = drive.pose().1;
+            self.belief.pose = reins.pose().1;
             self.name_this_point();
         }
         Ok(())
@@ -382,19 +484,20 @@ impl<'r> Mission<'r> {
     fn within_reach(
         &mut self,
         thing: ReplicaId,
-        drive: &mut dyn Drive,
+        reins: &mut Reins<'_>,
         leg: &mut Leg,
-        mut act: impl FnMut(&mut dyn Drive) -> Result<(), Refusal>,
-    ) -> Result<(), Surprise> {
-        let Err(refusal) = act(drive) else { return Ok(()) };
-        if let Refusal::OutOfReach(_) = refusal {
+        act: impl Fn(&mut dyn Vehicle, &mut Watch<'_>) -> Done,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let Err(refusal) = reins.act(&act) else { return Ok(()) };
+        if let Unfinished::Met(Refusal::OutOfReach(_)) = refusal {
             let name = self.belief.world.name(Entity::Replica(thing)).to_owned();
-            let nearer = self.go(&name, Target::Replica(thing), &[self.belief.area], drive, leg);
-            if nearer.is_ok() {
-                return act(drive).map_err(|r| refused(r, drive));
+            match self.go(&name, Target::Replica(thing), &[self.belief.area], reins, leg) {
+                Ok(()) => return reins.act(&act).map_err(|r| refused(r, reins)),
+                Err(Unfinished::Met(_)) => {}
+                Err(unfinished) => return Err(unfinished),
             }
         }
-        Err(refused(refusal, drive))
+        Err(refused(refusal, reins))
     }
 
     pub(super) fn go(
@@ -402,26 +505,30 @@ impl<'r> Mission<'r> {
         name: &str,
         target: Target,
         areas: &[AreaId],
-        drive: &mut dyn Drive,
+        reins: &mut Reins<'_>,
         leg: &mut Leg,
-    ) -> Result<(), Surprise> {
+    ) -> Result<(), Unfinished<Surprise>> {
         let from = self.belief.pose.at;
         let route = self
             .belief
             .floor()
             .route_within(&self.belief.world, from, target, Method::Shortest, Some(areas))
             .map_err(|why| Surprise::NoWay { to: name.to_owned(), why })?;
-        let driven = drive.follow(&route.points, route.heading);
+        let driven = reins.follow(&route.points, route.heading);
         leg.route = Some(route);
-        self.belief.pose = drive.pose().1;
-        driven.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+        self.belief.pose = reins.pose().1;
+        driven.map_err(|bump| blocked(bump, reins))
     }
 
     /// Turns where the robot stands.
-    fn turn(&mut self, heading: Deg, drive: &mut dyn Drive) -> Result<(), Surprise> {
-        let turned = drive.follow(&[self.belief.pose.at], Some(heading));
-        self.belief.pose = drive.pose().1;
-        turned.map_err(|bump| Surprise::Blocked { bump, seen: drive.look_at(bump.against) })
+    fn turn(
+        &mut self,
+        heading: Deg,
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
+        let turned = reins.follow(&[self.belief.pose.at], Some(heading));
+        self.belief.pose = reins.pose().1;
+        turned.map_err(|bump| blocked(bump, reins))
     }
 
     /// Rides to another stop of the lift in which the robot stands: where it stands in the cabin, or in the middle of
@@ -431,21 +538,25 @@ impl<'r> Mission<'r> {
         lift: &str,
         to: &str,
         door: &str,
-        drive: &mut dyn Drive,
-    ) -> Result<(), Surprise> {
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
         let (to, opening) = (self.area(to)?, self.opening(door)?);
         let number = self.lifts.iter().find(|l| l.name == lift).map(|l| l.number);
         let number = number.ok_or_else(|| Surprise::Unknown { name: lift.to_owned() })?;
         let Some((arrival, rise)) = self.arrival(to) else {
             self.belief.unreachable.push((to, door.to_owned()));
-            return Err(Surprise::NoWay { to: lift.to_owned(), why: NoRoute::NoFloor });
+            return Err(Surprise::NoWay { to: lift.to_owned(), why: NoRoute::NoFloor }.into());
         };
         let ride = Ride { lift: number, from: self.belief.area, to, rise };
-        let ridden = drive.ride(&ride, opening, arrival);
-        (self.belief.map, self.belief.pose) = drive.pose();
+        let ridden =
+            reins.ride(arrival, |vehicle, watch| vehicle.ride(&ride, opening, arrival, watch));
+        if let Err(Unfinished::Stopped | Unfinished::Failed(_)) = ridden {
+            return ridden.map_err(|r| refused(r, reins));
+        }
+        (self.belief.map, self.belief.pose) = reins.pose();
         self.belief.area = to;
         self.belief.station = Station::Door(door.to_owned());
-        ridden.map_err(|r| refused(r, drive))?;
+        ridden.map_err(|r| refused(r, reins))?;
         self.cabin_stands_at(lift, door, opening);
         Ok(())
     }
@@ -487,8 +598,8 @@ impl<'r> Mission<'r> {
         &mut self,
         name: &str,
         status: DoorStatus,
-        drive: &mut dyn Drive,
-    ) -> Result<(), Surprise> {
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
         let door = self.door(name)?;
         let state = match status {
             DoorStatus::Open => DoorState::OPEN,
@@ -497,9 +608,10 @@ impl<'r> Mission<'r> {
         };
         let area = self.belief.area;
         if state.status != DoorStatus::Open && !self.could_open_again(door, area) {
-            return Err(Surprise::NoReturn { door, area });
+            return Err(Surprise::NoReturn { door, area }.into());
         }
-        drive.set_door(door, state).map_err(|r| refused(r, drive))?;
+        let set = reins.act(|vehicle, watch| vehicle.set_door(door, state, watch));
+        set.map_err(|r| refused(r, reins))?;
         self.belief.set_door(door, state);
         Ok(())
     }
@@ -525,8 +637,8 @@ impl<'r> Mission<'r> {
         &mut self,
         thing: &str,
         onto: Option<&str>,
-        drive: &mut dyn Drive,
-    ) -> Result<(), Surprise> {
+        reins: &mut Reins<'_>,
+    ) -> Result<(), Unfinished<Surprise>> {
         let held = self.held(thing)?;
         let from = self.belief.pose;
         let (area, frame) = match onto {
@@ -553,7 +665,8 @@ impl<'r> Mission<'r> {
                 (area, frame)
             }
         };
-        drive.put(held, area, frame).map_err(|r| refused(r, drive))?;
+        let put = reins.act(|vehicle, watch| vehicle.put(held, area, frame, watch));
+        put.map_err(|r| refused(r, reins))?;
         self.belief.set_down(area, frame);
         Ok(())
     }
@@ -581,6 +694,8 @@ impl<'r> Mission<'r> {
                 self.name_this_point();
                 self.belief.learn(*seen)
             }
+            // It was taken over when it was noticed.
+            Surprise::Noticed { .. } => true,
             Surprise::NoWay { to, .. } => self.belief.no_way_to(to.clone()),
             Surprise::NotSeen { thing, area } => self.belief.searched(thing, *area),
             Surprise::NoReturn { door, area } => {
@@ -715,8 +830,38 @@ pub fn state(problem: &mut Problem, fact: &InitialFact) {
     }
 }
 
-fn refused(refusal: Refusal, drive: &dyn Drive) -> Surprise {
-    Surprise::Refused { refusal, seen: refusal.about().and_then(|what| drive.look_at(what)) }
+/// What the vehicle would not do, with what there is to see of the reason.
+fn refused(unfinished: Unfinished<Refusal>, reins: &mut Reins<'_>) -> Unfinished<Surprise> {
+    let about = |refusal: &Refusal| refusal.about();
+    surprised(unfinished, reins, about, |refusal, seen| Surprise::Refused { refusal, seen })
+}
+
+/// What stood in the way, with what there is to see of it.
+fn blocked(unfinished: Unfinished<Bump>, reins: &mut Reins<'_>) -> Unfinished<Surprise> {
+    let about = |bump: &Bump| Some(bump.against);
+    surprised(unfinished, reins, about, |bump, seen| Surprise::Blocked { bump, seen })
+}
+
+fn surprised<Why>(
+    unfinished: Unfinished<Why>,
+    reins: &mut Reins<'_>,
+    about: impl Fn(&Why) -> Option<Obstruction>,
+    surprise: impl Fn(Why, Option<Sighting>) -> Surprise,
+) -> Unfinished<Surprise> {
+    match unfinished {
+        Unfinished::Met(why) => match about(&why).map(|what| reins.look_at(what)).transpose() {
+            Ok(seen) => Unfinished::Met(surprise(why, seen.flatten())),
+            Err(failure) => Unfinished::Failed(failure),
+        },
+        Unfinished::Stopped => Unfinished::Stopped,
+        Unfinished::Failed(failure) => Unfinished::Failed(failure),
+    }
+}
+
+/// Turns round once.
+pub(super) fn look_round(reins: &mut Reins<'_>) -> Result<(), Unfinished<Surprise>> {
+    let looked = reins.act(|vehicle, watch| vehicle.look_round(watch));
+    looked.map_err(|r| refused(r, reins))
 }
 
 /// Where the robot is when nothing else is known: the pose of the Map's starting place.

@@ -1,7 +1,7 @@
 //! From a goal to a driven way: mission, directives, the drive and what it observes (SPEC X; paper 1 §8).
 //!
-//! A mission plans, turns each directive into a motion and gives it to a [`Drive`]. The simulator is one
-//! drive; a vehicle is another (X3). What a drive meets that the Map did not tell comes back as an
+//! A mission plans, turns each directive into a motion and gives it to a [`Vehicle`]. The simulator is one;
+//! whatever speaks the protocol is another (X3). What a drive meets that the Map did not tell comes back as an
 //! [`Obstruction`], changes what the mission believes, and leads to a new plan (X2).
 //!
 //! # Invariants
@@ -14,22 +14,26 @@
 
 mod belief;
 mod directive;
-mod drive;
 mod eye;
 mod idle;
 mod mission;
 mod placing;
 mod rehearsal;
+mod reins;
 mod seek;
 mod simulator;
 mod solve;
+mod vehicle;
 
 pub use belief::{Belief, Person, STARTING_POINT, Spot, Station, facts_of_map};
 pub use directive::{Deed, Directive, Effect};
-pub use drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 pub use mission::{
     Ending, Event, GoalFact, Leg, Mission, MissionError, Planned, Surprise, starting_pose, state,
 };
 pub use placing::{Hollow, hollow, spot_in, spot_on};
-pub use simulator::{Moment, Simulator};
+pub use simulator::Simulator;
 pub use solve::{Reason, Replanned, Solved, Wanted, solve, solve_without};
+pub use vehicle::{
+    Address, Bump, Done, Failure, Moment, Notice, Obstruction, Patience, Refusal, RemoteVehicle,
+    Served, Sighting, Unfinished, Vehicle, Watch, protocol, serve,
+};

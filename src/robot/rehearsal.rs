@@ -7,12 +7,13 @@
 //! **Invariant**: neither the mission nor the vehicle is changed by it.
 
 use crate::map::{DoorStatus, Entity};
-use crate::units::AreaId;
+use crate::units::{AreaId, Stop};
 
 use super::directive::{Deed, Directive};
-use super::drive::Refusal;
-use super::mission::{Mission, Surprise};
+use super::mission::{Event, Mission, Surprise};
+use super::reins::Reins;
 use super::simulator::Simulator;
+use super::vehicle::{Refusal, Unfinished};
 
 /// What is to be held against a plan that the rules allow.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -32,6 +33,7 @@ pub(super) enum Known {
 pub(super) fn rehearse(
     mission: &Mission<'_>,
     directives: &[&Directive],
+    stop: &Stop,
 ) -> Result<(), (Known, Surprise)> {
     let seeks = |d: &&&Directive| d.deeds().iter().any(|deed| matches!(deed, Deed::Seek(_)));
     let known = directives.iter().position(|d| seeks(&d)).unwrap_or(directives.len());
@@ -40,14 +42,18 @@ pub(super) fn rehearse(
     }
     let mut trial = mission.clone();
     let belief = &trial.belief;
-    let in_hand = belief.held.as_ref().map(|held| held.id);
-    let aboard = belief.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
-    let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
-    let mut drive = Simulator::new(belief.world.clone(), belief.map, belief.pose)
-        .holding(belief.held.clone(), aboard);
-    let Err((_, surprise)) = trial.carry_out(&directives[..known], &mut drive, &mut |_| {}) else {
-        return Ok(());
-    };
+    let at = (belief.map, belief.pose);
+    let mut vehicle = Simulator::new(belief.world.clone(), at.0, at.1).laden(
+        belief.held.clone(),
+        &belief.handed_over,
+        &belief.aboard,
+    );
+    let nobody = &mut |_: &Event<'_>| {};
+    let mut reins =
+        Reins::new(&mut vehicle, at, stop, nobody).expect("the robot is put where it is believed");
+    let tried = trial.carry_out(&directives[..known], &mut reins);
+    // One that was told to stop is not asked what it found.
+    let Err((_, Unfinished::Met(surprise))) = tried else { return Ok(()) };
     let area = trial.belief.area;
     let name = |door| trial.belief.world.name(Entity::Door(door)).to_owned();
     let known = match &surprise {

@@ -5,41 +5,42 @@ use crate::semantics::planning::{PlaceSource, PlanPlace};
 use crate::units::AreaId;
 
 use super::belief::Station;
-use super::drive::Drive;
-use super::mission::{Leg, Mission, Surprise};
+use super::mission::{Leg, Mission, Surprise, look_round};
+use super::reins::Reins;
+use super::vehicle::Unfinished;
 
 impl Mission<'_> {
     /// Looks for a thing from here, then from each place of the Area in turn, then from the middles of its Passframes.
     pub(super) fn seek(
         &mut self,
         name: &str,
-        drive: &mut dyn Drive,
+        reins: &mut Reins<'_>,
         leg: &mut Leg,
-    ) -> Result<(), Surprise> {
+    ) -> Result<(), Unfinished<Surprise>> {
         let thing = self.replica(name)?;
         let area = self.belief.area;
         let mut views = self.views_of(area).into_iter();
         loop {
-            if let Some(seen) = drive.sees(thing) {
+            if let Some(seen) = reins.sees(thing).map_err(Unfinished::Failed)? {
                 self.belief.learn(seen);
                 self.belief.found.insert(name.to_owned());
                 return Ok(());
             }
             let Some((place, target)) = views.next() else {
-                return Err(Surprise::NotSeen { thing: name.to_owned(), area });
+                return Err(Surprise::NotSeen { thing: name.to_owned(), area }.into());
             };
             let driven = leg.route.take();
             let called = place.as_deref().unwrap_or(name);
-            match (self.go(called, target, &[area], drive, leg), place) {
+            match (self.go(called, target, &[area], reins, leg), place) {
                 (Ok(()), place) => {
                     match place {
                         Some(place) => self.belief.station = Station::Place(place),
                         None => self.name_this_point(),
                     }
-                    drive.look_round();
+                    look_round(reins)?;
                 }
                 // One looks from elsewhere.
-                (Err(Surprise::NoWay { .. }), _) => {}
+                (Err(Unfinished::Met(Surprise::NoWay { .. })), _) => {}
                 (Err(other), _) => return Err(other),
             }
             leg.route = match (driven, leg.route.take()) {

@@ -22,24 +22,19 @@ use crate::semantics::{RelationRules, cargo, shut_around};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Vector};
 
 use super::belief::frame_aboard;
-use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 use super::eye::View;
+use super::vehicle::{
+    Bump, Done, Failure, Moment, Notice, Obstruction, Refusal, Sighting, Unfinished, Vehicle, Watch,
+};
 
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
 /// How far the arm reaches beyond the footprint, cm.
 const ARM_REACH: f64 = 90.0;
+/// How often a motion tells of itself and can be stopped, seconds of simulated time.
+const STEP: f64 = 0.25;
 /// Contacts shallower than this are rounding of coordinates, not bumps, cm.
 const SKIN: f64 = 0.01;
-
-/// One moment of a run; between two the robot moves evenly.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Moment {
-    /// Seconds since the start.
-    pub time: f64,
-    pub map: MapId,
-    pub pose: Pose,
-}
 
 /// An edge that the robot must not touch.
 #[derive(Debug, Clone, Copy)]
@@ -60,6 +55,8 @@ pub struct Simulator {
     held: Option<Replica>,
     /// What lies on and in the thing in the hand.
     aboard: Vec<Replica>,
+    /// What people were given, each with what lies on and in it.
+    given: Vec<(Replica, Vec<Replica>)>,
     edges: Vec<Edge>,
     doorways: Vec<Doorway>,
     trace: Vec<Moment>,
@@ -79,6 +76,7 @@ impl Simulator {
             time: 0.0,
             held: None,
             aboard: Vec::new(),
+            given: Vec::new(),
             edges: Vec::new(),
             doorways: Vec::new(),
             trace: vec![Moment { time: 0.0, map, pose }],
@@ -88,13 +86,27 @@ impl Simulator {
         simulator
     }
 
-    /// The same robot with a thing in its hand and what lies on that, which then are not in its world.
+    /// The same robot with a thing in its hand and others given to people, each with what lies on and in it: of `aboard`
+    /// that which goes with it. They then are not in its world.
     #[must_use]
-    pub fn holding(mut self, thing: Option<Replica>, aboard: Vec<Replica>) -> Self {
-        for thing in thing.iter().chain(&aboard) {
-            self.truth.replicas.remove(&thing.id);
+    pub fn laden(
+        mut self,
+        held: Option<Replica>,
+        given: &[(Replica, String)],
+        aboard: &[(Replica, ReplicaId)],
+    ) -> Self {
+        let with = |carrier: ReplicaId| -> Vec<Replica> {
+            let along = aboard.iter().filter(|(_, on)| *on == carrier);
+            along.map(|(thing, _)| thing.clone()).collect()
+        };
+        self.aboard = held.as_ref().map_or_else(Vec::new, |held| with(held.id));
+        self.held = held;
+        self.given = given.iter().map(|(thing, _)| (thing.clone(), with(thing.id))).collect();
+        let given = self.given.iter().flat_map(|(thing, with)| std::iter::once(thing).chain(with));
+        let gone = self.held.iter().chain(&self.aboard).chain(given);
+        for id in gone.map(|thing| thing.id).collect::<Vec<_>>() {
+            self.truth.replicas.remove(&id);
         }
-        (self.held, self.aboard) = (thing, aboard);
         self.rebuild();
         self
     }
@@ -307,16 +319,45 @@ impl Simulator {
     }
 
     /// Turns on the spot, by the shorter way.
-    fn turn_to(&mut self, heading: Deg) -> Result<(), Bump> {
+    fn turn_to(&mut self, heading: Deg, watch: &mut Watch<'_>) -> Result<(), Unfinished<Bump>> {
         let turn = (heading - self.pose.heading).signed();
         if let Some((angle, against)) = self.contact_in_turn(turn) {
             let skin = (SKIN / self.profile.radius.get()).to_degrees();
             let done = (angle - skin).max(0.0);
             let heading = self.pose.heading + Deg::of(done * turn.signum());
-            self.advance(done / self.profile.turn_rate, Pose { heading, ..self.pose });
-            return Err(Bump { at: self.pose, against });
+            self.move_to(done / self.profile.turn_rate, Pose { heading, ..self.pose }, watch)?;
+            return Err(Bump { at: self.pose, against }.into());
         }
-        self.advance(turn.abs() / self.profile.turn_rate, Pose { heading, ..self.pose });
+        self.move_to(turn.abs() / self.profile.turn_rate, Pose { heading, ..self.pose }, watch)
+    }
+
+    /// Moves evenly from here to a pose, and stops between two small steps of time when it is told to.
+    fn move_to<Why>(
+        &mut self,
+        duration: f64,
+        to: Pose,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Unfinished<Why>> {
+        let (from, begun) = (self.pose, self.time);
+        let turn = (to.heading - from.heading).signed();
+        let mut passed = 0.0;
+        while passed + STEP < duration {
+            watch.check()?;
+            passed += STEP;
+            let share = passed / duration;
+            let at = from.at + (to.at - from.at) * share;
+            let pose = Pose { at, heading: from.heading + Deg::of(turn * share) };
+            let (map, time) = (self.map, begun + passed);
+            watch.notice(&Notice::Moved(Moment { time, map, pose }));
+            if watch.is_stopped() {
+                self.advance(passed, pose);
+                return Err(Unfinished::Stopped);
+            }
+        }
+        watch.check()?;
+        self.advance(duration, to);
+        let (map, time) = (self.map, self.time);
+        watch.notice(&Notice::Moved(Moment { time, map, pose: to }));
         Ok(())
     }
 
@@ -338,7 +379,7 @@ impl Simulator {
     fn open_for_lift(&mut self, door: Option<DoorId>) -> Result<(), Refusal> {
         let Some(door) = door else { return Ok(()) };
         match self.truth.doors.get(&door).map(|model| model.state.status) {
-            Some(DoorStatus::Closed) => self.set_door(door, DoorState::OPEN),
+            Some(DoorStatus::Closed) => self.swing(door, DoorState::OPEN),
             Some(DoorStatus::Locked) => Err(Refusal::Locked(door)),
             Some(DoorStatus::Open) | None => Ok(()),
         }
@@ -370,39 +411,9 @@ fn placed(pose: Pose) -> ShapePose {
     ShapePose::new(ShapeVector::new(pose.at.x, pose.at.y), pose.heading.radians())
 }
 
-impl Drive for Simulator {
-    fn pose(&self) -> (MapId, Pose) {
-        (self.map, self.pose)
-    }
-
-    fn time(&self) -> f64 {
-        self.time
-    }
-
-    fn follow(&mut self, path: &[Point], heading: Option<Deg>) -> Result<(), Bump> {
-        for &goal in path {
-            let way = goal - self.pose.at;
-            let length = way.norm();
-            if length < 1e-6 {
-                continue;
-            }
-            self.turn_to(Deg::from_radians(way.y.atan2(way.x)))?;
-            let contact = self.first_contact(goal);
-            let driven = contact.map_or(length, |(distance, _)| (distance - SKIN).max(0.0));
-            let at = self.pose.at + way * (driven / length);
-            self.advance(driven / self.profile.speed, Pose { at, ..self.pose });
-            if let Some((_, against)) = contact {
-                return Err(Bump { at: self.pose, against });
-            }
-        }
-        if let Some(heading) = heading {
-            self.turn_to(heading)?;
-        }
-        Ok(())
-    }
-
+impl Simulator {
     /// The leaves stop against a robot or a thing that stands anywhere on their way.
-    fn set_door(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal> {
+    fn swing(&mut self, door: DoorId, state: DoorState) -> Result<(), Refusal> {
         let Some(model) = self.truth.doors.get(&door) else {
             return Err(Refusal::DoorJammed { door, by: None, opening: 0 });
         };
@@ -417,10 +428,55 @@ impl Drive for Simulator {
         self.advance(DOOR_TIME, self.pose);
         Ok(())
     }
+}
 
-    fn call_lift(&mut self, door: Option<DoorId>) -> Result<(), Refusal> {
+/// A drive is stopped between two small steps of time; what hand, doors and lifts do is done at once when it is begun.
+impl Vehicle for Simulator {
+    fn pose(&self) -> (MapId, Pose) {
+        (self.map, self.pose)
+    }
+
+    fn time(&self) -> f64 {
+        self.time
+    }
+
+    fn follow(
+        &mut self,
+        path: &[Point],
+        heading: Option<Deg>,
+        watch: &mut Watch<'_>,
+    ) -> Result<(), Unfinished<Bump>> {
+        watch.check()?;
+        for &goal in path {
+            let way = goal - self.pose.at;
+            let length = way.norm();
+            if length < 1e-6 {
+                continue;
+            }
+            self.turn_to(Deg::from_radians(way.y.atan2(way.x)), watch)?;
+            let contact = self.first_contact(goal);
+            let driven = contact.map_or(length, |(distance, _)| (distance - SKIN).max(0.0));
+            let at = self.pose.at + way * (driven / length);
+            self.move_to(driven / self.profile.speed, Pose { at, ..self.pose }, watch)?;
+            if let Some((_, against)) = contact {
+                return Err(Bump { at: self.pose, against }.into());
+            }
+        }
+        if let Some(heading) = heading {
+            self.turn_to(heading, watch)?;
+        }
+        Ok(())
+    }
+
+    fn set_door(&mut self, door: DoorId, state: DoorState, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
+        Ok(self.swing(door, state)?)
+    }
+
+    fn call_lift(&mut self, door: Option<DoorId>, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         self.advance(LIFT_WAIT, self.pose);
-        self.open_for_lift(door)
+        Ok(self.open_for_lift(door)?)
     }
 
     fn ride(
@@ -428,22 +484,25 @@ impl Drive for Simulator {
         ride: &Ride,
         door: Option<DoorId>,
         (map, pose): (MapId, Pose),
-    ) -> Result<(), Refusal> {
+        watch: &mut Watch<'_>,
+    ) -> Done {
+        watch.check()?;
         self.map = map;
         self.advance(ride.seconds() - LIFT_WAIT, pose);
         self.rebuild();
-        self.open_for_lift(door)
+        Ok(self.open_for_lift(door)?)
     }
 
-    fn take(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
+    fn take(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         if let Some(held) = &self.held {
-            return Err(Refusal::HandFull(held.id));
+            return Err(Refusal::HandFull(held.id).into());
         }
         if !self.reaches(thing)? {
-            return Err(Refusal::OutOfReach(thing));
+            return Err(Refusal::OutOfReach(thing).into());
         }
         if let Some(around) = self.shut_in(thing) {
-            return Err(Refusal::Shut(around));
+            return Err(Refusal::Shut(around).into());
         }
         for id in self.cargo(thing) {
             self.aboard.extend(self.truth.replicas.remove(&id));
@@ -454,7 +513,8 @@ impl Drive for Simulator {
         Ok(())
     }
 
-    fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame) -> Result<(), Refusal> {
+    fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         let replica = self.let_go(thing)?;
         for carried in std::mem::take(&mut self.aboard) {
             let frame = frame_aboard(&self.truth, &replica, &carried, &frame);
@@ -465,24 +525,29 @@ impl Drive for Simulator {
         Ok(())
     }
 
-    fn hand_over(&mut self, thing: ReplicaId) -> Result<(), Refusal> {
-        self.let_go(thing)?;
-        self.aboard.clear();
+    fn hand_over(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
+        let replica = self.let_go(thing)?;
+        self.given.push((replica, std::mem::take(&mut self.aboard)));
         Ok(())
     }
 
-    fn take_back(&mut self, thing: Replica, with: Vec<Replica>) -> Result<(), Refusal> {
+    fn take_back(&mut self, thing: ReplicaId, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         if let Some(held) = &self.held {
-            return Err(Refusal::HandFull(held.id));
+            return Err(Refusal::HandFull(held.id).into());
         }
+        let at = self.given.iter().position(|(given, _)| given.id == thing);
+        let (thing, with) = self.given.remove(at.ok_or(Refusal::NotThere(thing))?);
         (self.held, self.aboard) = (Some(thing), with);
         self.advance(GRASP_TIME, self.pose);
         Ok(())
     }
 
-    fn switch(&mut self, device: ReplicaId, on: bool) -> Result<(), Refusal> {
+    fn switch(&mut self, device: ReplicaId, on: bool, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         if !self.reaches(device)? {
-            return Err(Refusal::OutOfReach(device));
+            return Err(Refusal::OutOfReach(device).into());
         }
         let replica = self.truth.replicas.get_mut(&device).ok_or(Refusal::NotThere(device))?;
         switch(&mut replica.properties, on);
@@ -490,18 +555,22 @@ impl Drive for Simulator {
         Ok(())
     }
 
-    fn call(&mut self, person: &str) {
+    fn call(&mut self, person: &str, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         self.calls.push(person.to_owned());
         self.advance(CALL_TIME, self.pose);
+        Ok(())
     }
 
-    fn look_round(&mut self) {
+    fn look_round(&mut self, watch: &mut Watch<'_>) -> Done {
+        watch.check()?;
         self.advance(360.0 / self.profile.turn_rate, self.pose);
+        Ok(())
     }
 
-    fn sees(&self, thing: ReplicaId) -> Option<Sighting> {
+    fn sees(&mut self, thing: ReplicaId) -> Result<Option<Sighting>, Failure> {
         let scene = Scene::of(&self.truth, self.map);
-        let placed = scene.replicas.get(&thing)?;
+        let Some(placed) = scene.replicas.get(&thing) else { return Ok(None) };
         let eye = (self.pose.at, self.profile.height.get());
         let is_wall = |e: &&Edge| !matches!(e.of, Obstruction::Replica(_));
         let walls = self.edges.iter().filter(is_wall).map(|e| (e.a, e.b)).collect();
@@ -512,12 +581,12 @@ impl Drive for Simulator {
             (at - eye.0).norm() <= SIGHT_RANGE
                 && [(p.bottom + p.top) / 2.0, p.top].iter().any(|&z| view.is_clear(eye, (at, z)))
         });
-        in_view.then(|| self.look_at(Obstruction::Replica(thing))).flatten()
+        if in_view { self.look_at(Obstruction::Replica(thing)) } else { Ok(None) }
     }
 
-    fn look_at(&self, what: Obstruction) -> Option<Sighting> {
-        match what {
-            Obstruction::Wall(_) => None,
+    fn look_at(&mut self, what: Obstruction) -> Result<Option<Sighting>, Failure> {
+        Ok(match what {
+            Obstruction::Wall(_) | Obstruction::Something => None,
             Obstruction::Door(door) => {
                 self.truth.doors.get(&door).map(|d| Sighting::Door { door, state: d.state })
             }
@@ -526,7 +595,7 @@ impl Drive for Simulator {
                 .replicas
                 .get(&replica)
                 .map(|r| Sighting::Replica { replica, area: r.area, frame: r.frame }),
-        }
+        })
     }
 }
 

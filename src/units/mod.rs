@@ -24,6 +24,7 @@ mod language;
 mod name;
 mod quantity;
 mod source;
+mod stop;
 
 pub use bilingual::Bilingual;
 pub use english::{English, InEnglish};
@@ -34,3 +35,4 @@ pub use language::Language;
 pub use name::{capitalized, name_key, nearest_name};
 pub use quantity::{Cm, Deg, QuantityError};
 pub use source::Source;
+pub use stop::Stop;

@@ -1,0 +1,151 @@
+//! Vehicles of the command line: the one that carries out a task, and the simulated one that is offered to others.
+
+use std::io::{Read, Write};
+use std::net::TcpListener;
+use std::path::PathBuf;
+use std::time::Duration;
+
+use clap::Args;
+
+use crate::engine::{Engine, Progress, TaskAnswer, check_map_closely};
+use crate::language::command::Command;
+use crate::map::Entity;
+use crate::robot::{Address, Moment, Patience, RemoteVehicle, Served, Simulator, serve};
+use crate::robot::{Vehicle, starting_pose};
+use crate::units::{Language, Stop};
+
+use super::Answer;
+use super::args::Common;
+use super::commands::{note, rules_dir, warn};
+use super::fault::Failure;
+use super::signals::stopped_by_signals;
+
+/// What carries out a task.
+#[derive(Debug, Clone, Args)]
+pub(super) struct VehicleArgs {
+    /// Drive a robot that speaks the vehicle protocol (docs/vehicle.md) instead of the simulator: cmd:COMMAND or tcp:HOST:PORT
+    #[arg(long, value_name = "ADDRESS", value_parser = address)]
+    vehicle: Option<Address>,
+    /// How long that robot may keep silent while it owes an answer
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, requires = "vehicle")]
+    silence: Option<Duration>,
+}
+
+fn address(text: &str) -> Result<Address, String> {
+    text.parse().map_err(|why: crate::units::Bilingual| why.say(Language::English).to_owned())
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
+    let duration = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
+    duration.ok_or_else(|| "a number of seconds is wanted, such as 10 or 0.5".to_owned())
+}
+
+/// The vehicle of a run of the program: a robot elsewhere, met when it is first needed, or the simulator. A signal stops it.
+pub(super) struct Wheels {
+    elsewhere: Option<Address>,
+    patience: Patience,
+    met: Option<RemoteVehicle>,
+    stop: Option<Stop>,
+}
+
+impl Wheels {
+    pub(super) fn simulated() -> Self {
+        Self { elsewhere: None, patience: Patience::default(), met: None, stop: None }
+    }
+
+    pub(super) fn of(args: &VehicleArgs) -> Self {
+        let all = Patience::default();
+        let patience = Patience { silence: args.silence.unwrap_or(all.silence), ..all };
+        Self { elsewhere: args.vehicle.clone(), patience, met: None, stop: None }
+    }
+
+    pub(super) fn carry_out(
+        &mut self,
+        engine: &Engine,
+        commands: &[Command<Entity>],
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Failure> {
+        let stop = self.stop.get_or_insert_with(stopped_by_signals);
+        let Some(address) = &self.elsewhere else {
+            let mut robot = engine.simulator(None)?;
+            return Ok(engine.carry_out_with(commands, &mut robot, tell, stop)?);
+        };
+        let robot = match &mut self.met {
+            Some(robot) => robot,
+            none => none.insert(address.connect(engine.world()?, self.patience).map_err(Box::new)?),
+        };
+        Ok(engine.carry_out_with(commands, robot, tell, stop)?)
+    }
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SimulateArgs {
+    /// Map file: the world as it really is
+    map: PathBuf,
+    /// Wait for missions at this address, HOST:PORT, one after the other; port 0 takes a free one and tells it
+    #[arg(long, value_name = "ADDR", required_unless_present = "stdio", conflicts_with = "stdio")]
+    listen: Option<String>,
+    /// Speak on standard input and output, with one mission
+    #[arg(long)]
+    stdio: bool,
+    /// Run so many times as fast as the clock; at once when left out
+    #[arg(long, value_name = "TIMES", value_parser = pace)]
+    pace: Option<f64>,
+}
+
+fn pace(text: &str) -> Result<f64, String> {
+    let pace = text.parse::<f64>().ok().filter(|pace| (1e-3..=1e6).contains(pace));
+    pace.ok_or_else(|| "a number from 0.001 to 1000000 is wanted, such as 1".to_owned())
+}
+
+/// What the simulated robot calls itself.
+const CALLED: &str = "ortho simulate";
+
+/// The simulated robot at the map's start, for who speaks the protocol; between missions it stays as it was left.
+pub(super) fn simulate(common: &Common, args: &SimulateArgs) -> Result<Answer, Failure> {
+    let (world, warnings) = check_map_closely(&args.map, rules_dir(common).as_deref())?;
+    warn(&warnings, common.lang);
+    let start = starting_pose(&world).ok_or(crate::engine::RequestError::RobotNowhere)?;
+    let mut robot = Simulator::new(world.clone(), start.0, start.1);
+    let mut talk = |reader: Box<dyn Read + Send>, writer: Box<dyn Write>| {
+        let mut told = robot.time();
+        let mut wait = |moment: &Moment| {
+            if let Some(pace) = args.pace {
+                std::thread::sleep(Duration::from_secs_f64((moment.time - told).max(0.0) / pace));
+            }
+            told = moment.time;
+        };
+        serve(&mut robot, CALLED, &world, reader, writer, &mut wait)
+    };
+    let Some(address) = &args.listen else {
+        let served = talk(Box::new(std::io::stdin()), Box::new(std::io::stdout()));
+        return Ok(tell(common, &served));
+    };
+    let fault = |error: &std::io::Error| Failure::file(address.as_ref(), error);
+    let listener = TcpListener::bind(address).map_err(|error| fault(&error))?;
+    let bound = listener.local_addr().map_err(|error| fault(&error))?;
+    note(&format!("{} {bound}", common.lang.pick("Робот ждёт:", "The robot waits at")));
+    for stream in listener.incoming() {
+        // A mission that went away before it was met is none.
+        let Ok(stream) = stream else { continue };
+        let Ok(reader) = stream.try_clone() else { continue };
+        let _slower = stream.set_nodelay(true);
+        let writer = stream.try_clone();
+        let Ok(writer) = writer else { continue };
+        tell(common, &talk(Box::new(reader), Box::new(writer)));
+        let _already_gone = stream.shutdown(std::net::Shutdown::Both);
+    }
+    Ok(Answer::Yes)
+}
+
+fn tell(common: &Common, served: &Served) -> Answer {
+    match served {
+        Served::Left => Answer::Yes,
+        Served::Rubbish(why) => {
+            let told = common.lang.pick("Приказ не понят", "An order was not understood");
+            note(&format!("{told}: {why}"));
+            Answer::Wrong
+        }
+    }
+}
