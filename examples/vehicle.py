@@ -3,7 +3,7 @@
 
 It is a disc that goes exactly where it is sent, meets nothing, and whose hand and doors never fail:
 
-    ortho do "Принеси лекарство" --vehicle "cmd:python3 examples/vehicle.py --map Карта-1 --at 120,85,90"
+    ortho do "Принеси лекарство" --vehicle "cmd:python3 examples/vehicle.py --map 'Квартира РБ-2' --at 120,85,90"
 
 Replace `Disc` by the driver of a real robot: each method returns what is said in the end, and `going` tells of the way.
 """

@@ -7,7 +7,9 @@
 //! # Invariants
 //!
 //! What a directive asks of the vehicle is read from its effects, never from its name. Every surprise must teach
-//! something, or the mission ends. A plan is begun only after it was carried out in a simulated world that is the
+//! something, or the mission ends. It ends at once when it is told to stop, and what is believed is so. A vehicle is
+//! believed to be only where it can be (`robot/reins`); one that fails ends the mission, and of the deed under way
+//! nothing is assumed. A plan is begun only after it was carried out in a simulated world that is the
 //! belief itself (`robot/rehearsal`); what that finds out is told to the next plan. What lies on or in a thing
 //! goes with it, in the hand and after (`semantics/cargo`). The simulator's collision test knows nothing of the
 //! free floor that the route was made from; it draws no random numbers, so a run repeats itself.
