@@ -5,16 +5,16 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, World, change_now, check_map_closely, opens_in_words,
-    parse_pose, ride_in_words, uncertain_names,
+    Engine, Method, Rules, World, change_now, check_map_closely, opens_in_words, parse_pose,
+    ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
 
 use super::args::{Common, Detail, Lang, RouteMethod};
-use super::vehicle::{VehicleArgs, Wheels};
 use super::fault::{Failure, drawn, views};
+use super::vehicle::{VehicleArgs, Wheels};
 use super::{Answer, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";

@@ -33,7 +33,8 @@ pub(super) fn run(common: &Common, args: &PlanArgs) -> Result<Answer, Failure> {
         None => name.to_owned(),
     };
     let (language, limits) = (common.lang.language(), args.limits());
-    let limits = Limits { tell: Some(interim(common.lang)), stop: Some(stopped_by_signals()), ..limits };
+    let limits =
+        Limits { tell: Some(interim(common.lang)), stop: Some(stopped_by_signals()), ..limits };
     let english = |name: &str| names(name, Language::English);
     let name = |name: &str| names(name, language);
     let (solved, warnings, told) = if args.without.is_empty() {

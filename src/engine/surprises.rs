@@ -39,7 +39,11 @@ pub fn surprise_in_words(world: &World, surprise: &Surprise, language: Language)
                 Sighting::Door { door, .. } => Obstruction::Door(*door),
                 Sighting::Replica { replica, .. } => Obstruction::Replica(*replica),
             };
-            told("по дороге видно: {} – не так, как считалось", "seen on the way: {} is not as it was believed", what)
+            told(
+                "по дороге видно: {} – не так, как считалось",
+                "seen on the way: {} is not as it was believed",
+                what,
+            )
         }
         Surprise::NoWay { to, why } => {
             let to = place_in_words(world, to, language);

@@ -14,8 +14,8 @@ use crate::language::question::{
 use crate::language::report::Position;
 use crate::map::{Entity, World};
 use crate::robot::{
-    Belief, Directive, Ending, Event, Failure, GoalFact, Leg, Mission, MissionError, Moment, Person,
-    Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
+    Belief, Directive, Ending, Event, Failure, GoalFact, Leg, Mission, MissionError, Moment,
+    Person, Planned, Simulator, Station, Surprise, Vehicle, facts_of_map, protocol,
 };
 use crate::semantics::{Relations, derive, predicate};
 use crate::units::{MapId, Point, Pose, ReplicaId, Stop};

@@ -49,8 +49,12 @@ impl Callbacks for Effort {
 
 impl Solver {
     pub(super) fn new(limits: &Limits) -> Self {
-        let effort =
-            Effort { conflicts: Cell::new(0), allowed: 0, limits: limits.clone(), late: Cell::new(false) };
+        let effort = Effort {
+            conflicts: Cell::new(0),
+            allowed: 0,
+            limits: limits.clone(),
+            late: Cell::new(false),
+        };
         Self {
             inner: batsat::Solver::new(batsat::SolverOpts::default(), effort),
             literals: 0,

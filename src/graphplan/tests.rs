@@ -87,7 +87,8 @@ fn of_all_plans_with_the_fewest_steps_one_of_the_cheapest_is_found() {
         let Outcome::Plan(plan) = solve(&task, &enough) else { continue };
         assert_eq!(validate(&task, &plan), Ok(()), "seed {seed}");
         assert_eq!(plan.cost(&task), least_cost(&task, plan.steps.len()), "seed {seed}");
-        let Outcome::Plan(first) = solve(&task, &Limits { fewer_actions: 0, ..enough.clone() }) else {
+        let Outcome::Plan(first) = solve(&task, &Limits { fewer_actions: 0, ..enough.clone() })
+        else {
             panic!("seed {seed}: the same steps")
         };
         improved += usize::from(first.cost(&task) > plan.cost(&task));

@@ -324,6 +324,10 @@ impl<'r> Mission<'r> {
     ) -> Result<(), (usize, Unfinished<Surprise>)> {
         for (i, directive) in directives.iter().enumerate() {
             let number = i + 1;
+            if reins.stop.is_raised() {
+                self.broke_off(directive, &Unfinished::Stopped, reins);
+                return Err((i, Unfinished::Stopped));
+            }
             (reins.tell)(&Event::Started { number, of: directives.len(), directive });
             let begun = reins.time();
             let mut leg = Leg::default();
@@ -521,11 +525,7 @@ impl<'r> Mission<'r> {
     }
 
     /// Turns where the robot stands.
-    fn turn(
-        &mut self,
-        heading: Deg,
-        reins: &mut Reins<'_>,
-    ) -> Result<(), Unfinished<Surprise>> {
+    fn turn(&mut self, heading: Deg, reins: &mut Reins<'_>) -> Result<(), Unfinished<Surprise>> {
         let turned = reins.follow(&[self.belief.pose.at], Some(heading));
         self.belief.pose = reins.pose().1;
         turned.map_err(|bump| blocked(bump, reins))

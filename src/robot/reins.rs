@@ -207,7 +207,8 @@ mod tests {
             let pose = Pose { at: Point::new(x, y), heading: Deg::ZERO };
             check(&Moment { time, map: MapId(map), pose }, MapId(1), 5.0, &way)
         };
-        for (x, y) in [(0.0, 0.0), (50.0, OFF_THE_WAY), (100.0 + OFF_THE_WAY, 50.0), (100.0, 100.0)] {
+        for (x, y) in [(0.0, 0.0), (50.0, OFF_THE_WAY), (100.0 + OFF_THE_WAY, 50.0), (100.0, 100.0)]
+        {
             assert_eq!(told(x, y, 5.0, 1), Ok(()), "({x}; {y})");
         }
         for (x, y) in [(-20.0, 0.0), (50.0, 50.0), (1e300, 0.0)] {

@@ -220,7 +220,10 @@ impl RemoteVehicle {
             return Err(wrong(why));
         }
         let unknown = |name: Wrong| {
-            wrong(Bilingual::new(format!("на карте нет «{name}»"), format!("the map has no “{name}”")))
+            wrong(Bilingual::new(
+                format!("на карте нет «{name}»"),
+                format!("the map has no “{name}”"),
+            ))
         };
         if let Saying::Failed { text } = what {
             return Err(Failure::OwnFault { text: shown(text.as_bytes()) });
@@ -261,7 +264,9 @@ impl RemoteVehicle {
             Saying::Stopped => Err(Unfinished::Stopped),
             Saying::Refused { why } => match self.names.refusal(&why) {
                 Ok(refusal) => Err(Unfinished::Met(refusal)),
-                Err(_unknown) => Err(Unfinished::Failed(self.unfit(asked, &Saying::Refused { why }))),
+                Err(_unknown) => {
+                    Err(Unfinished::Failed(self.unfit(asked, &Saying::Refused { why })))
+                }
             },
             other => Err(Unfinished::Failed(self.unfit(asked, &other))),
         }
@@ -272,9 +277,7 @@ impl RemoteVehicle {
             Saying::Seen { sighting: None } => Ok(None),
             Saying::Seen { sighting: Some(sight) } => match self.names.sighting(&sight) {
                 Ok(seen) => Ok(Some(seen)),
-                Err(_unknown) => {
-                    Err(self.unfit(asked, &Saying::Seen { sighting: Some(sight) }))
-                }
+                Err(_unknown) => Err(self.unfit(asked, &Saying::Seen { sighting: Some(sight) })),
             },
             other => Err(self.unfit(asked, &other)),
         }

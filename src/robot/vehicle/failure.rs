@@ -12,7 +12,9 @@ pub enum Failure {
     #[error("нет связи с роботом «{address}»: {why}")]
     #[diagnostic(
         code(vehicle::no_connection),
-        help("проверьте, что программа робота есть и запускается, или что по этому адресу её ждут")
+        help(
+            "проверьте, что программа робота есть и запускается, или что по этому адресу её ждут"
+        )
     )]
     NoConnection { address: String, why: String },
     /// The connection ended: the vehicle died, or the line was cut.
@@ -23,7 +25,9 @@ pub enum Failure {
     #[error("робот не ответил на «{asked}» за {seconds} с")]
     #[diagnostic(
         code(vehicle::timed_out),
-        help("у каждого приказа должен быть ответ, а пока он исполняется – сообщения о пути; см. docs/vehicle.md")
+        help(
+            "у каждого приказа должен быть ответ, а пока он исполняется – сообщения о пути; см. docs/vehicle.md"
+        )
     )]
     TimedOut { asked: &'static str, seconds: f64 },
     /// It said what the protocol does not know.
@@ -35,7 +39,10 @@ pub enum Failure {
     #[diagnostic(code(vehicle::version), help("версии протокола описаны в docs/vehicle.md"))]
     Version { theirs: u32, ours: u32 },
     /// It says that it is where it was not sent.
-    #[error("робот сообщил, что он в {}: это в {off:.0} см от пути, по которому он послан", at(pose))]
+    #[error(
+        "робот сообщил, что он в {}: это в {off:.0} см от пути, по которому он послан",
+        at(pose)
+    )]
     #[diagnostic(
         code(vehicle::off_the_way),
         help("поза должна быть в системе координат карты, в сантиметрах")
@@ -61,10 +68,7 @@ pub enum Failure {
     OffTheMap { pose: Pose },
     /// Its pose or its clock is no number, or its clock went back.
     #[error("робот сообщил позу или время, которых не бывает")]
-    #[diagnostic(
-        code(vehicle::no_number),
-        help("числа должны быть конечными, время не убывает")
-    )]
+    #[diagnostic(code(vehicle::no_number), help("числа должны быть конечными, время не убывает"))]
     NoNumber,
     /// It says itself that it can do no more.
     #[error("робот отказал: {text}")]
@@ -98,7 +102,9 @@ impl InEnglish for Failure {
                 why.say(Language::English)
             ),
             Self::Version { theirs, ours } => {
-                format!("the robot speaks version {theirs} of the protocol, version {ours} is wanted")
+                format!(
+                    "the robot speaks version {theirs} of the protocol, version {ours} is wanted"
+                )
             }
             Self::OffTheWay { pose, off } => format!(
                 "the robot says that it is at {}: {off:.0} cm off the way on which it was sent",
@@ -111,10 +117,9 @@ impl InEnglish for Failure {
             Self::WrongMap => {
                 "the robot says that it is on another map than that on which it was sent".to_owned()
             }
-            Self::OffTheMap { pose } => format!(
-                "the robot says that it is at {}: the map has no room there",
-                at(pose)
-            ),
+            Self::OffTheMap { pose } => {
+                format!("the robot says that it is at {}: the map has no room there", at(pose))
+            }
             Self::NoNumber => "the robot told a pose or a time that cannot be".to_owned(),
             Self::OwnFault { text } => format!("the robot failed: {text}"),
             Self::Restless { times } => {
