@@ -139,10 +139,13 @@ pub enum Notice {
     Scanned(Scan),
 }
 
+/// Who is told of the way, and may break it off.
+type Hearer<'w> = &'w mut dyn FnMut(&Notice) -> ControlFlow<()>;
+
 /// Who may stop a vehicle at work, and who is told of its way.
 pub struct Watch<'w> {
     stop: Stop,
-    tell: Option<&'w mut dyn FnMut(&Notice) -> ControlFlow<()>>,
+    tell: Option<Hearer<'w>>,
     is_broken: bool,
 }
 
