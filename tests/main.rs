@@ -49,6 +49,7 @@ mod routes;
 mod scenes;
 #[cfg(feature = "sqlite")]
 mod sqlite;
+mod states;
 mod store;
 mod store_faults;
 mod store_world;

@@ -571,3 +571,33 @@ fn an_explanation_names_the_type_that_the_action_asks_for() {
     let told = solved(&pddl(domain, problem).unwrap()).explanation(Language::Russian).unwrap();
     assert!(told.contains("lorry") && !told.contains("vehicle"), "{told}");
 }
+
+/// Types in chains as long as one likes, told from either end, with a second parent or without: each is looked at once.
+#[test]
+fn long_chains_of_types_end() {
+    const LENGTH: usize = 20_000;
+    let problem = "(define (problem p) (:domain d) (:objects o - t0) (:init) (:goal (p o)))";
+    let link =
+        |n: usize, other: &str| format!("t{n} - {}\n", other.replace('#', &format!("t{}", n + 1)));
+    let chains = [
+        (0..LENGTH).map(|n| link(n, "#")).collect::<String>(),
+        (0..LENGTH).rev().map(|n| link(n, "#")).collect(),
+        (0..LENGTH).map(|n| link(n, "(either # u)")).collect(),
+    ];
+    for chain in chains {
+        let domain = format!(
+            "(define (domain d) (:requirements :typing) (:types {chain} t{LENGTH} u - object)
+             (:predicates (p ?x - t{LENGTH}))
+             (:action a :parameters (?x - t{LENGTH}) :precondition () :effect (p ?x)))"
+        );
+        let scenario = pddl(&domain, problem).unwrap();
+        assert!(matches!(solved(&scenario).outcome, Outcome::Plan(_)));
+    }
+    // A circle is told at each of its places, one type or many.
+    for circle in ["a - a", "a - b b - a", "a - b b - c c - (either d a) d - object"] {
+        let domain = format!("(define (domain d) (:requirements :typing) (:types {circle}))");
+        let problem = "(define (problem p) (:domain d) (:init) (:goal (and)))";
+        let faults = told(pddl(&domain, problem));
+        assert!(faults.contains("наследует сам себе"), "{circle}: {faults}");
+    }
+}

@@ -10,7 +10,7 @@ use crate::semantics::{predicate, storey_name};
 use crate::units::{AreaId, capitalized};
 
 use super::lexicon::named;
-use super::{Engine, TaskAnswer};
+use super::{State, TaskAnswer};
 
 /// A room or storey where the robot cannot come, however doors stand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -21,7 +21,7 @@ pub struct Apart {
     pub by_stairs: bool,
 }
 
-impl Engine {
+impl State {
     /// The rooms and storeys of a task's goal that nothing joins to the one in which the robot began, open or shut.
     #[must_use]
     pub fn unconnected(&self, answer: &TaskAnswer) -> Vec<Apart> {

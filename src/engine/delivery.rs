@@ -8,9 +8,9 @@ use crate::semantics::{Relations, predicate};
 use crate::units::{AreaId, MapId, ReplicaId};
 
 use super::memory::Now;
-use super::{Engine, Error, Method, RequestError};
+use super::{Error, Method, RequestError, State};
 
-impl Engine {
+impl State {
     /// The name of a thing that the robot can carry.
     ///
     /// # Errors

@@ -22,7 +22,7 @@ use crate::units::{AreaId, Deg, Point, Vector};
 
 use super::route::{End, RouteAnswer};
 use super::surroundings::Surroundings;
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// A bend that stays this near to the straight way is none, cm.
 const SMALL_BEND: f64 = 35.0;
@@ -39,7 +39,7 @@ const LANDMARKS: usize = 2;
 /// What is moved oftener than this is no landmark, percent.
 const MOVED_OFTEN: u8 = 50;
 
-impl Engine {
+impl State {
     /// A way over the map in the terms of people. `heading` is how one stands at its beginning, where that is known.
     ///
     /// # Errors

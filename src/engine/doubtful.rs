@@ -14,15 +14,15 @@ use crate::units::ReplicaId;
 
 use super::memory::Now;
 use super::task::thing_of;
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// Where the rule text names none: likelier than not.
 const TOLD_FROM: f64 = 0.5;
 
-impl Engine {
+impl State {
     /// How sure the robot is of where a thing is, 0..=1, where that is less than what is told as a fact.
     pub(super) fn doubted(&self, thing: ReplicaId) -> Option<f64> {
-        let reader = self.store.as_ref()?.reader();
+        let reader = self.reader.as_ref()?;
         let replica = self.world.as_ref()?.replicas.get(&thing)?;
         let belief = reader.belief(replica, SystemTime::now().into()).ok()?;
         let relations = self.relations().ok()?;

@@ -8,7 +8,7 @@ use crate::geometry::{Doorway, FloorPlan, PlacedArea, Sight};
 use crate::map::{Entity, Object, World};
 use crate::units::{AreaId, Language, MapId, PlaceId, Point, Pose, Vector, nearest_name};
 
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// What to draw of a map besides rooms, doors and furniture.
 #[derive(Debug, Clone, Default)]
@@ -44,7 +44,7 @@ pub struct Lens {
     pub range: f64,
 }
 
-impl Engine {
+impl State {
     /// The plan of a map as SVG.
     ///
     /// # Errors

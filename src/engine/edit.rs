@@ -3,13 +3,14 @@
 //! **Invariant.** After an edit, relations and floors are those that deriving anew from the edited map would give.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::map::{self, EditReading, Fault, Format, MapErrors, NextIds, TypeKind, World};
-use crate::store::{self, Change, Difference, ImportReport, Table};
+use crate::store::{self, Change, Difference, ImportReport, Store, Table};
 use crate::units::{ReplicaId, Source};
 
 use super::lexicon::form_index;
-use super::{Engine, Error, load};
+use super::{Engine, Error, State, load};
 
 /// Whether an edit is made or only tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -48,7 +49,7 @@ impl Engine {
         mode: Mode,
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let world = self.world.as_ref().unwrap_or(&nothing);
+        let world = self.world.as_deref().unwrap_or(&nothing);
         let ids = self.next_ids(world)?;
         let index = std::cell::OnceCell::new();
         let names = |name: &str| {
@@ -75,7 +76,7 @@ impl Engine {
         warnings: MapErrors,
         carriers: &BTreeSet<ReplicaId>,
     ) -> Result<(World, MapErrors, Vec<ReplicaId>), Error> {
-        let Some(before) = self.world.as_ref().filter(|before| before.replicas != after.replicas)
+        let Some(before) = self.world.as_deref().filter(|before| before.replicas != after.replicas)
         else {
             return Ok((after, warnings, Vec::new()));
         };
@@ -102,7 +103,7 @@ impl Engine {
         alter: impl FnOnce(&mut World),
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let before = self.world.as_ref().unwrap_or(&nothing);
+        let before = self.world.as_deref().unwrap_or(&nothing);
         let mut after = before.clone();
         alter(&mut after);
         let faults = news(before, &after);
@@ -144,7 +145,7 @@ impl Engine {
         mode: Mode,
     ) -> Result<Edited, Error> {
         let nothing = World::empty();
-        let before = self.world.as_ref().unwrap_or(&nothing);
+        let before = self.world.as_deref().unwrap_or(&nothing);
         let differences = store::compare(before, &after)?;
         if mode == Mode::DryRun {
             return Ok(Edited { differences, warnings, left_behind: Vec::new(), report: None });
@@ -160,21 +161,35 @@ impl Engine {
     /// Takes over a new state of the map. Where only replicas changed, what was derived follows each of them;
     /// else it is derived anew when it is asked for.
     pub(super) fn follow(&mut self, after: World) -> Result<(), Error> {
+        let (state, store) = self.next_with_store();
+        state.follow(after);
+        state.stand_on(store);
+        Ok(())
+    }
+
+    /// The state that is to follow, and the store.
+    pub(super) fn next_with_store(&mut self) -> (&mut State, Option<&Store>) {
+        self.next();
+        let state = Arc::get_mut(&mut self.state).expect("made so by the line before");
+        (state, self.store.as_ref())
+    }
+}
+
+impl State {
+    /// Takes over another map; what other states share with this one stays as it is for them.
+    fn follow(&mut self, after: World) {
         self.mind.take();
         self.forms.take();
-        self.present.take();
-        let Some(before) = self.world.replace(after) else {
-            self.forget_derived();
-            return Ok(());
+        let after = Arc::new(after);
+        let Some(before) = self.world.replace(Arc::clone(&after)) else {
+            return self.forget_derived();
         };
-        let after = self.world.as_ref().expect("just put there");
-        let Some(changed) = only_replicas(&before, after) else {
-            self.forget_derived();
-            return Ok(());
+        let Some(changed) = only_replicas(&before, &after) else {
+            return self.forget_derived();
         };
         if let Some(floors) = self.floors.get_mut() {
             // A thing may leave one Map for another: each takes over what it now says of its own.
-            for floor in floors.values_mut() {
+            for floor in Arc::make_mut(floors).values_mut() {
                 let is_on = |r: Option<&map::Replica>| {
                     r.is_some_and(|r| floor.scene().areas.contains_key(&r.area))
                 };
@@ -184,12 +199,13 @@ impl Engine {
                     .filter(|id| is_on(before.replicas.get(id)) || is_on(after.replicas.get(id)))
                     .collect();
                 if !own.is_empty() {
-                    floor.rebuild(after, &own);
+                    floor.rebuild(&after, &own);
                 }
             }
         }
         let mut followed = changed.len() <= MOST_FOLLOWED;
-        if let Some(relations) = self.relations.get_mut() {
+        if let Some(relations) = self.relations.get_mut().filter(|_| followed) {
+            let relations = Arc::make_mut(relations);
             for id in changed {
                 // Properties are facts too, which a move does not touch.
                 let only_moved =
@@ -197,21 +213,12 @@ impl Engine {
                         map::Replica { area: a.area, frame: a.frame, ..b.clone() } == *a
                     });
                 // A rule that fails now fails again, and is told, when they are derived anew.
-                followed = followed && only_moved && relations.update(after, id).unwrap_or(false);
+                followed = followed && only_moved && relations.update(&after, id).unwrap_or(false);
             }
         }
         if !followed {
             self.relations.take();
         }
-        Ok(())
-    }
-
-    pub(super) fn forget_derived(&mut self) {
-        self.relations.take();
-        self.floors.take();
-        self.mind.take();
-        self.forms.take();
-        self.present.take();
     }
 }
 

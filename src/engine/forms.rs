@@ -6,9 +6,9 @@ use crate::language::{NounPhrase, WordHints};
 use crate::map::{Entity, World};
 
 use super::lexicon::named;
-use super::{Engine, Error};
+use super::{Error, State};
 
-impl Engine {
+impl State {
     /// A name with what the map knows of its forms: that of an entity, else that of a kind of thing, else as any word.
     ///
     /// # Errors

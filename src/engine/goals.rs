@@ -11,13 +11,13 @@ use crate::units::{AreaId, DoorId};
 use super::deeds::floor_place;
 use super::memory::Now;
 use super::task::{OPERATOR, thing_of};
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// Commands of one kind that are planned together, at most: «Закрой все двери». More are done one by one, since the
 /// best order of many is not worth the wait.
 const TOGETHER: usize = 3;
 
-impl Engine {
+impl State {
     /// What is to hold, one goal after the other. `here` is the place where the commands were given.
     pub(super) fn goals_of(
         &self,

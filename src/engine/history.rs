@@ -1,10 +1,12 @@
 //! The history of the map: revisions, what changed between them, undo and redo (D3).
 
+use std::sync::Arc;
+
 use crate::store::{
     Change, Difference, Forgotten, ImportReport, Revision, Store, StoreError, Timestamp,
 };
 
-use super::{Engine, Error};
+use super::{Engine, Error, State};
 
 /// A point of the history as a person names it: a revision's number, or a moment.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -61,17 +63,8 @@ impl Engine {
     pub fn as_of(self, when: When) -> Result<Self, Error> {
         let revision = self.revision_of(when)?;
         let world = self.store()?.world_as_of(revision)?;
-        Ok(Self {
-            store: None,
-            rules: self.rules,
-            world,
-            relations: Default::default(),
-            floors: Default::default(),
-            mind: Default::default(),
-            forms: Default::default(),
-            present: Default::default(),
-            opened: self.opened,
-        })
+        let then = State::new(None, Arc::clone(&self.state.rules), world);
+        Ok(Self { store: None, state: Arc::new(then), opened: self.opened })
     }
 
     /// What changed between two points of the history.
@@ -132,15 +125,17 @@ impl Engine {
         match self.store()?.world()? {
             Some(world) => self.follow(world),
             None => {
-                self.world = None;
-                self.forget_derived();
+                let (state, store) = self.next_with_store();
+                state.world = None;
+                state.forget_derived();
+                state.stand_on(store);
                 Ok(())
             }
         }
     }
 }
 
-fn in_memory() -> StoreError {
+pub(super) fn in_memory() -> StoreError {
     StoreError::ReadOnly {
         reason: "карта держится в памяти, без хранилища".to_owned(),
         by_choice: true,

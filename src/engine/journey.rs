@@ -13,7 +13,7 @@ use super::lexicon::named;
 use super::opening::opens_in_words;
 use super::route::{End, Located, RouteAnswer};
 use super::surroundings::Surroundings;
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// A way from one place to another, over as many maps as it takes.
 #[derive(Debug, Clone)]
@@ -28,7 +28,7 @@ pub struct Journey {
     pub advice: Option<Advice>,
 }
 
-impl Engine {
+impl State {
     /// A way between two places given by name or as `X,Y`, in the world as it is believed to be now; lifts are ridden
     /// where they lie on different maps, and doors opened that are only shut.
     ///

@@ -13,7 +13,7 @@ use crate::store::{Change, Observation, RobotMemory, Seen, Timestamp};
 use crate::units::{Deg, MapId, Pose, ReplicaId};
 
 use super::task::TaskAnswer;
-use super::{Engine, Error, RequestError};
+use super::{Engine, Error, RequestError, State};
 
 /// Who notes what the robot saw.
 pub const ROBOT: &str = "робот";
@@ -36,22 +36,22 @@ pub struct Now {
     pub goes_on: bool,
 }
 
-impl Engine {
+impl State {
     /// The map with all that the robot remembers, at this moment.
     ///
     /// # Errors
     /// There is no map, or it does not say where the robot starts.
     pub fn now(&self, at: Timestamp) -> Result<Now, Error> {
         let memory = self.memory()?;
-        let mut world = self.believed(&memory, at)?;
+        let mut world = self.believed(memory, at)?;
         let (mut held, mut handed_over, mut aboard) = (None, Vec::new(), Vec::new());
         let carriers = self.carriers(&world, &memory.carried)?;
-        for (thing, holder) in memory.carried {
-            let Some(replica) = world.replicas.remove(&thing) else { continue };
-            match carriers.get(&thing) {
+        for (thing, holder) in &memory.carried {
+            let Some(replica) = world.replicas.remove(thing) else { continue };
+            match carriers.get(thing) {
                 Some(carrier) => aboard.push((replica, *carrier)),
                 None if holder.is_empty() => held = Some(replica),
-                None => handed_over.push((replica, holder)),
+                None => handed_over.push((replica, holder.clone())),
             }
         }
         // A map that was replaced since may not have this place any more.
@@ -101,8 +101,7 @@ impl Engine {
                 door.state = *state;
             }
         }
-        if let Some(store) = &self.store {
-            let reader = store.reader();
+        if let Some(reader) = &self.reader {
             for id in reader.observed()? {
                 let Some(replica) = world.replicas.get_mut(&id) else { continue };
                 // Also within the step by which a place counts as the surveyed one: what lies on a tray goes with it.
@@ -120,11 +119,16 @@ impl Engine {
         Ok(world)
     }
 
-    fn memory(&self) -> Result<RobotMemory, Error> {
-        Ok(match &self.store {
-            Some(store) => store.reader().robot_memory()?,
+    /// What the robot did, and where it stands.
+    pub(super) fn memory(&self) -> Result<&RobotMemory, Error> {
+        if let Some(memory) = self.memory.get() {
+            return Ok(memory);
+        }
+        let memory = match &self.reader {
+            Some(reader) => reader.robot_memory()?,
             None => RobotMemory::default(),
-        })
+        };
+        Ok(self.memory.get_or_init(|| memory))
     }
 
     /// The free floor of the world as it is now, of the robot's map and of those to which lifts lead: that of the
@@ -148,13 +152,15 @@ impl Engine {
         }
         self.relations_of(&now.world).map(Some)
     }
+}
 
+impl Engine {
     /// Notes in the store how a task left the robot and its world. The map stays as it was.
     ///
     /// # Errors
     /// The disk refused.
     pub fn remember(&mut self, answer: &TaskAnswer, at: Timestamp) -> Result<(), Error> {
-        self.present.take();
+        self.next().forget_present();
         let Some(after) = &answer.after else { return Ok(()) };
         let Some(store) = &mut self.store else { return Ok(()) };
         let seen: Vec<Observation> = after
@@ -179,7 +185,7 @@ impl Engine {
         let there = self.locate_name(name)?;
         let floor = self.around()?.floor(there.map)?;
         let at = floor.standing_at(there.at).ok_or(RequestError::RobotNowhere)?;
-        self.present.take();
+        self.next().forget_present();
         let pose = Pose { at, heading: Deg::ZERO };
         let store = self.writable()?;
         Ok(store.put_robot_pose(there.map, &pose, &change.user, change.at)?)
@@ -190,7 +196,7 @@ impl Engine {
     /// # Errors
     /// The disk refused.
     pub fn reset_robot(&mut self, change: &Change) -> Result<(), Error> {
-        self.present.take();
+        self.next().forget_present();
         let Some(store) = &mut self.store else { return Ok(()) };
         let reader = store.reader();
         if !reader.robot_memory()?.is_empty() {

@@ -1,10 +1,11 @@
 //! Where a thing is, was, and since when; what people and the robot saw of it; corrections of the map (D5, M8).
 
 use crate::map::{Entity, Replica};
-use crate::store::{Belief, Change, ImportReport, Observation, Seen, Store, StoreError, Timestamp};
+use crate::store::{Belief, Change, ImportReport, Observation, Reader, Seen, Store, Timestamp};
 use crate::units::{AreaId, Frame, ReplicaId};
 
-use super::{Engine, Error, RequestError};
+use super::history::in_memory;
+use super::{Engine, Error, RequestError, State};
 
 /// Where a thing is believed to be, or was.
 #[derive(Debug, Clone, PartialEq)]
@@ -39,7 +40,7 @@ pub struct Station {
 /// A correction of the map that observations speak for.
 pub type Proposal = Believed;
 
-impl Engine {
+impl State {
     /// The thing of this name, in any of its forms.
     ///
     /// # Errors
@@ -60,8 +61,8 @@ impl Engine {
     /// As [`Engine::thing`]; [`RequestError::NotYet`] when it was not on the map at that moment.
     pub fn where_is(&self, name: &str, at: Timestamp) -> Result<Believed, Error> {
         let replica = self.thing(name)?.clone();
-        let store = self.store()?;
-        let reader = store.reader_at(store.revision_at(at)?)?;
+        let reader = self.reader()?;
+        let reader = reader.at(reader.revision_at(at)?)?;
         let then = reader.replica(replica.id)?;
         let then = then.ok_or_else(|| RequestError::NotYet { name: replica.name.clone() })?;
         let belief = reader.belief(&then, at)?;
@@ -78,7 +79,7 @@ impl Engine {
     /// As [`Engine::thing`].
     pub fn story_of(&self, name: &str) -> Result<Vec<Station>, Error> {
         let id = self.thing(name)?.id;
-        let reader = self.store()?.reader();
+        let reader = self.reader()?;
         let mut story = Vec::new();
         let mut last = None;
         for version in reader.replica_history(id)? {
@@ -99,6 +100,13 @@ impl Engine {
         Ok(story)
     }
 
+    /// The store's records at this moment.
+    fn reader(&self) -> Result<&Reader, Error> {
+        self.reader.as_ref().ok_or_else(|| in_memory().into())
+    }
+}
+
+impl Engine {
     /// Notes that a thing was seen at a place of an Area (of the map's Area for it, where none is named), or
     /// that it was not where it was expected. The map stays as it was.
     ///
@@ -121,7 +129,7 @@ impl Engine {
                 Some(Seen { area, frame })
             }
         };
-        self.present.take();
+        self.next().forget_present();
         let observation =
             Observation { replica: id, at, seen, sure, observer: observer.to_owned() };
         Ok(self.writable()?.observe(&[observation])?)
@@ -179,14 +187,11 @@ impl Engine {
     /// As [`Engine::thing`]; the disk refused.
     pub fn reject(&mut self, name: &str, change: &Change) -> Result<(), Error> {
         let id = self.thing(name)?.id;
-        self.present.take();
+        self.next().forget_present();
         Ok(self.writable()?.reject(id, change)?)
     }
 
     pub(super) fn writable(&mut self) -> Result<&mut Store, Error> {
-        self.store.as_mut().ok_or_else(|| {
-            let reason = "карта держится в памяти, без хранилища".to_owned();
-            StoreError::ReadOnly { reason, by_choice: true }.into()
-        })
+        self.store.as_mut().ok_or_else(|| in_memory().into())
     }
 }

@@ -4,7 +4,7 @@ use crate::graphplan::Limits;
 use crate::robot::{Replanned, Solved, Wanted, facts_of_map, solve, solve_without, state};
 use crate::strips::{PlanText, Replayed, RuleFault, Scenario, without_price};
 
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// The types of things that the Map alone makes known.
 const OF_MAP: [&str; 2] = ["помещение", "дверь"];
@@ -46,7 +46,7 @@ pub fn steps(solved: &Solved) -> Vec<Vec<PlanStep>> {
     plan.steps.iter().map(|parallel| parallel.iter().map(step).collect()).collect()
 }
 
-impl Engine {
+impl State {
     /// Plans a scenario with the facts of the map that the engine holds, if it holds one.
     ///
     /// # Errors

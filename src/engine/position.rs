@@ -13,7 +13,7 @@ use crate::units::{AreaId, DoorId, MapId, Point, Pose, ReplicaId, Vector, name_k
 
 use super::lexicon::named;
 use super::reading::regions;
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// A pose with what can be said of it.
 #[derive(Debug, Clone)]
@@ -24,7 +24,7 @@ pub struct Whereabout {
     pub position: Position,
 }
 
-impl Engine {
+impl State {
     /// Where a pose of a map is. `facing` asks for the heading too.
     ///
     /// # Errors

@@ -5,8 +5,8 @@
 //!
 //! Invariant: the map of the store is never changed by this; what is carried stands in no relation to anything.
 
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
+use std::sync::OnceLock;
 
 use crate::geometry::FloorPlan;
 use crate::language::question::Mind;
@@ -14,7 +14,7 @@ use crate::map::World;
 use crate::semantics::{Relations, derive};
 use crate::units::{MapId, ReplicaId};
 
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// The world now, where it is not as surveyed.
 #[derive(Debug)]
@@ -27,13 +27,13 @@ pub(super) struct Present {
     pub(super) holders: BTreeMap<ReplicaId, String>,
     /// Of what was taken off the map, what lies on or in another such thing, with that thing.
     pub(super) carriers: BTreeMap<ReplicaId, ReplicaId>,
-    mind: OnceCell<Mind>,
-    floors: OnceCell<BTreeMap<MapId, FloorPlan>>,
+    mind: OnceLock<Mind>,
+    floors: OnceLock<BTreeMap<MapId, FloorPlan>>,
 }
 
 impl Present {
     /// The free floor now: that of the map, with what differs rebuilt.
-    pub(super) fn floors(&self, engine: &Engine) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
+    pub(super) fn floors(&self, engine: &State) -> Result<&BTreeMap<MapId, FloorPlan>, Error> {
         if let Some(floors) = self.floors.get() {
             return Ok(floors);
         }
@@ -54,7 +54,7 @@ impl Present {
     }
 }
 
-impl Engine {
+impl State {
     /// What differs from the survey, at the moment when it is first asked for after a change.
     ///
     /// # Errors
@@ -68,9 +68,8 @@ impl Engine {
     }
 
     fn find_present(&self) -> Result<Option<Present>, Error> {
-        let Some(store) = &self.store else { return Ok(None) };
-        let reader = store.reader();
-        let memory = reader.robot_memory()?;
+        let Some(reader) = &self.reader else { return Ok(None) };
+        let memory = self.memory()?;
         let unmoved = memory.doors.is_empty()
             && memory.devices.is_empty()
             && memory.carried.is_empty()
@@ -79,7 +78,7 @@ impl Engine {
             return Ok(None);
         }
         let surveyed = self.world()?;
-        let mut world = self.believed(&memory, std::time::SystemTime::now().into())?;
+        let mut world = self.believed(memory, std::time::SystemTime::now().into())?;
         let carriers = self.carriers(&world, &memory.carried)?;
         let gone: Vec<_> =
             memory.carried.keys().filter_map(|id| world.replicas.remove(id)).collect();
@@ -91,10 +90,10 @@ impl Engine {
         Ok(Some(Present {
             world,
             relations,
-            holders: memory.carried,
+            holders: memory.carried.clone(),
             carriers,
-            mind: OnceCell::new(),
-            floors: OnceCell::new(),
+            mind: OnceLock::new(),
+            floors: OnceLock::new(),
         }))
     }
 

@@ -13,7 +13,7 @@ use crate::units::{AreaId, Deg, MapId, Point, Pose, ReplicaId};
 
 use super::lexicon::named;
 use super::position::{Faced, faced};
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// Where a report says that the robot is: the poses of which it is true.
 ///
@@ -31,7 +31,7 @@ pub struct Region {
     pub bounds: Bounds,
 }
 
-impl Engine {
+impl State {
     /// Reads a position report, in Russian or English, and finds the region that it tells. Nothing is guessed: a text
     /// that fits two regions is refused.
     ///

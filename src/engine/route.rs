@@ -4,7 +4,7 @@ use crate::geometry::{Method, NoRoute, Passed, PassframeId, Route, Target};
 use crate::map::Entity;
 use crate::units::{AreaId, Deg, MapId, Point, Pose};
 
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// A way from one place to another, or why there is none.
 #[derive(Debug, Clone)]
@@ -49,7 +49,7 @@ pub struct Located {
     pub end: End,
 }
 
-impl Engine {
+impl State {
     /// A way between two places given by name or as `X,Y`, over the floor as it is believed to be now, doors as they
     /// stand: see [`Engine::journey`] for one that opens doors and rides lifts.
     ///

@@ -5,12 +5,12 @@ use crate::map::{Entity, Item, World};
 use crate::units::{Language, MapId, ReplicaId};
 
 use super::lexicon::named;
-use super::{Engine, Error, Lens};
+use super::{Error, Lens, State};
 
 /// What looks smaller is not made out, steradians: a matchbox at six metres.
 const SPECK: f64 = 2e-5;
 
-impl Engine {
+impl State {
     /// The faces that are seen through a lens, those that look largest first.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ use super::deeds::{
     window_place,
 };
 use super::memory::Now;
-use super::{Engine, Error, Method, RequestError};
+use super::{Error, Method, RequestError, State};
 
 /// A point of the floor that has no name on the Map.
 struct Stance {
@@ -22,7 +22,7 @@ struct Stance {
     name: String,
 }
 
-impl Engine {
+impl State {
     /// What holds when the robot stands where it is sent, and looks where it is told to.
     ///
     /// # Errors

@@ -13,16 +13,16 @@ use crate::units::{AreaId, MapId, Point};
 use super::position::nowhere_on;
 use super::present::Present;
 use super::route::{End, Located};
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// The map, or the world as it is now.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Surroundings<'e> {
-    engine: &'e Engine,
+    engine: &'e State,
     now: Option<&'e Present>,
 }
 
-impl Engine {
+impl State {
     /// The world as it is believed to be now: the map, with what the robot did and what was seen.
     ///
     /// # Errors

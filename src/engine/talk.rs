@@ -1,5 +1,7 @@
 //! Questions in words: the engine is the senses of [`crate::language::question`], and the store its memory.
 
+use std::sync::Arc;
+
 use crate::geometry::{Barrier, Eye, Method, NoRoute, Ride};
 use crate::language::Language;
 use crate::language::command::{Misheard, is_command, is_order};
@@ -20,14 +22,14 @@ use super::journey::Journey;
 use super::position::describe;
 use super::route::Located;
 use super::sight::things_in_view;
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// How far the robot is taken to see, cm.
 const SIGHT: f64 = 400.0;
 /// How wide it looks, degrees: as a wide camera does.
 const FIELD: f64 = 120.0;
 
-impl Engine {
+impl State {
     /// Answers a question in Russian or English and remembers what it was about.
     ///
     /// The inner result is the answer, or why there is none: not understood, ambiguous, unknown to the map.
@@ -158,7 +160,7 @@ impl Engine {
     /// The nouns of the map, read when first asked for.
     pub(super) fn mind(&self) -> Result<&Mind, Error> {
         let world = self.world()?;
-        Ok(self.mind.get_or_init(|| Mind::of(world)))
+        Ok(self.mind.get_or_init(|| Arc::new(Mind::of(world))))
     }
 
     /// Names that a person may type.
@@ -177,23 +179,23 @@ impl Engine {
 
     /// Where the robot is known to stand: as the store noted it last, else where the map lets it begin.
     pub(super) fn robot_pose(&self) -> Option<(MapId, Pose)> {
-        let stored = self.store.as_ref().and_then(|s| s.reader().robot_pose().ok().flatten());
+        let stored = self.memory().ok().and_then(|memory| memory.pose);
         match stored {
-            Some((map, pose, _)) => Some((map, pose)),
-            None => starting_pose(self.world.as_ref()?),
+            Some((map, pose)) => Some((map, pose)),
+            None => starting_pose(self.world.as_deref()?),
         }
     }
 }
 
 struct RobotSenses<'e> {
-    engine: &'e Engine,
+    engine: &'e State,
 }
 
 impl RobotSenses<'_> {
     fn world(&self) -> Option<&World> {
         match self.engine.present() {
             Ok(Some(now)) => Some(&now.world),
-            _ => self.engine.world.as_ref(),
+            _ => self.engine.world.as_deref(),
         }
     }
 
@@ -378,8 +380,8 @@ impl Senses for RobotSenses<'_> {
     }
 
     fn sightings(&self, thing: ReplicaId) -> Vec<Sighting> {
-        let Some(store) = &self.engine.store else { return Vec::new() };
-        let all = store.reader().observations(thing).unwrap_or_default();
+        let Some(reader) = &self.engine.reader else { return Vec::new() };
+        let all = reader.observations(thing).unwrap_or_default();
         let sighting = |o: crate::store::Observation| Sighting {
             at: o.at.in_words(),
             place: o.seen.map(|Seen { area, .. }| area),
@@ -388,13 +390,14 @@ impl Senses for RobotSenses<'_> {
     }
 
     fn past(&self, thing: ReplicaId) -> Vec<Past> {
-        let Some(store) = &self.engine.store else { return Vec::new() };
-        let versions = store.reader().replica_history(thing).unwrap_or_default();
+        let Some(reader) = &self.engine.reader else { return Vec::new() };
+        let versions = reader.replica_history(thing).unwrap_or_default();
         let mut past: Vec<Past> = Vec::new();
         let now = self.world().and_then(|w| w.replicas.get(&thing));
         for pair in versions.windows(2) {
             let [before, after] = pair else { continue };
-            let Ok(Some(world)) = store.world_as_of(before.stamp.revision) else { continue };
+            let at = |revision| reader.at(revision)?.world();
+            let Ok(Some(world)) = at(before.stamp.revision) else { continue };
             let Some(old) = world.replicas.get(&thing) else { continue };
             if now.is_some_and(|n| n.area == old.area && n.frame == old.frame) {
                 continue;

@@ -22,7 +22,7 @@ use crate::units::{MapId, Point, Pose, ReplicaId, Stop};
 
 use super::memory::{After, Now};
 use super::position::describe;
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
 /// What a person who gives a task is called in plans.
 pub const OPERATOR: &str = "Оператор";
@@ -117,7 +117,7 @@ pub struct TaskAnswer {
     pub after: Option<After>,
 }
 
-impl Engine {
+impl State {
     /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
     /// Map says, and as the robot's last task left it. [`Engine::remember`] notes how this one leaves it.
     ///
@@ -632,7 +632,7 @@ impl Engine {
         };
         // Most directives leave the world as the Map has it, and its relations are derived already.
         let position = match self.relations() {
-            Ok(relations) if self.world.as_ref() == Some(&belief.world) => say(relations),
+            Ok(relations) if self.world.as_deref() == Some(&belief.world) => say(relations),
             _ => derive(&belief.world, &self.rules.relations, belief.world.domain.profile)
                 .ok()
                 .and_then(|r| say(&r)),

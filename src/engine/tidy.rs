@@ -7,9 +7,9 @@ use crate::robot::facts_of_map;
 use crate::semantics::{Relations, predicate};
 
 use super::memory::Now;
-use super::{Engine, Error, RequestError};
+use super::{Error, RequestError, State};
 
-impl Engine {
+impl State {
     /// The things that are not where they belong, each with the name of its home, in the order of their names.
     ///
     /// Within an Area, those that lie in it; on a thing, those that lie on it. What the robot holds is misplaced

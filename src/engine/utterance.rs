@@ -4,9 +4,9 @@ use crate::language::Language;
 use crate::language::command::Misheard;
 use crate::language::question::{Doubt, Memory, Unanswered, conditional};
 
-use super::{Engine, Error};
+use super::{Error, State};
 
-impl Engine {
+impl State {
     /// The orders and questions of a text, to be heard one after the other; none where it is one or the other. A part
     /// that begins with the verb of an order is an order.
     ///

@@ -7,9 +7,9 @@ use crate::units::{AreaId, Deg};
 
 use super::route::RouteAnswer;
 use super::surroundings::Surroundings;
-use super::{Engine, Error};
+use super::{Error, State};
 
-impl Engine {
+impl State {
     /// A way over the map as sentences. Where it runs through corridors from one entrance to another, the sentences are
     /// those of the corridor's road graph, which need no coordinates. `heading` is how one stands at the beginning,
     /// where that is known.

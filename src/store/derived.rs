@@ -9,6 +9,8 @@
 
 use std::path::{Path, PathBuf};
 
+use std::sync::Arc;
+
 use super::Store;
 use super::disk::Disk;
 use super::error::{Result, StoreError};
@@ -17,53 +19,83 @@ use super::frame::FORMAT;
 const MAGIC: &[u8; 8] = b"ORTHODRV";
 const HEAD: usize = 24;
 
+/// Where what is computed from the map of one revision is kept; any number of threads may hold it.
+#[derive(Clone)]
+pub struct Derived {
+    disk: Arc<dyn Disk>,
+    dir: PathBuf,
+    revision: u64,
+    is_writable: bool,
+}
+
+impl std::fmt::Debug for Derived {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Derived").field("revision", &self.revision).finish_non_exhaustive()
+    }
+}
+
 impl Store {
-    /// Keeps something computed from the map of a revision, in place of what was kept of that kind before.
+    /// Where what is computed from the map as it stands now is kept.
+    #[must_use]
+    pub fn derived(&self) -> Derived {
+        Derived {
+            disk: self.vault.disk(),
+            dir: self.dir.join("derived"),
+            revision: self.revision(),
+            is_writable: self.vault.check_writable().is_ok(),
+        }
+    }
+}
+
+impl Derived {
+    /// Keeps something computed from the map of this revision, in place of what was kept of that kind before. In a store
+    /// that is only read nothing is kept.
     ///
     /// # Errors
-    /// [`StoreError::ReadOnly`], [`StoreError::Io`].
+    /// [`StoreError::Io`].
     ///
     /// # Panics
     /// When `kind` is no plain word: it becomes a file's name.
-    pub fn put_derived(&self, kind: &str, revision: u64, bytes: &[u8]) -> Result<()> {
-        self.vault.check_writable()?;
-        let path = self.derived_path(kind);
-        let dir = self.dir.join("derived");
-        self.vault.disk().create_dir(&dir).map_err(StoreError::io("создать каталог", &dir))?;
+    pub fn put(&self, kind: &str, bytes: &[u8]) -> Result<()> {
+        if !self.is_writable {
+            return Ok(());
+        }
+        let path = self.path(kind);
+        self.disk.create_dir(&self.dir).map_err(StoreError::io("создать каталог", &self.dir))?;
         let mut head = MAGIC.to_vec();
         head.extend(FORMAT.to_be_bytes());
-        head.extend(revision.to_be_bytes());
+        head.extend(self.revision.to_be_bytes());
         head.extend(checksum(&head, bytes).to_be_bytes());
         let parts = [head, bytes.to_vec()];
-        self.vault.disk().replace(&path, &parts).map_err(StoreError::io("записать", &path))
+        self.disk.replace(&path, &parts).map_err(StoreError::io("записать", &path))
     }
 
-    /// What was computed from the map as it stands now; none when it is stale, broken, or was never kept.
+    /// What was computed from the map of this revision; none when it is stale, broken, or was never kept.
     ///
     /// # Panics
     /// When `kind` is no plain word.
     #[must_use]
-    pub fn get_derived(&self, kind: &str) -> Option<Vec<u8>> {
-        let mut file = self.vault.disk().read(&self.derived_path(kind)).ok()?;
-        let is_current = whole_of(&file) == Some(self.revision());
+    pub fn get(&self, kind: &str) -> Option<Vec<u8>> {
+        let mut file = self.disk.read(&self.path(kind)).ok()?;
+        let is_current = whole_of(&file) == Some(self.revision);
         is_current.then(|| file.split_off(HEAD))
     }
 
-    /// What was computed from the map as it stands now or stood before; none when it is broken, or was never kept. For
-    /// what knows by itself which of its parts still hold.
+    /// What was computed from the map of this or another revision; none when it is broken, or was never kept. For what
+    /// knows by itself which of its parts still hold.
     ///
     /// # Panics
     /// When `kind` is no plain word.
     #[must_use]
-    pub fn get_derived_earlier(&self, kind: &str) -> Option<Vec<u8>> {
-        let mut file = self.vault.disk().read(&self.derived_path(kind)).ok()?;
+    pub fn get_of_any(&self, kind: &str) -> Option<Vec<u8>> {
+        let mut file = self.disk.read(&self.path(kind)).ok()?;
         whole_of(&file).is_some().then(|| file.split_off(HEAD))
     }
 
-    fn derived_path(&self, kind: &str) -> PathBuf {
+    fn path(&self, kind: &str) -> PathBuf {
         let plain = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
         assert!(!kind.is_empty() && kind.chars().all(plain), "{kind:?} is no plain word");
-        self.dir.join("derived").join(kind)
+        self.dir.join(kind)
     }
 }
 

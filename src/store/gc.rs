@@ -3,7 +3,6 @@
 //! What any revision from the given one on can see is kept, and so is the list of revisions. Ids of what is
 //! forgotten are still never given again.
 
-use super::cell::Key;
 use super::edits::{Change, Draft};
 use super::error::{Result, StoreError};
 use super::frame::Op;
@@ -15,7 +14,7 @@ use super::vault::Change as Write;
 use super::version::{Stamp, Version};
 
 /// Under this name the first revision that can still be read stands among the last ids.
-const FORGOTTEN: &str = "~forgotten";
+pub(super) const FORGOTTEN: &str = "~forgotten";
 
 /// What forgetting came to.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -27,12 +26,6 @@ pub struct Forgotten {
 }
 
 impl Store {
-    /// The earliest revision that can be read; 0 when nothing was forgotten.
-    pub(super) fn first_revision(&self) -> Result<u64> {
-        let mark = self.reader().record::<t::LastIds>(&Key::new().text(FORGOTTEN))?;
-        Ok(mark.map_or(0, |m| u64::from(m.last_id)))
-    }
-
     /// Drops what only revisions before `revision` can see, and writes a new snapshot without it. What is dropped
     /// is dropped though no snapshot could be written.
     ///

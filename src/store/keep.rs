@@ -12,7 +12,7 @@ use super::cell::Key;
 use super::disk::{Disk, RealDisk};
 use super::edits::{
     Change, Draft, Edits, ImportReport, Revision, RevisionKind, check_id, check_numbers,
-    note_revision, revision,
+    note_revision,
 };
 use super::error::{Result, StoreError};
 use super::ids::{self, Known};
@@ -133,14 +133,7 @@ impl Store {
     /// [`StoreError::UnknownRevision`] when there is none of that number yet, [`StoreError::ForgottenRevision`]
     /// when it was collected as garbage.
     pub fn reader_at(&self, revision: u64) -> Result<Reader> {
-        if revision > self.revision {
-            return Err(StoreError::UnknownRevision { wanted: revision, last: self.revision });
-        }
-        let first = self.first_revision()?;
-        if revision < first {
-            return Err(StoreError::ForgottenRevision { wanted: revision, first });
-        }
-        Ok(Reader::new(Arc::clone(self.vault.trees()), revision))
+        self.reader().at(revision)
     }
 
     /// The map; none before the first import.
@@ -164,8 +157,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
     pub fn revision_at(&self, moment: Timestamp) -> Result<u64> {
-        let before = self.revisions()?.into_iter().filter(|r| r.at <= moment);
-        Ok(before.map(|r| r.number).max().unwrap_or(0))
+        self.reader().revision_at(moment)
     }
 
     /// A Fragment: the replicas that stand in an Area.
@@ -189,8 +181,7 @@ impl Store {
     /// # Errors
     /// [`StoreError::BadRecord`] when a record is broken.
     pub fn revisions(&self) -> Result<Vec<Revision>> {
-        let found = self.reader().versions(Table::Revisions, &Key::new())?;
-        found.into_iter().map(|(_, version)| revision(&version)).collect()
+        self.reader().revisions()
     }
 
     /// Makes the map of the store equal to a world that was read from a file: one transaction, one revision.

@@ -67,6 +67,7 @@ mod write;
 
 pub use cell::{Cell, Key, Kind, Row};
 pub use check::{Finding, FsckReport, Severity, fsck};
+pub use derived::Derived;
 pub use diff::{Difference, Fate, FieldChange, compare};
 pub use edits::{Change, Counts, Edits, ImportReport, Revision, RevisionKind};
 pub use error::StoreError;

@@ -9,10 +9,12 @@ use crate::map::{Replica, World};
 use crate::units::{AreaId, DomainId, MapId, ReplicaId};
 
 use super::cell::{Key, Row};
+use super::edits::{Revision, revision};
 use super::error::{Result, StoreError};
 use super::schema::{Record, key_of};
 use super::sheet::{Sheet, describe_key};
 use super::tables::{self as t, Table};
+use super::time::Timestamp;
 use super::trees::{CHANGES, HISTORY, REPLICAS, Trees};
 use super::version::{Version, VersionHead};
 
@@ -21,6 +23,12 @@ use super::version::{Version, VersionHead};
 pub struct Reader {
     trees: Arc<dyn Trees>,
     revision: u64,
+}
+
+impl std::fmt::Debug for Reader {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Reader").field("revision", &self.revision).finish_non_exhaustive()
+    }
 }
 
 /// `table key revision`: where the history keeps an old version.
@@ -44,6 +52,47 @@ impl Reader {
     #[must_use]
     pub fn revision(&self) -> u64 {
         self.revision
+    }
+
+    /// The store as it stood at an earlier revision; 0 is the empty store.
+    ///
+    /// # Errors
+    /// [`StoreError::UnknownRevision`] when there is none of that number yet, [`StoreError::ForgottenRevision`]
+    /// when it was collected as garbage.
+    pub fn at(&self, revision: u64) -> Result<Self> {
+        if revision > self.revision {
+            return Err(StoreError::UnknownRevision { wanted: revision, last: self.revision });
+        }
+        let first = self.first_revision()?;
+        if revision < first {
+            return Err(StoreError::ForgottenRevision { wanted: revision, first });
+        }
+        Ok(Self { trees: Arc::clone(&self.trees), revision })
+    }
+
+    /// The earliest revision that can be read; 0 when nothing was forgotten.
+    fn first_revision(&self) -> Result<u64> {
+        let mark = self.record::<t::LastIds>(&Key::new().text(super::gc::FORGOTTEN))?;
+        Ok(mark.map_or(0, |m| u64::from(m.last_id)))
+    }
+
+    /// All revisions up to this one, the oldest first.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn revisions(&self) -> Result<Vec<Revision>> {
+        let found = self.versions(Table::Revisions, &Key::new())?;
+        let all = found.into_iter().map(|(_, version)| revision(&version));
+        all.filter(|r| r.as_ref().map_or(true, |r| r.number <= self.revision)).collect()
+    }
+
+    /// The last revision made at or before a moment; 0 when there was none.
+    ///
+    /// # Errors
+    /// [`StoreError::BadRecord`] when a record is broken.
+    pub fn revision_at(&self, moment: Timestamp) -> Result<u64> {
+        let before = self.revisions()?.into_iter().filter(|r| r.at <= moment);
+        Ok(before.map(|r| r.number).max().unwrap_or(0))
     }
 
     /// The version of a record that was valid at this revision, the mark of its deletion included.

@@ -482,8 +482,8 @@ impl Vault {
         if self.state.digests.contains_key(&tree) { self.trees.get(tree, key) } else { Ok(None) }
     }
 
-    pub(crate) fn disk(&self) -> &dyn Disk {
-        &*self.disk
+    pub(crate) fn disk(&self) -> Arc<dyn Disk> {
+        Arc::clone(&self.disk)
     }
 
     #[cfg(test)]

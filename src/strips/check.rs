@@ -7,6 +7,8 @@ use std::collections::{BTreeMap, HashMap};
 use std::sync::Arc;
 
 use miette::SourceSpan;
+use petgraph::algo::kosaraju_scc;
+use petgraph::graph::{DiGraph, NodeIndex};
 
 use super::domain::{
     ANY_KIND, Domain, Kind, KindId, KindSet, Predicate, PredicateId, Schema, SchemaAtom,
@@ -79,7 +81,7 @@ pub(super) fn looks_the_same(a: &str, b: &str) -> bool {
 /// The type tree. Types named only as parents or in parameters count as declared where nothing else is.
 fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
     let mut domain = Domain {
-        kinds: vec![Kind { name: "объект".to_owned(), ancestors: vec![ANY_KIND] }],
+        kinds: vec![Kind { name: "объект".to_owned(), parents: Vec::new() }],
         kind_index: HashMap::from([
             ("объект".to_owned(), ANY_KIND),
             ("object".to_owned(), ANY_KIND),
@@ -94,7 +96,7 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
         let next = KindId(domain.kinds.len() as u32);
         let id = *domain.kind_index.entry(name.key()).or_insert(next);
         if id == next {
-            domain.kinds.push(Kind { name: name.text.clone(), ancestors: Vec::new() });
+            domain.kinds.push(Kind { name: name.text.clone(), parents: Vec::new() });
         }
         id
     }
@@ -114,24 +116,29 @@ fn kinds(document: &Document, faults: &mut Vec<RuleFault>) -> Domain {
             introduce(&mut domain, name);
         }
     }
-    for id in (0..domain.kinds.len() as u32).map(KindId) {
-        let mut ancestors = vec![id];
-        let mut next = 0;
-        while let Some(&kind) = ancestors.get(next) {
-            next += 1;
-            for (parent, name) in parents.get(&kind).into_iter().flatten() {
-                if *parent == id && id != ANY_KIND {
-                    let kind = domain.kinds[id.index()].name.clone();
-                    faults.push(name.fault(|at| RuleError::TypeCycle { name: kind, at }));
-                } else if !ancestors.contains(parent) {
-                    ancestors.push(*parent);
-                }
+    let node = |kind: KindId| NodeIndex::new(kind.index());
+    let edges =
+        parents.iter().flat_map(|(kind, above)| above.iter().map(move |(p, _)| (*kind, *p)));
+    let mut graph: DiGraph<(), ()> =
+        DiGraph::from_edges(edges.map(|(kind, parent)| (node(kind), node(parent))));
+    while graph.node_count() < domain.kinds.len() {
+        graph.add_node(());
+    }
+    let mut group = vec![0; domain.kinds.len()];
+    for (n, members) in kosaraju_scc(&graph).into_iter().enumerate() {
+        members.into_iter().for_each(|member| group[member.index()] = n);
+    }
+    for (kind, above) in parents {
+        for (parent, name) in &above {
+            // "object" above itself says nothing new.
+            if group[kind.index()] == group[parent.index()] && *parent != ANY_KIND {
+                let kind = domain.kinds[parent.index()].name.clone();
+                faults.push(name.fault(|at| RuleError::TypeCycle { name: kind, at }));
             }
         }
-        if !ancestors.contains(&ANY_KIND) {
-            ancestors.push(ANY_KIND);
-        }
-        domain.kinds[id.index()].ancestors = ancestors;
+        let mut above: Vec<KindId> = above.into_iter().map(|(parent, _)| parent).collect();
+        above.retain(|parent| *parent != kind);
+        domain.kinds[kind.index()].parents = above;
     }
     domain
 }
@@ -345,7 +352,7 @@ impl Checker<'_> {
 
     /// The first ancestor of `a` that everything in both inherits from; "any object" is none.
     fn common_ancestor(&self, a: &[KindId], b: &[KindId]) -> Option<KindId> {
-        self.domain.kinds[a[0].index()].ancestors.iter().copied().find(|&ancestor| {
+        self.domain.lineage(a[0]).find(|&ancestor| {
             ancestor != ANY_KIND
                 && a.iter().chain(b).all(|&kind| self.domain.inherits(kind, ancestor))
         })

@@ -2,7 +2,7 @@
 //!
 //! Invariant: every index held by a [`Domain`] is an index of that same `Domain`.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::sync::Arc;
 
 use super::error::Place;
@@ -39,8 +39,8 @@ pub const ANY_KIND: KindId = KindId(0);
 #[derive(Debug, Clone)]
 pub struct Kind {
     pub name: String,
-    /// Itself and everything above it.
-    pub(super) ancestors: Vec<KindId>,
+    /// Those that it is said to belong to; every type belongs to [`ANY_KIND`] besides.
+    pub(super) parents: Vec<KindId>,
 }
 
 /// Types of which an object must have one.
@@ -155,7 +155,34 @@ impl Domain {
     /// Whether `kind` is `ancestor` or inherits from it.
     #[must_use]
     pub fn inherits(&self, kind: KindId, ancestor: KindId) -> bool {
-        self.kinds[kind.index()].ancestors.contains(&ancestor)
+        if ancestor == ANY_KIND {
+            return true;
+        }
+        let mut at = kind;
+        // Most types have one parent; a chain is no longer than there are types.
+        for _ in 0..self.kinds.len() {
+            if at == ancestor {
+                return true;
+            }
+            match self.kinds[at.index()].parents[..] {
+                [] => return false,
+                [only] => at = only,
+                _ => break,
+            }
+        }
+        self.lineage(at).any(|above| above == ancestor)
+    }
+
+    /// A type and all that it inherits from, the nearer ones first.
+    pub(super) fn lineage(&self, kind: KindId) -> impl Iterator<Item = KindId> + '_ {
+        let mut told = HashSet::from([kind]);
+        let mut open = VecDeque::from([kind]);
+        std::iter::from_fn(move || {
+            let next = open.pop_front()?;
+            let above = self.kinds[next.index()].parents.iter().copied();
+            open.extend(above.filter(|parent| told.insert(*parent)));
+            Some(next)
+        })
     }
 
     /// Whether an object of one of the types `have` may stand where one of `wanted` is due.

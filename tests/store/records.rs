@@ -180,22 +180,22 @@ fn what_was_derived_from_an_older_map_is_not_given_out() {
     let dir = scratch();
     let mut store = open(dir.path());
     store.import(&world(1, 3), &change("первая")).unwrap();
-    assert_eq!(store.get_derived("relations"), None);
-    store.put_derived("relations", 1, b"facts").unwrap();
+    assert_eq!(store.derived().get("relations"), None);
+    store.derived().put("relations", b"facts").unwrap();
     drop(store);
     let mut store = open(dir.path());
-    assert_eq!(store.get_derived("relations").as_deref(), Some(&b"facts"[..]));
+    assert_eq!(store.derived().get("relations").as_deref(), Some(&b"facts"[..]));
     let path = dir.path().join("derived/relations");
     let mut bytes = std::fs::read(&path).unwrap();
     for bit in 0..bytes.len() * 8 {
         bytes[bit / 8] ^= 1 << (bit % 8);
         std::fs::write(&path, &bytes).unwrap();
-        assert_eq!(store.get_derived("relations"), None, "bit {bit}");
+        assert_eq!(store.derived().get("relations"), None, "bit {bit}");
         bytes[bit / 8] ^= 1 << (bit % 8);
     }
     std::fs::write(&path, &bytes).unwrap();
     store.import(&world(2, 3), &change("вторая")).unwrap();
-    assert_eq!(store.get_derived("relations"), None);
+    assert_eq!(store.derived().get("relations"), None);
 }
 
 #[test]

@@ -168,7 +168,7 @@ fn a_deep_check_says_what_the_next_opening_will_mend() {
     for seed in 0..3 {
         store.import(&world(seed, 5), &change("ещё")).unwrap();
     }
-    store.put_derived("relations", 3, b"computed").unwrap();
+    store.derived().put("relations", b"computed").unwrap();
     let map = load(&store);
     drop(store);
     let journal =
@@ -197,7 +197,7 @@ fn a_deep_check_says_what_the_next_opening_will_mend() {
     let (store, opened) = Store::open(dir.path()).unwrap();
     assert!(opened.journal_renewed.is_some());
     assert_eq!(load(&store), map);
-    assert_eq!(store.get_derived("relations"), None);
+    assert_eq!(store.derived().get("relations"), None);
     drop(store);
 
     // With sled gone as well, nothing is left to mend with.

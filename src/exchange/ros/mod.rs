@@ -2,12 +2,13 @@
 //!
 //! A grid knows no rooms and no doors. Rooms are what is left when the free floor is cut at its narrow places; a
 //! narrow place is a door without leaves until somebody says what hangs in it. Outlines are brought to straight
-//! walls; islands in a room become things. After the YAML of map_server (`image`, `resolution`, `origin` with yaw,
+//! walls; islands in a room become things; what the laser saw out of the building is left out (`fans`). After the YAML of map_server (`image`, `resolution`, `origin` with yaw,
 //! `negate`, `occupied_thresh`, `free_thresh`, `mode`) and the distance transform of Felzenszwalb and Huttenlocher;
 //! the segmentation is a watershed of that distance in which a basin counts by its persistence (Bormann et al.,
 //! "Room segmentation: survey, implementation, and analysis", 2016, compares such ways).
 
 mod doorways;
+mod fans;
 mod grid;
 mod image;
 mod rooms;

@@ -15,6 +15,7 @@ use crate::units::{Cm, Deg, Point, Vector};
 
 use super::Sheet;
 use super::doorways::{Cut, doorways};
+use super::fans::fans;
 use super::grid::{Cell, Grid, corner};
 use super::trace;
 
@@ -46,6 +47,14 @@ pub(super) fn furnish(
 ) -> Vec<Kind> {
     let cell_area = sheet.resolution * sheet.resolution;
     let mut free: Vec<bool> = grid.cells.iter().map(|c| *c == Cell::Free).collect();
+    if let Some((fans, count)) = fans(grid, sheet.resolution)
+        && count > 0
+    {
+        free.iter_mut().zip(fans).for_each(|(free, is_fan)| *free &= !is_fan);
+        let area = count as f64 * cell_area / 1e4;
+        let text = format!("пола вне стен, в лучах лазера: {area:.0} м², пропущено");
+        remarks.push(Remark { source: String::new(), text });
+    }
     let islands = islands(grid, &mut free, cell_area);
     let noise = drop_pieces(grid, &mut free, (SMALLEST_PIECE / cell_area) as usize);
     if noise > 0 {
@@ -436,6 +445,61 @@ mod tests {
                     .is_some_and(|r| r.iter().flatten().any(|r| level.rooms[*r].kind == "corridor"))
             };
             assert!(level.openings.iter().all(joined), "seed {seed}");
+        }
+    }
+
+    /// Through windows of every width the laser sees far out of the building; no room comes of that.
+    #[test]
+    fn what_is_seen_through_windows_is_no_room() {
+        for (width, rays) in [(0.6, 9), (0.9, 40), (1.4, 200), (2.4, 400)] {
+            let mut plan = office();
+            let inside = plan.grid.clone();
+            // The same building with walls of 20 cm on a wide sheet of the unknown.
+            let (wide, high, shift) = (700, 640, 220);
+            let mut cells = vec![Cell::Unknown; wide * high];
+            for cell in 0..inside.cells.len() {
+                let (x, y) = inside.xy(cell);
+                let near = |reach: i64| {
+                    (-reach..=reach).any(|dy| {
+                        (-reach..=reach).any(|dx| {
+                            inside.at(x + dx, y + dy).is_some_and(|c| inside.cells[c] == Cell::Free)
+                        })
+                    })
+                };
+                let at = (y as usize + shift) * wide + x as usize + shift;
+                match inside.cells[cell] {
+                    Cell::Free => cells[at] = Cell::Free,
+                    _ if near(4) => cells[at] = Cell::Occupied,
+                    _ => {}
+                }
+            }
+            plan.grid = Grid { width: wide, height: high, cells };
+            // A window in the lower wall of the first room, seen through from the middle of that room.
+            let eye = (2.6 * 20.0 + shift as f64, 2.6 * 20.0 + shift as f64);
+            for ray in 0..=rays {
+                let across = (f64::from(ray) / f64::from(rays) - 0.5) * width * 20.0;
+                let down = 2.3 * 20.0;
+                let length = f64::hypot(across, down);
+                for step in 0..160 {
+                    let far = f64::from(step);
+                    let x = eye.0 + across / length * far;
+                    let y = eye.1 - down / length * far;
+                    if let Some(cell) = plan.grid.at(x as i64, y as i64) {
+                        plan.grid.cells[cell] = Cell::Free;
+                    }
+                }
+            }
+            let (level, _) = plan.read();
+            check(&level, 7, 6);
+            let shift = shift as f64 * 5.0;
+            let low =
+                level.rooms.iter().flat_map(|r| &r.outline).map(|p| p.y).fold(f64::MAX, f64::min);
+            // The window's own sill at most.
+            assert!(
+                low > shift + 50.0 - 60.0,
+                "width {width}: floor down to {low}, wall at {}",
+                shift + 50.0
+            );
         }
     }
 

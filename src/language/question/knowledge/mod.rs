@@ -22,8 +22,8 @@ use crate::language::words::Language;
 use crate::map::{DoorKind, Entity, Permeability, World};
 use crate::semantics::{Relations, Subject};
 use crate::units::{AreaId, Point, ReplicaId, TypeId};
-use std::cell::OnceCell;
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::sync::OnceLock;
 
 /// The tuples of one relation, both ways.
 #[derive(Debug, Default)]
@@ -140,10 +140,10 @@ pub(super) struct Gate {
 #[derive(Debug)]
 pub struct Mind {
     pub lexicon: Lexicon,
-    pairs: [OnceCell<Pairs>; RELATIONS.len()],
-    gates: OnceCell<Vec<Gate>>,
-    by_type: OnceCell<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
-    on_floor: OnceCell<HashSet<ReplicaId>>,
+    pairs: [OnceLock<Pairs>; RELATIONS.len()],
+    gates: OnceLock<Vec<Gate>>,
+    by_type: OnceLock<HashMap<Option<TypeId>, Vec<ReplicaId>>>,
+    on_floor: OnceLock<HashSet<ReplicaId>>,
 }
 
 impl Mind {
@@ -152,10 +152,10 @@ impl Mind {
     pub fn of(world: &World) -> Self {
         Self {
             lexicon: Lexicon::of(world),
-            pairs: std::array::from_fn(|_| OnceCell::new()),
-            gates: OnceCell::new(),
-            by_type: OnceCell::new(),
-            on_floor: OnceCell::new(),
+            pairs: std::array::from_fn(|_| OnceLock::new()),
+            gates: OnceLock::new(),
+            by_type: OnceLock::new(),
+            on_floor: OnceLock::new(),
         }
     }
 }

@@ -1,0 +1,151 @@
+//! States of knowledge, shared by threads: each answers for the revision that it names, whatever is written meanwhile.
+
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc;
+use std::sync::{Arc, Mutex};
+
+use orthoframe::engine::{Engine, Memory, Method, Mode, State, change_now};
+use orthoframe::map::{Entity, Format};
+use orthoframe::store::Change;
+use orthoframe::units::Source;
+
+use crate::generated_worlds::Dice;
+use crate::worlds::rb2;
+
+fn edit(engine: &mut Engine, text: &str, change: &Change) {
+    let source = Source::new("edit.toml", text);
+    engine
+        .edit(&source, Format::Toml, change, Mode::Commit)
+        .unwrap_or_else(|e| panic!("{text}\n{e}"));
+}
+
+/// What is asked of a state: the answers of another with the same map must be the same.
+fn asked(state: &State, question: usize) -> String {
+    const QUESTIONS: [&str; 6] = [
+        "Где Ваза-1?",
+        "Что лежит на обеденном столе?",
+        "Какая дверь закрыта?",
+        "Where is the vase?",
+        "What is on the bar?",
+        "Сколько вещей в Комнате-Z?",
+    ];
+    match question % 8 {
+        6 => {
+            let route = state.route("Точка-А", "Ваза-1", Method::Shortest).unwrap().route;
+            format!("{:?}", route.map(|r| r.points).ok())
+        }
+        7 => {
+            let world = state.world().unwrap();
+            let Entity::Replica(vase) = world.find("Ваза-1")[0] else { panic!() };
+            format!("{:?}", state.relations().unwrap().support_of(vase))
+        }
+        n => match state.ask(QUESTIONS[n], &mut Memory::default()).unwrap() {
+            Ok(answer) => answer.text,
+            Err(unanswered) => unanswered.text,
+        },
+    }
+}
+
+/// Eight threads ask, find ways and derive on states, while a ninth edits: every answer is that of an engine that has the
+/// map of that state alone. `STATES_ALL` takes thousands of steps instead of some.
+#[test]
+fn every_answer_is_right_for_its_revision() {
+    let edits = if std::env::var_os("STATES_ALL").is_some() { 300 } else { 12 };
+    let dir = tempfile::tempdir().unwrap();
+    let mut engine = Engine::open(&dir.path().join("store"), None).unwrap();
+    let change = change_now("test", "");
+    engine.import(crate::files::project("maps/rb2.toml").as_ref(), &change).unwrap();
+    let latest = Mutex::new(engine.state().unwrap());
+    let ended = AtomicBool::new(false);
+    let steps = AtomicUsize::new(0);
+    let (told, heard) = mpsc::channel::<(Arc<State>, usize, String)>();
+    std::thread::scope(|scope| {
+        for thread in 0..8 {
+            let (told, latest, ended, steps) = (told.clone(), &latest, &ended, &steps);
+            scope.spawn(move || {
+                let mut question = thread;
+                while !ended.load(Ordering::Relaxed) {
+                    let state = Arc::clone(&latest.lock().unwrap());
+                    let answer = asked(&state, question);
+                    // Asked again of the same state, it is told the same.
+                    assert_eq!(asked(&state, question), answer);
+                    steps.fetch_add(1, Ordering::Relaxed);
+                    told.send((state, question, answer)).unwrap();
+                    question += 3;
+                }
+            });
+        }
+        drop(told);
+        let mut dice = Dice::new(5);
+        for n in 0..edits {
+            let wait = steps.load(Ordering::Relaxed) + 8;
+            while steps.load(Ordering::Relaxed) < wait {
+                std::thread::yield_now();
+            }
+            match dice.below(4) {
+                0 => {
+                    let door = ["Дверь-КY", "Дверь-ВZ"][dice.below(2)];
+                    let status = ["open", "closed"][dice.below(2)];
+                    let text = format!("[[edit]]\nstate = \"{door}\"\nis = \"{status}\"\n");
+                    edit(&mut engine, &text, &change);
+                }
+                1 => engine.observe("Чашка-1", None, 0.9, "test", change.at).unwrap(),
+                _ => {
+                    engine
+                        .edit_world(&change, Mode::Commit, |world| {
+                            let Entity::Replica(vase) = world.find("Ваза-1")[0] else {
+                                panic!()
+                            };
+                            let vase = world.replicas.get_mut(&vase).unwrap();
+                            let at = vase.frame.origin();
+                            let by = if n % 2 == 0 { 3.0 } else { -3.0 };
+                            vase.frame = orthoframe::units::Frame::new(
+                                at.x + by,
+                                at.y,
+                                vase.frame.z.get(),
+                                vase.frame.angle,
+                            );
+                        })
+                        .unwrap();
+                }
+            }
+            *latest.lock().unwrap() = engine.state().unwrap();
+        }
+        ended.store(true, Ordering::Relaxed);
+        let mut alone: Vec<(Arc<State>, Engine)> = Vec::new();
+        let mut checked = 0;
+        for (state, question, answer) in heard {
+            let known = alone.iter().position(|(of, _)| Arc::ptr_eq(of, &state));
+            let known = known.unwrap_or_else(|| {
+                let world = state.world_now().unwrap().clone();
+                alone.push((state, Engine::in_memory(world, None).unwrap()));
+                alone.len() - 1
+            });
+            assert_eq!(asked(&alone[known].1, question), answer, "question {question}");
+            checked += 1;
+        }
+        assert!(checked >= edits * 8 && alone.len() > edits / 2, "{checked} of {}", alone.len());
+    });
+    assert_ne!(rb2(), *engine.world().unwrap());
+}
+
+/// A state that somebody holds stays as it was; one that nobody holds is changed in place.
+#[test]
+fn a_state_stays_as_it_was() {
+    let mut engine = Engine::in_memory(rb2(), None).unwrap();
+    let change = change_now("test", "");
+    let before = engine.state().unwrap();
+    let counted = before.relations().unwrap().tuples("ON_TOP_OF").unwrap().len();
+    engine
+        .edit_world(&change, Mode::Commit, |world| {
+            let Entity::Replica(cup) = world.find("Чашка-1")[0] else { panic!() };
+            world.replicas.remove(&cup);
+        })
+        .unwrap();
+    assert!(before.find("Чашка-1").is_ok() && engine.find("Чашка-1").is_err());
+    assert_eq!(before.relations().unwrap().tuples("ON_TOP_OF").unwrap().len(), counted);
+    assert!(engine.relations().unwrap().tuples("ON_TOP_OF").unwrap().len() < counted);
+    let after = engine.state().unwrap();
+    assert!(!Arc::ptr_eq(&before, &after));
+    assert!(Arc::ptr_eq(&after, &engine.state().unwrap()));
+}
