@@ -9,6 +9,7 @@ mod corridor_floors;
 mod corridor_lattice;
 mod datalog_files;
 mod deeds;
+mod dialogue;
 mod doors;
 mod doubts;
 mod drawings;

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Rules, TaskEnding, World, change_now, check_map_closely, opens_in_words,
+    Engine, Method, Outcome, Reply, Rules, World, change_now, check_map_closely, opens_in_words,
     parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
@@ -14,7 +14,7 @@ use crate::map::{EnglishMapErrors, MapErrors};
 
 use super::args::{Common, Detail, Lang, RouteMethod};
 use super::fault::{Failure, drawn, views};
-use super::{Answer, json, say, text};
+use super::{Answer, heeded, json, say, text};
 
 pub(super) const DEFAULT_STORE: &str = "ortho-store";
 
@@ -252,27 +252,13 @@ pub(super) fn perform(
         engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
-    if let Some(question) = only_asked(&engine, task)? {
-        return super::ask::answer(common, &engine, &question, false);
+    let heard = super::demo::perform(common, &mut engine, task)?;
+    if let (Some(path), Some(answer)) = (draw, heard.tasks().last()) {
+        super::draw::put_driven(common, &engine, answer, path)?;
     }
-    let answer = super::demo::perform(common, &mut engine, task)?;
-    if let Some(path) = draw {
-        super::draw::put_driven(common, &engine, &answer, path)?;
-    }
-    Ok(match answer.ending {
-        TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
-        TaskEnding::Done | TaskEnding::AlreadyTrue => Answer::No,
-        TaskEnding::NoPlan(_) | TaskEnding::Stuck(_) => Answer::No,
-    })
-}
-
-/// The question in a task that orders nothing but an answer: «Проверь, открыт ли холодильник».
-fn only_asked(engine: &Engine, task: &str) -> Result<Option<String>, Failure> {
-    Ok(match engine.parts_of(task)?.as_deref() {
-        Some([question]) => Some(question.clone()),
-        None if !engine.is_command(task)? && engine.asks_something(task)? => Some(task.to_owned()),
-        _ => None,
-    })
+    let is_task = |reply: &&Reply| matches!(reply.outcome, Outcome::Task(_));
+    let last = heard.replies.iter().rfind(is_task).or(heard.replies.last());
+    Ok(last.map_or(Answer::Yes, |reply| heeded(&reply.outcome)))
 }
 
 pub(super) fn route(

@@ -13,12 +13,12 @@ mod edit;
 mod export;
 mod fault;
 mod import;
-mod json;
 mod observe;
 mod plan;
 mod read;
 mod store;
 mod talk;
+mod teller;
 mod text;
 mod why;
 mod words;
@@ -27,6 +27,9 @@ use std::io::Write;
 use std::process::ExitCode;
 
 use clap::Parser;
+
+use crate::engine::{Outcome, TaskEnding, json};
+use crate::language::question::Said;
 
 use args::{Arguments, Command};
 use fault::Failure;
@@ -96,6 +99,22 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         Command::Observe(command) => observe::run(common, command),
         Command::Store(command) => store::run(common, command),
         Command::Draw(args) => draw::run(common, args),
+    }
+}
+
+/// The exit code of what a dialogue replied.
+fn heeded(outcome: &Outcome) -> Answer {
+    match outcome {
+        Outcome::Answered(answer) => match answer.said {
+            Said::No | Said::Nothing | Said::Unknown => Answer::No,
+            Said::Yes | Said::Found => Answer::Yes,
+        },
+        Outcome::Unanswered(_) => Answer::Wrong,
+        Outcome::Task(task) => match task.ending {
+            TaskEnding::Done | TaskEnding::AlreadyTrue if task.left.is_empty() => Answer::Yes,
+            _ => Answer::No,
+        },
+        _ => Answer::Yes,
     }
 }
 

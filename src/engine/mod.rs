@@ -28,8 +28,10 @@
 mod advice;
 mod apart;
 mod barriers;
+mod changes;
 mod deeds;
 mod delivery;
+mod dialogue;
 mod directions;
 mod doubtful;
 mod doubts;
@@ -41,9 +43,11 @@ mod forms;
 mod goals;
 mod history;
 mod journey;
+pub mod json;
 mod lexicon;
 mod load;
 mod memory;
+mod narration;
 mod observe;
 mod opening;
 mod plan;
@@ -70,6 +74,7 @@ use std::sync::Arc;
 pub use advice::Advice;
 pub use barriers::no_way_in_words;
 pub use deeds::{deeds_in_words, directive_in_words, name_in, task_in_words};
+pub use dialogue::{Dialogue, Event, Heard, Outcome, Reply, Tell};
 pub use doubts::check_map_closely;
 pub use drawing::{Drawing, Lens};
 pub use edit::{Edited, Mode};
@@ -78,6 +83,9 @@ pub use forms::uncertain_names;
 pub use history::When;
 pub use journey::{Journey, ride_in_words};
 pub use memory::{After, Now, ROBOT};
+pub use narration::{
+    counted_in_english, decimal, directive_told, plan_in_words, progress_in_words,
+};
 pub use observe::{Believed, Proposal, Source, Station};
 pub use opening::opens_in_words;
 pub use plan::{PlanAnswer, PlanStep, check_plan_alone, plan_alone, plan_alone_without, steps};
@@ -234,6 +242,8 @@ impl Engine {
             }
             None => {
                 self.follow(world)?;
+                // Its ids have nothing to do with those of the map before.
+                self.next().changes = Arc::default();
                 ImportReport::default()
             }
         };

@@ -30,7 +30,8 @@ const SIGHT: f64 = 400.0;
 const FIELD: f64 = 120.0;
 
 impl State {
-    /// Answers a question in Russian or English and remembers what it was about.
+    /// Answers a question in Russian or English and remembers what it was about. What is remembered belongs to a state
+    /// of the map: of what left it since, only that is said.
     ///
     /// The inner result is the answer, or why there is none: not understood, ambiguous, unknown to the map.
     ///
@@ -41,15 +42,21 @@ impl State {
         question: &str,
         memory: &mut Memory,
     ) -> Result<Result<Answer, Unanswered>, Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.ask(question, memory))
+        let answered = self.asker(&senses)?.ask(question, memory);
+        Ok(answered.map(|answer| answer.of(memory)))
     }
 
-    /// The query of an answer as a Datalog rule.
+    /// The query of an answer as a Datalog rule; a remark where the map has become another since.
     ///
     /// # Errors
     /// As [`Engine::ask`].
     pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
+        if answer.stamp().is_some_and(|stamp| self.changes.has_renamed_since(stamp)) {
+            let changed = ("// карта с тех пор изменилась", "// the map has changed since");
+            return Ok(answer.language.pick(changed.0, changed.1).to_owned());
+        }
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.rule(&answer.query, answer.language))
     }
@@ -65,6 +72,7 @@ impl State {
 
     /// A command with its descriptions replaced by names: see [`Asker::settle`].
     pub(super) fn settle(&self, sentence: &str, memory: &mut Memory) -> Result<Settled, Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         let forms = self.forms()?;
         let strict = |text: &str| {
@@ -83,6 +91,7 @@ impl State {
 
     /// Notes what a sentence speaks of that neither asks nor orders.
     pub(super) fn hear_of(&self, text: &str, memory: &mut Memory) -> Result<(), Error> {
+        self.catch_up(memory)?;
         let senses = RobotSenses { engine: self };
         self.asker(&senses)?.hear_of(text, memory);
         Ok(())
@@ -93,8 +102,10 @@ impl State {
     /// # Errors
     /// As [`Engine::ask`].
     pub fn resumed(&self, text: &str, memory: &Memory) -> Result<Option<String>, Error> {
+        let mut memory = memory.clone();
+        self.catch_up(&mut memory)?;
         let senses = RobotSenses { engine: self };
-        Ok(self.asker(&senses)?.resumed(text, memory))
+        Ok(self.asker(&senses)?.resumed(text, &memory))
     }
 
     /// Whether a text asks or commands, by how it begins.

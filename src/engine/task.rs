@@ -419,16 +419,25 @@ impl State {
                     let language = Language::of(&settled);
                     memory.wait(&settled, at, vec![Thing::Entity(only)], language);
                 }
+                // What was spoken of may have left the map.
+                if let Misheard::Incomplete { .. } = &misheard
+                    && let Some(gone) = memory.lost_topic(Language::of(&settled))
+                {
+                    return Err(Misheard::NoneSuch(Box::new(gone)).into());
+                }
                 return Err(misheard.into());
             }
         };
         self.check_places(&commands)?;
         place_windows(&mut commands, &windows);
-        if let [Command::ComeBack] = commands[..]
-            && let Some(Thing::Entity(anchor)) = memory.place_left()
-        {
-            let to = Placement::new(Relation::At, anchor);
-            commands = vec![Command::GoTo { to, via: None, facing: None }];
+        if let [Command::ComeBack] = commands[..] {
+            if let Some(gone) = memory.lost_place(Language::of(&settled)) {
+                return Err(Misheard::NoneSuch(Box::new(gone)).into());
+            }
+            if let Some(Thing::Entity(anchor)) = memory.place_left() {
+                let to = Placement::new(Relation::At, anchor);
+                commands = vec![Command::GoTo { to, via: None, facing: None }];
+            }
         }
         if let Some(here) = self.place_of_robot() {
             memory.leave(Thing::Entity(here));

@@ -43,6 +43,13 @@ impl Knowledge<'_> {
             _ => self.memory.facts.clone(),
         };
         let Some(fact) = facts.iter().find(|f| f.holds != negated).or_else(|| facts.first()) else {
+            if self.memory.is_outdated {
+                let text = self.pick(
+                    "с тех пор на карте что-то изменилось: спросите ещё раз",
+                    "the map has changed since: ask again",
+                );
+                return Ok(Draft::plain(Said::Unknown, text.to_owned()));
+            }
             let text = self
                 .pick(
                     "объяснять нечего: за последним ответом не стоит ни одного отношения карты",

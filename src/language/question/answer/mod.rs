@@ -190,6 +190,7 @@ impl Knowledge<'_> {
             number: draft.number,
             topic,
             words: String::new(),
+            stamp: None,
         })
     }
 
