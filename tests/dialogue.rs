@@ -288,7 +288,7 @@ fn a_dialogue_outlives_edits() {
                 let about = match &reply.outcome {
                     Outcome::Answered(answer) => {
                         answered += 1;
-                        [&answer.symbols[..], &[reply.text.clone()]].concat()
+                        [&answer.symbols[..], std::slice::from_ref(&reply.text)].concat()
                     }
                     Outcome::Task(task) => task.goal.iter().flat_map(|g| g.args.clone()).collect(),
                     Outcome::Unanswered(_) | Outcome::Misheard(_) => {
