@@ -6,16 +6,17 @@ use std::time::Duration;
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::engine::{
-    Engine, Memory, Progress, TaskAnswer, TaskEnding, World, change_now, deeds_in_words,
-    directive_in_words, name_in, surprise_in_words,
+    Engine, Error, Memory, Progress, TaskAnswer, TaskEnding, TaskEvents, World, change_now,
+    deeds_in_words, directive_in_words, name_in, surprise_in_words,
 };
 use crate::graphplan::Outcome;
 use crate::language::Language;
-use crate::language::command::{in_time, is_order};
+use crate::language::command::{Command, in_time, is_order};
 use crate::language::question::{Conditional, conditional};
 use crate::map::Entity;
 use crate::robot::Directive;
 use crate::semantics::predicate;
+use crate::strips::Scenario;
 use crate::units::write_file;
 
 use super::args::{Common, Lang};
@@ -58,7 +59,7 @@ pub(super) fn run(
         say("")?;
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
-    let answer = perform(common, &mut engine, task)?;
+    let answer = perform(common, &mut engine, task, None)?;
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, &answer, &drawing)? {
         if !common.json {
@@ -71,11 +72,13 @@ pub(super) fn run(
     })
 }
 
-/// Carries out a task, tells of it, and notes how it left the robot.
+/// Carries out a task, tells of it, and notes how it left the robot. `truth` is the world in which it drives, where that is
+/// not the one that it believes in.
 pub(super) fn perform(
     common: &Common,
     engine: &mut Engine,
     task: &str,
+    mut truth: Option<&mut World>,
 ) -> Result<TaskAnswer, Failure> {
     let parts = match engine.parts_of(task)? {
         Some(parts) if parts.len() > 1 => {
@@ -100,11 +103,8 @@ pub(super) fn perform(
         if refused {
             continue;
         }
-        let answer = perform_order(common, engine, part, &mut memory)?;
-        // A store that is only read keeps nothing.
-        if !common.read_only && common.as_of.is_none() {
-            engine.remember(&answer, std::time::SystemTime::now().into())?;
-        }
+        let answer = perform_order(common, engine, part, &mut memory, truth.as_deref_mut())?;
+        remember(common, engine, &answer)?;
         let failed = matches!(answer.ending, TaskEnding::NoPlan(_) | TaskEnding::Stuck(_));
         done = Some(answer);
         // What was ordered behind it is not begun; what was asked is answered.
@@ -112,7 +112,63 @@ pub(super) fn perform(
     }
     match done {
         Some(answer) => Ok(answer),
-        None => perform_order(common, engine, task, &mut memory),
+        None => perform_order(common, engine, task, &mut memory, truth),
+    }
+}
+
+/// Carries out a scenario, tells of it, and notes how it left the robot.
+pub(super) fn perform_scenario(
+    common: &Common,
+    engine: &mut Engine,
+    scenario: &Scenario,
+    truth: Option<&mut World>,
+) -> Result<TaskAnswer, Failure> {
+    let answer = told(common, engine, |tell| engine.drive_scenario(scenario, truth, tell))?;
+    remember(common, engine, &answer)?;
+    Ok(answer)
+}
+
+/// A store that is only read keeps nothing.
+fn remember(common: &Common, engine: &mut Engine, answer: &TaskAnswer) -> Result<(), Failure> {
+    if !common.read_only && common.as_of.is_none() {
+        engine.remember(answer, std::time::SystemTime::now().into())?;
+    }
+    Ok(())
+}
+
+/// Drives, and tells of it as it goes: in words, or an event a line; what it came to, last.
+fn told(
+    common: &Common,
+    engine: &Engine,
+    drive: impl FnOnce(&mut dyn FnMut(&Progress<'_>)) -> Result<TaskAnswer, Error>,
+) -> Result<TaskAnswer, Failure> {
+    let world = engine.world()?;
+    if common.json {
+        let mut events = TaskEvents::new(world);
+        let answer = drive(&mut |progress| {
+            let event = serde_json::to_string(&events.of(progress)).expect("an event is JSON");
+            // A closed pipe is noticed by the command's last words.
+            drop(say(&event));
+        })?;
+        say(&json::task(world, &answer).to_string())?;
+        return Ok(answer);
+    }
+    let mut teller = Teller::new(world, common.lang);
+    let answer = drive(&mut |progress| teller.tell(progress))?;
+    teller.bar.finish_and_clear();
+    say_ending(engine, &answer, common.lang)?;
+    Ok(answer)
+}
+
+fn carry_out_in(
+    engine: &Engine,
+    commands: &[Command<Entity>],
+    truth: Option<&mut World>,
+    tell: &mut dyn FnMut(&Progress<'_>),
+) -> Result<TaskAnswer, Error> {
+    match truth {
+        Some(truth) => engine.carry_out_in(commands, truth, tell),
+        None => engine.carry_out(commands, tell),
     }
 }
 
@@ -121,12 +177,13 @@ fn perform_order(
     engine: &Engine,
     order: &str,
     memory: &mut Memory,
+    truth: Option<&mut World>,
 ) -> Result<TaskAnswer, Failure> {
     let in_order = in_time(order).filter(|order| is_order(order));
     let order = in_order.as_deref().unwrap_or(order);
     match conditional(order) {
-        Some(conditional) => perform_if(common, engine, order, &conditional, memory),
-        None => perform_told(common, engine, order, memory),
+        Some(conditional) => perform_if(common, engine, order, &conditional, memory, truth),
+        None => perform_told(common, engine, order, memory, truth),
     }
 }
 
@@ -137,6 +194,7 @@ fn perform_if(
     task: &str,
     conditional: &Conditional,
     memory: &mut Memory,
+    truth: Option<&mut World>,
 ) -> Result<TaskAnswer, Failure> {
     if !common.json
         && let Ok((holds, answer)) = engine.holds(conditional, &mut memory.clone())?
@@ -146,10 +204,10 @@ fn perform_if(
         if order.is_none() && conditional.first.is_none() {
             say(conditional.undone())?;
             let commands = engine.understand_in(task, memory)?;
-            return Ok(engine.carry_out(&commands, &mut |_| {})?);
+            return Ok(carry_out_in(engine, &commands, truth, &mut |_| {})?);
         }
     }
-    perform_told(common, engine, task, memory)
+    perform_told(common, engine, task, memory, truth)
 }
 
 fn perform_told(
@@ -157,30 +215,22 @@ fn perform_told(
     engine: &Engine,
     task: &str,
     memory: &mut Memory,
+    truth: Option<&mut World>,
 ) -> Result<TaskAnswer, Failure> {
-    let world = engine.world()?;
-    if common.json {
-        let commands = engine.understand_in(task, memory)?;
-        let answer = engine.carry_out(&commands, &mut |_| {})?;
-        say(&json::task(world, &answer).to_string())?;
-        return Ok(answer);
+    if !common.json {
+        say(&match common.lang {
+            Lang::Ru => format!("Задание: «{task}»"),
+            Lang::En => format!("Task: \"{task}\""),
+        })?;
     }
-    let mut teller = Teller::new(world, common.lang);
-    say(&match common.lang {
-        Lang::Ru => format!("Задание: «{task}»"),
-        Lang::En => format!("Task: \"{task}\""),
-    })?;
     let commands = engine.understand_in(task, memory)?;
-    let answer = engine.carry_out(&commands, &mut |progress| teller.tell(progress))?;
-    teller.bar.finish_and_clear();
-    say_ending(engine, &answer, common.lang)?;
-    Ok(answer)
+    told(common, engine, |tell| carry_out_in(engine, &commands, truth, tell))
 }
 
 /// Carries out commands of a dialogue in the language that was spoken.
 pub(super) fn carry_out(
     engine: &Engine,
-    commands: &[crate::language::command::Command<crate::map::Entity>],
+    commands: &[Command<Entity>],
     lang: Lang,
 ) -> Result<TaskAnswer, Failure> {
     let world = engine.world()?;
