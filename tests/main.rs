@@ -58,6 +58,7 @@ mod story;
 mod talk;
 mod talk_ways;
 mod tight_floors;
+mod truth;
 mod ugly_floors;
 mod views;
 mod ways;

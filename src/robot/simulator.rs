@@ -24,6 +24,7 @@ use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId, Ve
 use super::belief::frame_aboard;
 use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 use super::eye::View;
+use super::placing::rests;
 
 /// What rests on what in the simulated world.
 static NATURE: LazyLock<RelationRules> = LazyLock::new(RelationRules::standard);
@@ -481,7 +482,17 @@ impl Drive for Simulator {
         Ok(())
     }
 
+    /// What would fall, or stand within another thing, is kept in the hand.
     fn put(&mut self, thing: ReplicaId, area: AreaId, frame: Frame) -> Result<(), Refusal> {
+        if let Some(held) = self.held.as_ref().filter(|held| held.id == thing) {
+            let there = Replica { area, frame, ..held.clone() };
+            self.truth.replicas.insert(thing, there);
+            let stays = rests(&Scene::of(&self.truth, self.map), thing);
+            self.truth.replicas.remove(&thing);
+            if !stays {
+                return Err(Refusal::NoRoom(thing));
+            }
+        }
         let replica = self.let_go(thing)?;
         for carried in std::mem::take(&mut self.aboard) {
             let frame = frame_aboard(&self.truth, &replica, &carried, &frame);
