@@ -7,9 +7,9 @@ use crate::semantics::planning::InitialFact;
 use crate::strips::in_quotes;
 use crate::units::name_key;
 
-use super::{Engine, Error};
+use super::{Error, State};
 
-impl Engine {
+impl State {
     /// The facts that the map gives to planning, all or those of a predicate; the robot is in none of them.
     ///
     /// # Errors

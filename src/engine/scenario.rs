@@ -13,7 +13,7 @@ use crate::strips::{RuleError, RuleFault, RuleFaults, Scenario};
 use crate::units::{Bilingual, ReplicaId, name_key};
 
 use super::task::{Errand, Progress, TaskAnswer};
-use super::{Engine, Error};
+use super::{Error, State};
 
 /// The predicates of which a deed of the robot, or where it stands after one, makes a fact true.
 const DRIVEN: [&str; 18] = [
@@ -37,7 +37,7 @@ const DRIVEN: [&str; 18] = [
     predicate::CALLED,
 ];
 
-impl Engine {
+impl State {
     /// Plans a scenario from what the robot believes, and drives it in the simulator: in `truth`, which is left as the
     /// drive leaves it, else in a world that is as it is believed to be.
     ///

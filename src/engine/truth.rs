@@ -11,7 +11,7 @@ use crate::units::{Bilingual, FileFault, ReplicaId, Source};
 
 use super::lexicon::form_index;
 use super::memory::Now;
-use super::{Engine, Error, RequestError, load};
+use super::{Error, RequestError, State, load};
 
 /// What is really so.
 #[derive(Debug, Clone)]
@@ -25,7 +25,7 @@ pub struct Truth {
 /// No map or file of edits is larger, bytes.
 const LIMIT: u64 = 64 << 20;
 
-impl Engine {
+impl State {
     /// Reads a truth from a file: a map, or edits of what is believed now (see [`map::read_truth`]).
     ///
     /// # Errors
@@ -38,7 +38,7 @@ impl Engine {
     /// The same from a text.
     ///
     /// # Errors
-    /// As [`Engine::read_truth`].
+    /// As [`State::read_truth`].
     pub fn truth(&self, source: &Source, format: Format) -> Result<Truth, Error> {
         let now = self.now(std::time::SystemTime::now().into())?;
         let (believed, away) = with_carried(&now);
