@@ -68,7 +68,8 @@ fn a_scenario_is_driven_or_refused_at_its_place() {
     place.run(&with(&["do", "--scenario", &walk(), "--reset"])).is(0);
     // In a truth of its own.
     place.write("truth.toml", LOCKED);
-    let args = with(&["do", "--scenario", &walk(), "--reset", "--truth", "truth.toml"]);
+    let walk = walk();
+    let args = with(&["do", "--scenario", &walk, "--reset", "--truth", "truth.toml"]);
     assert!(place.run(&args).is(0).out.contains("путь преграждает Дверь-ZY"));
     // What the map does not know, what is not so, and what no deed brings about.
     let rules = project("rules/service-robot.strips").display().to_string();
@@ -133,7 +134,7 @@ fn rule_files_are_written_out_and_read_back() {
             match path.is_dir() {
                 true => open.push(path),
                 false => {
-                    drop(files.insert(path.strip_prefix(project("rules")).unwrap().to_owned()))
+                    files.extend([path.strip_prefix(project("rules")).unwrap().to_owned()])
                 }
             }
         }
