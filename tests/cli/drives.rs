@@ -133,9 +133,7 @@ fn rule_files_are_written_out_and_read_back() {
             let path = entry.unwrap().path();
             match path.is_dir() {
                 true => open.push(path),
-                false => {
-                    files.extend([path.strip_prefix(project("rules")).unwrap().to_owned()])
-                }
+                false => files.extend([path.strip_prefix(project("rules")).unwrap().to_owned()]),
             }
         }
     }
