@@ -8,6 +8,7 @@ use crate::map::{Entity, Profile};
 use crate::semantics::measure::Measurements;
 use crate::semantics::names::{Subject, Symbols};
 use crate::semantics::openings::Opening;
+use crate::semantics::thresholds::Thresholds;
 use crate::units::{AreaId, Language, ReplicaId, name_key, nearest_name};
 
 use super::{Join, RelationCount, RelationError, RelationRules, Relations};
@@ -182,14 +183,25 @@ impl Relations {
         pairs.filter(|(_, with)| *with == carrier).map(|(thing, _)| thing).collect()
     }
 
-    /// A threshold of the rule text, of this profile; none where it names none.
+    /// The thresholds of the rule text, of this profile.
     #[must_use]
-    pub fn threshold(&self, name: &str) -> Option<i64> {
-        let tuples = self.tuples("threshold").ok()?;
-        tuples.into_iter().find_map(|tuple| match &tuple[..] {
-            [Value::Symbol(own), Value::Number(value)] if &**own == name => Some(*value),
-            _ => None,
-        })
+    pub fn thresholds(&self) -> &Thresholds {
+        &self.thresholds
+    }
+
+    /// What stands on the floor of an Area, in the order of ids.
+    #[must_use]
+    pub fn on_floor_of(&self, area: AreaId) -> Vec<ReplicaId> {
+        let singles = self.measured.singles.iter().filter(|(_, s)| s.area() == Some(area));
+        singles.map(|(id, _)| *id).filter(|id| self.stands_on_floor(*id, area)).collect()
+    }
+
+    /// Whether a thing stands on the floor of an Area.
+    #[must_use]
+    pub fn stands_on_floor(&self, thing: ReplicaId, area: AreaId) -> bool {
+        let known = |subject| self.symbols.known(Subject::Entity(subject));
+        let pair = known(Entity::Replica(thing)).zip(known(Entity::Area(area)));
+        pair.is_some_and(|(thing, area)| self.holds("STANDS_ON_FLOOR", &[thing, area]))
     }
 
     /// The other ends of the pairs in which a thing stands first.
