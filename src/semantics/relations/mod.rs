@@ -61,6 +61,8 @@ pub struct Relations {
     supports: BTreeMap<ReplicaId, ReplicaId>,
     /// What bears something, and what it bears.
     bearing: BTreeSet<(ReplicaId, ReplicaId)>,
+    /// Each Area with what stands on its floor.
+    on_floor: BTreeSet<(AreaId, ReplicaId)>,
 }
 
 /// Measures a world and derives its relations.
@@ -156,6 +158,7 @@ impl Relations {
             areas: BTreeSet::new(),
             supports: BTreeMap::new(),
             bearing: BTreeSet::new(),
+            on_floor: BTreeSet::new(),
         };
         relations.index();
         relations

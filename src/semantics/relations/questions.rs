@@ -192,16 +192,14 @@ impl Relations {
     /// What stands on the floor of an Area, in the order of ids.
     #[must_use]
     pub fn on_floor_of(&self, area: AreaId) -> Vec<ReplicaId> {
-        let singles = self.measured.singles.iter().filter(|(_, s)| s.area() == Some(area));
-        singles.map(|(id, _)| *id).filter(|id| self.stands_on_floor(*id, area)).collect()
+        let all = self.on_floor.range((area, ReplicaId(0))..);
+        all.take_while(|(of, _)| *of == area).map(|(_, id)| *id).collect()
     }
 
     /// Whether a thing stands on the floor of an Area.
     #[must_use]
     pub fn stands_on_floor(&self, thing: ReplicaId, area: AreaId) -> bool {
-        let known = |subject| self.symbols.known(Subject::Entity(subject));
-        let pair = known(Entity::Replica(thing)).zip(known(Entity::Area(area)));
-        pair.is_some_and(|(thing, area)| self.holds("STANDS_ON_FLOOR", &[thing, area]))
+        self.on_floor.contains(&(area, thing))
     }
 
     /// The other ends of the pairs in which a thing stands first.

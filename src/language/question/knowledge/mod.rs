@@ -205,7 +205,9 @@ impl Knowledge<'_> {
             Some(Subject::Entity(entity)) => Some(Thing::Entity(entity)),
             Some(_) => None,
             None => {
-                let gate = self.gates().iter().find(|g| g.name == symbol).map(|g| g.thing);
+                let gates = self.gates();
+                let gate = gates.binary_search_by(|g| g.name.as_str().cmp(symbol));
+                let gate = gate.ok().map(|n| gates[n].thing);
                 let windows = &self.lexicon().windows;
                 let window = || windows.iter().position(|w| !w.name.is_empty() && w.name == symbol);
                 gate.or_else(|| window().map(|n| Thing::Window(n as u32)))
@@ -227,7 +229,7 @@ impl Knowledge<'_> {
         }
     }
 
-    /// Doors and passages of Areas, each once.
+    /// Doors and passages of Areas, each once, in the order of their names.
     pub(super) fn gates(&self) -> &[Gate] {
         self.mind.gates.get_or_init(|| {
             let mut gates: BTreeMap<String, Gate> = BTreeMap::new();
