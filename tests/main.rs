@@ -57,6 +57,7 @@ mod storeys;
 mod story;
 mod talk;
 mod talk_ways;
+mod thresholds;
 mod tight_floors;
 mod truth;
 mod ugly_floors;

@@ -570,14 +570,13 @@ impl State {
 
     /// Where the robot is, by what one can send it back to: a place of the map, else its room.
     fn place_of_robot(&self) -> Option<Entity> {
-        /// So near to a place it is at it, cm.
-        const AT: f64 = 30.0;
         let (map, pose) = self.robot_pose()?;
         let world = self.world().ok()?;
+        let at = self.relations().ok()?.thresholds().robot_place;
         let place = world.places.values().find(|place| {
             let placed = world.placement(place.area);
             placed.is_some_and(|(on, frame)| {
-                on == map && (frame.apply(place.at) - pose.at).norm() <= AT
+                on == map && (frame.apply(place.at) - pose.at).norm() <= at
             })
         });
         let area = || self.relations().ok()?.measurements().area_at(map, pose.at);
