@@ -5,14 +5,15 @@ use std::path::{Path, PathBuf};
 use serde_json::json;
 
 use crate::engine::{
-    Engine, Method, Outcome, Reply, Rules, World, change_now, check_map_closely, opens_in_words,
-    parse_pose, ride_in_words, uncertain_names,
+    Engine, Method, Outcome, Reply, Rules, TaskEnding, Truth, World, change_now, check_map_closely,
+    opens_in_words, parse_pose, ride_in_words, uncertain_names,
 };
 use crate::language::report::Detail as Level;
 use crate::language::{Case, NounPhrase, english};
 use crate::map::{EnglishMapErrors, MapErrors};
+use crate::strips::Scenario;
 
-use super::args::{Common, Detail, Lang, RouteMethod};
+use super::args::{Common, Detail, DoArgs, Lang, RouteMethod};
 use super::fault::{Failure, drawn, views};
 use super::{Answer, heeded, json, say, text};
 
@@ -237,28 +238,69 @@ pub(super) fn relations(
     say(&text::facts(&rows))
 }
 
-pub(super) fn perform(
-    common: &Common,
-    task: &str,
-    draw: Option<&Path>,
-    reset: bool,
-    from: Option<&str>,
-) -> Result<Answer, Failure> {
-    let mut engine = open(common)?;
-    if reset {
+pub(super) fn perform(common: &Common, args: &DoArgs) -> Result<Answer, Failure> {
+    let scenario = args.scenario.as_deref().map(Scenario::read).transpose()?;
+    let mut engine = match scenario.as_ref().map(|scenario| &scenario.map) {
+        Some(map) => super::plan::engine_for(common, map.as_deref())?,
+        None => open(common)?,
+    };
+    if args.reset {
         engine.reset_robot(&change_now(&common.user, "робот начинает сначала"))?;
     }
-    if let Some(from) = from {
+    if let Some(from) = &args.from {
         engine.place_robot(from, &change_now(&common.user, "робот стоит здесь"))?;
     }
     super::plan::warn(&engine.rules().warnings, common.lang);
-    let heard = super::demo::perform(common, &mut engine, task)?;
-    if let (Some(path), Some(answer)) = (draw, heard.tasks().last()) {
+    if let Some(scenario) = &scenario {
+        super::plan::warn(&scenario.warnings, common.lang);
+    }
+    let mut truth = args.truth.as_deref().map(|file| truth(common, &engine, file)).transpose()?;
+    if let Some(scenario) = &scenario {
+        let answer = super::demo::perform_scenario(common, &mut engine, scenario, truth.as_mut())?;
+        if let Some(path) = &args.draw {
+            super::draw::put_driven(common, &engine, &answer, path)?;
+        }
+        return Ok(match answer.ending {
+            TaskEnding::Done | TaskEnding::AlreadyTrue if answer.left.is_empty() => Answer::Yes,
+            _ => Answer::No,
+        });
+    }
+    let task = args.task.as_deref().unwrap_or_default();
+    let heard = super::demo::perform(common, &mut engine, task, truth)?;
+    if let (Some(path), Some(answer)) = (&args.draw, heard.tasks().last()) {
         super::draw::put_driven(common, &engine, answer, path)?;
     }
     let is_task = |reply: &&Reply| matches!(reply.outcome, Outcome::Task(_));
     let last = heard.replies.iter().rfind(is_task).or(heard.replies.last());
     Ok(last.map_or(Answer::Yes, |reply| heeded(&reply.outcome)))
+}
+
+/// The world of `--truth`; what stayed behind in it is told beside.
+fn truth(common: &Common, engine: &Engine, file: &Path) -> Result<World, Failure> {
+    let Truth { world, left_behind } = engine.read_truth(file)?;
+    if !left_behind.is_empty() {
+        let names = left_behind.join(", ");
+        note(&match common.lang {
+            Lang::Ru => format!(
+                "--truth: остаётся на прежнем месте, хотя опора уходит: {names}; carry = true перенесёт и это."
+            ),
+            Lang::En => format!(
+                "--truth: stays behind, though what bears it goes: {names}; carry = true takes it along."
+            ),
+        });
+    }
+    Ok(world)
+}
+
+pub(super) fn export_rules(common: &Common, dir: &Path, force: bool) -> Result<Answer, Failure> {
+    let written: Vec<String> = crate::engine::export_rules(dir, force)?
+        .into_iter()
+        .map(|path| path.display().to_string())
+        .collect();
+    if common.json {
+        return say(&json!({"outcome": "done", "written": written}).to_string());
+    }
+    say(&written.join("\n"))
 }
 
 pub(super) fn route(

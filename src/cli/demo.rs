@@ -3,7 +3,11 @@
 use std::path::Path;
 use std::time::Duration;
 
-use crate::engine::{Dialogue, Engine, Error, Heard, Outcome, Reply, TaskEnding, change_now};
+use crate::engine::{
+    Dialogue, Engine, Error, Event, Heard, Outcome, Reply, TaskAnswer, TaskEnding, World,
+    change_now,
+};
+use crate::strips::Scenario;
 use crate::units::write_file;
 
 use super::args::{Common, Lang};
@@ -42,7 +46,7 @@ pub(super) fn run(
         say("")?;
     }
     engine.reset_robot(&change_now(&common.user, "demo"))?;
-    let heard = perform(common, &mut engine, task)?;
+    let heard = perform(common, &mut engine, task, None)?;
     let Some(answer) = heard.tasks().last() else { return Ok(Answer::Yes) };
     let drawing = out.join("plan.svg");
     for drawn in super::draw::put_driven(common, &engine, answer, &drawing)? {
@@ -56,9 +60,15 @@ pub(super) fn run(
     })
 }
 
-/// Carries out a task, tells of it, and notes how it left the robot.
-pub(super) fn perform(common: &Common, engine: &mut Engine, task: &str) -> Result<Heard, Failure> {
-    let mut dialogue = Dialogue::new(common.lang.language());
+/// Carries out a task, tells of it, and notes how it left the robot. `truth` is the world in which it drives, where that is
+/// not the one that it believes in.
+pub(super) fn perform(
+    common: &Common,
+    engine: &mut Engine,
+    task: &str,
+    truth: Option<World>,
+) -> Result<Heard, Failure> {
+    let mut dialogue = Dialogue::new(common.lang.language()).in_truth(truth);
     if common.read_only || common.as_of.is_some() {
         dialogue = dialogue.keeping_nothing();
     }
@@ -73,6 +83,30 @@ pub(super) fn perform(common: &Common, engine: &mut Engine, task: &str) -> Resul
         Some(Outcome::Refused(error)) => Err(Failure::Engine(error)),
         _ => Ok(heard),
     }
+}
+
+/// Carries out a scenario, tells of it, and notes how it left the robot.
+pub(super) fn perform_scenario(
+    common: &Common,
+    engine: &mut Engine,
+    scenario: &Scenario,
+    truth: Option<&mut World>,
+) -> Result<TaskAnswer, Failure> {
+    let language = common.lang.language();
+    let mut teller = Teller::of_task(common);
+    let (asked, world) = (&*engine, engine.world()?);
+    let answer = asked.drive_scenario(scenario, truth, &mut |progress| {
+        teller.tell(asked, &Event::Progress { progress, world, language });
+    })?;
+    let text = asked.ending_in_words(&answer, language)?;
+    let reply = Reply { outcome: Outcome::Task(Box::new(answer)), text, language };
+    teller.tell(asked, &Event::Replied(&reply));
+    teller.end()?;
+    let Outcome::Task(answer) = reply.outcome else { unreachable!("put there above") };
+    if !common.read_only && common.as_of.is_none() {
+        engine.remember(&answer, std::time::SystemTime::now().into())?;
+    }
+    Ok(*answer)
 }
 
 /// A directory for the time of one run.

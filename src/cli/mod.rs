@@ -73,9 +73,8 @@ fn dispatch(arguments: &Arguments) -> Result<Answer, Failure> {
         }
         Command::Plan(plan) => plan::run(common, plan),
         Command::Ask(ask) => ask::run(common, ask),
-        Command::Do { task, draw, reset, from } => {
-            commands::perform(common, task, draw.as_deref(), *reset, from.as_deref())
-        }
+        Command::Do(args) => commands::perform(common, args),
+        Command::Rules { export, force } => commands::export_rules(common, export, *force),
         Command::Why { fact, not } => why::run(common, fact, *not),
         Command::Words { name } => words::run(common, name),
         Command::Talk => talk::run(common),

@@ -2,7 +2,9 @@
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::engine::{Engine, Event, Outcome, Progress, Reply, directive_told, json};
+use serde_json::json;
+
+use crate::engine::{Engine, Event, Outcome, Progress, Reply, TaskEvents, directive_told, json};
 
 use super::args::{Common, Lang};
 use super::fault::Failure;
@@ -18,6 +20,7 @@ pub(super) struct Teller {
     /// Rule and proof are shown below each answer.
     pub(super) explains: bool,
     bar: ProgressBar,
+    events: TaskEvents,
     /// Why no more could be told.
     failure: Option<Failure>,
 }
@@ -33,7 +36,8 @@ impl Teller {
 
     fn new(common: &Common, is_task: bool) -> Self {
         let (json, lang) = (common.json, common.lang);
-        Self { json, lang, is_task, explains: false, bar: ProgressBar::hidden(), failure: None }
+        let (bar, events) = (ProgressBar::hidden(), TaskEvents::default());
+        Self { json, lang, is_task, explains: false, bar, events, failure: None }
     }
 
     /// # Errors
@@ -52,6 +56,12 @@ impl Teller {
 
     fn told(&mut self, engine: &Engine, event: &Event<'_>) -> Result<(), Failure> {
         match event {
+            Event::Progress { progress, world, .. } if self.json && self.is_task => {
+                let event = json!(self.events.of(world, progress)).to_string();
+                // A closed pipe is noticed by the command's last words.
+                drop(say(&event));
+                Ok(())
+            }
             Event::Ordered(_) | Event::Progress { .. } if self.json => Ok(()),
             Event::Ordered(order) => {
                 self.bar = bar();

@@ -5,9 +5,8 @@ use serde_json::{Value, json};
 
 use super::{
     Answer, Engine, Error, Heard, Journey, Outcome as Heeded, PlanStep, Relations, Replanned,
-    Reply, Report, RouteAnswer, Solved, TaskAnswer, TaskEnding, Unanswered, Whereabout, World,
-    deeds_in_words, directive_in_words, face_in_words, name_in, no_way_in_words, steps,
-    surprise_in_words,
+    Reply, ReportView, RouteAnswer, Solved, TaskAnswer, TaskEnding, Unanswered, Whereabout, World,
+    face_in_words, name_in, no_way_in_words, steps, surprise_in_words,
 };
 use crate::facts;
 use crate::geometry::{FaceInView, PassframeId, Remedy, Ride, Route};
@@ -381,7 +380,7 @@ pub fn task(world: &World, answer: &TaskAnswer) -> Value {
         "seconds": round(answer.seconds),
         "length_cm": round(answer.reports.iter().map(|r| r.length).sum()),
         "replans": answer.replans,
-        "directives": answer.reports.iter().map(|r| report(world, r)).collect::<Vec<_>>(),
+        "directives": answer.reports.iter().map(|r| ReportView::of(world, r)).collect::<Vec<_>>(),
     });
     match &answer.ending {
         TaskEnding::NoPlan(planned) => {
@@ -406,27 +405,6 @@ pub fn task(world: &World, answer: &TaskAnswer) -> Value {
         view["en"] = json!(position.say(Language::English));
     }
     view
-}
-
-fn report(world: &World, report: &Report) -> Value {
-    let said = |language| deeds_in_words(world, &report.directive, language);
-    let asked = |language| directive_in_words(world, &report.directive, language);
-    json!({
-        "do_ru": asked(Language::Russian),
-        "do_en": asked(Language::English),
-        "done_ru": said(Language::Russian),
-        "done_en": said(Language::English),
-        "number": report.number,
-        "action": report.directive.action.as_ref(),
-        "args": report.directive.args.iter().map(AsRef::as_ref).collect::<Vec<&str>>(),
-        "map": world.maps[&report.map].name,
-        "pose": pose(report.pose),
-        "length_cm": round(report.length),
-        "seconds": round(report.seconds),
-        "points": report.points.iter().map(|&p| point(p)).collect::<Vec<_>>(),
-        "ru": report.position.as_ref().map(|p| p.say(Language::Russian)),
-        "en": report.position.as_ref().map(|p| p.say(Language::English)),
-    })
 }
 
 fn point(p: Point) -> [f64; 2] {

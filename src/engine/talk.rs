@@ -24,11 +24,6 @@ use super::route::Located;
 use super::sight::things_in_view;
 use super::{Error, State};
 
-/// How far the robot is taken to see, cm.
-const SIGHT: f64 = 400.0;
-/// How wide it looks, degrees: as a wide camera does.
-const FIELD: f64 = 120.0;
-
 impl State {
     /// Answers a question in Russian or English and remembers what it was about. What is remembered belongs to a state
     /// of the map: of what left it since, only that is said.
@@ -369,7 +364,9 @@ impl Senses for RobotSenses<'_> {
         let stands = floor.scene().area_at(pose.at);
         let room = stands.and_then(|area| floor.scene().areas[&area].prisms.first());
         let height = room.map_or(0.0, |prism| prism.bottom) + world.robot.height.get();
-        things_in_view(world, floor, &Eye { pose, height, field: FIELD, range: SIGHT })
+        let Ok(near) = around.relations().map(Relations::thresholds) else { return Vec::new() };
+        let eye = Eye { pose, height, field: near.robot_field, range: near.robot_sight };
+        things_in_view(world, floor, &eye)
     }
 
     fn holder(&self, thing: ReplicaId) -> Option<String> {

@@ -18,6 +18,7 @@ use crate::robot::{
     Simulator, Station, Surprise, facts_of_map,
 };
 use crate::semantics::{Relations, derive, predicate};
+use crate::strips::Domain;
 use crate::units::{MapId, Point, Pose, ReplicaId};
 
 use super::memory::{After, Now};
@@ -101,6 +102,16 @@ pub struct TaskAnswer {
     pub after: Option<After>,
 }
 
+/// What is to be driven: from a sentence, or from a scenario.
+pub(super) struct Errand<'r> {
+    pub(super) domain: &'r Domain,
+    pub(super) belief: Belief,
+    /// One after another; the facts of one hold together.
+    pub(super) goals: Vec<Vec<GoalFact>>,
+    /// Whether a thing that cannot be put into its place lets the rest be tidied.
+    pub(super) tidies: bool,
+}
+
 impl State {
     /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
     /// Map says, and as the robot's last task left it. [`Engine::remember`] notes how this one leaves it.
@@ -112,8 +123,7 @@ impl State {
         command: &str,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        self.perform_from(command, &now, now.world.clone(), tell)
+        self.carry_out(&self.understand(command)?, tell)
     }
 
     /// Carries out a command in a world that may differ from the Map.
@@ -123,21 +133,10 @@ impl State {
     pub fn perform_in(
         &self,
         command: &str,
-        truth: World,
+        mut truth: World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
-        let now = self.now(std::time::SystemTime::now().into())?;
-        self.perform_from(command, &now, truth, tell)
-    }
-
-    fn perform_from(
-        &self,
-        command: &str,
-        now: &Now,
-        truth: World,
-        tell: &mut dyn FnMut(&Progress<'_>),
-    ) -> Result<TaskAnswer, Error> {
-        self.carry_out_from(&self.understand(command)?, now, truth, tell)
+        self.carry_out_in(&self.understand(command)?, &mut truth, tell)
     }
 
     /// Carries out commands that were understood already, in a world that is as it is believed to be.
@@ -150,16 +149,26 @@ impl State {
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
         let now = self.now(std::time::SystemTime::now().into())?;
-        self.carry_out_from(commands, &now, now.world.clone(), tell)
+        self.carry_out_from(commands, &now, &mut now.world.clone(), tell)
     }
 
-    fn carry_out_from(
+    /// Carries out commands that were understood already, in a world that may differ from what is believed; it is left
+    /// as the task leaves it.
+    ///
+    /// # Errors
+    /// As [`Engine::perform`].
+    pub fn carry_out_in(
         &self,
         commands: &[Command<Entity>],
-        now: &Now,
-        truth: World,
+        truth: &mut World,
         tell: &mut dyn FnMut(&Progress<'_>),
     ) -> Result<TaskAnswer, Error> {
+        let now = self.now(std::time::SystemTime::now().into())?;
+        self.carry_out_from(commands, &now, truth, tell)
+    }
+
+    /// What the robot believes when a task begins, and the place where it then stands; the operator stands there too.
+    pub(super) fn belief_of(&self, now: &Now) -> Result<(Belief, String), Error> {
         let (map, start) = (now.map, now.pose);
         let mut belief = Belief::new(now.world.clone(), self.floors_now(now)?, map, start)
             .ok_or(RequestError::RobotNowhere)?;
@@ -174,6 +183,25 @@ impl State {
             name_en: "operator".to_owned(),
             place: here.clone(),
         });
+        Ok((belief, here))
+    }
+
+    /// The simulated robot as a task finds it, in a world of its own.
+    pub(super) fn simulated(now: &Now, truth: &World) -> Simulator {
+        let in_hand = now.held.as_ref().map(|held| held.id);
+        let aboard = now.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
+        let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
+        Simulator::new(truth.clone(), now.map, now.pose).holding(now.held.clone(), aboard)
+    }
+
+    fn carry_out_from(
+        &self,
+        commands: &[Command<Entity>],
+        now: &Now,
+        truth: &mut World,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<TaskAnswer, Error> {
+        let (mut belief, here) = self.belief_of(now)?;
         let relations = self.relations_now(now)?;
         let relations = relations.as_ref().map_or_else(|| self.relations(), Ok)?;
         let mut goals = self.goals_of(commands, &here, now, relations, &mut belief)?;
@@ -189,22 +217,48 @@ impl State {
             );
         }
         belief.into = commands.iter().filter_map(|command| self.put_into(command)).collect();
-        let in_hand = now.held.as_ref().map(|held| held.id);
-        let aboard = now.aboard.iter().filter(|(_, carrier)| Some(*carrier) == in_hand);
-        let aboard = aboard.map(|(thing, _)| thing.clone()).collect();
-        let mut drive = Simulator::new(truth, map, start).holding(now.held.clone(), aboard);
-        let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
-        let is_lit = facts_of_map(&now.world, relations)
-            .iter()
-            .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
+        let drive = Self::simulated(now, truth);
         let sought = commands.iter().filter_map(|command| match command {
             Command::Find(what) => Some(what.id),
             _ => None,
         });
         let unsure_ones = unsure.iter().map(|(thing, _)| Entity::Replica(*thing));
-        for what in sought.chain(unsure_ones) {
-            let Entity::Replica(id) = what else { continue };
-            let name = self.world()?.name(what).to_owned();
+        let sought = sought.chain(unsure_ones).filter_map(|what| match what {
+            Entity::Replica(id) => Some(id),
+            _ => None,
+        });
+        self.seek(sought, now, relations, &mut belief, &drive)?;
+        let tidies = commands
+            .iter()
+            .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
+        let errand = Errand { domain: &self.rules.robot, belief, goals, tidies };
+        let (mut answer, ended) = self.drive(errand, now, drive, tell)?;
+        let must_report =
+            answer.reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report));
+        let reported = must_report.then(|| self.locate(answer.end_map, answer.end, false));
+        answer.reported = reported.and_then(Result::ok).map(|found| found.position);
+        answer.tidies = commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_)));
+        answer.stops = matches!(commands, [Command::Stop]);
+        answer.unsure = unsure;
+        *truth = ended.into_truth();
+        Ok(answer)
+    }
+
+    /// Of what is to be found, what is in view or in the hand is found already; the rest is looked for.
+    pub(super) fn seek(
+        &self,
+        things: impl Iterator<Item = ReplicaId>,
+        now: &Now,
+        relations: &Relations,
+        belief: &mut Belief,
+        drive: &Simulator,
+    ) -> Result<(), Error> {
+        let room = self.world()?.name(Entity::Area(belief.area)).to_owned();
+        let is_lit = facts_of_map(&now.world, relations)
+            .iter()
+            .any(|f| f.predicate == predicate::ROOM_LIT && f.arguments[0].name == room);
+        for id in things {
+            let name = self.world()?.name(Entity::Replica(id)).to_owned();
             let in_hand = !now.world.replicas.contains_key(&id);
             if in_hand || (is_lit && drive.sees(id).is_some()) {
                 belief.found.insert(name);
@@ -212,8 +266,19 @@ impl State {
                 belief.sought.insert(name, BTreeSet::new());
             }
         }
-        let mut mission =
-            Mission::new(belief, &self.rules.robot, &self.rules.relations, Limits::default());
+        Ok(())
+    }
+
+    /// Drives to goals, one after another, until one is out of reach; and the simulated robot as it then is.
+    pub(super) fn drive(
+        &self,
+        errand: Errand<'_>,
+        now: &Now,
+        mut drive: Simulator,
+        tell: &mut dyn FnMut(&Progress<'_>),
+    ) -> Result<(TaskAnswer, Simulator), Error> {
+        let Errand { domain, belief, goals, tidies } = errand;
+        let mut mission = Mission::new(belief, domain, &self.rules.relations, Limits::default());
         let mut reports = Vec::new();
         let mut plans = 0;
         let surprised: RefCell<Option<Surprise>> = RefCell::new(None);
@@ -237,9 +302,6 @@ impl State {
         };
         let mut ending = TaskEnding::AlreadyTrue;
         let mut left: Vec<(GoalFact, TaskEnding)> = Vec::new();
-        let tidies = commands
-            .iter()
-            .any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_) | Command::PutBack(_)));
         let mut begun = 0;
         for goal in &goals {
             begun += 1;
@@ -272,15 +334,11 @@ impl State {
         if matches!(ending, TaskEnding::AlreadyTrue) && !left.is_empty() {
             ending = left.remove(0).1;
         }
-        let trace = drive.trace();
-        let last = trace.last().expect("a run begins with a moment");
-        let must_report =
-            reports.is_empty() && commands.iter().any(|c| matches!(c, Command::Report));
-        let reported = must_report.then(|| self.locate(last.map, last.pose, false));
-        Ok(TaskAnswer {
+        let last = *drive.trace().last().expect("a run begins with a moment");
+        let answer = TaskAnswer {
             goal: goals.concat(),
-            map,
-            start,
+            map: now.map,
+            start: now.pose,
             end: last.pose,
             end_map: last.map,
             reports,
@@ -289,12 +347,13 @@ impl State {
             ending,
             left,
             not_begun: goals.len() - begun,
-            tidies: commands.iter().any(|c| matches!(c, Command::Tidy(_) | Command::Clean(_))),
-            stops: matches!(commands, [Command::Stop]),
-            reported: reported.and_then(Result::ok).map(|found| found.position),
+            tidies: false,
+            stops: false,
+            reported: None,
             after: Some(After::of(self.world()?, now, &mission)),
-            unsure,
-        })
+            unsure: Vec::new(),
+        };
+        Ok((answer, drive))
     }
 
     /// The commands of a sentence, with everything that it names found on the map.
@@ -520,14 +579,13 @@ impl State {
 
     /// Where the robot is, by what one can send it back to: a place of the map, else its room.
     fn place_of_robot(&self) -> Option<Entity> {
-        /// So near to a place it is at it, cm.
-        const AT: f64 = 30.0;
         let (map, pose) = self.robot_pose()?;
         let world = self.world().ok()?;
+        let at = self.relations().ok()?.thresholds().robot_place;
         let place = world.places.values().find(|place| {
             let placed = world.placement(place.area);
             placed.is_some_and(|(on, frame)| {
-                on == map && (frame.apply(place.at) - pose.at).norm() <= AT
+                on == map && (frame.apply(place.at) - pose.at).norm() <= at
             })
         });
         let area = || self.relations().ok()?.measurements().area_at(map, pose.at);

@@ -1,7 +1,7 @@
 //! [`Drive`]: all that a mission asks of a vehicle (X3).
 
 use crate::geometry::Ride;
-use crate::map::{DoorState, Replica};
+use crate::map::{DoorState, Entity, Replica};
 use crate::units::{AreaId, Deg, DoorId, Frame, MapId, Point, Pose, ReplicaId};
 
 /// What stands in the way.
@@ -10,6 +10,18 @@ pub enum Obstruction {
     Wall(AreaId),
     Door(DoorId),
     Replica(ReplicaId),
+}
+
+impl Obstruction {
+    /// What it is on the Map; of a wall, the room.
+    #[must_use]
+    pub fn entity(self) -> Entity {
+        match self {
+            Self::Wall(area) => Entity::Area(area),
+            Self::Door(door) => Entity::Door(door),
+            Self::Replica(replica) => Entity::Replica(replica),
+        }
+    }
 }
 
 /// A motion that ended early, with the robot stopped just before the contact.

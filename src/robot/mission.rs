@@ -13,7 +13,7 @@ use thiserror::Error;
 
 use super::belief::{Belief, Station};
 use super::directive::{Deed, Directive};
-use super::drive::{Bump, Drive, Refusal, Sighting};
+use super::drive::{Bump, Drive, Obstruction, Refusal, Sighting};
 use super::idle::without_idle;
 use super::placing::{spot_in, spot_on, spot_on_floor};
 use super::rehearsal::{Known, rehearse};
@@ -262,10 +262,11 @@ impl<'r> Mission<'r> {
             let Err((done, surprise)) = self.carry_out(&directives, drive, tell) else {
                 return Ok(Ending::Done);
             };
-            if !self.learn(&surprise) {
+            if !self.learn(&surprise, directives[done]) {
                 return Ok(Ending::Stuck(surprise));
             }
-            given_up = surprise.bars_a_way().then_some(surprise);
+            let bars = surprise.bars_a_way() || self.is_new(&surprise);
+            given_up = bars.then_some(surprise);
             learned = now_learned.and_then(|learned| learned.after(&first(&plan.steps, done)));
         }
     }
@@ -308,6 +309,12 @@ impl<'r> Mission<'r> {
                 let looks = self.belief.spots.iter().find(|s| s.looks && s.name == *name);
                 if let Some(pose) = looks.map(|spot| spot.pose) {
                     self.turn(pose.heading, drive)?;
+                }
+                // Before a thing it stands only if the thing is there.
+                if let Target::Replica(thing) = target
+                    && self.is_elsewhere(thing, drive)
+                {
+                    return Err(refused(Refusal::NotThere(thing), drive));
                 }
                 self.belief.station = Station::Place(name.clone());
             }
@@ -553,9 +560,31 @@ impl<'r> Mission<'r> {
                 (area, frame)
             }
         };
-        drive.put(held, area, frame).map_err(|r| refused(r, drive))?;
+        if let Err(refusal) = drive.put(held, area, frame) {
+            let support = onto.and_then(|name| self.replica(name).ok());
+            // What should bear it is elsewhere, or bears what nobody knew of.
+            let refusal = match (refusal, support) {
+                (Refusal::NoRoom(_), Some(support)) if self.is_elsewhere(support, drive) => {
+                    Refusal::NotThere(support)
+                }
+                (Refusal::NoRoom(_), Some(support)) => Refusal::NoRoom(support),
+                (other, _) => other,
+            };
+            return Err(refused(refusal, drive));
+        }
         self.belief.set_down(area, frame);
         Ok(())
+    }
+
+    /// Whether a thing, at which the vehicle looks, is not where it is believed to be.
+    fn is_elsewhere(&self, thing: ReplicaId, drive: &dyn Drive) -> bool {
+        match (drive.look_at(Obstruction::Replica(thing)), self.belief.world.replicas.get(&thing)) {
+            (Some(Sighting::Replica { area, frame, .. }), Some(believed)) => {
+                (area, frame) != (believed.area, believed.frame)
+            }
+            (None, Some(_)) => true,
+            _ => false,
+        }
     }
 
     /// The middle of the thing beside which another is to be put.
@@ -565,9 +594,26 @@ impl<'r> Mission<'r> {
         Some(nalgebra::center(&placed.bounds.min, &placed.bounds.max))
     }
 
+    /// Whether something stood in the way of which the Map knows nothing.
+    fn is_new(&self, surprise: &Surprise) -> bool {
+        matches!(surprise, Surprise::Blocked { bump, .. }
+            if matches!(bump.against, Obstruction::Replica(id) if !self.belief.world.replicas.contains_key(&id)))
+    }
+
     /// Changes the belief; false when the surprise says nothing that was not believed already.
-    fn learn(&mut self, surprise: &Surprise) -> bool {
+    fn learn(&mut self, surprise: &Surprise, directive: &Directive) -> bool {
         match surprise {
+            // How large it is nobody knows: the way of this directive is given up, others may be free.
+            Surprise::Blocked { .. } if self.is_new(surprise) => {
+                self.name_this_point();
+                let aims = directive.deeds().into_iter().filter_map(|deed| match deed {
+                    Deed::GoToPlace(name) | Deed::GoToDoor(name) => Some(name),
+                    Deed::Cross { door, .. } => Some(door),
+                    _ => None,
+                });
+                // Each of them is noted.
+                aims.map(|name| self.belief.no_way_to(name)).filter(|is_news| *is_news).count() > 0
+            }
             // Where the thing stands may be known; that the door does not open for it was not.
             Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {
                 self.name_this_point();

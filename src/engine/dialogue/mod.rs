@@ -32,7 +32,7 @@ use crate::language::command::{
 use crate::language::question::{
     Aside, Conditional, Memory, Unanswered, aside, asks_whether, begs, conditional, sentences,
 };
-use crate::map::Entity;
+use crate::map::{Entity, World};
 
 use super::narration::nothing_to_stop;
 use super::task::Progress;
@@ -52,6 +52,8 @@ pub struct Dialogue {
     /// The language of what has no words, and of tasks given by [`Dialogue::order`].
     language: Language,
     keeps: bool,
+    /// The world in which the simulated robot drives, where that is not the one that it believes in.
+    truth: Option<World>,
 }
 
 impl Default for Dialogue {
@@ -70,6 +72,7 @@ impl Dialogue {
             refusal: None,
             language,
             keeps: true,
+            truth: None,
         }
     }
 
@@ -77,6 +80,12 @@ impl Dialogue {
     #[must_use]
     pub fn keeping_nothing(self) -> Self {
         Self { keeps: false, ..self }
+    }
+
+    /// The simulated robot drives in a world that may differ from what it believes, and leaves it as it then is.
+    #[must_use]
+    pub fn in_truth(self, truth: Option<World>) -> Self {
+        Self { truth, ..self }
     }
 
     /// What was spoken of.
@@ -361,7 +370,11 @@ impl Hearing<'_, '_> {
         let mut told = |progress: &Progress<'_>| {
             tell(engine, &Event::Progress { progress, world, language });
         };
-        let task = match engine.carry_out(commands, &mut told) {
+        let carried_out = match &mut self.dialogue.truth {
+            Some(truth) => engine.carry_out_in(commands, truth, &mut told),
+            None => engine.carry_out(commands, &mut told),
+        };
+        let task = match carried_out {
             Ok(task) => task,
             Err(error) => return self.refuse(error, language),
         };
