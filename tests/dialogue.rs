@@ -50,7 +50,7 @@ const LINES: [(&str, &[&str]); 30] = [
     ("Принеси блям, и скажи, где ты", &["misheard"]),
     ("Возьми Шкаф-1. Открой Дверь-КY.", &["refused", "not_begun"]),
     ("Жди", &["waiting"]),
-    ("Доложи, где ты", &["reported"]),
+    ("Доложи, где ты", &["found"]),
     ("Что ты умеешь?", &["found"]),
     ("commands", &["found"]),
     ("Two books to Table 1, please", &["done"]),
@@ -272,7 +272,7 @@ fn a_dialogue_outlives_edits() {
         "What is next to it?",
     ];
     let mut heard_before: Vec<Heard> = Vec::new();
-    let seeds = std::env::var("ORTHO_LONG").map_or(1, |_| 60);
+    let seeds = std::env::var("ORTHO_LONG").map_or(3, |_| 60);
     let (mut told_gone, mut answered) = (0, 0);
     for seed in 0..seeds {
         let mut random = Random::new(seed);
@@ -341,5 +341,5 @@ fn a_dialogue_outlives_edits() {
             drop(after);
         }
     }
-    assert!(answered > 5 && told_gone > 0, "{answered} answered, {told_gone} told to be gone");
+    assert!(answered > 5 && told_gone > 2, "{answered} answered, {told_gone} told to be gone");
 }

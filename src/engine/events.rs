@@ -8,11 +8,11 @@
 //!
 //! let engine = Engine::in_memory(World::load("maps/rb2.toml").unwrap(), None).unwrap();
 //! let (mut events, mut names) = (TaskEvents::default(), Vec::new());
-//! engine.perform("Поезжай к двери", &mut |progress| {
+//! engine.perform("Поезжай к Точке-К", &mut |progress| {
 //!     let event = serde_json::to_value(events.of(engine.world().unwrap(), progress)).unwrap();
 //!     names.push(event["event"].as_str().unwrap().to_owned());
 //! }).unwrap();
-//! assert_eq!(names, ["planned", "started", "arrived"]);
+//! assert_eq!(names[..3], ["planned", "started", "arrived"]);
 //! ```
 
 use serde::Serialize;
