@@ -612,7 +612,7 @@ impl<'r> Mission<'r> {
                     _ => None,
                 });
                 // Each of them is noted.
-                aims.fold(false, |news, name| self.belief.no_way_to(name) || news)
+                aims.map(|name| self.belief.no_way_to(name)).filter(|is_news| *is_news).count() > 0
             }
             // Where the thing stands may be known; that the door does not open for it was not.
             Surprise::Refused { refusal: Refusal::DoorJammed { door, by: Some(_), .. }, seen } => {
