@@ -43,7 +43,7 @@ impl State {
     /// The query of an answer as a Datalog rule.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.rule(&answer.query, answer.language))
@@ -52,7 +52,7 @@ impl State {
     /// The proof of a fact of an answer, or what it lacks, a premise a line.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn proof_of(&self, fact: &Fact, language: Language) -> Result<Vec<String>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.proof(fact, language))
@@ -86,7 +86,7 @@ impl State {
     /// A command that waited for an answer, with what these words choose; none where they choose nothing.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn resumed(&self, text: &str, memory: &Memory) -> Result<Option<String>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.resumed(text, memory))
@@ -95,7 +95,7 @@ impl State {
     /// Whether a text asks or commands, by how it begins.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn is_command(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
@@ -107,7 +107,7 @@ impl State {
     /// Whether a text begins as a question does.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn asks_something(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.begins_as_question(text))
@@ -117,7 +117,7 @@ impl State {
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_and_questions(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_and_questions(text))
@@ -134,7 +134,7 @@ impl State {
     /// Whether a text without a verb orders: «К холодильнику!», "The medicine, please".
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_tersely(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_tersely(text))
