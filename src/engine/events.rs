@@ -8,11 +8,11 @@
 //!
 //! let engine = Engine::in_memory(World::load("maps/rb2.toml").unwrap(), None).unwrap();
 //! let (mut events, mut names) = (TaskEvents::new(engine.world().unwrap()), Vec::new());
-//! engine.perform("Поезжай к двери", &mut |progress| {
+//! engine.perform("Поезжай к Точке-К", &mut |progress| {
 //!     let event = serde_json::to_value(events.of(progress)).unwrap();
 //!     names.push(event["event"].as_str().unwrap().to_owned());
 //! }).unwrap();
-//! assert_eq!(names, ["planned", "started", "arrived"]);
+//! assert_eq!(names[..3], ["planned", "started", "arrived"]);
 //! ```
 
 use serde::Serialize;
