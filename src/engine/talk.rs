@@ -46,7 +46,7 @@ impl State {
     /// The query of an answer as a Datalog rule; a remark where the map has become another since.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn rule_of(&self, answer: &Answer) -> Result<String, Error> {
         if answer.stamp().is_some_and(|stamp| self.changes.has_renamed_since(stamp)) {
             let changed = ("// карта с тех пор изменилась", "// the map has changed since");
@@ -59,7 +59,7 @@ impl State {
     /// The proof of a fact of an answer, or what it lacks, a premise a line.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn proof_of(&self, fact: &Fact, language: Language) -> Result<Vec<String>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.proof(fact, language))
@@ -95,7 +95,7 @@ impl State {
     /// A command that waited for an answer, with what these words choose; none where they choose nothing.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn resumed(&self, text: &str, memory: &Memory) -> Result<Option<String>, Error> {
         let mut memory = memory.clone();
         self.catch_up(&mut memory)?;
@@ -106,7 +106,7 @@ impl State {
     /// Whether a text asks or commands, by how it begins.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn is_command(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         let asker = self.asker(&senses)?;
@@ -118,7 +118,7 @@ impl State {
     /// Whether a text begins as a question does.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn asks_something(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.begins_as_question(text))
@@ -128,7 +128,7 @@ impl State {
     /// bedroom and tell me what you see" an order and a question. None where the text is one or the other.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_and_questions(&self, text: &str) -> Result<Option<Vec<String>>, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_and_questions(text))
@@ -145,7 +145,7 @@ impl State {
     /// Whether a text without a verb orders: «К холодильнику!», "The medicine, please".
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn orders_tersely(&self, text: &str) -> Result<bool, Error> {
         let senses = RobotSenses { engine: self };
         Ok(self.asker(&senses)?.orders_tersely(text))

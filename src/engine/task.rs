@@ -98,7 +98,7 @@ pub struct TaskAnswer {
     pub reported: Option<Position>,
     /// Things of which it was not sure where they are, and looked for before all else, each with how sure it was, 0..=1.
     pub unsure: Vec<(ReplicaId, f64)>,
-    /// What the robot would keep in mind: see [`Engine::remember`]. None where nothing was done.
+    /// What the robot would keep in mind: see [`Engine::remember`](super::Engine::remember). None where nothing was done.
     pub after: Option<After>,
 }
 
@@ -114,7 +114,7 @@ pub(super) struct Errand<'r> {
 
 impl State {
     /// Carries out a command given in words, in the simulator, in a world that is as it is believed to be: as the
-    /// Map says, and as the robot's last task left it. [`Engine::remember`] notes how this one leaves it.
+    /// Map says, and as the robot's last task left it. [`Engine::remember`](super::Engine::remember) notes how this one leaves it.
     ///
     /// # Errors
     /// The command is not understood, or the Map lacks what it needs. That there is no plan is an answer.
@@ -129,7 +129,7 @@ impl State {
     /// Carries out a command in a world that may differ from the Map.
     ///
     /// # Errors
-    /// As [`Engine::perform`].
+    /// As [`State::perform`].
     pub fn perform_in(
         &self,
         command: &str,
@@ -142,7 +142,7 @@ impl State {
     /// Carries out commands that were understood already, in a world that is as it is believed to be.
     ///
     /// # Errors
-    /// As [`Engine::perform`].
+    /// As [`State::perform`].
     pub fn carry_out(
         &self,
         commands: &[Command<Entity>],
@@ -156,7 +156,7 @@ impl State {
     /// as the task leaves it.
     ///
     /// # Errors
-    /// As [`Engine::perform`].
+    /// As [`State::perform`].
     pub fn carry_out_in(
         &self,
         commands: &[Command<Entity>],
@@ -367,7 +367,7 @@ impl State {
     /// The commands of a sentence in a dialogue: «её» is what was spoken of last.
     ///
     /// # Errors
-    /// As [`Engine::understand`].
+    /// As [`State::understand`].
     pub fn understand_in(
         &self,
         sentence: &str,
@@ -429,7 +429,7 @@ impl State {
     /// Whether a condition holds, with the answer that says so; else why that is not known.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`].
     pub fn holds(
         &self,
         conditional: &Conditional,
