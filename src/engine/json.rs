@@ -314,7 +314,7 @@ fn passage(world: &World, way: &crate::semantics::Way) -> Value {
 /// What a dialogue replied: an answer with its rule and proofs, a task with its steps, else the outcome and its words.
 ///
 /// # Errors
-/// As [`Engine::ask`].
+/// As [`State::ask`](crate::engine::State::ask).
 pub fn reply(engine: &Engine, reply: &Reply) -> Result<Value, Error> {
     Ok(match &reply.outcome {
         Heeded::Answered(found) => answer(engine, found)?,
@@ -327,7 +327,7 @@ pub fn reply(engine: &Engine, reply: &Reply) -> Result<Value, Error> {
 /// All that came of a line, in its order.
 ///
 /// # Errors
-/// As [`Engine::ask`].
+/// As [`State::ask`](crate::engine::State::ask).
 pub fn heard(engine: &Engine, heard: &Heard) -> Result<Vec<Value>, Error> {
     heard.replies.iter().map(|one| reply(engine, one)).collect()
 }
@@ -335,7 +335,7 @@ pub fn heard(engine: &Engine, heard: &Heard) -> Result<Vec<Value>, Error> {
 /// The answer as data: outcome, query, bindings, facts with their proofs.
 ///
 /// # Errors
-/// As [`Engine::ask`].
+/// As [`State::ask`](crate::engine::State::ask).
 pub fn answer(engine: &Engine, answer: &Answer) -> Result<Value, Error> {
     let mut facts = Vec::new();
     for fact in answer.facts.iter().take(20) {

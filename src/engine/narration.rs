@@ -216,7 +216,7 @@ impl State {
     /// The rule of an answer, and below it the proof of each of the first facts.
     ///
     /// # Errors
-    /// As [`Engine::ask`].
+    /// As [`State::ask`](crate::engine::State::ask).
     pub fn explained(&self, answer: &Answer) -> Result<String, Error> {
         let mut lines = vec![self.rule_of(answer)?];
         for fact in answer.facts.iter().take(3) {
